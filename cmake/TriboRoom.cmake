@@ -1,0 +1,39 @@
+# What every target shares, and how a room, a test and a kernel file become targets.
+
+add_library(tribo_options INTERFACE)
+# The core gives the same bits on every compiler: no fused multiply-add, no reordering (CONTRIBUTING.md, "Same bits").
+target_compile_options(tribo_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno)
+target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
+if(TRIBO_WARNINGS_AS_ERRORS)
+  target_compile_options(tribo_options INTERFACE -Werror)
+endif()
+target_include_directories(tribo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tribo>)
+
+# tribo_room(NAME LINKS room... [PRIVATE lib...]): all sources of src/NAME as the library tribo::NAME,
+# linking only the rooms that its row of the table in README.md allows.
+function(tribo_room name)
+  cmake_parse_arguments(ROOM "" "" "LINKS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(tribo_${name} STATIC ${sources})
+  add_library(tribo::${name} ALIAS tribo_${name})
+  target_link_libraries(tribo_${name} PUBLIC tribo_options)
+  foreach(room ${ROOM_LINKS})
+    if(TARGET tribo_${room})
+      target_link_libraries(tribo_${name} PUBLIC tribo_${room})
+    endif()
+  endforeach()
+  target_link_libraries(tribo_${name} PRIVATE ${ROOM_PRIVATE})
+  set_target_properties(tribo_${name} PROPERTIES EXPORT_NAME ${name})
+  # A hot kernel `NAME_v3.cpp` is the same source as `NAME_sse2.cpp`, compiled for x86-64-v3 and chosen at start.
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    foreach(source ${sources})
+      if(source MATCHES "_v3\\.cpp$")
+        set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-march=x86-64-v3")
+      endif()
+    endforeach()
+  endif()
+endfunction()

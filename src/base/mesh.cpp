@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "base/mesh.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tribo {
+
+Box3 bounds(const TriangleMesh& mesh) {
+    Box3 box;
+    for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) box.include(mesh.position(i));
+    return box;
+}
+
+double area_mm2(const TriangleMesh& mesh) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.position(t[0]);
+        sum += length(cross(mesh.position(t[1]) - a, mesh.position(t[2]) - a));
+    }
+    return 0.5 * sum;
+}
+
+double volume_mm3(const TriangleMesh& mesh) {
+    if (mesh.positions.empty()) return 0;
+    const Vec3 origin = mesh.position(0);  // near the mesh, so that the sum does not cancel
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        sum += dot(mesh.position(t[0]) - origin,
+                   cross(mesh.position(t[1]) - origin, mesh.position(t[2]) - origin));
+    }
+    return sum / 6;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> forward, backward;
+    forward.reserve(3 * mesh.triangles.size());
+    backward.reserve(3 * mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            forward.emplace_back(a, b);
+            backward.emplace_back(b, a);
+        }
+    }
+    std::sort(forward.begin(), forward.end());
+    std::sort(backward.begin(), backward.end());
+    return !forward.empty() && forward == backward &&
+           std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+}
+
+}  // namespace tribo

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// A triangle mesh: what readers give, meshing makes and writers take. Positions in mm unless a name says otherwise.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec3.hpp"
+
+namespace tribo {
+
+using Point3f = std::array<float, 3>;
+using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
+
+struct TriangleMesh {
+    std::vector<Point3f> positions;
+    std::vector<Triangle> triangles;  // every index < positions.size()
+    std::vector<Point3f> normals;     // unit, one per position; or empty
+
+    Vec3 position(std::uint32_t i) const { return {positions[i][0], positions[i][1], positions[i][2]}; }
+};
+
+Box3 bounds(const TriangleMesh& mesh);
+double area_mm2(const TriangleMesh& mesh);
+// Signed volume by the divergence theorem; meaningful for a closed mesh only.
+double volume_mm3(const TriangleMesh& mesh);
+// True when every edge is shared by exactly two triangles that run through it in opposite directions.
+bool is_closed(const TriangleMesh& mesh);
+
+}  // namespace tribo

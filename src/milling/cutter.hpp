@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The tool: its solid of revolution (cutting part, shank, holder) and its edges.
+#pragma once
+
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace tribo::milling {
+
+enum class CutterKind { flat, ball, bull };
+
+// One cylindrical step above the cutting length, from the bottom up.
+struct HolderStep {
+    double diameter_mm = 0;
+    double length_mm = 0;
+};
+
+// All three kinds are one profile: a cylinder of radius R whose bottom edge is rounded with `corner_radius_mm()`
+// (0 for flat, R for ball).
+struct Cutter {
+    int number = 0;  // T number; 0: answers to any
+    CutterKind kind = CutterKind::flat;
+    double diameter_mm = 10;
+    double corner_mm = 0;        // bull only: 0 < corner < R
+    int flutes = 2;              // 1..64
+    double helix_deg = 30;       // 0..85, right-hand
+    double length_mm = 40;       // cutting length, from the tip; above it is shank or holder
+    double runout_mm = 0;        // offset of the tool axis from the spindle axis, >= 0
+    double runout_deg = 0;       // direction of that offset at the tip, from flute 0, clockwise seen from the shank
+    std::vector<double> pitch_deg;  // angles from each flute to the next, sum 360; empty: uniform
+    std::vector<HolderStep> holder;
+
+    double radius_mm() const { return 0.5 * diameter_mm; }
+    double corner_radius_mm() const {
+        return kind == CutterKind::flat ? 0 : kind == CutterKind::ball ? radius_mm() : corner_mm;
+    }
+    // Radius of the cutting envelope at height z above the tip, mm; 0 <= z.
+    double radius_at(double z_mm) const;
+    // The lag of the edge at height z behind the tip, rad: constant lead z tan(helix) / R.
+    double lag_rad(double z_mm) const;
+};
+
+// Refuses what cannot be a tool (non-finite, no diameter, corner too large, pitch that does not close), naming the key.
+Result<void> check(const Cutter& cutter);
+
+}  // namespace tribo::milling

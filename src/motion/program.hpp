@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What every reader of a tool path gives and every user of one takes: a list of moves of the tool tip and axis.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "base/vec3.hpp"
+
+namespace tribo::motion {
+
+// The tool tip (lowest point on the tool axis, mm, stock frame) and the unit axis from the tip to the shank.
+struct ToolPose {
+    Vec3 tip_mm;
+    Vec3 axis{0, 0, 1};
+
+    bool operator==(const ToolPose&) const = default;
+};
+
+enum class MoveKind { rapid, feed, dwell };
+
+// A circular or helical tip path: from the start, turning by `turn_rad` about the line through `centre_mm` along `normal`
+// (right-handed; more than a full turn is allowed), rising linearly along `normal` to the end. The axis stays as it is.
+struct Arc {
+    Vec3 centre_mm;
+    Vec3 normal{0, 0, 1};
+    double turn_rad = 0;
+};
+
+// One move: the tip goes straight from start to end (or along `arc`) while the axis turns along the great circle.
+struct Move {
+    MoveKind kind = MoveKind::feed;
+    ToolPose start, end;
+    std::optional<Arc> arc;
+    double feed_mm_per_min = 0;  // of the tip; for a feed move > 0
+    double duration_s = 0;       // > 0 where the program gives the time itself (inverse time, dwell), else 0
+    double spindle_rpm = 0;      // 0: the program says nothing
+    int tool = 0;                // tool number; 0: the program says nothing
+    int line = 0;                // of the source, from 1
+};
+
+// The tool that a program declares about itself (CUTTER/, a tool comment); mm.
+struct DeclaredTool {
+    int number = 0;
+    double diameter_mm = 0;
+    double corner_mm = 0;
+    int line = 0;
+};
+
+struct Program {
+    std::string source;  // name of the file it came from
+    std::vector<Move> moves;
+    std::vector<DeclaredTool> tools;
+    bool has_rotary_words = false;  // axis words A B C: meaningless without a machine
+    int first_rotary_line = 0;
+    Warnings warnings;
+};
+
+// Pose at the fraction t in 0..1 of a move, and the true length of its tip path, mm.
+ToolPose pose_at(const Move& move, double t);
+double path_length_mm(const Move& move);
+// True box of the tip path, arcs included.
+Box3 tip_bounds(const Move& move);
+
+}  // namespace tribo::motion
