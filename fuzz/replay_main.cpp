@@ -1,5 +1,5 @@
-// Feeds every file of the folders given on the command line to the fuzz entry point, and fails when there is none:
-// the corpus is a regression test in builds without libFuzzer.
+// Feeds every file of the folders given on the command line to the fuzz entry point, and fails when there is
+// none: the corpus is a regression test in builds without libFuzzer.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

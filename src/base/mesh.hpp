@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh: what readers give, meshing makes and writers take. Positions in mm unless a name says otherwise.
+// A triangle mesh: what readers give, meshing makes and writers take. Positions in mm unless a name says
+// otherwise.
 #pragma once
 
 #include <array>

@@ -7,8 +7,8 @@
 
 namespace tribo {
 
-// Calls body(0) ... body(count - 1), each once, in any order, possibly at the same time; returns when all are done.
-// A room may only pass bodies whose results do not depend on that order.
+// Calls body(0) ... body(count - 1), each once, in any order, possibly at the same time; returns when all are
+// done. A room may only pass bodies whose results do not depend on that order.
 using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
 
 // The loop on the calling thread.

@@ -18,6 +18,8 @@ std::string Error::text() const {
     return place(file, line, column) + "error: " + cause + (remedy.empty() ? "" : "; " + remedy);
 }
 
-std::string Warning::message() const { return place(file, line, 0) + "warning: " + text; }
+std::string Warning::message() const {
+    return place(file, line, 0) + "warning: " + text;
+}
 
 }  // namespace tribo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one force record: cutting force over a spindle turn as complex harmonics of the spindle frequency (README, "One
-// force spectrum"). The servo sums the harmonics that its rate can carry, sound plays those up to Nyquist, plots show
-// the turn.
+// The one force record: cutting force over a spindle turn as complex harmonics of the spindle frequency
+// (README, "One force spectrum"). The servo sums the harmonics that its rate can carry, sound plays those up
+// to Nyquist, plots show the turn.
 #pragma once
 
 #include <complex>
@@ -11,14 +11,14 @@
 
 namespace tribo::contact {
 
-// One complex coefficient per channel: force on the tool in the tool's frame (x along the feed, y to its left, z to the
-// shank), N, and the torque that the spindle must give, N mm.
+// One complex coefficient per channel: force on the tool in the tool's frame (x along the feed, y to its
+// left, z to the shank), N, and the torque that the spindle must give, N mm.
 struct ForceHarmonic {
     std::complex<double> x, y, z, torque;
 };
 
-// F(theta) = harmonics[0] + 2 Re sum_{n >= 1} harmonics[n] e^{i n order_step theta}, theta the spindle angle in rad:
-// where flute 0's tip stands, clockwise seen from the shank, from the y axis (left of the feed).
+// F(theta) = harmonics[0] + 2 Re sum_{n >= 1} harmonics[n] e^{i n order_step theta}, theta the spindle angle
+// in rad: where flute 0's tip stands, clockwise seen from the shank, from the y axis (left of the feed).
 struct ForceSpectrum {
     int order_step = 1;                    // flutes for uniform pitch without run-out, else 1
     std::vector<ForceHarmonic> harmonics;  // [0] is the mean, real; empty: no contact

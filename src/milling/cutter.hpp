@@ -16,18 +16,19 @@ struct HolderStep {
     double length_mm = 0;
 };
 
-// All three kinds are one profile: a cylinder of radius R whose bottom edge is rounded with `corner_radius_mm()`
-// (0 for flat, R for ball).
+// All three kinds are one profile: a cylinder of radius R whose bottom edge is rounded with
+// `corner_radius_mm()` (0 for flat, R for ball).
 struct Cutter {
     int number = 0;  // T number; 0: answers to any
     CutterKind kind = CutterKind::flat;
     double diameter_mm = 10;
-    double corner_mm = 0;        // bull only: 0 < corner < R
-    int flutes = 2;              // 1..64
-    double helix_deg = 30;       // 0..85, right-hand
-    double length_mm = 40;       // cutting length, from the tip; above it is shank or holder
-    double runout_mm = 0;        // offset of the tool axis from the spindle axis, >= 0
-    double runout_deg = 0;       // direction of that offset at the tip, from flute 0, clockwise seen from the shank
+    double corner_mm = 0;   // bull only: 0 < corner < R
+    int flutes = 2;         // 1..64
+    double helix_deg = 30;  // 0..85, right-hand
+    double length_mm = 40;  // cutting length, from the tip; above it is shank or holder
+    double runout_mm = 0;   // offset of the tool axis from the spindle axis, >= 0
+    double runout_deg =
+        0;  // direction of that offset at the tip, from flute 0, clockwise seen from the shank
     std::vector<double> pitch_deg;  // angles from each flute to the next, sum 360; empty: uniform
     std::vector<HolderStep> holder;
 
@@ -41,7 +42,8 @@ struct Cutter {
     double lag_rad(double z_mm) const;
 };
 
-// Refuses what cannot be a tool (non-finite, no diameter, corner too large, pitch that does not close), naming the key.
+// Refuses what cannot be a tool (non-finite, no diameter, corner too large, pitch that does not close),
+// naming the key.
 Result<void> check(const Cutter& cutter);
 
 }  // namespace tribo::milling

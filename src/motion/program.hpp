@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every reader of a tool path gives and every user of one takes: a list of moves of the tool tip and axis.
+// What every reader of a tool path gives and every user of one takes: a list of moves of the tool tip and
+// axis.
 #pragma once
 
 #include <optional>
@@ -21,19 +22,29 @@ struct ToolPose {
 
 enum class MoveKind { rapid, feed, dwell };
 
-// A circular or helical tip path: from the start, turning by `turn_rad` about the line through `centre_mm` along `normal`
-// (right-handed; more than a full turn is allowed), rising linearly along `normal` to the end. The axis stays as it is.
+// A circular or helical tip path: from the start, turning by `turn_rad` about the line through `centre_mm`
+// along `normal` (right-handed; more than a full turn is allowed), rising linearly along `normal` to the end.
+// The axis stays as it is.
 struct Arc {
     Vec3 centre_mm;
     Vec3 normal{0, 0, 1};
     double turn_rad = 0;
 };
 
-// One move: the tip goes straight from start to end (or along `arc`) while the axis turns along the great circle.
+// A curved piece: tip and axis are quadratic Bezier curves with these middle control points, the axis made
+// unit afterwards. Spline motions are cut into such pieces within a stated tolerance.
+struct Quadratic {
+    Vec3 tip_control_mm;
+    Vec3 axis_control;
+};
+
+// One move: the tip goes straight from start to end (or along `arc` or `quadratic`, at most one of them)
+// while the axis, unless `quadratic` says otherwise, turns along the great circle.
 struct Move {
     MoveKind kind = MoveKind::feed;
     ToolPose start, end;
     std::optional<Arc> arc;
+    std::optional<Quadratic> quadratic;
     double feed_mm_per_min = 0;  // of the tip; for a feed move > 0
     double duration_s = 0;       // > 0 where the program gives the time itself (inverse time, dwell), else 0
     double spindle_rpm = 0;      // 0: the program says nothing
