@@ -3,6 +3,9 @@
 add_library(tribo_options INTERFACE)
 # The core gives the same bits on every compiler: no fused multiply-add, no reordering (CONTRIBUTING.md, "Same bits").
 target_compile_options(tribo_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(tribo_options INTERFACE -Wno-restrict) # false alarms on std::string, GCC bug 105651
+endif()
 target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(TRIBO_WARNINGS_AS_ERRORS)
   target_compile_options(tribo_options INTERFACE -Werror)
