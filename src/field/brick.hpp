@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// A brick: eight nodes (seven cells) along each edge of the field's grid, with the shapes that make its
+// surface. Neighbours share the nodes of their common face, so everything inside a brick is answered by that
+// brick alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "field/shape.hpp"
+
+namespace tribo::field {
+
+inline constexpr int kBrickCells = kLatticeEdge - 1;
+
+// Integer coordinates of a brick: its first node is node kBrickCells * (i, j, k) of the grid.
+struct BrickCoord {
+    int i = 0, j = 0, k = 0;
+    constexpr bool operator==(const BrickCoord&) const = default;
+};
+
+// Index of a shape in its field: 0 is the blank, all others are carved away.
+using ShapeId = std::uint32_t;
+
+struct Brick {
+    static constexpr std::uint16_t kUnlisted = 0xffff;
+
+    BrickCoord coord;
+    double volume_mm3 = 0;                         // of the material in it
+    std::array<float, kLatticeNodes> distance_mm;  // at the nodes, negative in material, at least -near
+    std::array<std::uint16_t, kLatticeNodes>
+        winner;                   // index into `shapes` of the shape that gives the distance
+    std::vector<ShapeId> shapes;  // those that give the distance at some node near the surface
+};
+
+constexpr int node_index(int a, int b, int c) {
+    return a + kLatticeEdge * (b + kLatticeEdge * c);
+}
+
+// What the update of one brick by one carved shape needs to know about it.
+struct CarveResult {
+    bool changed = false;  // some node near the surface moved
+    bool won = false;      // the shape gives the distance at some node near the surface
+    float least_mm = 0;    // smallest distance left
+};
+
+// Lowers the material of a brick to the complement of a shape: distance = max(distance, -shape), `winner` =
+// index where that changed. Nodes deeper than `near_mm` stay as they are.
+CarveResult carve_nodes(Brick& brick, const float* shape_mm, std::uint16_t index, float near_mm);
+
+// Volume of the material of one brick: each node stands for the cells around it (half, a quarter, an eighth
+// of them on faces, edges, corners), filled by the fraction clamp(1/2 - distance / cell): exact for planes
+// along the grid, without bias for others.
+double brick_volume_mm3(const float* distance_mm, double cell_mm);
+
+// Forgets the shapes that give the distance at no node within `near_mm` of the surface.
+void prune_shapes(Brick& brick, float near_mm);
+
+}  // namespace tribo::field

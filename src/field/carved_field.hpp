@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// A blank from which shapes are carved: the stock under the cutter. Two levels (README, "One field, two
+// levels"): a sparse grid of bricks finds which shapes make the surface, the maximum over those few measures
+// it exactly.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "contact/distance_field.hpp"
+#include "field/brick_index.hpp"
+
+namespace tribo::field {
+
+// Reading is safe from any number of threads while nobody carves; carving is for one thread, which may use
+// others through `parallel`.
+class CarvedField final : public contact::DistanceField {
+  public:
+    // Nodes within this many cells of the surface decide which shapes a brick keeps.
+    static constexpr double kNearCells = 1.8;
+
+    // cell_mm > 0: the spacing of the grid. It bounds what can be found (a shape whose share of the surface
+    // is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R), not
+    // how exactly the rest is measured.
+    CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel = serial_for);
+
+    // Takes the shape's volume out of the material; gives the removed volume, mm3. Cost: the bricks that the
+    // shape's border passes through, and one test for each brick of its bounding box.
+    double carve(std::unique_ptr<const Shape> shape);
+
+    // Exact at the surface; clamped to about one cell away from it. Bounded time, no allocation.
+    double distance_mm(Vec3 point_mm) const override;
+    Vec3 normal(Vec3 point_mm) const override;
+    // The sign of distance_mm, without the measure where the grid already tells.
+    bool is_material(Vec3 point_mm) const;
+
+    double cell_mm() const { return cell_; }
+    double near_mm() const { return near_; }
+    const Shape& blank() const { return *shapes_[0]; }
+    const Shape& shape(ShapeId id) const { return *shapes_[id]; }
+    double removed_mm3() const { return removed_; }
+    Lattice lattice(BrickCoord b) const {
+        return {origin_, cell_, kBrickCells * b.i, kBrickCells * b.j, kBrickCells * b.k};
+    }
+    BrickCoord size() const { return index_.size(); }
+    BrickRef ref(BrickCoord b) const { return index_.get(b); }
+    const Brick& brick(BrickRef ref) const { return pool_[ref]; }
+    std::size_t bricks_in_use() const { return pool_.in_use(); }
+    std::size_t shapes_carved() const { return shapes_.size() - 1; }
+    std::size_t bytes() const { return pool_.bytes() + index_.bytes(); }
+
+    // Where the exact surface stands, when `point_mm` is in brick `ref`: the distance and the shape that
+    // gives it.
+    struct Exact {
+        double distance_mm;
+        ShapeId shape;
+    };
+    Exact exact(BrickRef ref, Vec3 point_mm) const;
+    // The brick that contains the point; out of the grid: the coordinates are not contained in index().
+    BrickCoord brick_at(Vec3 point_mm) const;
+    bool contains(BrickCoord b) const { return index_.contains(b); }
+
+    // Memory that a field over this blank takes when `surface_mm2` of it have been cut (bricks and chunk
+    // tables), bytes.
+    static double estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2);
+
+  private:
+    struct Update {
+        BrickCoord coord;
+        BrickRef ref = kUntouched;
+        bool fresh = false, drop = false, air = false;
+        double removed_mm3 = 0;
+    };
+    void gather(const Shape& shape);
+    void gather_brick(const Shape& shape, BrickCoord b);
+    void clear(BrickCoord b, BrickRef ref);
+    void update(Update& u, const Shape& shape, ShapeId id);
+    void fill_from_blank(Brick& brick) const;
+    double blank_brick_volume(BrickCoord b) const;
+    Vec3 centre(BrickCoord b) const;
+
+    double cell_, near_, brick_radius_;
+    Vec3 origin_;
+    ParallelFor parallel_;
+    std::vector<std::unique_ptr<const Shape>> shapes_;  // [0] is the blank
+    BrickIndex index_;
+    BrickPool pool_;
+    double removed_ = 0, cleared_ = 0;
+    std::vector<Update> updates_;
+};
+
+}  // namespace tribo::field
