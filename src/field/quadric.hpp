@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The point closest to a set of planes, as dual contouring places its vertices.
+#pragma once
+
+#include "base/vec3.hpp"
+
+namespace tribo::field {
+
+// Sum of squared distances to planes through points (Garland & Heckbert 1997), solved as in Ju, Losasso,
+// Schaefer & Warren 2002: along the directions that the planes do not fix, the answer stays at the mean of
+// the points.
+class Quadric {
+  public:
+    void add(Vec3 point, Vec3 unit_normal);
+    int count() const { return count_; }
+    Vec3 mean() const { return count_ > 0 ? sum_ / count_ : Vec3{}; }
+    // Directions whose share of the planes' spread is below `cutoff` (0..1) count as free.
+    Vec3 solve(double cutoff = 0.02) const;
+    // All normals within about `tolerance` rad of one direction: the surface is smooth here.
+    bool is_flat(double tolerance) const;
+
+  private:
+    double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;  // sum of n n^T
+    Vec3 right_;                                                  // sum of (n . p) n
+    Vec3 sum_, normals_;
+    int count_ = 0;
+};
+
+}  // namespace tribo::field
