@@ -7,6 +7,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   target_compile_options(tribo_options INTERFACE -Wno-restrict) # false alarms on std::string, GCC bug 105651
 endif()
 target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # `"literal" + std::string` warns falsely in g++ 12 (GCC bug 105651).
+  target_compile_options(tribo_options INTERFACE -Wno-restrict)
+endif()
 if(TRIBO_WARNINGS_AS_ERRORS)
   target_compile_options(tribo_options INTERFACE -Werror)
 endif()
