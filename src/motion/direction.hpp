@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Directions on the unit sphere: the angle between two, and the great circle from one to the other.
+// No allocation; any thread.
+#pragma once
+
+#include "base/vec3.hpp"
+
+namespace tribo::motion {
+
+// The angle between two vectors of any length, 0..pi rad, to full accuracy near 0 and pi too. 0 where one is
+// zero.
+double angle_rad(Vec3 a, Vec3 b);
+
+// v turned about the unit vector `about` by `turn_rad`, right-handed (Rodrigues).
+Vec3 turned(Vec3 v, Vec3 about, double turn_rad);
+
+// The unit vector at the fraction t of the great circle from the unit vector a to the unit vector b, at
+// constant angular speed. Opposite directions go round by any_perpendicular(a).
+Vec3 slerp(Vec3 a, Vec3 b, double t);
+
+}  // namespace tribo::motion
