@@ -28,7 +28,7 @@ struct ArcFrame {
     // Turned by `angle_rad`, at the fraction t of the rise.
     Vec3 at(double angle_rad, double t) const {
         double s = 0, c = 1;
-        math::sincos(angle_rad, &s, &c);
+        math::sincos(angle_rad, s, c);
         return foot_mm + (t * rise_mm) * normal + c * radial + s * sideways;
     }
 };

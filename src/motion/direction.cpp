@@ -13,7 +13,7 @@ double angle_rad(Vec3 a, Vec3 b) {
 
 Vec3 turned(Vec3 v, Vec3 about, double turn_rad) {
     double s = 0, c = 1;
-    math::sincos(turn_rad, &s, &c);
+    math::sincos(turn_rad, s, c);
     return c * v + s * cross(about, v) + ((1 - c) * dot(about, v)) * about;
 }
 
@@ -22,7 +22,7 @@ Vec3 slerp(Vec3 a, Vec3 b, double t) {
     if (angle == 0) return a;
     const Vec3 sideways = normalized(b - dot(a, b) * a, any_perpendicular(a));
     double s = 0, c = 1;
-    math::sincos(t * angle, &s, &c);
+    math::sincos(t * angle, s, c);
     return normalized(c * a + s * sideways, a);
 }
 

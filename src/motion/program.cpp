@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "motion/program.hpp"
 
-#include <array>
-#include <numbers>
 
 #include "base/math.hpp"
 #include "motion/arc_frame.hpp"
@@ -11,8 +9,6 @@
 namespace tribo::motion {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 // A program's end point rarely lies on its circle to the last digit: what is missing there is added
 // linearly, so that moves join.
@@ -38,8 +34,8 @@ void include_extremes(Box3& box, const Move& move, const ArcFrame& frame, int k)
     const double shift = math::atan2(c, s), half = math::acos(-slope / size);
     const double low = std::min(0.0, turn), high = std::max(0.0, turn);
     for (const double root : {half - shift, -half - shift}) {
-        const double first = root + kTurn * std::ceil((low - root) / kTurn);
-        const double last = root + kTurn * std::floor((high - root) / kTurn);
+        const double first = root + math::kTwoPi * std::ceil((low - root) / math::kTwoPi);
+        const double last = root + math::kTwoPi * std::floor((high - root) / math::kTwoPi);
         for (const double p : {first, last})
             if (p >= low && p <= high) box.include(arc_point(move, frame, p / turn));
     }
