@@ -210,12 +210,12 @@ Vec3 CarvedField::normal(Vec3 p) const {
     return e.shape == 0 ? blank().gradient(p) : -shapes_[e.shape]->gradient(p);
 }
 
-bool CarvedField::is_material(Vec3 p) const {
+bool CarvedField::is_material(Vec3 p, double skin_mm) const {
     const BrickCoord b = brick_at(p);
     if (!index_.contains(b)) return false;
     const BrickRef ref = index_.get(b);
     if (ref == kAir) return false;
-    if (ref == kUntouched) return blank().distance_mm(p) < 0;
+    if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
     const Vec3 q = (p - lattice(b).node(0, 0, 0)) / cell_;
     const auto nearest = [](double v) { return std::clamp(static_cast<int>(v + 0.5), 0, kLatticeEdge - 1); };
     const float d =
@@ -224,7 +224,41 @@ bool CarvedField::is_material(Vec3 p) const {
     const auto clear = static_cast<float>(0.87 * cell_);
     if (d > clear) return false;
     if (d < -clear) return true;
-    return exact(ref, p).distance_mm < 0;
+    return exact(ref, p).distance_mm < -skin_mm;
+}
+
+std::optional<Vec3> CarvedField::overlap(const Shape& shape, double depth_mm) const {
+    const Box3 reach = shape.bounds_mm();
+    const BrickCoord n = index_.size(), lo = brick_at(reach.min), hi = brick_at(reach.max);
+    std::optional<Vec3> place;
+    float deepest = static_cast<float>(-depth_mm);
+    std::array<float, kLatticeNodes> other, own;
+    for (int k = std::max(lo.k, 0); k <= std::min(hi.k, n.k - 1); ++k) {
+        for (int j = std::max(lo.j, 0); j <= std::min(hi.j, n.j - 1); ++j) {
+            for (int i = std::max(lo.i, 0); i <= std::min(hi.i, n.i - 1); ++i) {
+                const BrickRef ref = index_.get({i, j, k});
+                const Vec3 c = centre({i, j, k});
+                if (ref == kAir || shape.distance_mm(c) > brick_radius_) continue;
+                if (ref == kUntouched && blank().distance_mm(c) > brick_radius_) continue;
+                const Lattice nodes = lattice({i, j, k});
+                shape.sample(nodes, other.data());
+                const float* material = own.data();
+                if (ref == kUntouched) {
+                    blank().sample(nodes, own.data());
+                } else {
+                    material = pool_[ref].distance_mm.data();
+                }
+                for (int at = 0; at < kLatticeNodes; ++at) {
+                    const float d = std::max(other[static_cast<std::size_t>(at)], material[at]);
+                    if (d >= deepest) continue;
+                    deepest = d;
+                    place = nodes.node(at % kLatticeEdge, at / kLatticeEdge % kLatticeEdge,
+                                       at / (kLatticeEdge * kLatticeEdge));
+                }
+            }
+        }
+    }
+    return place;
 }
 
 double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -32,8 +33,12 @@ class CarvedField final : public contact::DistanceField {
     // Exact at the surface; clamped to about one cell away from it. Bounded time, no allocation.
     double distance_mm(Vec3 point_mm) const override;
     Vec3 normal(Vec3 point_mm) const override;
-    // The sign of distance_mm, without the measure where the grid already tells.
-    bool is_material(Vec3 point_mm) const;
+    // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
+    // tells.
+    bool is_material(Vec3 point_mm, double skin_mm = 0) const;
+    // The node of material that lies deepest in `shape`, if any does by more than `depth_mm`: what a tool
+    // holder or a fixture would run into. Sees overlaps down to about a cell.
+    std::optional<Vec3> overlap(const Shape& shape, double depth_mm) const;
 
     double cell_mm() const { return cell_; }
     double near_mm() const { return near_; }
