@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Whole files in, whole files out. Nothing here throws; every refusal says whether the caller named something
+// wrong or the system would not do it, because the two end the program with different codes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/result.hpp"
+
+namespace tribo::io {
+
+enum class Fault {
+    input,   // what was asked for is wrong: no such file, a folder, too long, not ours to replace
+    system,  // the file system refused: no right, no room, a broken disk
+};
+
+struct Failure : Error {
+    Fault fault = Fault::input;
+
+    Failure(Error error, Fault whose = Fault::input) : Error(std::move(error)), fault(whose) {}
+};
+
+template <class T>
+using FileResult = std::expected<T, Failure>;
+
+// What the last failed call of the system means for `file`. `doing` completes "cannot ...: ".
+std::unexpected<Failure> system_failure(const std::string& file, const char* doing, int error_number);
+
+// Text formats are read whole; above this a file is refused before any memory is taken for it.
+inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
+
+// The bytes of a regular file or of a pipe.
+FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
+
+// Writes a new file piece by piece through one buffer. A failure sticks: later pieces are dropped and
+// finish() tells the first one. A file that was not finished is removed.
+class FileWriter {
+  public:
+    static FileResult<FileWriter> create(const std::string& path);
+    FileWriter(FileWriter&& other) noexcept;
+    FileWriter& operator=(FileWriter&&) = delete;
+    ~FileWriter();
+
+    void write(std::string_view bytes);
+    // Hands everything to the system and closes the file.
+    FileResult<void> finish();
+
+  private:
+    FileWriter(std::string path, int descriptor);
+    void flush(std::string_view bytes);
+
+    std::string path_;
+    int descriptor_ = -1;
+    bool removable_ = false;  // a regular file; a device stays where it is
+    int error_number_ = 0;
+    std::string buffer_;
+};
+
+// A whole small file at once.
+FileResult<void> write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace tribo::io
