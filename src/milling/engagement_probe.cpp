@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "milling/engagement_probe.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/math.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// Material thinner than this in front of the edge is what rounding leaves where the cutter runs along a
+// surface that it has made before.
+constexpr double kSkin = 2e-5;  // mm
+// Levels looked at along the engaged height before refinement.
+constexpr int kLevels = 7;
+// Masks that differ by more probes than this have a step between them, which is searched for.
+constexpr int kStepProbes = 2;
+
+}  // namespace
+
+ToolFrame tool_frame(Vec3 axis, Vec3 travel, Vec3 last_x) {
+    const Vec3 across = travel - dot(travel, axis) * axis;
+    // Below this share the direction across the axis is rounding.
+    constexpr double kPlunge = 1e-6;
+    ToolFrame f;
+    f.z = axis;
+    if (length(across) > kPlunge * length(travel)) {
+        f.x = normalized(across);
+    } else {
+        const Vec3 last = last_x - dot(last_x, axis) * axis;
+        f.x = normalized(last, any_perpendicular(axis));
+    }
+    f.y = cross(f.z, f.x);
+    return f;
+}
+
+EngagementProbe::EngagementProbe(const Cutter& cutter) : cutter_(cutter) {
+    for (int n = 0; n < kAngles; ++n) {
+        math::sincos((n + 0.5) * math::kTwoPi / kAngles, sin_[n], cos_[n]);
+    }
+    levels_.reserve(64);
+    borders_.reserve(64);
+}
+
+bool EngagementProbe::in_material(const field::CarvedField& field, const CutPose& pose, double z,
+                                  double angle) const {
+    double s, c;
+    math::sincos(angle, s, c);
+    const double r = cutter_.radius_at(z);
+    return field.is_material(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x + r * c * pose.frame.y,
+                             kSkin);
+}
+
+EngagementProbe::Mask EngagementProbe::look(const field::CarvedField& field, const CutPose& pose,
+                                            double z) const {
+    const double r = cutter_.radius_at(z);
+    const Vec3 centre = pose.tip_mm + z * pose.frame.z, x = r * pose.frame.x, y = r * pose.frame.y;
+    const int count = around_ ? kAngles : kAngles / 2;
+    Mask mask = 0;
+    for (int n = 0; n < count; ++n) {
+        if (field.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin)) mask |= Mask{1} << n;
+    }
+    return mask;
+}
+
+double EngagementProbe::refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
+                               double inside) const {
+    constexpr int kBisections = 6;  // 7.5 degrees / 64
+    for (int n = 0; n < kBisections; ++n) {
+        const double mid = 0.5 * (outside + inside);
+        (in_material(field, pose, z, mid) ? inside : outside) = mid;
+    }
+    return 0.5 * (outside + inside);
+}
+
+void EngagementProbe::add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0,
+                                double z1, Engagement& out) const {
+    const int count = around_ ? kAngles : kAngles / 2;
+    const double step = math::kTwoPi / kAngles;
+    const double z = 0.5 * (z0 + z1);
+    const auto bit = [&](int n) { return (mask >> n & 1) != 0; };
+    for (int n = 0; n < count; ++n) {
+        if (!bit(n) || (n > 0 && bit(n - 1))) continue;
+        int last = n;
+        while (last + 1 < count && bit(last + 1)) ++last;
+        const double first_angle = (n + 0.5) * step, last_angle = (last + 0.5) * step;
+        const double begin = refine(field, pose, z, n == 0 ? -1e-9 : first_angle - step, first_angle);
+        const double end =
+            refine(field, pose, z, last == count - 1 ? count * step + 1e-9 : last_angle + step, last_angle);
+        // An interval that reaches the side of the tool ends there exactly: beyond it nothing is cut.
+        constexpr double kSide = 0.01;  // rad
+        const double most = count * step;
+        const double entry = n == 0 && begin < kSide ? 0 : std::max(begin, 0.0);
+        const double exit = last == count - 1 && end > most - kSide ? most : std::min(end, most);
+        if (exit > entry) out.bands.push_back({z0, z1, entry, exit});
+        n = last;
+    }
+}
+
+double EngagementProbe::bottom_fraction(const field::CarvedField& field, const CutPose& pose) const {
+    const double radius = cutter_.radius_mm() - cutter_.corner_radius_mm();
+    if (pose.down <= 1e-9 || radius <= 0) return 0;
+    constexpr int kRings = 6;
+    int in = 0, of = 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+        // Rings of equal area, so that every probe stands for the same share of the disc.
+        const double r = radius * std::sqrt((ring + 0.5) / kRings);
+        for (int n = ring % 2; n < kAngles; n += 2, ++of) {
+            const Vec3 p = pose.tip_mm + r * sin_[n] * pose.frame.x + r * cos_[n] * pose.frame.y;
+            in += static_cast<int>(field.is_material(p, kSkin));
+        }
+    }
+    return static_cast<double>(in) / of;
+}
+
+void EngagementProbe::measure(const field::CarvedField& field, const CutPose& pose, Engagement& out) {
+    out.clear();
+    const double corner = cutter_.corner_radius_mm(), radius = cutter_.radius_mm();
+    // Heights at which the envelope can meet the blank at all.
+    const Box3 blank = field.blank().bounds_mm();
+    double low = 0, high = cutter_.length_mm;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double u = pose.frame.z[axis];
+        const double reach = radius * std::sqrt(std::max(0.0, 1 - u * u));
+        const double from = blank.min[axis] - reach - pose.tip_mm[axis];
+        const double to = blank.max[axis] + reach - pose.tip_mm[axis];
+        if (std::abs(u) < 1e-12) {
+            if (from > 0 || to < 0) return;
+            continue;
+        }
+        low = std::max(low, std::min(from / u, to / u));
+        high = std::min(high, std::max(from / u, to / u));
+    }
+    if (high <= low) return;
+    out.bottom_fraction = bottom_fraction(field, pose);
+    around_ = corner > 0 && pose.down > 1e-6;
+
+    levels_.clear();
+    const auto add_level = [&](double z) { levels_.push_back({z, look(field, pose, z)}); };
+    const double round_top = std::clamp(corner, low, high);
+    if (round_top > low) {
+        // Through the rounded part in equal steps of the surface's angle, where the radius changes fast.
+        const auto angle_at = [&](double z) { return math::acos(std::clamp(1 - z / corner, -1.0, 1.0)); };
+        const double k0 = angle_at(low), k1 = angle_at(round_top);
+        const int count = std::max(2, static_cast<int>(std::ceil((k1 - k0) / 0.15)));
+        for (int n = 0; n < count; ++n) {
+            add_level(corner * (1 - math::cos(k0 + (k1 - k0) * (n + 0.5) / count)));
+        }
+    }
+    if (high > round_top) {
+        const double bottom = levels_.empty() ? low : round_top;
+        for (int n = 0; n < kLevels; ++n) add_level(bottom + (high - bottom) * (n + 0.5) / kLevels);
+    }
+
+    borders_.assign(1, low);
+    const double fine = std::max(0.002 * (high - low), 0.001);
+    for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
+        Level below = levels_[n], above = levels_[n + 1];
+        if (std::popcount(below.mask ^ above.mask) > kStepProbes) {
+            while (above.z - below.z > fine) {
+                const double z = 0.5 * (below.z + above.z);
+                const Mask mask = look(field, pose, z);
+                const bool like_below = std::popcount(mask ^ below.mask) <= std::popcount(mask ^ above.mask);
+                (like_below ? below : above) = {z, mask};
+            }
+        }
+        borders_.push_back(0.5 * (below.z + above.z));
+    }
+    borders_.push_back(high);
+    for (std::size_t n = 0; n < levels_.size();) {
+        std::size_t end = n + 1;
+        const double corner_top = corner;
+        while (end < levels_.size() && levels_[end].mask == levels_[n].mask && borders_[n] >= corner_top)
+            ++end;
+        if (levels_[n].mask != 0) add_bands(field, pose, levels_[n].mask, borders_[n], borders_[end], out);
+        n = end;
+    }
+}
+
+double chip_area_mm2(const Cutter& cutter, const Engagement& engagement, double across, double down) {
+    const double corner = cutter.corner_radius_mm(), core = cutter.radius_mm() - corner;
+    double area = 0;
+    for (const EngagementBand& b : engagement.bands) {
+        double s0, c0, s1, c1;
+        math::sincos(b.entry_rad, s0, c0);
+        math::sincos(b.exit_rad, s1, c1);
+        // The front of the envelope seen along the travel: its width times the height, and in the rounded
+        // part the ring seen from below times the share of travel along the axis.
+        const double z0 = std::min(b.z0_mm, corner), z1 = std::min(b.z1_mm, corner);
+        const double r0 = cutter.radius_at(b.z0_mm), r1 = cutter.radius_at(b.z1_mm);
+        double profile = cutter.radius_mm() * (b.z1_mm - std::max(b.z0_mm, corner));
+        if (b.z1_mm <= corner) profile = 0;
+        if (z1 > z0) {
+            // Integral of r(z) over the rounded part: the core and a piece of the circle.
+            const auto circle = [&](double z) {
+                const double u = std::clamp(z / corner - 1, -1.0, 1.0);
+                return 0.5 * corner * corner * (u * std::sqrt(1 - u * u) + math::asin(u));
+            };
+            profile += core * (z1 - z0) + circle(z1) - circle(z0);
+            if (down > 0) area += down * 0.5 * (r1 * r1 - r0 * r0) * (b.exit_rad - b.entry_rad);
+        }
+        area += across * profile * (c0 - c1);
+    }
+    if (down > 0) area += down * engagement.bottom_fraction * math::kPi * core * core;
+    return area;
+}
+
+}  // namespace tribo::milling
