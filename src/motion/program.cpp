@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "motion/program.hpp"
 
-
 #include "base/math.hpp"
 #include "motion/arc_frame.hpp"
 #include "motion/direction.hpp"
