@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Feeds every file of the folders given on the command line to the fuzz entry point, and fails when there is
 // none: the corpus is a regression test in builds without libFuzzer.
 #include <cstddef>

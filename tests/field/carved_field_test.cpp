@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stock field against closed forms: volumes, heights of cusps, what a brick remembers.
 #include "field/carved_field.hpp"
 

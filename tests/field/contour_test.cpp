@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The mesh against the solids it was made from: closed, sharp, on the surface, few triangles on flats.
 #include "field/contour.hpp"
 

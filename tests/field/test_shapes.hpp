@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes with closed forms for the tests of the field: nothing of the product's sweeps is used to check the
 // field.
 #pragma once

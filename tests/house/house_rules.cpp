@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "house/house_rules.hpp"
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <sstream>
+
+namespace tribo::house {
+namespace {
+
+using Names = std::set<std::string>;
+
+struct Line {
+    int number;
+    std::string text;
+};
+
+std::vector<Line> lines_of(std::string_view text) {
+    std::vector<Line> lines;
+    std::istringstream in{std::string(text)};
+    std::string line;
+    while (std::getline(in, line)) lines.push_back({static_cast<int>(lines.size()) + 1, line});
+    return lines;
+}
+
+// What the compiler sees of a line, without the text of strings.
+std::string code_of(const std::string& line) {
+    std::string code;
+    bool in_string = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (in_string && line[i] == '\\') {
+            ++i;
+        } else if (line[i] == '"' && (i == 0 || line[i - 1] != '\'')) {
+            in_string = !in_string;
+        } else if (!in_string) {
+            if (line.compare(i, 2, "//") == 0) break;
+            code += line[i];
+        }
+    }
+    return code;
+}
+
+std::string complaint(const std::string& path, int line, const std::string& text) {
+    return path + ":" + std::to_string(line) + ": " + text;
+}
+
+const Room* room_named(const std::string& name) {
+    const auto found = std::ranges::find(rooms(), name, &Room::name);
+    return found == rooms().end() ? nullptr : &*found;
+}
+
+// The room that a source under src/ stands in; null elsewhere.
+const Room* room_of(const std::string& path) {
+    if (!path.starts_with("src/")) return nullptr;
+    return room_named(path.substr(4, path.find('/', 4) - 4));
+}
+
+constexpr int kMostLines = 600;
+
+}  // namespace
+
+const std::vector<Room>& rooms() {
+    const Names core{"base", "contact", "motion", "field", "surface", "milling", "noise", "sound", "formats"};
+    const auto with = [](Names names, const Names& more) {
+        names.insert(more.begin(), more.end());
+        return names;
+    };
+    static const std::vector<Room> table{
+        {"base", "-", {}, true},
+        {"contact", "base", {"base"}, true},
+        {"motion", "base", {"base"}, true},
+        {"field", "base contact", {"base", "contact"}, true},
+        {"surface", "base contact field", {"base", "contact", "field"}, true},
+        {"milling", "base contact motion field", {"base", "contact", "motion", "field"}, true},
+        {"noise", "base", {"base"}, true},
+        {"sound", "base contact noise", {"base", "contact", "noise"}, true},
+        {"formats",
+         "base contact motion surface milling noise",
+         {"base", "contact", "motion", "surface", "milling", "noise"},
+         true},
+        {"session", "all above", core, true},
+        {"wasm", "session formats and below", with(core, {"session"}), true},
+        {"io", "all above but session and wasm", core, false},
+        {"app", "all above but wasm", with(core, {"session", "io"}), false},
+    };
+    return table;
+}
+
+std::vector<std::string> include_complaints(const std::string& path, std::string_view text) {
+    static const std::regex include(R"re(^\s*#\s*include\s*"([^"]*)")re");
+    std::vector<std::string> complaints;
+    const Room* room = room_of(path);
+    if (path.starts_with("src/") && room == nullptr && std::ranges::count(path, '/') > 1)
+        complaints.push_back(complaint(path, 1, "stands in a room that is not in the table"));
+    for (const Line& line : lines_of(text)) {
+        std::smatch match;
+        if (!std::regex_search(line.text, match, include)) continue;
+        const std::string target = match[1];
+        const bool bare = target.find('/') == std::string::npos;
+        if (target.find("..") != std::string::npos || (bare && room != nullptr)) {
+            complaints.push_back(
+                complaint(path, line.number, "name a header from its root: \"" + target + "\""));
+            continue;
+        }
+        if (bare) continue;
+        const std::string other = target.substr(0, target.find('/'));
+        if (room == nullptr || other == room->name) continue;
+        if (!room->may_include.contains(other))
+            complaints.push_back(
+                complaint(path, line.number, room->name + "/ may not include " + other + "/"));
+    }
+    return complaints;
+}
+
+std::vector<std::string> same_bits_complaints(const std::string& path, std::string_view text) {
+    struct Ban {
+        std::regex pattern;
+        const char* reason;
+    };
+    static const std::array bans{
+        Ban{std::regex(
+                R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|cbrt|hypot|t?gamma|erfc?)l?f?\s*\()"),
+            "differs between systems: take it from base/math.hpp"},
+        Ban{std::regex(R"(\bstd::unordered_)"), "has no defined order: use a sorted container"},
+        Ban{std::regex(R"(\bstd::\w+_distribution\b|\bstd::rand\b|\bstd::random_device\b)"),
+            "differs between libraries: use base/noise_hash.hpp"},
+        Ban{std::regex(R"(\bstd::(j?thread|async|mutex|atomic|reduce|execution)\b)"),
+            "threads come in from outside: take a ParallelFor"},
+        Ban{std::regex(R"(\b(throw|try|catch|dynamic_cast|typeid)\b)"),
+            "rooms down to wasm/ have neither exceptions nor type information: give a Result"},
+        Ban{std::regex(
+                R"(#\s*include\s*<(iostream|fstream|sstream|cstdio|filesystem|regex|locale|iomanip)>)"),
+            "rooms down to wasm/ know no streams, files, locales or regular expressions"},
+        Ban{std::regex(R"(\bstd::(sto(d|f|ld)|strto(d|f|ld)|atof)\b)"),
+            "use parse_decimal of base/decimal.hpp"},
+    };
+    std::vector<std::string> complaints;
+    const Room* room = room_of(path);
+    if (room == nullptr || !room->same_bits) return complaints;
+    for (const Line& line : lines_of(text)) {
+        const std::string code = code_of(line.text);
+        std::smatch match;
+        for (const Ban& ban : bans)
+            if (std::regex_search(code, match, ban.pattern))
+                complaints.push_back(complaint(path, line.number, match.str() + ": " + ban.reason));
+    }
+    return complaints;
+}
+
+std::vector<std::string> form_complaints(const std::string& path, std::string_view text) {
+    // Spelt apart, so that this file does not complain of itself.
+    static const std::regex unfinished(
+        "\\b(TO"
+        "DO|FIX"
+        "ME|XX"
+        "X)\\b");
+    std::vector<std::string> complaints;
+    const std::vector<Line> lines = lines_of(text);
+    if (lines.empty() || lines.front().text != "// SPDX-License-Identifier: MIT")
+        complaints.push_back(complaint(path, 1, "the first line is // SPDX-License-Identifier: MIT"));
+    if (lines.size() > kMostLines)
+        complaints.push_back(
+            complaint(path, kMostLines, "longer than 600 lines: split it by what it answers"));
+    if (path.ends_with(".hpp") && text.find("\n#pragma once\n") == std::string_view::npos)
+        complaints.push_back(complaint(path, 1, "a header needs #pragma once"));
+    for (const Line& line : lines)
+        if (std::regex_search(line.text, unfinished))
+            complaints.push_back(complaint(path, line.number, "finish it, or open an issue"));
+    return complaints;
+}
+
+}  // namespace tribo::house

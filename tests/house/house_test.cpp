@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Reads every source of the repository and fails on what CONTRIBUTING.md forbids; tries the rules themselves
+// on made-up sources first.
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+#include "house/house_rules.hpp"
+
+namespace tribo::house {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kRoot = TRIBO_SOURCE_DIR;
+
+std::string read(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <class Rule>
+void expect_no_complaints(Rule rule) {
+    int files = 0;
+    for (const char* top : {"src", "tests", "fuzz", "bench"}) {
+        if (!fs::exists(kRoot / top)) continue;
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
+            const fs::path& path = entry.path();
+            if (path.extension() != ".cpp" && path.extension() != ".hpp") continue;
+            ++files;
+            for (const std::string& complaint :
+                 rule(path.lexically_relative(kRoot).generic_string(), read(path)))
+                ADD_FAILURE() << complaint;
+        }
+    }
+    EXPECT_GT(files, 40);
+}
+
+TEST(House, rooms_include_only_what_the_table_allows) {
+    expect_no_complaints(include_complaints);
+}
+
+TEST(House, rooms_that_are_hashed_use_nothing_that_differs_between_systems) {
+    expect_no_complaints(same_bits_complaints);
+}
+
+TEST(House, sources_keep_the_form) {
+    expect_no_complaints(form_complaints);
+}
+
+TEST(House, the_table_of_the_readme_is_the_one_that_is_checked) {
+    const std::string readme = read(kRoot / "README.md");
+    std::size_t at = 0;
+    for (const Room& room : rooms()) {
+        const std::string start = "\n| `" + room.name + "/` |";
+        const std::size_t row = readme.find(start);
+        ASSERT_NE(row, std::string::npos) << room.name;
+        EXPECT_GE(row, at) << room.name << "/ stands out of order";
+        at = row;
+        const std::string line = readme.substr(row + 1, readme.find('\n', row + 1) - row - 1);
+        EXPECT_TRUE(line.ends_with("| " + room.table_entry + " |")) << line;
+    }
+    for (const auto& entry : fs::directory_iterator(kRoot / "src")) {
+        const std::string row = "| `" + entry.path().filename().string() + "/` |";
+        EXPECT_TRUE(!entry.is_directory() || readme.find(row) != std::string::npos) << row;
+    }
+}
+
+TEST(House, rooms_include_only_rooms_above_them) {
+    std::set<std::string> above;
+    for (const Room& room : rooms()) {
+        for (const std::string& other : room.may_include)
+            EXPECT_TRUE(above.contains(other)) << room.name << " " << other;
+        above.insert(room.name);
+    }
+}
+
+TEST(HouseRules, an_edge_that_is_not_in_the_table_is_found) {
+    EXPECT_EQ(include_complaints("src/field/a.cpp", "#include \"base/vec3.hpp\"\n#include \"field/b.hpp\"\n")
+                  .size(),
+              0u);
+    EXPECT_EQ(include_complaints("src/field/a.cpp", "\n#include \"io/files.hpp\"\n"),
+              std::vector<std::string>{"src/field/a.cpp:2: field/ may not include io/"});
+    EXPECT_EQ(include_complaints("src/base/a.cpp", "#  include \"contact/x.hpp\"").size(), 1u);
+    EXPECT_EQ(include_complaints("src/io/a.cpp", "#include \"session/mill.hpp\"").size(), 1u);
+    EXPECT_EQ(include_complaints("src/app/a.cpp", "#include \"session/mill.hpp\"").size(), 0u);
+    EXPECT_EQ(include_complaints("src/cellar/a.cpp", "").size(), 1u);
+}
+
+TEST(HouseRules, a_header_named_from_where_its_reader_stands_is_found) {
+    EXPECT_EQ(include_complaints("src/field/a.cpp", "#include \"../base/vec3.hpp\"").size(), 1u);
+    EXPECT_EQ(include_complaints("src/field/a.cpp", "#include \"shape.hpp\"").size(), 1u);
+}
+
+TEST(HouseRules, what_differs_between_systems_is_found_in_hashed_rooms_alone) {
+    for (const char* code :
+         {"x = std::sin(y);", "std::pow (x, 2)", "std::atan2(y, x)", "std::log10(x)", "std::acosh(x)",
+          "std::unordered_map<int, int> m;", "std::normal_distribution<> d;", "std::thread t;", "throw 1;",
+          "#include <iostream>", "std::stod(text)"}) {
+        EXPECT_EQ(same_bits_complaints("src/milling/a.cpp", code).size(), 1u) << code;
+        EXPECT_EQ(same_bits_complaints("src/io/a.cpp", code).size(), 0u) << code;
+    }
+    for (const char* code : {"math::sin(x)", "std::sqrt(x)", "std::abs(x)", "// std::sin(x) differs",
+                             "retry(x)", "fail(\"bad\", \"try another\")", "'\"', x // catch", "std::logic"})
+        EXPECT_EQ(same_bits_complaints("src/milling/a.cpp", code).size(), 0u) << code;
+}
+
+TEST(HouseRules, sources_without_licence_guard_or_end_are_found) {
+    const std::string licence = "// SPDX-License-Identifier: MIT\n";
+    EXPECT_EQ(form_complaints("src/base/a.cpp", licence).size(), 0u);
+    EXPECT_EQ(form_complaints("src/base/a.cpp", "int x;\n").size(), 1u);
+    EXPECT_EQ(form_complaints("src/base/a.hpp", licence).size(), 1u);
+    EXPECT_EQ(form_complaints("src/base/a.hpp", licence + "#pragma once\n").size(), 0u);
+    EXPECT_EQ(form_complaints("src/base/a.cpp", licence + "// TO"
+                                                          "DO: the rest\n")
+                  .size(),
+              1u);
+    EXPECT_EQ(form_complaints("src/base/a.cpp", licence + std::string(600, '\n')).size(), 1u);
+}
+
+}  // namespace
+}  // namespace tribo::house
