@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace tribo::io {
+namespace tribo {
 
 // Insertions, deletions, replacements and swaps of neighbours that turn one word into the other (Damerau
 // 1964; the restricted form), letter case counted as no difference.
@@ -21,4 +21,4 @@ bool is_close(std::string_view word, std::string_view candidate);
 // `try 'x'` for a close candidate, `try one of a, b, c (nearest: 'b')` where none is close.
 std::string suggestion(std::string_view word, std::span<const std::string_view> candidates);
 
-}  // namespace tribo::io
+}  // namespace tribo

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/nearest.hpp"
+#include "base/nearest.hpp"
 
 #include <array>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace tribo::io {
+namespace tribo {
 namespace {
 
 TEST(EditDistance, counts_insertions_deletions_replacements_and_swaps) {
@@ -37,4 +37,4 @@ TEST(Suggestion, names_a_near_word_and_lists_all_when_none_is_near) {
 }
 
 }  // namespace
-}  // namespace tribo::io
+}  // namespace tribo

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "io/nearest.hpp"
+#include "base/nearest.hpp"
 
 #include <algorithm>
 #include <vector>
 
-namespace tribo::io {
+namespace tribo {
 namespace {
 
 // From this share of wrong letters on a word is more likely strange than mistyped.
@@ -67,4 +67,4 @@ std::string suggestion(std::string_view word, std::span<const std::string_view> 
     return "try one of " + list + " (nearest: '" + std::string(best) + "')";
 }
 
-}  // namespace tribo::io
+}  // namespace tribo
