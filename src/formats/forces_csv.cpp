@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "formats/forces_csv.hpp"
+
+#include "formats/decimal_text.hpp"
+
+namespace tribo::formats {
+namespace {
+
+constexpr int kTimeDecimals = 6, kLengthDecimals = 6, kAxisDecimals = 6, kVolumeDecimals = 6;
+constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 3, kTorqueDecimals = 5;
+
+void append(std::string& csv, double value, int decimals) {
+    csv += ',';
+    append_fixed(csv, value, decimals);
+}
+void append(std::string& csv, Vec3 value, int decimals) {
+    append(csv, value.x, decimals);
+    append(csv, value.y, decimals);
+    append(csv, value.z, decimals);
+}
+
+}  // namespace
+
+void append_force_row(std::string& csv, const milling::ForceRow& row) {
+    append_fixed(csv, row.t_s, kTimeDecimals);
+    csv += ',';
+    csv += std::to_string(row.line);
+    append(csv, row.tip_mm, kLengthDecimals);
+    append(csv, row.axis, kAxisDecimals);
+    append(csv, row.spindle_rpm, kSpeedDecimals);
+    append(csv, row.feed_mm_per_min, kSpeedDecimals);
+    append(csv, row.entry_deg, kAngleDecimals);
+    append(csv, row.exit_deg, kAngleDecimals);
+    append(csv, row.axial_depth_mm, kLengthDecimals);
+    append(csv, row.mean_n, kForceDecimals);
+    append(csv, row.peak_n, kForceDecimals);
+    append(csv, row.peak_fxy_n, kForceDecimals);
+    append(csv, row.mean_torque_nm, kTorqueDecimals);
+    append(csv, row.peak_torque_nm, kTorqueDecimals);
+    append(csv, row.removed_mm3, kVolumeDecimals);
+    csv += '\n';
+}
+
+}  // namespace tribo::formats
