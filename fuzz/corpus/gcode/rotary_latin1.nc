@@ -1,0 +1,4 @@
+G21 (T2 D=6. CR=0.5 - ball)
+G0 X0 Y0 Z0 A10. C-5 ; ä
+M428
+G90.1 G2 X0 Y0 I1 J0 P3 Z-2 F90

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Any bytes give moves with finite ends or an error with a remedy; both readings of '/' are tried.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "formats/gcode_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace tribo;
+    constexpr std::size_t largest = 1 << 20;
+    if (size > largest) return 0;
+    for (const bool skip : {true, false}) {
+        formats::GcodeOptions options;
+        options.source_name = "fuzz.nc";
+        options.skip_deletable_blocks = skip;
+        options.default_feed_mm_per_min = skip ? 100 : 0;
+        const auto program = formats::read_gcode({reinterpret_cast<const char*>(data), size}, options);
+        if (!program) {
+            if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
+            continue;
+        }
+        for (const motion::Move& move : program->moves) {
+            if (!is_finite(move.start.tip_mm) || !is_finite(move.end.tip_mm)) std::abort();
+            if (move.kind == motion::MoveKind::feed && !(move.feed_mm_per_min >= 0)) std::abort();
+        }
+    }
+    return 0;
+}
