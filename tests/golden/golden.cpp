@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#include "golden/golden.hpp"
+
+namespace tribo::golden {
+
+std::span<const Golden> goldens() {
+    static constexpr Golden kGoldens[] = {{"math", math}, {"decimal", decimal}, {"noise_hash", noise_hash}};
+    return kGoldens;
+}
+
+}  // namespace tribo::golden

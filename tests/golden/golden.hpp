@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Hashes over what each room computes on fixed inputs. They prove that builds agree to the bit, never that
+// they are right: the tests of each room do that. Compiled natively and into golden.wasm; the agreed values
+// stand in golden.txt.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace tribo::golden {
+
+struct Golden {
+    const char* name;  // as in golden.txt
+    std::uint64_t (*hash)();
+};
+
+std::span<const Golden> goldens();
+
+std::uint64_t math();
+std::uint64_t decimal();
+std::uint64_t noise_hash();
+
+}  // namespace tribo::golden
