@@ -1,0 +1,52 @@
+# The commands that a stranger needs; scripts/ does the work, CMakePresets.json says how things are built.
+BUDGET ?= short
+PREFIX ?= /usr/local
+ROOM ?=
+
+.PHONY: help setup build run test soak bench tidy format install clean
+
+help:
+	@echo "make run      build and mill the main example into out/bowl"
+	@echo "make build    build/release/tribo and build/wasm/*.wasm"
+	@echo "make test     every test: g++, clang, WebAssembly"
+	@echo "make soak     sanitizers and fuzzing, BUDGET=short or long"
+	@echo "make bench    measure into build/bench.json"
+	@echo "make install  PREFIX=$(PREFIX), DESTDIR as usual"
+	@echo "make tidy     clang-tidy, ROOM=field for one room"
+	@echo "make format   clang-format in place"
+	@echo "make setup    install what packages.txt names for build and test"
+	@echo "make clean    remove build/ and out/"
+
+setup:
+	@scripts/setup.sh run test
+
+build:
+	@scripts/setup.sh run
+	@scripts/build.sh
+
+run: build
+	@scripts/run.sh
+
+test:
+	@scripts/setup.sh run test
+	@scripts/test.sh
+
+soak:
+	@scripts/setup.sh run test
+	@scripts/soak.sh $(BUDGET)
+
+bench:
+	@scripts/setup.sh run bench
+	@scripts/bench.sh
+
+tidy:
+	@scripts/tidy.sh $(ROOM)
+
+format:
+	@scripts/check_format.sh --fix
+
+install: build
+	@cmake --install build/release --prefix $(PREFIX)
+
+clean:
+	@rm -rf build out

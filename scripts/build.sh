@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds what users get: build/release/tribo with its libraries, and the modules build/wasm/*.wasm.
+source "$(dirname "$0")/environment.sh"
+
+cmake --preset release --log-level=WARNING
+cmake --build --preset release --target product
+cmake --preset wasm --log-level=WARNING
+cmake --build --preset wasm

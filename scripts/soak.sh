@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, then every fuzz target
+# for a while from its corpus. What fuzzing finds is left under build/fuzz/crashes/, nothing in the source tree.
+source "$(dirname "$0")/environment.sh"
+source scripts/presets.sh
+
+case ${1:-short} in
+    short) fuzz_seconds=20 ;;
+    long) fuzz_seconds=900 ;;
+    *) fail "soak.sh takes short or long" ;;
+esac
+
+# Threads come in from outside; only these tests bring some.
+with_threads='^(session|io|app)\.'
+thread_targets() {
+    ninja -C build/tsan -t targets all 2>/dev/null | grep -oE '^test_(session|io|app):' | tr -d ':' || true
+}
+thread_sanitizer() {
+    cmake --preset tsan --log-level=WARNING || return 1
+    local targets
+    mapfile -t targets < <(thread_targets)
+    if [ ${#targets[@]} -eq 0 ]; then return; fi
+    cmake --build --preset tsan --target "${targets[@]}" && run_ctest tsan -R "$with_threads"
+}
+
+fuzz_one() {
+    local reader=$1 seconds=$2 work=build/fuzz/work/$1 log=build/fuzz/work/$1.log
+    mkdir -p "$work" build/fuzz/crashes
+    # Findings go to the first folder; the committed corpus is only read.
+    if "build/fuzz/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+        -artifact_prefix="build/fuzz/crashes/$reader-" "$work" "fuzz/corpus/$reader" >"$log" 2>&1; then
+        printf '%-12s %s\n' "$reader" "$(sed -n 's/^stat::number_of_executed_units: */runs: /p' "$log")"
+    else
+        tail -n 60 "$log"
+        echo "fuzz_$reader failed; the input is under build/fuzz/crashes/"
+        return 1
+    fi
+}
+export -f fuzz_one
+
+fuzz_all() {
+    local readers
+    mapfile -t readers < <(ls fuzz | sed -n 's/^fuzz_\(.*\)\.cpp$/\1/p')
+    if [ ${#readers[@]} -eq 0 ]; then return; fi
+    rm -rf build/fuzz/crashes
+    configure_and_build fuzz --target fuzzers &&
+        printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds"
+}
+
+test_preset asan
+say "thread sanitizer"
+step "tsan" thread_sanitizer
+say "fuzzing, $fuzz_seconds s a target"
+step "fuzz" fuzz_all
+closing_summary
