@@ -3,7 +3,7 @@
 # Builds what users get: build/release/tribo with its libraries, and the modules build/wasm/*.wasm.
 source "$(dirname "$0")/environment.sh"
 
-cmake --preset release --log-level=WARNING
+cmake --preset release >/dev/null
 cmake --build --preset release --target product
-cmake --preset wasm --log-level=WARNING
+cmake --preset wasm >/dev/null
 cmake --build --preset wasm

@@ -5,4 +5,5 @@ source "$(dirname "$0")/environment.sh"
 
 mode=(--dry-run --Werror)
 if [ "${1:-}" = --fix ]; then mode=(-i); fi
-find src tests fuzz bench -name '*.[ch]pp' 2>/dev/null | sort | xargs -r -n 16 -P "$JOBS" clang-format-19 "${mode[@]}"
+find . \( -name build -o -name out -o -name node_modules \) -prune -o -name '*.[ch]pp' -print |
+    sort | xargs -r -n 16 -P "$JOBS" clang-format-19 "${mode[@]}"

@@ -14,7 +14,7 @@ step() {
 configure_and_build() {
     local preset=$1
     shift
-    cmake --preset "$preset" --log-level=WARNING && cmake --build --preset "$preset" "$@"
+    cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" "$@"
 }
 
 # run_ctest PRESET [ctest option...]: prints failures and the closing lines only.

@@ -17,7 +17,7 @@ thread_targets() {
     ninja -C build/tsan -t targets all 2>/dev/null | grep -oE '^test_(session|io|app):' | tr -d ':' || true
 }
 thread_sanitizer() {
-    cmake --preset tsan --log-level=WARNING || return 1
+    cmake --preset tsan >/dev/null || return 1
     local targets
     mapfile -t targets < <(thread_targets)
     if [ ${#targets[@]} -eq 0 ]; then return; fi
