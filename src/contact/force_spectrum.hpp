@@ -5,6 +5,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "base/vec3.hpp"
@@ -37,5 +38,10 @@ inline ToolForce mean_force(const ForceSpectrum& s) {
     const ForceHarmonic& m = s.harmonics[0];
     return {{m.x.real(), m.y.real(), m.z.real()}, m.torque.real()};
 }
+
+// The sum at spindle angle theta over the orders up to `highest_order` (of the spindle's frequency: a servo
+// passes what its rate can carry). Real-time safe.
+ToolForce evaluate(const ForceSpectrum& spectrum, double theta_rad,
+                   int highest_order = std::numeric_limits<int>::max());
 
 }  // namespace tribo::contact
