@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "milling/force_peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "milling/force.hpp"
+#include "milling/piece_force.hpp"
+#include "milling/profile_quadrature.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// Widest step between samples, rad: the parabola through three of them misses a second harmonic by 1e-4.
+constexpr double kStepRad = 1.0 / 24;
+// A stretch shorter than this bends by less than 1e-4 of the force between its ends.
+constexpr double kShortRad = 0.015;
+// Borders closer than this are one.
+constexpr double kSameRad = 1e-9;
+constexpr int kNoChange = -1;
+
+}  // namespace
+
+// Signed extremes of the four channels and of the two squared sizes, by samples and parabolas through three.
+class PeakFinder::Extremes {
+  public:
+    // Samples of one stretch come in order; `index` counts them from 0.
+    void add(const Lanes& f, int index) {
+        const double xy2 = f[0] * f[0] + f[1] * f[1];
+        const double now[kChannels] = {f[0], f[1], f[2], f[3], xy2, xy2 + f[2] * f[2]};
+        for (int i = 0; i < kChannels; ++i) {
+            take(i, now[i]);
+            if (index >= 2) {
+                const double slope = now[i] - before_[i], bend = before_[i] - 2 * last_[i] + now[i];
+                // The vertex lies between the three samples and is the extreme.
+                if (std::abs(slope) < 2 * std::abs(bend)) take(i, last_[i] - slope * slope / (8 * bend));
+            }
+            before_[i] = last_[i];
+            last_[i] = now[i];
+        }
+    }
+    double operator[](int i) const { return extreme_[i]; }
+
+    static constexpr int kXy2 = 4, kSize2 = 5;
+
+  private:
+    static constexpr int kChannels = 6;
+    void take(int i, double value) {
+        if (std::abs(value) > std::abs(extreme_[i])) extreme_[i] = value;
+    }
+    double extreme_[kChannels] = {}, before_[kChannels] = {}, last_[kChannels] = {};
+};
+
+// `f` is a function of the rotation theta + phase - lag of a tooth that starts to count at `angle` and, with
+// what else this piece adds, ends at `last_angle` (angles of the tip).
+void PeakFinder::add_change(const EngagedEdge& edge, double angle, double last_angle, const TurnSeries& f,
+                            double lag, double scale, double period) {
+    const int n = static_cast<int>(std::floor((angle - edge.phase_rad) / period));
+    const int last = static_cast<int>(std::floor((last_angle - edge.phase_rad) / period));
+    changes_.emplace_back().add_shifted(f, lag - edge.phase_rad - n * period, scale);
+    borders_.push_back({angle - edge.phase_rad - n * period, static_cast<int>(changes_.size()) - 1});
+    for (int tooth = n + 1; tooth <= last; ++tooth) {
+        series_.add_shifted(f, lag - edge.phase_rad - tooth * period, scale);
+    }
+}
+
+void PeakFinder::add_border(const EngagedEdge& edge, double angle, double period) {
+    const double along = (angle - edge.phase_rad) / period;
+    borders_.push_back({(along - std::floor(along)) * period, kNoChange});
+}
+
+void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
+    const double period = tool.period_rad(), entry = edge.entry_rad, exit = edge.exit_rad;
+    const double lag0 = edge.lag0_rad, lag1 = edge.lag1_rad;
+    TurnSeries whole;  // the piece wholly in its window, as a function of its tip's rotation
+    const auto sum_profile = [&] {
+        visit_profile(
+            tool, edge.chip, edge.z0_mm, edge.z1_mm,
+            profile_rule(tool, edge.z0_mm, edge.z1_mm, 2 * (lag1 - lag0)),
+            [&](double lag, const EdgeLoad& load) { whole.add_shifted(load_series(load), lag, 1); });
+    };
+    if (edge.straight()) {
+        jumps_ = true;
+        const double lag = 0.5 * (lag0 + lag1);
+        if (edge.round) {
+            sum_profile();
+        } else {
+            whole.add_shifted(load_series(edge.load), lag, edge.z1_mm - edge.z0_mm);
+        }
+        add_change(edge, entry + lag, exit + lag, whole, 0, 1, period);
+        add_change(edge, exit + lag, exit + lag, whole, 0, -1, period);
+        return;
+    }
+    if (edge.round) {
+        sampled_.push_back(&edge);
+        add_border(edge, entry + lag0, period);
+        add_border(edge, exit + lag1, period);
+        const double from = entry + lag1, to = exit + lag0;
+        if (from < to) {
+            sum_profile();
+            add_change(edge, from, to, whole, 0, 1, period);
+            add_change(edge, to, to, whole, 0, -1, period);
+        } else {
+            add_border(edge, from, period);
+            add_border(edge, to, period);
+        }
+        return;
+    }
+    // The integral over a piece is the sum over its corners in the plane of rotation and lag: from the moment
+    // when the edge's end (lag) reaches the window's border, it adds or takes the integral from the border
+    // on.
+    const TurnSeries integral = load_integral(edge.load);
+    const double per_rad = 1 / tool.lag_per_mm(), end = exit + lag1;
+    const auto corner = [&](double border, double sine, double cosine, double lag, double sign) {
+        TurnSeries f = integral;
+        f.of_one -= integral.at(border, sine, cosine);
+        add_change(edge, border + lag, end, f, lag, sign * per_rad, period);
+    };
+    double sine, cosine;
+    math::sincos(entry, sine, cosine);
+    corner(entry, sine, cosine, lag0, 1);
+    corner(entry, sine, cosine, lag1, -1);
+    math::sincos(exit, sine, cosine);
+    corner(exit, sine, cosine, lag0, -1);
+    corner(exit, sine, cosine, lag1, 1);
+}
+
+// Between two borders.
+void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes& extremes) {
+    const double length = to - from, period = tool.period_rad(), middle = 0.5 * (from + to);
+    // Teeth that are entering or leaving; those wholly within are in the series.
+    partial_.clear();
+    for (const EngagedEdge* edge : sampled_) {
+        const ToothRange teeth = teeth_within(*edge, middle, period);
+        for (int n = teeth.first; n <= teeth.last; ++n) {
+            const double ahead = edge->phase_rad + n * period, tip = middle + ahead;
+            const bool whole =
+                tip > edge->entry_rad + edge->lag1_rad && tip < edge->exit_rad + edge->lag0_rad;
+            if (!whole) partial_.push_back({edge, ahead});
+        }
+    }
+    const int steps = length < kShortRad ? 1 : std::max(2, static_cast<int>(std::ceil(length / kStepRad)));
+    const double step = length / steps;
+    double sine, cosine, sin_step, cos_step;
+    math::sincos(from, sine, cosine);
+    math::sincos(step, sin_step, cos_step);
+    for (int i = 0; i <= steps; ++i) {
+        const double theta = from + i * step;
+        // Helical edges leave no jump at a border: what ended the last stretch starts this one.
+        if (i > 0 || from == 0 || jumps_) {
+            last_ = series_.at(theta, sine, cosine);
+            for (const PartialTooth& p : partial_)
+                last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
+        }
+        extremes.add(last_, i);
+        const double turned = cosine * cos_step - sine * sin_step;
+        sine = sine * cos_step + cosine * sin_step;
+        cosine = turned;
+    }
+}
+
+ForcePeaks PeakFinder::find(const EngagedEdges& tool) {
+    series_ = {};
+    jumps_ = false;
+    changes_.clear();
+    borders_.clear();
+    sampled_.clear();
+    for (const EngagedEdge& edge : tool.edges()) add_edge(tool, edge);
+    series_.of_one += Lanes(tool.bottom());
+    std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
+        return a.angle != b.angle ? a.angle < b.angle : a.change < b.change;
+    });
+
+    Extremes extremes;
+    const double period = tool.period_rad();
+    double from = 0;
+    for (const Border& border : borders_) {
+        if (border.angle - from > kSameRad) {
+            scan(tool, from, border.angle, extremes);
+            from = border.angle;
+        }
+        if (border.change != kNoChange) series_.add(changes_[static_cast<std::size_t>(border.change)]);
+    }
+    if (period - from > kSameRad) scan(tool, from, period, extremes);
+
+    const contact::ToolForce mean = mean_force(tool);
+    return {.mean_n = mean.force_n,
+            .peak_n = {extremes[0], extremes[1], extremes[2]},
+            .peak_xy_n = std::sqrt(extremes[Extremes::kXy2]),
+            .peak_force_n = std::sqrt(extremes[Extremes::kSize2]),
+            .mean_torque_nmm = mean.torque_nmm,
+            .peak_torque_nmm = extremes[3]};
+}
+
+}  // namespace tribo::milling
