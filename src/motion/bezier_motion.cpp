@@ -6,6 +6,21 @@
 
 namespace tribo::motion {
 
+namespace {
+
+// Halvings after which a piece whose norm still cannot be told from zero is taken to have a pole.
+constexpr int kPoleDepth = 24;
+constexpr double kPoleMargin = 1e-9;
+
+bool has_pole(const BezierMotion& motion, int depth) {
+    if (norm_margin(motion) > kPoleMargin) return false;
+    if (depth == kPoleDepth) return true;
+    const auto [left, right] = subdivide(motion, 0.5);
+    return has_pole(left, depth + 1) || has_pole(right, depth + 1);
+}
+
+}  // namespace
+
 PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate) {
     const double n = dot(q.real, q.real), n_rate = 2 * dot(q.real, rate.real);
     const Quaternion along_axis(0, 0, 0, 1);
@@ -70,6 +85,10 @@ double norm_margin(const BezierMotion& motion) {
         q, q, [](const DualQuaternion& a, const DualQuaternion& b) { return dot(a.real, b.real); });
     const auto [low, high] = std::minmax_element(squares.begin(), squares.end());
     return *high > 0 ? *low / *high : 0;
+}
+
+bool has_pole(const BezierMotion& motion) {
+    return has_pole(motion, 0);
 }
 
 }  // namespace tribo::motion

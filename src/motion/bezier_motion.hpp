@@ -66,5 +66,7 @@ std::vector<HomogeneousPoint> direction_path(const BezierMotion& motion, Vec3 di
 
 // The smallest Bernstein coefficient of |q|^2 over the largest: > 0 proves that the motion has no pole.
 double norm_margin(const BezierMotion& motion);
+// Whether |q|^2 comes so near to zero (1e-9 of the largest) that the motion runs to infinity; by subdivision.
+bool has_pole(const BezierMotion& motion);
 
 }  // namespace tribo::motion

@@ -125,10 +125,13 @@ BSpline<T> spline_of_blossom(std::size_t degree, std::vector<double> knots, Form
     const std::size_t count = r.knots.size() - degree - 1;
     r.control.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        // Any piece that the control point acts on would do; the middle one extrapolates least.
-        std::size_t k = i + degree / 2;
-        for (std::size_t off = 0; r.knots[k] == r.knots[k + 1]; ++off)
-            k = off % 2 == 0 ? k + off + 1 : k - off - 1;
+        // Any piece that the control point acts on would do. The longest one between its own knots (or beside
+        // them, where they are all one) extrapolates least.
+        const bool one_knot = r.knots[i + 1] == r.knots[i + degree];
+        const std::size_t first = one_knot ? i : i + 1, last = one_knot ? i + degree : i + degree - 1;
+        std::size_t k = first;
+        for (std::size_t j = first; j <= last; ++j)
+            if (r.knots[j + 1] - r.knots[j] > r.knots[k + 1] - r.knots[k]) k = j;
         r.control.push_back(form(k, std::span<const double>(r.knots).subspan(i + 1, degree)));
     }
     return r;

@@ -120,6 +120,19 @@ RC_GTEST_PROP(BezierMotion, a_positive_norm_margin_bounds_the_norm, ()) {
     RC_ASSERT(margin <= low / high + 1e-12);
 }
 
+TEST(BezierMotion, a_pole_is_found_and_a_narrow_miss_is_not_one) {
+    // Real parts 1, i, -1: |q|^2 = (1 - 2t)^2 + 4 t^2 (1-t)^2 >= 1/4, though its coefficients touch zero.
+    const Quaternion i(0, 1, 0, 0);
+    const BezierMotion round{{kIdentityDisplacement, {i, {}}, -kIdentityDisplacement}};
+    EXPECT_LE(norm_margin(round), 0);
+    EXPECT_FALSE(has_pole(round));
+    const BezierMotion through{{kIdentityDisplacement, -0.3 * kIdentityDisplacement, kIdentityDisplacement}};
+    EXPECT_FALSE(has_pole(BezierMotion{{kIdentityDisplacement, kIdentityDisplacement}}));
+    EXPECT_FALSE(has_pole(through));
+    EXPECT_TRUE(has_pole({{kIdentityDisplacement, -kIdentityDisplacement}}));
+    EXPECT_TRUE(has_pole({{kIdentityDisplacement, -1.0 * kIdentityDisplacement, kIdentityDisplacement}}));
+}
+
 RC_GTEST_PROP(BezierMotion, rates_agree_with_central_differences, ()) {
     const BezierMotion m = bezier_motion();
     const double t = 0.5 + real(0.4), h = 1e-6;

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "motion/moves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/arc_frame.hpp"
+#include "motion/direction.hpp"
+
+namespace tribo::motion {
+
+namespace {
+
+// Part of the tolerance within which a piece counts as straight: merging neighbours adds up a few of them.
+constexpr double kStraightShare = 0.01;
+// Part of the tolerance that a piece may use at the parameters where it is checked, the rest being for those
+// between.
+constexpr double kCheckedShare = 0.9;
+// Halvings after which a piece is taken as it is: a cusp, where no quadratic ever fits.
+constexpr int kCutDepth = 24;
+// A pose closer than this to the end of the move before is that end, mm and rad.
+constexpr double kJoin = 1e-9;
+
+// Where the error of a quadratic that meets a cubic at 0, 1/2 and 1 is largest (0.211, 0.789), and around.
+constexpr std::array<double, 6> kChecked{0.1, 0.2113, 0.35, 0.65, 0.7887, 0.9};
+
+// The middle control point that leads the axis from a to b through `middle` at constant speed, to the fifth
+// order where they are on one great circle.
+Vec3 axis_control(Vec3 a, Vec3 middle, Vec3 b) {
+    const double half = 0.5 * angle_rad(a, b);
+    const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
+    return (2 * size) * middle - 0.5 * (a + b);
+}
+
+Move with_ends(const Move& like, const ToolPose& start, const ToolPose& end) {
+    Move m = like;
+    m.start = start;
+    m.end = end;
+    m.arc.reset();
+    m.quadratic.reset();
+    return m;
+}
+
+bool is_nothing(const Move& m) {
+    return distance(m.start.tip_mm, m.end.tip_mm) < kJoin && distance(m.start.axis, m.end.axis) < kJoin;
+}
+
+class Cutting {
+  public:
+    Cutting(const Move& like, const PieceTolerance& tolerance, std::vector<Move>& moves)
+        : like_(like), tolerance_(tolerance), moves_(moves), first_(moves.size()) {}
+
+    void append(const BezierMotion& motion) {
+        ToolPose start = motion.pose(0);
+        if (!moves_.empty()) {
+            const ToolPose& before = moves_.back().end;
+            if (distance(before.tip_mm, start.tip_mm) < kJoin && distance(before.axis, start.axis) < kJoin)
+                start = before;
+        }
+        const ToolPose end = motion.pose(1);
+        if (is_straight(motion))
+            append_straight(with_ends(like_, start, end));
+        else
+            cut(motion, 0, start, 1, end, 0);
+    }
+
+  private:
+    // The curve lies in the hull of its control points and does not turn back where they do not.
+    bool is_straight(const BezierMotion& motion) const {
+        const double tip_tolerance = kStraightShare * tolerance_.tip_mm;
+        const double axis_tolerance = kStraightShare * tolerance_.axis_rad;
+        const std::vector<HomogeneousPoint> tips = point_path(motion, Vec3{0, 0, 0});
+        const std::vector<HomogeneousPoint> axes = direction_path(motion, Vec3{0, 0, 1});
+        const Vec3 first = motion.pose(0).tip_mm, axis = motion.pose(0).axis;
+        const Vec3 along = normalized(motion.pose(1).tip_mm - first);
+        double reached = 0;
+        for (const HomogeneousPoint& tip : tips) {
+            if (!(tip.w > 0)) return false;
+            const Vec3 from_first = tip.point() - first;
+            const double run = dot(from_first, along);
+            if (length(from_first - run * along) > tip_tolerance || run < reached - tip_tolerance)
+                return false;
+            reached = std::max(reached, run);
+        }
+        return std::all_of(axes.begin(), axes.end(), [&](const HomogeneousPoint& a) {
+            return distance(a.point(), axis) <= axis_tolerance;
+        });
+    }
+
+    void append_straight(const Move& next) {
+        if (is_nothing(next)) return;
+        if (moves_.size() > first_ && !moves_.back().quadratic) {
+            Move& last = moves_.back();
+            const Vec3 whole = next.end.tip_mm - last.start.tip_mm;
+            const Vec3 along = normalized(whole), so_far = last.end.tip_mm - last.start.tip_mm;
+            const double run = dot(so_far, along);
+            if (run > 0 && run < length(whole) &&
+                length(so_far - run * along) <= kStraightShare * tolerance_.tip_mm) {
+                last.end = next.end;
+                return;
+            }
+        }
+        moves_.push_back(next);
+    }
+
+    void cut(const BezierMotion& motion, double a, const ToolPose& start, double b, const ToolPose& end,
+             int depth) {
+        const double m = 0.5 * (a + b);
+        const ToolPose middle = motion.pose(m);
+        Move piece = with_ends(like_, start, end);
+        piece.quadratic = Quadratic{2.0 * middle.tip_mm - 0.5 * (start.tip_mm + end.tip_mm),
+                                    axis_control(start.axis, middle.axis, end.axis)};
+        if (depth < kCutDepth && !fits(piece, motion, a, b, middle)) {
+            cut(motion, a, start, m, middle, depth + 1);
+            cut(motion, m, middle, b, end, depth + 1);
+        } else if (!is_nothing(piece) || distance(middle.tip_mm, start.tip_mm) > kJoin) {
+            moves_.push_back(piece);
+        }
+    }
+
+    bool fits(const Move& piece, const BezierMotion& motion, double a, double b,
+              const ToolPose& middle) const {
+        const double turn = angle_rad(piece.start.axis, middle.axis) + angle_rad(middle.axis, piece.end.axis);
+        if (turn > kMaxPieceTurnRad) return false;
+        return std::all_of(kChecked.begin(), kChecked.end(), [&](double t) {
+            const ToolPose is = pose_at(piece, t), should = motion.pose(mix(a, b, t));
+            return distance(is.tip_mm, should.tip_mm) <= kCheckedShare * tolerance_.tip_mm &&
+                   distance(is.axis, should.axis) <= kCheckedShare * tolerance_.axis_rad;
+        });
+    }
+
+    const Move& like_;
+    const PieceTolerance& tolerance_;
+    std::vector<Move>& moves_;
+    std::size_t first_;
+};
+
+// The part of a Bezier motion from a to b, 0 <= a < b <= 1.
+BezierMotion part_of(const BezierMotion& motion, double a, double b) {
+    BezierMotion part = motion;
+    if (b < 1) part = subdivide(part, b).first;
+    if (a > 0) part = subdivide(part, a / b).second;
+    return part;
+}
+
+std::vector<Move> quarter_arcs(const Move& move) {
+    // A hair over a multiple of a quarter, as rounding makes it, starts no new piece.
+    const double quarters = std::abs(move.arc->turn_rad) / math::kHalfPi;
+    const int count = std::max(1, static_cast<int>(std::ceil(quarters - 1e-9)));
+    std::vector<Move> pieces;
+    for (int i = 0; i < count; ++i) {
+        Move piece = move;
+        piece.start = i == 0 ? move.start : pieces.back().end;
+        piece.end = pose_at(move, static_cast<double>(i + 1) / count);
+        piece.arc->turn_rad = move.arc->turn_rad / count;
+        piece.duration_s = move.duration_s / count;
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+// How many quadratics of equal parameter stand for the move. With a = half the turn of a piece:
+// control points where the tangents of an arc meet leave it by R a^4 / 8 and run ahead of it by up to
+// 0.065 a^3 rad, which a rise turns into height; control points that match the middle leave a circle by
+// 0.065 R a^3; an axis on a great circle is off by 0.0041 a^5 rad.
+int quadratics_needed(const Move& move, const PieceTolerance& tolerance, double axis_turn) {
+    double count = axis_turn / kMaxPieceTurnRad;
+    const auto need = [&](double n) { count = std::max(count, n); };
+    need(0.5 * axis_turn * math::pow(0.0041 / tolerance.axis_rad, 0.2));
+    if (move.arc && move.arc->turn_rad != 0) {
+        const ArcFrame frame(move);
+        const double turn = std::abs(move.arc->turn_rad), half_tolerance = 0.5 * tolerance.tip_mm;
+        need(turn / (0.5 * math::kHalfPi));
+        if (axis_turn > 0)
+            need(0.5 * turn *
+                 math::cbrt(0.065 * (frame.radius_mm + std::abs(frame.rise_mm)) / half_tolerance));
+        else {
+            need(0.5 * turn * std::sqrt(std::sqrt(frame.radius_mm / (8 * half_tolerance))));
+            need(0.5 * turn * math::cbrt(0.065 * std::abs(frame.rise_mm) / turn / half_tolerance));
+        }
+    }
+    return std::max(1, static_cast<int>(std::ceil(count)));
+}
+
+std::vector<Move> equal_quadratics(const Move& move, const PieceTolerance& tolerance) {
+    const double axis_turn = angle_rad(move.start.axis, move.end.axis);
+    const int count = quadratics_needed(move, tolerance, axis_turn);
+    std::vector<Move> pieces;
+    for (int i = 0; i < count; ++i) {
+        const double a = static_cast<double>(i) / count, b = static_cast<double>(i + 1) / count;
+        Move piece = with_ends(move, i == 0 ? move.start : pieces.back().end, pose_at(move, b));
+        const ToolPose middle = pose_at(move, 0.5 * (a + b));
+        Vec3 control = 2.0 * middle.tip_mm - 0.5 * (piece.start.tip_mm + piece.end.tip_mm);
+        if (move.arc && axis_turn == 0) {
+            // Where the tangents meet: radius R / cos(a) above the middle.
+            const ArcFrame frame(move);
+            const Vec3 from_start = middle.tip_mm - frame.foot_mm;
+            const Vec3 radial = from_start - dot(from_start, frame.normal) * frame.normal;
+            control = middle.tip_mm + (1 / math::cos(0.5 * move.arc->turn_rad / count) - 1) * radial;
+        }
+        piece.quadratic = Quadratic{control, axis_control(piece.start.axis, middle.axis, piece.end.axis)};
+        piece.duration_s = move.duration_s / count;
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+}  // namespace
+
+void append_moves(std::span<const MotionPiece> pieces, double u0, double u1, const Move& like,
+                  const PieceTolerance& tolerance, std::vector<Move>& moves) {
+    Cutting cutting(like, tolerance, moves);
+    for (const MotionPiece& piece : pieces) {
+        const double a = std::max(u0, piece.start), b = std::min(u1, piece.end);
+        if (!(a < b)) continue;
+        const double width = piece.end - piece.start;
+        cutting.append(part_of(piece.motion, a == piece.start ? 0 : (a - piece.start) / width,
+                               b == piece.end ? 1 : (b - piece.start) / width));
+    }
+}
+
+std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like, const PieceTolerance& tolerance) {
+    std::vector<Move> moves;
+    append_moves(bezier_pieces(motion), motion.start(), motion.end(), like, tolerance, moves);
+    return moves;
+}
+
+std::vector<Move> to_elementary(const Move& move, const PieceTolerance& tolerance) {
+    if (move.kind == MoveKind::dwell || move.quadratic) return {move};
+    const bool turns = angle_rad(move.start.axis, move.end.axis) > kStraightShare * tolerance.axis_rad;
+    if (!move.arc) return turns ? equal_quadratics(move, tolerance) : std::vector<Move>{move};
+    const ArcFrame frame(move);
+    const bool upright = length(cross(frame.normal, move.start.axis)) <= kStraightShare * tolerance.axis_rad;
+    const bool flat = std::abs(frame.rise_mm) <= kStraightShare * tolerance.tip_mm;
+    return !turns && upright && flat ? quarter_arcs(move) : equal_quadratics(move, tolerance);
+}
+
+}  // namespace tribo::motion
