@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "io/summary_json.hpp"
+
+#include "io/json.hpp"
+
+namespace tribo::io {
+namespace {
+
+void set_with_band(Json& json, const std::string& key, double value, const Summary& s) {
+    set(json, key.c_str(), value);
+    if (std::isfinite(value) && s.force_low_factor < s.force_high_factor) {
+        json[key + "_band"] = {value * s.force_low_factor, value * s.force_high_factor};
+    }
+}
+
+}  // namespace
+
+std::string summary_json(const Summary& s) {
+    Json json;
+    json["schema"] = "tribo.summary/1";
+    json["version"] = s.version;
+    json["job"] = s.job;
+    set(json, "duration_s", s.duration_s);
+    set(json, "cutting_s", s.cutting_s);
+    set(json, "path_mm", s.path_mm);
+    set(json, "removed_mm3", s.removed_mm3);
+    set(json, "remaining_mm3", s.remaining_mm3);
+    set_with_band(json, "mean_force_n", s.mean_force_n, s);
+    set_with_band(json, "peak_force_n", s.peak_force_n, s);
+    set_with_band(json, "peak_torque_nm", s.peak_torque_nm, s);
+    set_with_band(json, "peak_power_w", s.peak_power_w, s);
+    set(json, "tooth_passing_hz", s.tooth_passing_hz);
+    if (s.triangles) json["triangles"] = *s.triangles;
+    set(json, "resolution_mm", s.resolution_mm);
+    set(json, "gouge_max_mm", s.gouge_max_mm);
+    set(json, "rest_max_mm", s.rest_max_mm);
+    set(json, "scallop_max_mm", s.scallop_max_mm);
+    if (s.as_published) json["as_published"] = true;
+    json["collisions"] = Json::array();
+    for (const SummaryCollision& c : s.collisions) {
+        Json collision;
+        if (c.line > 0) collision["line"] = c.line;
+        set(collision, "t_s", c.t_s);
+        collision["kind"] = c.kind;
+        collision["tip_mm"] = triple(c.tip_mm);
+        json["collisions"].push_back(std::move(collision));
+    }
+    json["warnings"] = Json::array();
+    for (const Warning& w : s.warnings) json["warnings"].push_back(w.message());
+    set(json, "seconds", s.seconds);
+    set(json, "peak_memory_mb", s.peak_memory_mb);
+    return dump(json) + "\n";
+}
+
+}  // namespace tribo::io
