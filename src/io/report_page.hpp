@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The texts of report/, built into the library (CMakeLists.txt makes the source from report_page.cpp.in).
+#pragma once
+
+#include <string_view>
+
+namespace tribo::io {
+
+extern const std::string_view kReportPage;  // with {{marks}} to be replaced
+extern const std::string_view kReportStyle;
+extern const std::string_view kReportScript;
+
+}  // namespace tribo::io
