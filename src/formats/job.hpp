@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// What a job file says, checked: which part comes out of which stock with which tools, how fast, and how it
+// is to be heard and felt. Plain data without files, so that the session, the TOML reader and the page share
+// it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "milling/coefficients.hpp"
+#include "milling/cutter.hpp"
+
+namespace tribo::formats {
+
+// A model file (VRML, STL, OBJ, PLY, glTF). The path is ready to open: already joined with the job's folder.
+struct ModelFile {
+    std::string path;
+    double unit_mm = 1;  // millimetres per unit of the file, > 0
+};
+
+// Stock or fixture: a box, or the solid inside a model.
+struct JobSolid {
+    Box3 box_mm;  // empty where `model` is given
+    std::optional<ModelFile> model;
+};
+
+// Either a name out of the library of materials (milling/materials.hpp) or coefficients of one's own.
+struct JobMaterial {
+    std::string name;
+    std::optional<milling::CuttingCoefficients> coefficients;
+};
+
+enum class PathKind { keyframes, gcode, apt };
+enum class Interpolation { spline, linear };
+
+struct JobPath {
+    PathKind kind = PathKind::keyframes;
+    std::string file;
+    Interpolation interpolation = Interpolation::spline;  // of keyframes; programs say it themselves
+    std::string machine;                                  // name of a machine for rotary words; may be empty
+    double unit_mm = 1;                                   // of keyframes only
+};
+
+// What the process is where the program does not say; 0: the program must.
+struct JobProcess {
+    double spindle_rpm = 0;
+    double feed_mm_per_min = 0;
+};
+
+// Engagement prescribed instead of measured (the paper's input file): clockwise from the left of the feed,
+// 0 <= entry < exit <= 360.
+struct JobEngagement {
+    double entry_deg = 0;
+    double exit_deg = 0;
+    double axial_depth_mm = 0;
+};
+
+enum class SoundMode { hrtf, sphere, pan };
+
+struct JobSound {
+    std::optional<Vec3> listener_mm;  // absent: the centre of the stock's top
+    double distance_factor = 1;       // > 0; the paper's: scales distances before they are heard
+    double gain_db = 0;
+    int bits = 16;  // 16, 24 or 32 per sample
+    std::optional<SoundMode> mode;
+    std::string hrtf;  // a SOFA file; empty: the set that is built in
+};
+
+enum class ProbeKind { point, ray, cylinder };
+
+struct JobHaptics {
+    double force_scale = 0.01;  // newtons at the hand per newton at the cutter, > 0
+    std::string profile;        // file of just-noticeable differences; empty: the default
+    ProbeKind probe = ProbeKind::point;
+    std::optional<double> friction_static;
+    std::optional<double> friction_kinetic;    // <= static where both are given
+    std::optional<double> stiffness_n_per_mm;  // > 0
+};
+
+// A rotary axis of the machine, in the order from the frame to the tool or to the table.
+struct MachineAxis {
+    char word = 'A';  // A, B or C
+    bool carries_part = true;
+    Vec3 direction{1, 0, 0};  // unit
+    Vec3 point_mm;            // any point on the axis, machine frame with the axes at zero
+    double min_deg = -360, max_deg = 360;
+};
+
+struct JobMachine {
+    double rapid_mm_per_min = 10000;    // > 0
+    double acceleration_mm_per_s2 = 0;  // > 0; 0: feeds are reached at once
+    std::vector<MachineAxis> axes;      // described axes; empty: none
+    std::optional<Box3> limits_mm;      // travel of the tool tip in the stock frame
+};
+
+struct Job {
+    std::string file;               // as the user named it
+    std::optional<ModelFile> part;  // the designed surface
+    JobSolid stock;
+    std::vector<JobSolid> fixtures;
+    std::vector<milling::Cutter> cutters;  // at least one; numbers differ
+    JobMaterial material;
+    JobProcess process;
+    JobPath path;
+    std::optional<JobEngagement> engagement;
+    JobSound sound;
+    JobHaptics haptics;
+    JobMachine machine;
+};
+
+}  // namespace tribo::formats
