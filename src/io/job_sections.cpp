@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "io/job_sections.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "milling/materials.hpp"
+
+namespace tribo::io {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kPartKeys{"surface"sv, "unit_mm"sv};
+constexpr std::array kSolidKeys{"box_mm"sv, "mesh"sv, "unit_mm"sv};
+constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
+                                      "kte_n_per_mm"sv,  "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
+                                   "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
+constexpr std::array kPathKinds{"keyframes"sv, "gcode"sv, "apt"sv};
+constexpr std::array kPathKeys{"keyframes"sv,     "gcode"sv,   "apt"sv,
+                               "interpolation"sv, "machine"sv, "unit_mm"sv};
+constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
+constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
+constexpr std::array kSoundKeys{"listener_mm"sv, "distance_factor"sv, "gain_db"sv, "bits"sv, "hrtf"sv,
+                                "mode"sv};
+constexpr std::array kSoundModes{"hrtf"sv, "sphere"sv, "pan"sv};
+constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "probe"sv,
+                                  "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
+constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
+constexpr std::array kMachineKeys{"rapid_mm_per_min"sv, "acceleration_mm_per_s2"sv, "axes"sv, "limits_mm"sv};
+constexpr std::array kAxisKeys{"word"sv, "carries"sv, "direction"sv, "point_mm"sv, "min_deg"sv, "max_deg"sv};
+constexpr std::array kAxisWords{"A"sv, "B"sv, "C"sv};
+constexpr std::array kCarriedWords{"part"sv, "tool"sv};
+
+constexpr double kLargestGainDb = 120;
+constexpr double kLargestUnitMm = 1e6;  // a kilometre; coordinates stay far from overflow
+constexpr double kLargestAngleDeg = 1e6;
+constexpr double kLargestFriction = 10;
+
+double unit_mm(TomlSection& section) {
+    return section.number("unit_mm", {0, kLargestUnitMm, true}).value_or(1);
+}
+
+}  // namespace
+
+formats::ModelFile read_part(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[part]", kPartKeys);
+    return {section.required_path("surface"), unit_mm(section)};
+}
+
+formats::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label) {
+    TomlSection section(file, table, label, kSolidKeys);
+    formats::JobSolid solid;
+    if (section.has("box_mm") && section.has("mesh")) {
+        section.fail("mesh", label + " has both 'box_mm' and 'mesh'", "keep one of them");
+    } else if (section.has("mesh")) {
+        solid.model = formats::ModelFile{section.required_path("mesh"), unit_mm(section)};
+    } else if (section.has("box_mm")) {
+        solid.box_mm = section.box("box_mm").value_or(Box3{});
+        if (section.has("unit_mm")) {
+            section.fail("unit_mm", "'unit_mm' belongs to a mesh; a box is in mm", "remove it");
+        }
+    } else {
+        section.fail("", label + " has neither 'box_mm' nor 'mesh'",
+                     "write box_mm = [[x, y, z], [x, y, z]] or mesh = \"FILE\"");
+    }
+    return solid;
+}
+
+formats::JobMaterial read_material(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[material]", kMaterialKeys);
+    formats::JobMaterial material;
+    std::string_view present;
+    for (const std::string_view key : kCoefficientKeys) {
+        if (present.empty() && section.has(key)) present = key;
+    }
+    if (section.has("name") && !present.empty()) {
+        section.fail(present, "[material] has both a name and coefficients of its own",
+                     "keep the name or the six coefficients");
+    } else if (section.has("name")) {
+        material.name = section.text("name").value_or("");
+        const Result<milling::Material> known = milling::find_material(material.name);
+        if (!known) section.fail("name", known.error().cause, known.error().remedy);
+    } else if (!present.empty()) {
+        milling::CuttingCoefficients k;
+        double* const values[] = {&k.ktc, &k.krc, &k.kac, &k.kte, &k.kre, &k.kae};
+        for (std::size_t i = 0; i < kCoefficientKeys.size(); ++i) {
+            *values[i] = section.required_number(kCoefficientKeys[i]);
+        }
+        const Result<void> checked = milling::check(k);
+        if (!checked) {  // the message begins with the coefficient's letters
+            const std::string letters = checked.error().cause.substr(0, 3);
+            const auto key = std::find_if(kCoefficientKeys.begin(), kCoefficientKeys.end(),
+                                          [&](std::string_view name) { return name.starts_with(letters); });
+            section.fail(key == kCoefficientKeys.end() ? present : *key, checked.error().cause,
+                         checked.error().remedy);
+        }
+        material.coefficients = k;
+    } else {
+        section.fail("", "[material] has no name and no coefficients",
+                     "write name = \"al7075-t6\" or ktc_n_per_mm2, krc_, kac_, kte_n_per_mm, kre_ and kae_");
+    }
+    return material;
+}
+
+formats::JobProcess read_process(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[process]", kProcessKeys);
+    return {section.number("spindle_rpm", kPositive).value_or(0),
+            section.number("feed_mm_per_min", kPositive).value_or(0)};
+}
+
+formats::JobPath read_path(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[path]", kPathKeys);
+    formats::JobPath path;
+    std::string_view kind;
+    for (std::size_t i = 0; i < kPathKinds.size(); ++i) {
+        if (!section.has(kPathKinds[i])) continue;
+        if (!kind.empty()) {
+            section.fail(
+                kPathKinds[i],
+                "[path] has both '" + std::string(kind) + "' and '" + std::string(kPathKinds[i]) + "'",
+                "keep one of them");
+            return path;
+        }
+        kind = kPathKinds[i];
+        path.kind = static_cast<formats::PathKind>(i);
+        path.file = section.required_path(kind);
+    }
+    if (kind.empty()) {
+        section.fail("", "[path] names no program",
+                     "write keyframes = \"F.csv\", gcode = \"F.ngc\" or apt = \"F.apt\"");
+    }
+    for (const std::string_view key : {"interpolation"sv, "unit_mm"sv}) {
+        if (path.kind != formats::PathKind::keyframes && section.has(key)) {
+            section.fail(key, "'" + std::string(key) + "' belongs to keyframes",
+                         "remove it: the program says it itself");
+        }
+    }
+    if (path.kind != formats::PathKind::gcode && section.has("machine")) {
+        section.fail("machine", "'machine' belongs to G-code: other paths hold the tool's axis already",
+                     "remove it");
+    }
+    path.interpolation =
+        static_cast<formats::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
+    path.machine = section.text("machine").value_or("");
+    path.unit_mm = unit_mm(section);
+    return path;
+}
+
+formats::JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[engagement]", kEngagementKeys);
+    formats::JobEngagement engagement;
+    engagement.entry_deg = section.required_number("entry_deg", {0, 360});
+    engagement.exit_deg = section.required_number("exit_deg", {0, 360});
+    engagement.axial_depth_mm = section.required_number("axial_depth_mm", kPositive);
+    if (engagement.exit_deg <= engagement.entry_deg) {
+        section.fail("exit_deg", "'exit_deg' is not behind 'entry_deg'",
+                     "angles run clockwise from the left of the feed: up-milling starts at 0, down-milling "
+                     "ends at 180");
+    }
+    return engagement;
+}
+
+formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[sound]", kSoundKeys);
+    formats::JobSound sound;
+    sound.listener_mm = section.point("listener_mm");
+    sound.distance_factor = section.number("distance_factor", kPositive).value_or(sound.distance_factor);
+    sound.gain_db = section.number("gain_db", {-kLargestGainDb, kLargestGainDb}).value_or(sound.gain_db);
+    sound.bits = section.integer("bits", 16, 32).value_or(sound.bits);
+    if (sound.bits != 16 && sound.bits != 24 && sound.bits != 32) {
+        section.fail("bits", "'bits' is " + std::to_string(sound.bits), "try 16, 24 or 32");
+    }
+    if (const auto mode = section.word("mode", kSoundModes))
+        sound.mode = static_cast<formats::SoundMode>(*mode);
+    sound.hrtf = section.path("hrtf").value_or("");
+    if (!sound.hrtf.empty() && sound.mode && *sound.mode != formats::SoundMode::hrtf) {
+        section.fail("hrtf", "'hrtf' names a file, but the mode does not use it",
+                     "write mode = \"hrtf\" or remove it");
+    }
+    return sound;
+}
+
+formats::JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[haptics]", kHapticsKeys);
+    formats::JobHaptics haptics;
+    haptics.force_scale = section.number("force_scale", kPositive).value_or(haptics.force_scale);
+    haptics.profile = section.path("profile").value_or("");
+    haptics.probe = static_cast<formats::ProbeKind>(section.word("probe", kProbeWords).value_or(0));
+    haptics.friction_static = section.number("friction_static", {0, kLargestFriction});
+    haptics.friction_kinetic = section.number("friction_kinetic", {0, kLargestFriction});
+    if (haptics.friction_static && haptics.friction_kinetic &&
+        *haptics.friction_kinetic > *haptics.friction_static) {
+        section.fail("friction_kinetic", "'friction_kinetic' is above 'friction_static'", "exchange them");
+    }
+    haptics.stiffness_n_per_mm = section.number("stiffness_n_per_mm", kPositive);
+    return haptics;
+}
+
+formats::JobMachine read_machine(TomlFile& file, const toml::table& table, const std::string& label) {
+    TomlSection section(file, table, label, kMachineKeys);
+    formats::JobMachine machine;
+    machine.rapid_mm_per_min =
+        section.number("rapid_mm_per_min", kPositive).value_or(machine.rapid_mm_per_min);
+    machine.acceleration_mm_per_s2 = section.number("acceleration_mm_per_s2", kPositive).value_or(0);
+    machine.limits_mm = section.box("limits_mm");
+    for (const toml::table* axis_table : section.tables("axes")) {
+        TomlSection axis(file, *axis_table, "an axis", kAxisKeys);
+        for (const std::string_view key : {"word"sv, "carries"sv, "direction"sv}) {
+            if (!axis.has(key)) axis.missing(key);
+        }
+        formats::MachineAxis read;
+        read.word = kAxisWords[axis.word("word", kAxisWords).value_or(0)][0];
+        read.carries_part = axis.word("carries", kCarriedWords).value_or(0) == 0;
+        const Vec3 direction = axis.point("direction").value_or(read.direction);
+        if (!(length(direction) > 0)) axis.fail("direction", "'direction' has no length", "try [1, 0, 0]");
+        read.direction = normalized(direction);
+        read.point_mm = axis.point("point_mm").value_or(Vec3{});
+        read.min_deg = axis.number("min_deg", {-kLargestAngleDeg, kLargestAngleDeg}).value_or(read.min_deg);
+        read.max_deg = axis.number("max_deg", {-kLargestAngleDeg, kLargestAngleDeg}).value_or(read.max_deg);
+        if (read.max_deg <= read.min_deg) {
+            axis.fail("max_deg", "'max_deg' is not above 'min_deg'", "exchange them");
+        }
+        machine.axes.push_back(read);
+    }
+    return machine;
+}
+
+}  // namespace tribo::io

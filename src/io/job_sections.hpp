@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The tables of a job file, one reader each. What is wrong stands in the TomlFile afterwards; the value given
+// back is then of no use. Private to io/.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/job.hpp"
+#include "io/toml_section.hpp"
+
+namespace tribo::io {
+
+formats::ModelFile read_part(TomlFile& file, const toml::table& table);
+formats::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label);
+// [cutter] or every [[cutter]], and [holder] for those without one of their own.
+std::vector<milling::Cutter> read_cutters(TomlSection& job);
+formats::JobMaterial read_material(TomlFile& file, const toml::table& table);
+formats::JobProcess read_process(TomlFile& file, const toml::table& table);
+formats::JobPath read_path(TomlFile& file, const toml::table& table);
+formats::JobEngagement read_engagement(TomlFile& file, const toml::table& table);
+formats::JobSound read_sound(TomlFile& file, const toml::table& table);
+formats::JobHaptics read_haptics(TomlFile& file, const toml::table& table);
+formats::JobMachine read_machine(TomlFile& file, const toml::table& table, const std::string& label);
+
+}  // namespace tribo::io
