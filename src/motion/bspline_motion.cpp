@@ -30,6 +30,12 @@ BSpline<HomogeneousPoint> point_path(const BSplineMotion& motion, Vec3 point_in_
                           [&](const DualQuaternion& a, const DualQuaternion& b) { return image(a, b, p); });
 }
 
+BSplineMotion motion_along(const BSpline<HomogeneousPoint>& tip, const BSpline<Quaternion>& rotation) {
+    return {spline_product(tip, rotation, [](const HomogeneousPoint& p, const Quaternion& q) {
+        return DualQuaternion{p.w * q, 0.5 * (Quaternion(0, p.xyz) * q)};
+    })};
+}
+
 double norm_margin(const BSplineMotion& motion) {
     double margin = 1;
     for (const MotionPiece& piece : bezier_pieces(motion))

@@ -36,6 +36,10 @@ std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion);
 // The path of a point of the tool as rational B-spline of degree 2 n over the knots of the motion: exact.
 BSpline<HomogeneousPoint> point_path(const BSplineMotion& motion, Vec3 point_in_tool_mm);
 
+// The motion whose tip runs along `tip` while it turns by `rotation`: two splines of one degree n over the
+// same knots, w > 0 and rotation nowhere zero. Of degree 2 n and as smooth as they are; exact.
+BSplineMotion motion_along(const BSpline<HomogeneousPoint>& tip, const BSpline<Quaternion>& rotation);
+
 // The smallest norm_margin of its pieces.
 double norm_margin(const BSplineMotion& motion);
 

@@ -37,12 +37,6 @@ ToolPose with_unit_axis(ToolPose pose) {
     return pose;
 }
 
-// How far apart two poses are in the parameter; 0 only for equal ones.
-double chord(const ToolPose& a, const ToolPose& b, Spacing spacing) {
-    const double c = std::max(distance(a.tip_mm, b.tip_mm), kChordPerRadian * angle_rad(a.axis, b.axis));
-    return spacing == Spacing::chord ? c : std::sqrt(c);
-}
-
 // Poses closer than this in mm (or rad) are one.
 constexpr double kSamePose = 1e-9;
 
@@ -56,11 +50,13 @@ Stations stations_of(std::span<const Keyframe> keyframes, Spacing spacing) {
     Stations s;
     for (const Keyframe& k : keyframes) {
         const ToolPose pose = with_unit_axis(k.pose);
-        if (!s.poses.empty() && chord(s.poses.back(), pose, Spacing::chord) < kSamePose) {
+        const double chord = s.poses.empty() ? 0 : pose_chord(s.poses.back(), pose);
+        if (!s.poses.empty() && chord < kSamePose) {
             s.all.push_back(s.distinct.back());
             continue;
         }
-        s.distinct.push_back(s.poses.empty() ? 0 : s.distinct.back() + chord(s.poses.back(), pose, spacing));
+        const double step = spacing == Spacing::chord ? chord : std::sqrt(chord);
+        s.distinct.push_back(s.poses.empty() ? 0 : s.distinct.back() + step);
         s.all.push_back(s.distinct.back());
         s.poses.push_back(pose);
         s.weights.push_back(k.weight);
@@ -91,9 +87,7 @@ BSplineMotion motion_through(const Stations& s, const KeyframeOptions& options) 
     BSpline<HomogeneousPoint> tip{path.degree, path.knots, {}};
     for (std::size_t i = 0; i < weights.size(); ++i)
         tip.control.push_back({weights[i] * path.control[i], weights[i]});
-    return {spline_product(tip, turn, [](const HomogeneousPoint& p, const Quaternion& q) {
-        return DualQuaternion{p.w * q, 0.5 * (Quaternion(0, p.xyz) * q)};
-    })};
+    return motion_along(tip, turn);
 }
 
 Move move_to(const Keyframe& k, double feed_mm_per_min) {
@@ -104,6 +98,10 @@ Move move_to(const Keyframe& k, double feed_mm_per_min) {
 }
 
 }  // namespace
+
+double pose_chord(const ToolPose& a, const ToolPose& b) {
+    return std::max(distance(a.tip_mm, b.tip_mm), kChordPerRadian * angle_rad(a.axis, b.axis));
+}
 
 Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes,
                                              const KeyframeOptions& options) {
@@ -133,7 +131,7 @@ Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, do
             Move m = move_to(keyframes[i], feed_mm_per_min);
             m.start = with_unit_axis(keyframes[i - 1].pose);
             m.end = with_unit_axis(keyframes[i].pose);
-            if (chord(m.start, m.end, Spacing::chord) >= kSamePose) moves.push_back(m);
+            if (pose_chord(m.start, m.end) >= kSamePose) moves.push_back(m);
         }
         return moves;
     }

@@ -39,6 +39,8 @@ struct KeyframeOptions {
 // Where the tip stands still and only the axis turns, one radian counts as this much chord, mm: small beside
 // any stretch of path, so that turning on the spot hardly disturbs the path before and after.
 inline constexpr double kChordPerRadian = 1.0;
+// The larger of the distance of the tips and the turn of the unit axes in that measure, mm.
+double pose_chord(const ToolPose& a, const ToolPose& b);
 
 struct KeyframeMotion {
     BSplineMotion motion;            // over 0..the summed chord; passes every keyframe to rounding
