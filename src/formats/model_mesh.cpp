@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "formats/model_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace tribo::formats {
+namespace {
+
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+struct KeyedVertex {
+    std::array<std::uint32_t, 3> bits;
+    std::uint32_t index;
+    auto operator<=>(const KeyedVertex&) const = default;
+};
+
+std::uint32_t bits_of(float value) {
+    return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value);
+}
+
+// Gives positions new numbers in the order in which triangles first use them; drops the others.
+void renumber(TriangleMesh& mesh) {
+    std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
+    std::vector<Point3f> used;
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) {
+            std::uint32_t& to = number[corner];
+            if (to == kUnused) {
+                to = static_cast<std::uint32_t>(used.size());
+                used.push_back(mesh.positions[corner]);
+            }
+            corner = to;
+        }
+    }
+    mesh.positions = std::move(used);
+}
+
+// Drops triangles that use a vertex twice; gives how many.
+std::size_t drop_degenerate(std::vector<Triangle>& triangles, std::vector<ModelPart>& parts) {
+    std::size_t kept = 0;
+    const auto keep_of = [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+            const Triangle t = triangles[i];
+            if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles[kept++] = t;
+        }
+    };
+    for (ModelPart& part : parts) {
+        const std::size_t first = kept;
+        keep_of(part.first_triangle, part.triangles);
+        part.first_triangle = static_cast<std::uint32_t>(first);
+        part.triangles = static_cast<std::uint32_t>(kept - first);
+    }
+    if (parts.empty()) keep_of(0, triangles.size());
+    const std::size_t dropped = triangles.size() - kept;
+    triangles.resize(kept);
+    return dropped;
+}
+
+}  // namespace
+
+std::optional<Point3f> to_position(double x, double y, double z, double unit_mm) {
+    const Point3f p{static_cast<float>(x * unit_mm), static_cast<float>(y * unit_mm),
+                    static_cast<float>(z * unit_mm)};
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return std::nullopt;
+    return p;
+}
+
+void weld_exactly(TriangleMesh& mesh) {
+    std::vector<KeyedVertex> sorted(mesh.positions.size());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) {
+        const Point3f& p = mesh.positions[i];
+        sorted[i] = {{bits_of(p[0]), bits_of(p[1]), bits_of(p[2])}, i};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::uint32_t> first(mesh.positions.size());
+    for (std::size_t i = 0, group = 0; i < sorted.size(); ++i) {
+        if (sorted[i].bits != sorted[group].bits) group = i;
+        first[sorted[i].index] = sorted[group].index;
+    }
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) corner = first[corner];
+    }
+}
+
+Result<Model> finish_model(Model model, const ModelOptions& options, Weld weld) {
+    if (weld == Weld::exact) weld_exactly(model.mesh);
+    const std::size_t dropped = drop_degenerate(model.mesh.triangles, model.parts);
+    if (model.mesh.triangles.empty()) {
+        return fail_at(options.source_name, 0, 0, "the model has no triangles",
+                       "export it with its surface as a mesh");
+    }
+    if (dropped > 0) {
+        model.warnings.push_back({options.source_name, 0,
+                                  std::to_string(dropped) + " degenerate triangle" +
+                                      (dropped == 1 ? " was" : "s were") + " dropped"});
+    }
+    renumber(model.mesh);
+    return model;
+}
+
+}  // namespace tribo::formats
