@@ -189,7 +189,7 @@ class PlyReader {
                 return refuse(element, "the vertices need the properties x, y and z");
             }
         }
-        model_.mesh.positions.reserve(element.count);
+        model_.mesh.positions.reserve(static_cast<std::size_t>(element.count));
         std::vector<double> row_values(element.properties.size());
         for (std::uint64_t row = 0; row < element.count; ++row) {
             for (std::size_t i = 0; i < element.properties.size(); ++i) {

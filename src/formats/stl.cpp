@@ -148,8 +148,8 @@ Result<Model> read_binary(std::string_view bytes, const ModelOptions& options) {
         return fail_at(options.source_name, 0, 0, "more than 20 million triangles", "simplify the model");
     }
     Model model{.mesh = {}, .parts = {}, .format = ModelFormat::stl, .warnings = {}};
-    model.mesh.positions.reserve(3 * count);
-    model.mesh.triangles.reserve(count);
+    model.mesh.positions.reserve(static_cast<std::size_t>(3 * count));
+    model.mesh.triangles.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) {
         float corners[9];
         constexpr std::size_t normal_bytes = 12;

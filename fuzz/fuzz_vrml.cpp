@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#include "model_invariants.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return tribo::formats::check_model(data, size, tribo::formats::ModelFormat::vrml);
+}
