@@ -4,7 +4,9 @@
 namespace tribo::golden {
 
 std::span<const Golden> goldens() {
-    static constexpr Golden kGoldens[] = {{"math", math}, {"decimal", decimal}, {"noise_hash", noise_hash}};
+    static constexpr Golden kGoldens[] = {
+        {"math", math},     {"decimal", decimal}, {"noise_hash", noise_hash},
+        {"motion", motion}, {"field", field},     {"force", force}};
     return kGoldens;
 }
 

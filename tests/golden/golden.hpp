@@ -19,5 +19,8 @@ std::span<const Golden> goldens();
 std::uint64_t math();
 std::uint64_t decimal();
 std::uint64_t noise_hash();
+std::uint64_t motion();
+std::uint64_t field();
+std::uint64_t force();
 
 }  // namespace tribo::golden
