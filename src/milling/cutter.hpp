@@ -29,8 +29,8 @@ struct Cutter {
     double runout_mm = 0;   // offset of the tool axis from the spindle axis, >= 0
     double runout_deg =
         0;  // direction of that offset at the tip, from flute 0, clockwise seen from the shank
-    std::vector<double> pitch_deg;  // angles from each flute to the next, sum 360; empty: uniform
-    std::vector<HolderStep> holder;
+    std::vector<double> pitch_deg{};  // angles from each flute to the next, sum 360; empty: uniform
+    std::vector<HolderStep> holder{};
 
     double radius_mm() const { return 0.5 * diameter_mm; }
     double corner_radius_mm() const {

@@ -6,7 +6,7 @@
 // pitch each tooth meets the surface that the deepest of the teeth before left: the least of h over the last
 // 1..N teeth (Kline and DeVor 1983), so what a tooth misses is left for the next, and the chips of all teeth
 // add up to the feed per turn exactly. Run-out is a parallel offset of the axis; its radii are held constant
-// over cells of lag (kRunoutCellRad), where they are off by at most 1/8 of the offset.
+// over cells of lag (kRunoutCellRad), where they are off by at most 1/16 of the offset.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ struct FeedPerTooth {
 
 // Lag over which run-out counts as constant: its force is off by at most cell^2 / 24, 0.3 % of run-out's
 // share.
-inline constexpr double kRunoutCellRad = 0.25;
+inline constexpr double kRunoutCellRad = 0.125;
 // Step of kappa in which the border of a plunging or climbing ball's cut is followed, rad.
 inline constexpr double kKappaStepRad = 0.06;
 // Below this lag from end to end a piece counts as straight: it enters and leaves all at once.

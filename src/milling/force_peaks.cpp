@@ -16,6 +16,8 @@ namespace {
 constexpr double kStepRad = 1.0 / 24;
 // A stretch shorter than this bends by less than 1e-4 of the force between its ends.
 constexpr double kShortRad = 0.015;
+// Fewest steps while a rounded piece enters or leaves, when the force turns with the part that is in.
+constexpr int kRootSteps = 4;
 // Borders closer than this are one.
 constexpr double kSameRad = 1e-9;
 constexpr int kNoChange = -1;
@@ -140,19 +142,30 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
             if (!whole) partial_.push_back({edge, ahead});
         }
     }
-    const int steps = length < kShortRad ? 1 : std::max(2, static_cast<int>(std::ceil(length / kStepRad)));
-    const double step = length / steps;
     double sine, cosine, sin_step, cos_step;
     math::sincos(from, sine, cosine);
+    if (!partial_.empty()) {
+        // A rounded piece enters and leaves with the root of the angle, near the tip: even steps of that
+        // root.
+        const int steps = std::max(kRootSteps, static_cast<int>(std::ceil(2 * length / kStepRad)));
+        for (int i = 0; i <= steps; ++i) {
+            const double root = static_cast<double>(i) / steps, theta = from + length * root * root;
+            if (i > 0) math::sincos(theta, sine, cosine);
+            if (i > 0 || from == 0 || jumps_) {
+                last_ = series_.at(theta, sine, cosine);
+                for (const PartialTooth& p : partial_)
+                    last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
+            }
+            extremes.add(last_, i);
+        }
+        return;
+    }
+    const int steps = length < kShortRad ? 1 : std::max(2, static_cast<int>(std::ceil(length / kStepRad)));
+    const double step = length / steps;
     math::sincos(step, sin_step, cos_step);
     for (int i = 0; i <= steps; ++i) {
-        const double theta = from + i * step;
         // Helical edges leave no jump at a border: what ended the last stretch starts this one.
-        if (i > 0 || from == 0 || jumps_) {
-            last_ = series_.at(theta, sine, cosine);
-            for (const PartialTooth& p : partial_)
-                last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
-        }
+        if (i > 0 || from == 0 || jumps_) last_ = series_.at(from + i * step, sine, cosine);
         extremes.add(last_, i);
         const double turned = cosine * cos_step - sine * sin_step;
         sine = sine * cos_step + cosine * sin_step;

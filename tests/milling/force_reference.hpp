@@ -122,21 +122,21 @@ inline double tooth_angle(const milling::Cutter& cutter, int tooth) {
     return angle;
 }
 
-// Where within [0, pi] or the whole turn the chip of this point starts and stops, among `candidates`.
+// The window's borders and, between them, where the chip of this point starts and stops.
 template <class ChipLaw>
 std::vector<double> chip_borders(const Cut& c, double from, double to, double kappa, int tooth, double lag,
                                  ChipLaw chip) {
     std::vector<double> borders{from};
-    constexpr int kSteps = 720;
-    const auto slope_or_sign = [&](double phi) { return chip(c, phi, kappa, tooth, lag) > 0; };
+    constexpr int kSteps = 60;
+    const auto cuts = [&](double phi) { return chip(c, phi, kappa, tooth, lag) > 0; };
     double before = from;
     for (int i = 1; i <= kSteps; ++i) {
         const double phi = from + (to - from) * i / kSteps;
-        if (slope_or_sign(phi) != slope_or_sign(before)) {
+        if (cuts(phi) != cuts(before)) {
             double a = before, b = phi;
             for (int n = 0; n < 60; ++n) {
                 const double m = 0.5 * (a + b);
-                (slope_or_sign(m) == slope_or_sign(a) ? a : b) = m;
+                (cuts(m) == cuts(a) ? a : b) = m;
             }
             borders.push_back(0.5 * (a + b));
         }

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "milling/cutter.hpp"
+
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+namespace tribo::milling {
+namespace {
+
+TEST(Cutter, envelope_of_a_ball_is_a_circle_and_of_a_flat_a_cylinder) {
+    Cutter ball{.kind = CutterKind::ball, .diameter_mm = 10};
+    EXPECT_EQ(ball.radius_at(0), 0);
+    EXPECT_DOUBLE_EQ(ball.radius_at(1), 3);  // 3, 4, 5
+    EXPECT_DOUBLE_EQ(ball.radius_at(2), 4);
+    EXPECT_EQ(ball.radius_at(5), 5);
+    EXPECT_EQ(ball.radius_at(30), 5);
+    const Cutter flat{.kind = CutterKind::flat, .diameter_mm = 10};
+    EXPECT_EQ(flat.radius_at(0), 5);
+    EXPECT_EQ(flat.radius_at(7), 5);
+    const Cutter bull{.kind = CutterKind::bull, .diameter_mm = 20, .corner_mm = 5};
+    EXPECT_EQ(bull.radius_at(0), 5);
+    EXPECT_DOUBLE_EQ(bull.radius_at(1), 8);
+    EXPECT_EQ(bull.radius_at(5), 10);
+}
+
+TEST(Cutter, edge_lags_by_a_turn_per_lead) {
+    const Cutter c{.diameter_mm = 12, .helix_deg = 30};
+    const double lead = std::numbers::pi * 12 / std::tan(std::numbers::pi / 6);
+    EXPECT_NEAR(c.lag_rad(lead), 2 * std::numbers::pi, 1e-12);
+    EXPECT_EQ((Cutter{.helix_deg = 0}.lag_rad(10)), 0);
+}
+
+struct Bad {
+    const char* key;  // that the message must name
+    std::function<void(Cutter&)> spoil;
+};
+
+TEST(Cutter, what_cannot_be_a_tool_is_refused_by_the_name_of_the_key) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+    const Bad bad[] = {
+        {"diameter_mm", [&](Cutter& c) { c.diameter_mm = 0; }},
+        {"diameter_mm", [&](Cutter& c) { c.diameter_mm = nan; }},
+        {"diameter_mm", [&](Cutter& c) { c.diameter_mm = infinity; }},
+        {"corner_mm", [&](Cutter& c) { c.kind = CutterKind::bull; }},
+        {"corner_mm", [&](Cutter& c) { c.kind = CutterKind::bull, c.corner_mm = 5; }},
+        {"corner_mm", [&](Cutter& c) { c.kind = CutterKind::bull, c.corner_mm = nan; }},
+        {"flutes", [&](Cutter& c) { c.flutes = 0; }},
+        {"flutes", [&](Cutter& c) { c.flutes = 65; }},
+        {"helix_deg", [&](Cutter& c) { c.helix_deg = -1; }},
+        {"helix_deg", [&](Cutter& c) { c.helix_deg = 90; }},
+        {"helix_deg", [&](Cutter& c) { c.helix_deg = nan; }},
+        {"length_mm", [&](Cutter& c) { c.length_mm = 0; }},
+        {"length_mm", [&](Cutter& c) { c.kind = CutterKind::ball, c.length_mm = 4; }},
+        {"runout_mm", [&](Cutter& c) { c.runout_mm = -0.01; }},
+        {"runout_mm", [&](Cutter& c) { c.runout_mm = 5; }},
+        {"runout_deg", [&](Cutter& c) { c.runout_deg = infinity; }},
+        {"pitch_deg", [&](Cutter& c) { c.pitch_deg = {120, 240, 0}; }},
+        {"pitch_deg", [&](Cutter& c) { c.pitch_deg = {170, 180}; }},
+        {"pitch_deg", [&](Cutter& c) { c.pitch_deg = {400, -40}; }},
+        {"holder", [&](Cutter& c) { c.holder = {{40, 0}}; }},
+    };
+    for (const Bad& b : bad) {
+        Cutter c;
+        ASSERT_TRUE(check(c));
+        b.spoil(c);
+        const Result<void> result = check(c);
+        ASSERT_FALSE(result) << b.key;
+        EXPECT_NE(result.error().cause.find(b.key), std::string::npos) << result.error().text();
+        EXPECT_FALSE(result.error().remedy.empty()) << b.key;
+    }
+}
+
+TEST(Cutter, pitch_as_a_drawing_rounds_it_is_taken) {
+    Cutter c{.flutes = 3, .pitch_deg = {119.99, 120.0, 119.99}};
+    EXPECT_TRUE(check(c));
+}
+
+}  // namespace
+}  // namespace tribo::milling
