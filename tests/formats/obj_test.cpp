@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OBJ: indices of every kind, faces of every shape, and each refusal's message.
 #include "formats/obj.hpp"
 

@@ -5,8 +5,8 @@ namespace tribo::golden {
 
 std::span<const Golden> goldens() {
     static constexpr Golden kGoldens[] = {
-        {"math", math},     {"decimal", decimal}, {"noise_hash", noise_hash},
-        {"motion", motion}, {"field", field},     {"force", force}};
+        {"math", math},   {"decimal", decimal}, {"noise_hash", noise_hash}, {"motion", motion},
+        {"field", field}, {"force", force},     {"formats", formats}};
     return kGoldens;
 }
 

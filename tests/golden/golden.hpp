@@ -22,5 +22,6 @@ std::uint64_t noise_hash();
 std::uint64_t motion();
 std::uint64_t field();
 std::uint64_t force();
+std::uint64_t formats();
 
 }  // namespace tribo::golden
