@@ -2,19 +2,18 @@
 
 add_library(tribo_options INTERFACE)
 # The core gives the same bits on every compiler: no fused multiply-add, no reordering (CONTRIBUTING.md, "Same bits").
-target_compile_options(tribo_options INTERFACE -ffp-contract=off -fno-math-errno)
-target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
-# Warnings are ours alone, not of those who use an installed Tribo.
-set(warnings -Wall -Wextra -Wconversion)
+target_compile_options(tribo_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno -Wno-psabi)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  list(APPEND warnings -Wno-restrict) # false alarms on std::string, GCC bug 105651
-elseif(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  list(APPEND warnings -Wno-deprecated-declarations) # std::stable_sort of libstdc++ 12 uses what it deprecates
+  target_compile_options(tribo_options INTERFACE -Wno-restrict) # false alarms on std::string, GCC bug 105651
+endif()
+target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # `"literal" + std::string` warns falsely in g++ 12 (GCC bug 105651).
+  target_compile_options(tribo_options INTERFACE -Wno-restrict)
 endif()
 if(TRIBO_WARNINGS_AS_ERRORS)
-  list(APPEND warnings -Werror)
+  target_compile_options(tribo_options INTERFACE -Werror)
 endif()
-target_compile_options(tribo_options INTERFACE "$<BUILD_INTERFACE:${warnings}>")
 target_include_directories(tribo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tribo>)
 

@@ -53,21 +53,31 @@ bool EngagementProbe::in_material(const field::CarvedField& field, const CutPose
                              kSkin);
 }
 
+double EngagementProbe::least_sine(const CutPose& pose, double z) const {
+    const double corner = cutter_.corner_radius_mm();
+    if (z >= corner) return 0;
+    // Normal times travel: across sin(phi) sin(kappa) + down cos(kappa).
+    const double cos_kappa = 1 - z / corner, sin_kappa = std::sqrt(std::max(0.0, 1 - cos_kappa * cos_kappa));
+    const double side = pose.across * sin_kappa, under = pose.down * cos_kappa;
+    if (side > std::abs(under)) return -under / side;
+    return under > 0 ? -1 : 1;
+}
+
 EngagementProbe::Mask EngagementProbe::look(const field::CarvedField& field, const CutPose& pose,
                                             double z) const {
-    const double r = cutter_.radius_at(z);
+    const double r = cutter_.radius_at(z), least = least_sine(pose, z);
     const Vec3 centre = pose.tip_mm + z * pose.frame.z, x = r * pose.frame.x, y = r * pose.frame.y;
-    const int count = around_ ? kAngles : kAngles / 2;
     Mask mask = 0;
-    for (int n = 0; n < count; ++n) {
-        if (field.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin)) mask |= Mask{1} << n;
+    for (int n = 0; n < kAngles; ++n) {
+        if (sin_[n] > least && field.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
+            mask |= Mask{1} << n;
     }
     return mask;
 }
 
 double EngagementProbe::refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
                                double inside) const {
-    constexpr int kBisections = 6;  // 7.5 degrees / 64
+    constexpr int kBisections = 9;
     for (int n = 0; n < kBisections; ++n) {
         const double mid = 0.5 * (outside + inside);
         (in_material(field, pose, z, mid) ? inside : outside) = mid;
@@ -77,25 +87,36 @@ double EngagementProbe::refine(const field::CarvedField& field, const CutPose& p
 
 void EngagementProbe::add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0,
                                 double z1, Engagement& out) const {
-    const int count = around_ ? kAngles : kAngles / 2;
-    const double step = math::kTwoPi / kAngles;
-    const double z = 0.5 * (z0 + z1);
+    const double least = least_sine(pose, 0.5 * (z0 + z1));
+    if (least <= -1) {
+        add_window(field, pose, mask, {z0, z1, 0, math::kTwoPi}, out);
+        return;
+    }
+    const double border = math::asin(std::min(least, 1.0));
+    add_window(field, pose, mask, {z0, z1, std::max(border, 0.0), math::kPi - border}, out);
+    if (border < 0) add_window(field, pose, mask, {z0, z1, math::kTwoPi + border, math::kTwoPi}, out);
+}
+
+void EngagementProbe::add_window(const field::CarvedField& field, const CutPose& pose, Mask mask,
+                                 EngagementBand window, Engagement& out) const {
+    // Within this of the window's end an interval ends there exactly: beyond it nothing is cut.
+    constexpr double kSide = 0.01;  // rad
+    const double step = math::kTwoPi / kAngles, z = 0.5 * (window.z0_mm + window.z1_mm);
+    const int first = std::max(0, static_cast<int>(std::ceil(window.entry_rad / step - 0.5)));
+    const int last = std::min(kAngles - 1, static_cast<int>(std::floor(window.exit_rad / step - 0.5)));
     const auto bit = [&](int n) { return (mask >> n & 1) != 0; };
-    for (int n = 0; n < count; ++n) {
-        if (!bit(n) || (n > 0 && bit(n - 1))) continue;
-        int last = n;
-        while (last + 1 < count && bit(last + 1)) ++last;
-        const double first_angle = (n + 0.5) * step, last_angle = (last + 0.5) * step;
-        const double begin = refine(field, pose, z, n == 0 ? -1e-9 : first_angle - step, first_angle);
-        const double end =
-            refine(field, pose, z, last == count - 1 ? count * step + 1e-9 : last_angle + step, last_angle);
-        // An interval that reaches the side of the tool ends there exactly: beyond it nothing is cut.
-        constexpr double kSide = 0.01;  // rad
-        const double most = count * step;
-        const double entry = n == 0 && begin < kSide ? 0 : std::max(begin, 0.0);
-        const double exit = last == count - 1 && end > most - kSide ? most : std::min(end, most);
-        if (exit > entry) out.bands.push_back({z0, z1, entry, exit});
-        n = last;
+    for (int n = first; n <= last; ++n) {
+        if (!bit(n)) continue;
+        int end = n;
+        while (end < last && bit(end + 1)) ++end;
+        const double before = n == first ? window.entry_rad : (n - 0.5) * step;
+        const double after = end == last ? window.exit_rad : (end + 1.5) * step;
+        double entry = refine(field, pose, z, before, (n + 0.5) * step);
+        double exit = refine(field, pose, z, after, (end + 0.5) * step);
+        if (entry - window.entry_rad < kSide) entry = window.entry_rad;
+        if (window.exit_rad - exit < kSide) exit = window.exit_rad;
+        if (exit > entry) out.bands.push_back({window.z0_mm, window.z1_mm, entry, exit});
+        n = end;
     }
 }
 
@@ -135,7 +156,6 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
     }
     if (high <= low) return;
     out.bottom_fraction = bottom_fraction(field, pose);
-    around_ = corner > 0 && pose.down > 1e-6;
 
     levels_.clear();
     const auto add_level = [&](double z) { levels_.push_back({z, look(field, pose, z)}); };
@@ -199,7 +219,7 @@ double chip_area_mm2(const Cutter& cutter, const Engagement& engagement, double 
                 return 0.5 * corner * corner * (u * std::sqrt(1 - u * u) + math::asin(u));
             };
             profile += core * (z1 - z0) + circle(z1) - circle(z0);
-            if (down > 0) area += down * 0.5 * (r1 * r1 - r0 * r0) * (b.exit_rad - b.entry_rad);
+            area += down * 0.5 * (r1 * r1 - r0 * r0) * (b.exit_rad - b.entry_rad);
         }
         area += across * profile * (c0 - c1);
     }

@@ -42,12 +42,17 @@ class EngagementProbe {
     static constexpr int kAngles = 48;  // probes around the full circle
     using Mask = std::uint64_t;         // a bit per probe that stands in material
 
+    // Where the envelope at height z moves into the material: at rotations with sin(phi) > least_sine.
+    double least_sine(const CutPose& pose, double z) const;
     Mask look(const field::CarvedField& field, const CutPose& pose, double z) const;
     bool in_material(const field::CarvedField& field, const CutPose& pose, double z, double angle) const;
+    // The border between two rotations of which only `inside` stands in material.
     double refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
                   double inside) const;
     void add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0, double z1,
                    Engagement& out) const;
+    void add_window(const field::CarvedField& field, const CutPose& pose, Mask mask, EngagementBand window,
+                    Engagement& out) const;
     double bottom_fraction(const field::CarvedField& field, const CutPose& pose) const;
 
     struct Level {
@@ -55,7 +60,6 @@ class EngagementProbe {
         Mask mask;
     };
     Cutter cutter_;
-    bool around_ = false;  // a rounded bottom that plunges cuts behind as well
     double sin_[kAngles], cos_[kAngles];
     std::vector<Level> levels_;
     std::vector<double> borders_;

@@ -131,4 +131,23 @@ double axis_turn_rad(const Move& move) {
     return angle_rad(move.start.axis, middle) + angle_rad(middle, move.end.axis);
 }
 
+Move first_part(const Move& move, double t) {
+    if (t >= 1) return move;
+    Move part = move;
+    part.end = pose_at(move, t);
+    const double length = path_length_mm(move);
+    part.duration_s *= length > 0 ? path_length_mm(move, t) / length : t;
+    if (part.arc) part.arc->turn_rad *= t;
+    if (part.quadratic) {
+        part.quadratic->tip_control_mm = lerp(move.start.tip_mm, move.quadratic->tip_control_mm, t);
+        part.quadratic->axis_control = lerp(move.start.axis, move.quadratic->axis_control, t);
+        // The end of the axis curve is made unit; its middle point scales with the root of that, which keeps
+        // the cone that the axis runs on.
+        const Vec3 end =
+            lerp(part.quadratic->axis_control, lerp(move.quadratic->axis_control, move.end.axis, t), t);
+        part.quadratic->axis_control = part.quadratic->axis_control / std::sqrt(tribo::length(end));
+    }
+    return part;
+}
+
 }  // namespace tribo::motion

@@ -23,4 +23,7 @@ double max_curvature_per_mm(const Move& move);
 // The angle that the axis sweeps between start and end, rad; along a quadratic the way through its middle.
 double axis_turn_rad(const Move& move);
 
+// The move from its start to t, 0 < t <= 1: the same path, cut off, with its share of the duration.
+Move first_part(const Move& move, double t);
+
 }  // namespace tribo::motion

@@ -114,6 +114,29 @@ double MoveTiming::path_fraction(double time_s) const {
     return std::clamp(run / length_mm, 0.0, 1.0);
 }
 
+double MoveTiming::time_at_s(double fraction) const {
+    const double f = std::clamp(fraction, 0.0, 1.0), whole = end_s - start_s;
+    if (!(length_mm > 0)) return start_s + f * whole;
+    // Time from rest of a stretch that starts at `speed` and changes by `change` in `seconds`: the root of
+    // change / (2 seconds) t^2 + speed t = run that stays finite when change or speed vanish.
+    const auto ramp = [](double run, double speed, double change, double seconds) {
+        if (!(run > 0) || !(seconds > 0)) return 0.0;
+        const double root = std::sqrt(std::max(0.0, speed * speed + 2 * change / seconds * run));
+        return 2 * run / (speed + root);
+    };
+    const double run = f * length_mm, left = length_mm - run;
+    const double rise_mm = 0.5 * rise_s * (entry_mm_per_s + peak_mm_per_s);
+    const double fall_mm = 0.5 * fall_s * (exit_mm_per_s + peak_mm_per_s);
+    double t = 0;
+    if (run < rise_mm)
+        t = ramp(run, entry_mm_per_s, peak_mm_per_s - entry_mm_per_s, rise_s);
+    else if (left < fall_mm)
+        t = whole - ramp(left, exit_mm_per_s, peak_mm_per_s - exit_mm_per_s, fall_s);
+    else
+        t = rise_s + (run - rise_mm) / peak_mm_per_s;
+    return start_s + std::clamp(t, 0.0, whole);
+}
+
 double MoveTiming::speed_mm_per_s(double time_s) const {
     const double t = std::clamp(time_s, start_s, end_s) - start_s, left = end_s - start_s - t;
     if (t < rise_s) return entry_mm_per_s + (peak_mm_per_s - entry_mm_per_s) * t / rise_s;

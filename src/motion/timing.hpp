@@ -39,6 +39,8 @@ struct MoveTiming {
 
     // The fraction of the tip path that has been run at the time, 0..1, clamped to the move.
     double path_fraction(double time_s) const;
+    // The time at which that fraction of the tip path has been run: the inverse of path_fraction.
+    double time_at_s(double path_fraction) const;
     double speed_mm_per_s(double time_s) const;
 };
 

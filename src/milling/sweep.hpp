@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The volume that a cutter sweeps along one elementary move, with its exact surface.
+#pragma once
+
+#include <memory>
+
+#include "field/shape.hpp"
+#include "milling/cutter.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::milling {
+
+// The cutting part is a cylinder of the cutter's radius, rounded at the bottom by its corner radius, from the
+// tip up to `length_mm` (a flat cap, exact for moves across the axis). The surface of the sweep is exact, to
+// rounding, for
+//   - straight moves with one axis, in any direction to it (flat and ball in closed form; a ramping bull-nose
+//   cutter by
+//     iteration, to 0.01 um), and
+//   - arcs of at most half a turn about a line parallel to the axis, without rise.
+// For pieces whose tip or axis runs along a quadratic, or whose axis turns, the nearest instant is found by
+// iteration: the surface is off by less than 0.1 um as long as a piece turns its axis by less than 12 degrees
+// and its tip path by less than 30 (motion::to_elementary keeps to that). Other moves are not elementary and
+// must not come here.
+std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
+
+}  // namespace tribo::milling

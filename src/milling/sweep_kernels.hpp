@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Distances of a sweep at all nodes of a lattice. The same source is compiled for SSE2 and for x86-64-v3;
+// sweep_kernels() chooses once, by the processor. Both give the same bits.
+#pragma once
+
+#include "field/shape.hpp"
+#include "milling/sweep_lines.hpp"
+
+namespace tribo::milling {
+
+// `reference` is what positions are taken relative to before they become floats: the tip at the start, an
+// arc's centre at the height of the tip.
+struct SweepKernels {
+    void (*straight)(const ToolProfile&, const StraightLine&, const Frame&, Vec3 reference,
+                     const field::Lattice&, float* out);
+    void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
+                float* out);
+    void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&, float* out);
+};
+
+const SweepKernels& sweep_kernels();
+
+// The two builds by name, for the test that compares them; v3 is null where the processor or target lacks it.
+const SweepKernels* sweep_kernels_sse2();
+const SweepKernels* sweep_kernels_v3();
+
+}  // namespace tribo::milling

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The kernels of sweep_kernels.hpp; included by sweep_kernels_sse2.cpp and sweep_kernels_v3.cpp.
+#include "base/simd.hpp"
+#include "milling/sweep_kernels.hpp"
+
+namespace tribo::milling {
+namespace {
+
+using namespace simd;
+using field::kLatticeEdge;
+
+#include "milling/sweep_distance.inl"
+
+// Node coordinates relative to the reference, float only after the subtraction; node n along each axis.
+struct Offsets {
+    F8 x;
+    float y[kLatticeEdge], z[kLatticeEdge];
+
+    Offsets(const field::Lattice& lattice, Vec3 reference) {
+        float along_x[kLatticeEdge];
+        for (int n = 0; n < kLatticeEdge; ++n) {
+            const Vec3 d = lattice.node(n, n, n) - reference;
+            along_x[n] = static_cast<float>(d.x);
+            y[n] = static_cast<float>(d.y);
+            z[n] = static_cast<float>(d.z);
+        }
+        x = load(along_x);
+    }
+};
+
+// Calls distance(x, y, z) with the coordinates of each row of nodes in the frame.
+template <class F>
+TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, float* out, const F& distance) {
+    const Vector<F8> x = spread<F8>(frame.x), y = spread<F8>(frame.y), z = spread<F8>(frame.z);
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        const F8 dz = broadcast<F8>(at.z[c]);
+        for (int b = 0; b < kLatticeEdge; ++b) {
+            const Vector<F8> d{at.x, broadcast<F8>(at.y[b]), dz};
+            store(out, distance(dot(d, x), dot(d, y), dot(d, z)));
+            out += kLatticeEdge;
+        }
+    }
+}
+
+template <CutterKind kind>
+void straight_of(const ToolProfile& tool, const StraightLine& line, const Frame& frame, const Offsets& at,
+                 float* out) {
+    const Profile<F8> p(tool);
+    const Line<F8> l(line);
+    if (line.rise == 0) {
+        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return level_distance<kind>(p, l, x, y, z); });
+    } else if constexpr (kind == CutterKind::flat) {
+        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_flat(p, l, x, y, z); });
+    } else if constexpr (kind == CutterKind::ball) {
+        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_ball(p, l, x, y, z); });
+    } else {
+        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_bull(p, l, x, y, z); });
+    }
+}
+
+void straight(const ToolProfile& tool, const StraightLine& line, const Frame& frame, Vec3 reference,
+              const field::Lattice& lattice, float* out) {
+    const Offsets at(lattice, reference);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return straight_of<CutterKind::flat>(tool, line, frame, at, out);
+        case CutterKind::ball:
+            return straight_of<CutterKind::ball>(tool, line, frame, at, out);
+        case CutterKind::bull:
+            return straight_of<CutterKind::bull>(tool, line, frame, at, out);
+    }
+}
+
+template <CutterKind kind>
+void arc_of(const ToolProfile& tool, const ArcLine& line, const Frame& frame, const Offsets& at, float* out) {
+    const Profile<F8> p(tool);
+    const Round<F8> a(line);
+    over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return arc_distance<kind>(p, a, x, y, z); });
+}
+
+void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 reference,
+         const field::Lattice& lattice, float* out) {
+    const Offsets at(lattice, reference);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return arc_of<CutterKind::flat>(tool, line, frame, at, out);
+        case CutterKind::ball:
+            return arc_of<CutterKind::ball>(tool, line, frame, at, out);
+        case CutterKind::bull:
+            return arc_of<CutterKind::bull>(tool, line, frame, at, out);
+    }
+}
+
+template <CutterKind kind>
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, float* out) {
+    const Profile<F8> p(tool);
+    const Curve<F8> curve(line);
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        for (int b = 0; b < kLatticeEdge; ++b) {
+            store(out, curved_least<kind>(p, curve, {at.x, broadcast<F8>(at.y[b]), broadcast<F8>(at.z[c])})
+                           .distance);
+            out += kLatticeEdge;
+        }
+    }
+}
+
+void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, const field::Lattice& lattice,
+            float* out) {
+    const Offsets at(lattice, reference);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return curved_of<CutterKind::flat>(tool, line, at, out);
+        case CutterKind::ball:
+            return curved_of<CutterKind::ball>(tool, line, at, out);
+        case CutterKind::bull:
+            return curved_of<CutterKind::bull>(tool, line, at, out);
+    }
+}
+
+constexpr SweepKernels kKernels{straight, arc, curved};
+
+}  // namespace
+}  // namespace tribo::milling

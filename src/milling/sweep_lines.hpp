@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The three kinds of elementary travel that sweeps are computed for, in their own frames.
+#pragma once
+
+#include "base/vec3.hpp"
+#include "milling/cutter.hpp"
+
+namespace tribo::milling {
+
+// What the distance formulas know of a cutter: a cylinder with a rounded bottom edge.
+struct ToolProfile {
+    CutterKind kind = CutterKind::flat;
+    double radius_mm = 0, corner_mm = 0, length_mm = 0;
+
+    explicit ToolProfile(const Cutter& c)
+        : kind(c.kind), radius_mm(c.radius_mm()), corner_mm(c.corner_radius_mm()), length_mm(c.length_mm) {}
+};
+
+// Orthonormal axes of a frame in stock coordinates.
+struct Frame {
+    Vec3 x, y, z;
+    Vec3 into(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+    Vec3 out_of(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+// Travel (across, 0, rise) in a frame whose z is the tool axis.
+struct StraightLine {
+    double across = 0, rise = 0;
+};
+
+// Travel about the frame's z (the tool axis or its opposite is parallel to it) from (radius, 0) to the left
+// by at most half a turn.
+struct ArcLine {
+    double radius = 0, end_x = 1, end_y = 0;
+};
+
+// Tip and axis as t^0, t^1, t^2 coefficients, in stock coordinates, the tip relative to its start; the axis
+// is made unit.
+struct CurvedLine {
+    Vec3 tip1, tip2, axis0, axis1, axis2;
+};
+
+}  // namespace tribo::milling

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "session/mill_session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Rows per batch: enough to keep a second thread busy, few enough to stay in cache.
+constexpr std::size_t kBatchRows = 256;
+// Force models per batch, so that several threads may each use their own.
+constexpr std::size_t kShares = 8;
+
+constexpr double kDegPerRad = 180 / math::kPi;
+
+std::vector<std::unique_ptr<field::CarvedField>> fixture_fields(
+    std::vector<std::unique_ptr<const field::Shape>>& shapes, double cell) {
+    std::vector<std::unique_ptr<field::CarvedField>> fields;
+    for (auto& shape : shapes) fields.push_back(std::make_unique<field::CarvedField>(std::move(shape), cell));
+    return fields;
+}
+
+// The range over all bands, in degrees and mm.
+struct Hull {
+    double entry_deg = 0, exit_deg = 0, axial_depth_mm = 0;
+};
+
+Hull hull(const milling::Engagement& e) {
+    if (e.bands.empty()) return {};
+    double entry = math::kTwoPi, exit = 0, low = e.bands[0].z0_mm, high = 0;
+    for (const milling::EngagementBand& b : e.bands) {
+        entry = std::min(entry, b.entry_rad);
+        exit = std::max(exit, b.exit_rad);
+        low = std::min(low, b.z0_mm);
+        high = std::max(high, b.z1_mm);
+    }
+    return {entry * kDegPerRad, exit * kDegPerRad, high - low};
+}
+
+}  // namespace
+
+class MillSession::Run {
+  public:
+    Run(MillSetup setup, ParallelFor parallel)
+        : setup_(std::move(setup)),
+          parallel_(std::move(parallel)),
+          schedule_(motion::schedule(setup_.moves, setup_.timing).value()),
+          stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
+          machining_(stock_, setup_.cutters, fixture_fields(setup_.fixtures, setup_.cell_mm)) {
+        for (auto& share : models_) {
+            for (const milling::Cutter& cutter : setup_.cutters)
+                share.emplace_back(cutter, setup_.coefficients);
+        }
+        end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
+        cutting_at_.assign(setup_.cutters.size(), 0);
+    }
+
+    // The cut runs one batch ahead of the forces: both go on at once where there are threads.
+    bool run(const MillSinks& sinks) {
+        Batch cut, evaluated;
+        fill(cut);
+        while (cut.count > 0 || !cut.last) {
+            std::swap(cut, evaluated);
+            parallel_(2, [&](std::size_t half) { half == 0 ? fill(cut) : evaluate(evaluated); });
+            for (std::size_t n = 0; n < evaluated.count; ++n) finish_row(evaluated.rows[n], sinks);
+            if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
+                return false;
+            if (evaluated.last) break;
+        }
+        finish();
+        return true;
+    }
+
+    MillSetup setup_;
+    ParallelFor parallel_;
+    motion::Schedule schedule_;
+    field::CarvedField stock_;
+    MillTotals totals_;
+
+  private:
+    struct Row {
+        std::size_t move = 0, cutter = 0;
+        double start_s = 0, end_s = 0, angle_rad = 0;
+        milling::FeedPerTooth feed;
+        milling::ForcePeaks peaks;
+        contact::ForceSpectrum spectrum;
+        milling::CutRow cut;
+    };
+    struct Batch {
+        std::vector<Row> rows;
+        std::size_t count = 0;
+        bool last = false;
+    };
+
+    void fill(Batch& batch) {
+        batch.count = 0;
+        batch.last = false;
+        while (batch.count < kBatchRows) {
+            if (next_move_ == setup_.moves.size() || now_s_ >= end_s_) {
+                batch.last = true;
+                return;
+            }
+            run_move(batch, next_move_);
+            ++next_move_;
+        }
+    }
+
+    void run_move(Batch& batch, std::size_t index) {
+        motion::Move move = setup_.moves[index];
+        const motion::MoveTiming& timing = schedule_.moves[index];
+        const double start = timing.start_s, end = timing.end_s;
+        double share = 1;
+        if (end > end_s_) {
+            share = timing.path_fraction(end_s_);
+            move = motion::first_part(
+                move, motion::parameter_at_length(move, share * motion::path_length_mm(move)));
+        }
+        const double rpm = setup_.rpm_of_move[index];
+        const std::size_t cutter = setup_.cutter_of_move[index];
+        const double before = stock_.removed_mm3();
+        collisions_.clear();
+        const std::size_t count = machining_.run(move, cutter, cuts_, 0, collisions_);
+        const double length = motion::path_length_mm(move);
+        if (move.kind == motion::MoveKind::feed) {
+            totals_.path_mm += length;
+            totals_.fed_mm3 += stock_.removed_mm3() - before;
+        }
+        for (const milling::Collision& c : collisions_) {
+            add_collision({c.kind, move.line, start + c.at * (std::min(end, end_s_) - start), c.tip_mm});
+        }
+        double travelled = 0, row_start = start;
+        for (std::size_t n = 0; n < count; ++n) {
+            milling::CutRow& cut = cuts_[n];
+            travelled += cut.length_mm;
+            const double row_end = length > 0 ? timing.time_at_s(share * std::min(1.0, travelled / length))
+                                              : start + (std::min(end, end_s_) - start) * cut.to;
+            if (!cut.engagement.empty()) add_row(batch, index, cutter, cut, row_start, row_end, rpm, start);
+            row_start = row_end;
+        }
+        angle_rad_ += rpm / 60 * math::kTwoPi * (std::min(end, end_s_) - start);
+        angle_rad_ -= math::kTwoPi * std::floor(angle_rad_ / math::kTwoPi);
+        now_s_ = std::min(end, end_s_);
+    }
+
+    void add_row(Batch& batch, std::size_t move, std::size_t cutter, milling::CutRow& cut, double start,
+                 double end, double rpm, double move_start) {
+        if (batch.rows.size() == batch.count) batch.rows.emplace_back();
+        Row& row = batch.rows[batch.count++];
+        row.move = move;
+        row.cutter = cutter;
+        row.start_s = start;
+        row.end_s = end;
+        row.angle_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
+        std::swap(row.cut, cut);  // both keep their room
+        const double speed = end > start ? row.cut.length_mm / (end - start) : 0;
+        const double per_tooth = speed * 60 / (rpm * setup_.cutters[cutter].flutes);
+        row.feed = {per_tooth * row.cut.pose.across, per_tooth * row.cut.pose.down};
+        if (setup_.engagement) {
+            row.cut.engagement.clear();
+            row.cut.engagement.bands.push_back({0, setup_.engagement->axial_depth_mm,
+                                                setup_.engagement->entry_rad, setup_.engagement->exit_rad});
+        }
+    }
+
+    void evaluate(Batch& batch) {
+        parallel_(kShares, [&](std::size_t share) {
+            const std::size_t from = batch.count * share / kShares, to = batch.count * (share + 1) / kShares;
+            for (std::size_t n = from; n < to; ++n) {
+                Row& row = batch.rows[n];
+                milling::ForceModel& model = models_[share][row.cutter];
+                model.engage(row.cut.engagement, row.feed);
+                model.spectrum(setup_.harmonics, row.spectrum);
+                row.peaks = model.peaks();
+            }
+        });
+    }
+
+    void finish_row(const Row& row, const MillSinks& sinks) {
+        const double rpm = setup_.rpm_of_move[row.move], seconds = row.end_s - row.start_s;
+        const milling::ForcePeaks& p = row.peaks;
+        totals_.cutting_s += seconds;
+        cutting_at_[row.cutter] += seconds;
+        force_seconds_ += length(p.mean_n) * seconds;
+        totals_.chip_mm3 += row.cut.chip_mm3;
+        totals_.peak_force_n = std::max(totals_.peak_force_n, p.peak_force_n);
+        totals_.peak_torque_nmm = std::max(totals_.peak_torque_nmm, p.peak_torque_nmm);
+        totals_.peak_power_w =
+            std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * rpm / 60 * math::kTwoPi);
+        ++totals_.rows;
+        if (!sinks.row) return;
+        const Hull h = hull(row.cut.engagement);
+        milling::ForceRow values;
+        values.t_s = row.start_s;
+        values.line = setup_.moves[row.move].line;
+        values.tip_mm = row.cut.pose.tip_mm;
+        values.axis = row.cut.pose.frame.z;
+        values.spindle_rpm = rpm;
+        values.feed_mm_per_min = seconds > 0 ? row.cut.length_mm / seconds * 60 : 0;
+        values.entry_deg = h.entry_deg;
+        values.exit_deg = h.exit_deg;
+        values.axial_depth_mm = h.axial_depth_mm;
+        values.mean_n = p.mean_n;
+        values.peak_n = p.peak_n;
+        values.peak_fxy_n = p.peak_xy_n;
+        values.mean_torque_nm = 1e-3 * p.mean_torque_nmm;
+        values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
+        values.removed_mm3 = row.cut.removed_mm3;
+        sinks.row({values, row.cut.engagement, row.spectrum, row.feed, row.cutter, row.end_s, row.angle_rad,
+                   seconds > 0 ? row.cut.chip_mm3 / seconds : 0});
+    }
+
+    void add_collision(const MillCollision& c) {
+        const bool known =
+            std::any_of(totals_.collisions.begin(), totals_.collisions.end(),
+                        [&](const MillCollision& k) { return k.line == c.line && k.kind == c.kind; });
+        if (!known) totals_.collisions.push_back(c);
+    }
+
+    void finish() {
+        totals_.duration_s = end_s_;
+        totals_.removed_mm3 = stock_.removed_mm3();
+        totals_.remaining_mm3 = setup_.blank_volume_mm3 - totals_.removed_mm3;
+        totals_.mean_force_n = totals_.cutting_s > 0 ? force_seconds_ / totals_.cutting_s : 0;
+        const auto longest = std::max_element(cutting_at_.begin(), cutting_at_.end()) - cutting_at_.begin();
+        for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
+            if (setup_.moves[n].kind == motion::MoveKind::feed &&
+                setup_.cutter_of_move[n] == static_cast<std::size_t>(longest)) {
+                totals_.tooth_passing_hz =
+                    setup_.rpm_of_move[n] / 60 * setup_.cutters[static_cast<std::size_t>(longest)].flutes;
+                break;
+            }
+        }
+    }
+
+    milling::Machining machining_;
+    std::array<std::vector<milling::ForceModel>, kShares> models_;
+    std::vector<milling::CutRow> cuts_;
+    std::vector<milling::Collision> collisions_;
+    std::vector<double> cutting_at_;  // seconds by cutter
+    std::size_t next_move_ = 0;
+    double end_s_ = 0, now_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
+};
+
+MillSession::MillSession(MillSetup setup, ParallelFor parallel)
+    : run_(std::make_unique<Run>(std::move(setup), std::move(parallel))) {}
+MillSession::~MillSession() = default;
+
+bool MillSession::run(const MillSinks& sinks) {
+    return run_->run(sinks);
+}
+const field::CarvedField& MillSession::stock() const {
+    return run_->stock_;
+}
+const MillTotals& MillSession::totals() const {
+    return run_->totals_;
+}
+const MillSetup& MillSession::setup() const {
+    return run_->setup_;
+}
+
+}  // namespace tribo::session

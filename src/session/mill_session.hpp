@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A milling job from the first move to the last: stock, engagement, force and time wired into one stream of
+// rows. No files and no clocks: what comes out goes to sinks, what takes time is told to `progress`.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "contact/force_spectrum.hpp"
+#include "field/carved_field.hpp"
+#include "milling/coefficients.hpp"
+#include "milling/cutter.hpp"
+#include "milling/force.hpp"
+#include "milling/force_row.hpp"
+#include "milling/machining.hpp"
+#include "motion/program.hpp"
+#include "motion/timing.hpp"
+
+namespace tribo::session {
+
+// Engagement that the job prescribes: it replaces the measured one wherever the tool cuts at all.
+struct PrescribedEngagement {
+    double entry_rad = 0, exit_rad = 0, axial_depth_mm = 0;
+};
+
+struct MillSetup {
+    std::vector<motion::Move> moves;
+    std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
+    std::vector<double> rpm_of_move;          // one per move; > 0 for every feed move
+    std::vector<milling::Cutter> cutters;
+    milling::CuttingCoefficients coefficients;
+    std::unique_ptr<const field::Shape> blank;
+    double blank_volume_mm3 = 0;
+    std::vector<std::unique_ptr<const field::Shape>> fixtures;
+    std::optional<PrescribedEngagement> engagement;
+    motion::TimingOptions timing;
+    double cell_mm = 0.25;
+    std::optional<double> until_s;
+    int harmonics =
+        16;  // multiples of the tooth passing frequency (of the spindle's where teeth differ: times flutes)
+};
+
+// What one row hands to the senses. References are valid during the call only.
+struct MillRow {
+    const milling::ForceRow& values;
+    const milling::Engagement& engagement;
+    const contact::ForceSpectrum& spectrum;
+    milling::FeedPerTooth feed;
+    std::size_t cutter = 0;
+    double end_s = 0;              // values.t_s is the start
+    double spindle_angle_rad = 0;  // at the start
+    double chip_mm3_per_s = 0;     // feed times chip area
+};
+
+struct MillCollision {
+    milling::CollisionKind kind;
+    int line = 0;
+    double t_s = 0;
+    Vec3 tip_mm;
+};
+
+struct MillTotals {
+    double duration_s = 0, cutting_s = 0;
+    double path_mm = 0;  // feed moves
+    double removed_mm3 = 0, remaining_mm3 = 0;
+    double chip_mm3 = 0;  // chip area times feed, summed: should equal what feed moves removed
+    double fed_mm3 = 0;   // removed by feed moves
+    double mean_force_n = 0, peak_force_n = 0;
+    double peak_torque_nmm = 0, peak_power_w = 0;
+    double tooth_passing_hz = 0;  // of the longest cutting time
+    std::size_t rows = 0;
+    std::vector<MillCollision> collisions;  // one per line and kind
+};
+
+struct MillSinks {
+    std::function<void(const MillRow&)> row;        // in the order of time, while cutting only; may be empty
+    std::function<bool(double fraction)> progress;  // now and then; false stops the run; may be empty
+};
+
+class MillSession {
+  public:
+    // The setup is as prepare_mill() checked it.
+    MillSession(MillSetup setup, ParallelFor parallel);
+    ~MillSession();
+
+    // Mills from start to end. False: stopped by `progress`; the stock is then somewhere in between.
+    bool run(const MillSinks& sinks);
+
+    const field::CarvedField& stock() const;
+    const MillTotals& totals() const;
+    const MillSetup& setup() const;
+
+  private:
+    class Run;
+    std::unique_ptr<Run> run_;
+};
+
+}  // namespace tribo::session

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "session/mill_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/keyframe_motion.hpp"
+#include "motion/moves.hpp"
+
+namespace tribo::session {
+namespace {
+
+// The cutter for a tool number of the program.
+class ToolChoice {
+  public:
+    ToolChoice(const formats::Job& job, const motion::Program& program, Warnings& warnings)
+        : job_(job), program_(program), warnings_(warnings) {}
+
+    Result<std::size_t> cutter_for(const motion::Move& move) {
+        const auto& cutters = job_.cutters;
+        if (move.tool == 0) return 0;
+        for (std::size_t n = 0; n < cutters.size(); ++n) {
+            if (cutters[n].number == move.tool) return n;
+        }
+        if (cutters.size() == 1 && cutters[0].number == 0) {
+            if (!warned_) {
+                warnings_.push_back({program_.source, move.line,
+                                     "tool T" + std::to_string(move.tool) +
+                                         " has no [cutter] of that number; the job's only one stands in"});
+            }
+            warned_ = true;
+            return 0;
+        }
+        return fail_at(program_.source, move.line, 0,
+                       "tool T" + std::to_string(move.tool) + " is not described by the job",
+                       "add a [[cutter]] with number = " + std::to_string(move.tool));
+    }
+
+  private:
+    const formats::Job& job_;
+    const motion::Program& program_;
+    Warnings& warnings_;
+    bool warned_ = false;
+};
+
+void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+    for (const milling::Cutter& cutter : setup.cutters) {
+        if (cutter.diameter_mm < 4 * setup.cell_mm) {
+            warnings.push_back({source, 0,
+                                "the grid is coarse for a cutter of " + std::to_string(cutter.diameter_mm) +
+                                    " mm: fewer than four cells across; try a finer --resolution"});
+        }
+    }
+}
+
+}  // namespace
+
+double default_cell_mm(const formats::Job& job, const Box3& blank_mm) {
+    const Vec3 size = blank_mm.size();
+    double cell = std::max({size.x, size.y, size.z}) / 400;
+    for (const milling::Cutter& cutter : job.cutters) cell = std::min(cell, cutter.radius_mm() / 4);
+    return std::clamp(cell, 0.02, 1.0);
+}
+
+Result<milling::Material> job_material(const formats::Job& job) {
+    if (!job.material.coefficients) return milling::find_material(job.material.name);
+    const auto& c = *job.material.coefficients;
+    milling::Material own;
+    own.name = "own coefficients";
+    own.what = "as the job file gives them";
+    own.source = "job file";
+    own.note = "no spread is known; the band is the calibration's own";
+    own.coefficients = {c[0], c[1], c[2], c[3], c[4], c[5]};
+    own.spread_low = own.spread_high = 1;
+    if (auto ok = milling::check(own.coefficients); !ok) return std::unexpected(ok.error());
+    return own;
+}
+
+Result<motion::Program> keyframe_program(const formats::Job& job, std::span<const motion::Keyframe> keyframes,
+                                         const std::string& source) {
+    motion::KeyframeOptions options;
+    if (job.path.interpolation == formats::Interpolation::linear)
+        options.interpolation = motion::Interpolation::linear;
+    auto moves = motion::keyframe_moves(keyframes, job.process.feed_mm_per_min, options);
+    if (!moves) {
+        Error error = moves.error();
+        error.file = source;
+        return std::unexpected(error);
+    }
+    motion::Program program;
+    program.source = source;
+    program.moves = std::move(*moves);
+    return program;
+}
+
+Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const MillOptions& options,
+                               Warnings& warnings) {
+    const motion::Program& program = inputs.program;
+    if (program.has_rotary_words) {
+        return fail_at(program.source, program.first_rotary_line, 0,
+                       "rotary words mean nothing without a machine",
+                       "give the path as APT CLDATA or keyframes, which hold the tool axis itself");
+    }
+    if (program.moves.empty()) {
+        return fail_at(program.source, 0, 0, "the program moves nothing", "give it at least one feed move");
+    }
+    auto material = job_material(job);
+    if (!material) {
+        Error error = material.error();
+        if (error.file.empty()) error.file = job.file;
+        return std::unexpected(error);
+    }
+
+    MillSetup setup;
+    setup.cutters = job.cutters;
+    setup.coefficients = material->coefficients;
+    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(job, inputs.blank->bounds_mm()));
+    setup.until_s = options.until_s;
+    setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
+    setup.timing.acceleration_mm_per_s2 = job.machine.acceleration_mm_per_s2;
+    if (job.engagement) {
+        setup.engagement =
+            PrescribedEngagement{job.engagement->entry_deg * math::kRadPerDeg,
+                                 job.engagement->exit_deg * math::kRadPerDeg, job.engagement->axial_depth_mm};
+    }
+    ToolChoice tools(job, program, warnings);
+    for (const motion::Move& move : program.moves) {
+        const auto cutter = tools.cutter_for(move);
+        if (!cutter) return std::unexpected(cutter.error());
+        const double rpm = move.spindle_rpm > 0 ? move.spindle_rpm : job.process.spindle_rpm;
+        if (!(rpm > 0) && move.kind == motion::MoveKind::feed) {
+            return fail_at(program.source, move.line, 0, "the spindle has no speed here",
+                           "add an S word to the program or spindle_rpm to [process]");
+        }
+        for (motion::Move& piece : motion::to_elementary(move)) {
+            setup.moves.push_back(std::move(piece));
+            setup.cutter_of_move.push_back(*cutter);
+            setup.rpm_of_move.push_back(rpm);
+        }
+    }
+    if (auto times = motion::schedule(setup.moves, setup.timing); !times) {
+        Error error = times.error();
+        if (error.file.empty()) error.file = program.source;
+        return std::unexpected(error);
+    }
+    warn_where_the_grid_is_coarse(setup, job.file, warnings);
+    setup.blank = std::move(inputs.blank);
+    setup.blank_volume_mm3 = inputs.blank_volume_mm3;
+    setup.fixtures = std::move(inputs.fixtures);
+    return setup;
+}
+
+}  // namespace tribo::session

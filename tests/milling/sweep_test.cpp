@@ -1,0 +1,283 @@
+// The swept volume against a brute force that knows nothing of its formulas: the tool is tried at very many
+// instants.
+#include "milling/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <optional>
+#include <rapidcheck/gtest.h>
+
+#include "milling/sweep_kernels.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::milling {
+namespace {
+
+using motion::Move;
+
+// Distance to the tool at one instant, in its plainest form.
+double tool_distance(const Cutter& c, const motion::ToolPose& pose, Vec3 p) {
+    const Vec3 d = p - pose.tip_mm;
+    const double z = dot(d, pose.axis), rho = length(d - z * pose.axis);
+    const double corner = c.corner_radius_mm(), side = rho - (c.radius_mm() - corner), under = corner - z;
+    double distance = std::max(rho - c.radius_mm(), -z);
+    if (side > 0 && under > 0) distance = std::hypot(side, under) - corner;
+    return std::max(distance, z - c.length_mm);
+}
+
+double brute_distance(const Cutter& c, const Move& m, Vec3 p) {
+    constexpr int kInstants = 400;
+    double best = 1e300, at = 0;
+    const auto distance = [&](double t) { return tool_distance(c, motion::pose_at(m, t), p); };
+    for (int n = 0; n <= kInstants; ++n) {
+        const double d = distance(n / double{kInstants});
+        if (d < best) best = d, at = n / double{kInstants};
+    }
+    double lo = std::max(0.0, at - 1.0 / kInstants), hi = std::min(1.0, at + 1.0 / kInstants);
+    for (int n = 0; n < 80; ++n) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+    }
+    return std::min(best, distance(0.5 * (lo + hi)));
+}
+
+double number(double lo, double hi) {
+    return lo + (hi - lo) * 1e-6 * *rc::gen::inRange(0, 1000001);
+}
+Vec3 vector(double size) {
+    return {number(-size, size), number(-size, size), number(-size, size)};
+}
+Vec3 direction() {
+    Vec3 v;
+    do v = vector(1);
+    while (squared_length(v) < 0.01);
+    return normalized(v);
+}
+
+Cutter any_cutter() {
+    Cutter c;
+    c.kind = static_cast<CutterKind>(*rc::gen::inRange(0, 3));
+    c.diameter_mm = number(1, 12);
+    c.corner_mm = c.kind == CutterKind::bull ? number(0.05, 0.95) * c.radius_mm() : 0;
+    c.length_mm = 30;
+    return c;
+}
+
+Move straight_move(Vec3 from, Vec3 axis, Vec3 travel) {
+    Move m;
+    m.start = {from, axis};
+    m.end = {m.start.tip_mm + travel, axis};
+    return m;
+}
+
+Move any_straight() {
+    const Vec3 axis = direction();
+    Vec3 travel = vector(8);
+    if (*rc::gen::inRange(0, 3) == 0) travel = travel - dot(travel, axis) * axis;  // across the axis
+    if (*rc::gen::inRange(0, 6) == 0) travel = number(-8, 8) * axis;               // along it
+    return straight_move(vector(20), axis, travel);
+}
+
+Move any_arc() {
+    const Vec3 axis = direction();
+    Move m;
+    m.start = {vector(20), axis};
+    const Vec3 radial = number(0.2, 15) * any_perpendicular(axis);
+    const double turn = number(-1, 1) * std::numbers::pi;
+    const Vec3 normal = *rc::gen::inRange(0, 2) == 0 ? axis : -axis;
+    m.arc = motion::Arc{m.start.tip_mm - radial, normal, turn};
+    const Vec3 side = cross(normal, radial);
+    m.end = {m.arc->centre_mm + std::cos(turn) * radial + std::sin(turn) * side, axis};
+    return m;
+}
+
+Move any_curved() {
+    const Vec3 axis = direction();
+    const double turn = 0.1;
+    Move m;
+    const Vec3 travel = number(0.3, 4) * direction();
+    m.start = {vector(20), axis};
+    m.end = {m.start.tip_mm + travel, normalized(axis + turn * vector(0.7))};
+    if (*rc::gen::inRange(0, 2) == 0) {
+        m.quadratic = motion::Quadratic{m.start.tip_mm + 0.5 * travel + 0.05 * length(travel) * vector(1),
+                                        0.5 * (axis + m.end.axis) + 0.1 * turn * vector(0.7)};
+    }
+    return m;
+}
+
+// A point on the surface of the sweep, found by bisection along a ray that leaves the tool; none if it has no
+// luck.
+std::optional<Vec3> surface_point(const field::Shape& sweep, const Cutter& c, const Move& m) {
+    const motion::ToolPose pose = motion::pose_at(m, number(0, 1));
+    Vec3 in = pose.tip_mm + 0.45 * c.radius_mm() * pose.axis + 0.3 * c.radius_mm() * vector(1);
+    Vec3 out = in + 40.0 * direction();
+    if (sweep.distance_mm(in) >= 0 || sweep.distance_mm(out) <= 0) return std::nullopt;
+    for (int n = 0; n < 60; ++n) {
+        const Vec3 mid = 0.5 * (in + out);
+        (sweep.distance_mm(mid) < 0 ? in : out) = mid;
+    }
+    return 0.5 * (in + out);
+}
+
+bool under_the_cap(const Cutter& c, const Move& m, Vec3 p) {
+    for (const motion::ToolPose& pose : {m.start, m.end}) {
+        if (dot(p - pose.tip_mm, pose.axis) > c.length_mm - 10) return false;
+    }
+    return true;
+}
+
+void surface_is_exact(const Cutter& c, const Move& m, double tolerance) {
+    const auto sweep = make_sweep(c, m);
+    for (int n = 0; n < 12; ++n) {
+        const auto p = surface_point(*sweep, c, m);
+        if (!p || !under_the_cap(c, m, *p)) continue;
+        const double truth = brute_distance(c, m, *p);
+        if (std::abs(truth) >= tolerance)
+            RC_FAIL("off the surface by " + std::to_string(1e3 * truth) + " um");
+    }
+}
+
+RC_GTEST_PROP(Sweep, straight_surface_is_exact, ()) {
+    surface_is_exact(any_cutter(), any_straight(), 1e-6);
+}
+RC_GTEST_PROP(Sweep, arc_surface_is_exact, ()) {
+    surface_is_exact(any_cutter(), any_arc(), 1e-6);
+}
+RC_GTEST_PROP(Sweep, curved_surface_is_good_to_a_tenth_of_a_micrometre, ()) {
+    surface_is_exact(any_cutter(), any_curved(), 1e-4);
+}
+
+Move any_move() {
+    switch (*rc::gen::inRange(0, 3)) {
+        case 0:
+            return any_straight();
+        case 1:
+            return any_arc();
+        default:
+            return any_curved();
+    }
+}
+
+RC_GTEST_PROP(Sweep, distance_never_grows_faster_than_the_way, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    for (int n = 0; n < 20; ++n) {
+        const Vec3 a = m.start.tip_mm + vector(15), b = a + vector(0.5);
+        RC_ASSERT(std::abs(sweep->distance_mm(a) - sweep->distance_mm(b)) <= distance(a, b) + 1e-4);
+    }
+}
+
+RC_GTEST_PROP(Sweep, sides_agree_with_the_brute_force, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    const Box3 box = sweep->bounds_mm();
+    for (int n = 0; n < 10; ++n) {
+        const Vec3 p = motion::pose_at(m, number(0, 1)).tip_mm + 2 * c.radius_mm() * vector(1);
+        if (!under_the_cap(c, m, p)) continue;
+        const double truth = brute_distance(c, m, p), d = sweep->distance_mm(p);
+        if (std::abs(truth) > 1e-3) RC_ASSERT((truth < 0) == (d < 0));
+        if (truth < 0) RC_ASSERT(box.inflated(1e-9).contains(p));
+        RC_ASSERT(d <= std::max(truth, 0.0) + 1e-4);  // never promises more room than there is
+    }
+}
+
+RC_GTEST_PROP(Sweep, lattice_agrees_with_the_exact_distance, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    const field::Lattice lattice{m.start.tip_mm + 8 * vector(1), number(0.05, 0.6),
+                                 *rc::gen::inRange(-40, 40), 3, -4};
+    float nodes[field::kLatticeNodes];
+    sweep->sample(lattice, nodes);
+    const double size = 1 + length(lattice.node(0, 0, 0) - m.start.tip_mm);
+    for (int n = 0; n < field::kLatticeNodes; n += 7) {
+        const Vec3 p = lattice.node(n % 8, n / 8 % 8, n / 64);
+        const double d = sweep->distance_mm(p);
+        RC_ASSERT(std::abs(nodes[n] - d) < 5e-5 * size);
+    }
+}
+
+RC_GTEST_PROP(Sweep, lattices_share_the_bits_of_shared_nodes, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    const field::Lattice a{m.start.tip_mm - Vec3{2, 2, 2}, 0.21, 0, 0, 0};
+    field::Lattice b = a;
+    b.i0 = 7;
+    float left[field::kLatticeNodes], right[field::kLatticeNodes];
+    sweep->sample(a, left);
+    sweep->sample(b, right);
+    for (int n = 0; n < 64; ++n) RC_ASSERT(left[7 + 8 * n] == right[8 * n]);
+}
+
+RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) {
+    if (!sweep_kernels_v3()) return;
+    const ToolProfile tool(any_cutter());
+    const Vec3 z = direction(), x = any_perpendicular(z);
+    const Frame frame{x, cross(z, x), z};
+    const field::Lattice lattice{vector(3), 0.2, -3, -4, -5};
+    float a[field::kLatticeNodes], b[field::kLatticeNodes];
+    const auto same = [&] { return std::equal(a, a + field::kLatticeNodes, b); };
+    const StraightLine line{number(0, 5), *rc::gen::inRange(0, 2) == 0 ? 0 : number(-3, 3)};
+    sweep_kernels_sse2()->straight(tool, line, frame, vector(2), lattice, a);
+    const Vec3 from = vector(2);
+    sweep_kernels_sse2()->straight(tool, line, frame, from, lattice, a);
+    sweep_kernels_v3()->straight(tool, line, frame, from, lattice, b);
+    RC_ASSERT(same());
+    const ArcLine arc{number(0.5, 5), 0.6, 0.8};
+    sweep_kernels_sse2()->arc(tool, arc, frame, from, lattice, a);
+    sweep_kernels_v3()->arc(tool, arc, frame, from, lattice, b);
+    RC_ASSERT(same());
+    const CurvedLine curve{vector(2), 0.1 * vector(1), z, 0.1 * vector(1), 0.01 * vector(1)};
+    sweep_kernels_sse2()->curved(tool, curve, from, lattice, a);
+    sweep_kernels_v3()->curved(tool, curve, from, lattice, b);
+    RC_ASSERT(same());
+}
+
+RC_GTEST_PROP(Sweep, gradient_points_where_the_distance_grows, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    const auto p = surface_point(*sweep, c, m);
+    if (!p || !under_the_cap(c, m, *p)) return;
+    const Vec3 g = sweep->gradient(*p);
+    RC_ASSERT(std::abs(length(g) - 1) < 1e-9);
+    // Ahead along it lies the outside, behind it the inside; across it the surface runs on.
+    constexpr double kStep = 0.02;
+    RC_ASSERT(sweep->distance_mm(*p + kStep * g) > 0);
+    RC_ASSERT(sweep->distance_mm(*p - kStep * g) < 0);
+}
+
+TEST(Sweep, of_a_reversed_move_is_the_same_volume) {
+    Cutter c;
+    c.diameter_mm = 6;
+    const Move there = straight_move({3, 4, 5}, normalized({0.2, 0.1, 1}), {5, 2, -1});
+    Move back = there;
+    std::swap(back.start, back.end);
+    const auto a = make_sweep(c, there), b = make_sweep(c, back);
+    for (int n = 0; n < 200; ++n) {
+        const Vec3 p = there.start.tip_mm + Vec3{0.05 * n - 4, 0.03 * n - 3, 0.02 * n - 2};
+        EXPECT_NEAR(a->distance_mm(p), b->distance_mm(p), 1e-9);
+    }
+}
+
+TEST(Sweep, of_a_tool_at_rest_is_the_tool) {
+    for (const CutterKind kind : {CutterKind::flat, CutterKind::ball, CutterKind::bull}) {
+        Cutter c;
+        c.kind = kind;
+        c.corner_mm = 1;
+        const Move rest = straight_move({3, 4, 5}, {0, 0, 1}, {});
+        const auto sweep = make_sweep(c, rest);
+        for (const Vec3 p : {Vec3{7, 0, 3}, Vec3{0.5, 0.2, -1}, Vec3{4.9, 0, 0.05}, Vec3{1, 1, 2}}) {
+            EXPECT_NEAR(sweep->distance_mm(rest.start.tip_mm + p) > 0,
+                        tool_distance(c, rest.start, rest.start.tip_mm + p) > 0, 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tribo::milling
