@@ -216,15 +216,22 @@ bool CarvedField::is_material(Vec3 p, double skin_mm) const {
     const BrickRef ref = index_.get(b);
     if (ref == kAir) return false;
     if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
+    const Brick& brick = pool_[ref];
     const Vec3 q = (p - lattice(b).node(0, 0, 0)) / cell_;
     const auto nearest = [](double v) { return std::clamp(static_cast<int>(v + 0.5), 0, kLatticeEdge - 1); };
-    const float d =
-        pool_[ref]
-            .distance_mm[static_cast<std::size_t>(node_index(nearest(q.x), nearest(q.y), nearest(q.z)))];
-    const auto clear = static_cast<float>(0.87 * cell_);
-    if (d > clear) return false;
-    if (d < -clear) return true;
-    return exact(ref, p).distance_mm < -skin_mm;
+    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+    // What the node says holds as far around it as its distance, less rounding.
+    const double d = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
+    const double way =
+        cell_ * length(q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    constexpr double kRounding = 1e-3;
+    if (d > way + kRounding * cell_) return false;
+    if (d < -way - kRounding * cell_ - skin_mm) return true;
+    for (auto id = brick.shapes.rbegin(); id != brick.shapes.rend(); ++id) {
+        const double shape = shapes_[*id]->distance_mm(p);
+        if ((*id == 0 ? shape : -shape) >= -skin_mm) return false;
+    }
+    return true;
 }
 
 std::optional<Vec3> CarvedField::overlap(const Shape& shape, double depth_mm) const {

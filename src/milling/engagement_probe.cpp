@@ -44,15 +44,6 @@ EngagementProbe::EngagementProbe(const Cutter& cutter) : cutter_(cutter) {
     borders_.reserve(64);
 }
 
-bool EngagementProbe::in_material(const field::CarvedField& field, const CutPose& pose, double z,
-                                  double angle) const {
-    double s, c;
-    math::sincos(angle, s, c);
-    const double r = cutter_.radius_at(z);
-    return field.is_material(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x + r * c * pose.frame.y,
-                             kSkin);
-}
-
 double EngagementProbe::least_sine(const CutPose& pose, double z) const {
     const double corner = cutter_.corner_radius_mm();
     if (z >= corner) return 0;
@@ -77,12 +68,38 @@ EngagementProbe::Mask EngagementProbe::look(const field::CarvedField& field, con
 
 double EngagementProbe::refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
                                double inside) const {
-    constexpr int kBisections = 9;
-    for (int n = 0; n < kBisections; ++n) {
-        const double mid = 0.5 * (outside + inside);
-        (in_material(field, pose, z, mid) ? inside : outside) = mid;
+    const auto depth = [&](double angle) {
+        double s, c;
+        math::sincos(angle, s, c);
+        const double r = cutter_.radius_at(z);
+        return field.distance_mm(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x +
+                                 r * c * pose.frame.y) +
+               kSkin;
+    };
+    // Regula falsi in the Illinois form on the exact distance.
+    constexpr int kSteps = 8;
+    constexpr double kAngle = 2e-4, kDepth = 1e-5;  // rad, mm
+    double out = depth(outside), in = depth(inside);
+    if (out < 0) return outside;
+    double angle = inside;
+    int last = 0;
+    for (int n = 0; n < kSteps && std::abs(inside - outside) > kAngle; ++n) {
+        angle = in < out ? outside + (inside - outside) * out / (out - in) : 0.5 * (inside + outside);
+        const double d = depth(angle);
+        if (std::abs(d) < kDepth) break;
+        const int side = d < 0 ? 1 : -1;
+        if (side > 0) {
+            inside = angle;
+            in = d;
+            if (last > 0) out *= 0.5;
+        } else {
+            outside = angle;
+            out = d;
+            if (last < 0) in *= 0.5;
+        }
+        last = side;
     }
-    return 0.5 * (outside + inside);
+    return angle;
 }
 
 void EngagementProbe::add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0,

@@ -45,7 +45,6 @@ class EngagementProbe {
     // Where the envelope at height z moves into the material: at rotations with sin(phi) > least_sine.
     double least_sine(const CutPose& pose, double z) const;
     Mask look(const field::CarvedField& field, const CutPose& pose, double z) const;
-    bool in_material(const field::CarvedField& field, const CutPose& pose, double z, double angle) const;
     // The border between two rotations of which only `inside` stands in material.
     double refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
                   double inside) const;

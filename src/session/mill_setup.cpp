@@ -65,13 +65,12 @@ double default_cell_mm(const formats::Job& job, const Box3& blank_mm) {
 
 Result<milling::Material> job_material(const formats::Job& job) {
     if (!job.material.coefficients) return milling::find_material(job.material.name);
-    const auto& c = *job.material.coefficients;
     milling::Material own;
     own.name = "own coefficients";
     own.what = "as the job file gives them";
     own.source = "job file";
     own.note = "no spread is known; the band is the calibration's own";
-    own.coefficients = {c[0], c[1], c[2], c[3], c[4], c[5]};
+    own.coefficients = *job.material.coefficients;
     own.spread_low = own.spread_high = 1;
     if (auto ok = milling::check(own.coefficients); !ok) return std::unexpected(ok.error());
     return own;
