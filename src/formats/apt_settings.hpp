@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// What an APT program sets before it moves: units, feed, spindle, tool and cutter.
+#pragma once
+
+#include <optional>
+
+#include "base/result.hpp"
+#include "formats/apt_lexer.hpp"
+#include "formats/apt_report.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::formats::apt {
+
+struct Feed {
+    double value = 0;  // mm/min or mm per turn
+    bool per_turn = false;
+};
+
+struct Settings {
+    double unit_mm = 1;
+    bool unit_stated = false;
+    std::optional<Feed> feed;
+    double spindle_rpm = 0;        // 0: nothing said
+    bool spindle_stopped = false;  // by SPINDL/OFF
+    int tool = 0;
+    std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without its number
+};
+
+// UNITS/MM, UNITS/INCHES.
+Result<void> set_units(const Statement& statement, Settings& settings, Report& report);
+// FEDRAT/ with a number and IPM, MMPM, IPR, MMPR, PERMIN or PERREV in any order.
+Result<void> set_feed(const Statement& statement, Settings& settings, Report& report);
+// SPINDL/ with a speed, RPM, CLW, CCLW, ON or OFF in any order.
+Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report);
+// LOADTL/n or LOAD/TOOL,n; what follows sets lengths, which do not move the tip.
+Result<void> load_tool(const Statement& statement, Settings& settings, Report& report);
+// CUTTER/d,r,e,f,a,b,h: diameter, corner radius, place of the corner's centre (from the axis, above the tip),
+// angles of bottom and flank, height.
+Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report);
+
+}  // namespace tribo::formats::apt
