@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/gcode_reader.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -47,7 +46,10 @@ class Reader {
             }
         }
         if (block.deletable && output_.options.skip_deletable_blocks) {
-            if (skipped_++ == 0) first_skipped_line_ = block.line;
+            if (output_.first(Note::deletable_blocks)) {
+                output_.warn(block.line,
+                             "blocks that start with '/' are skipped, as with block delete switched on");
+            }
             return true;
         }
         if (block.kind == BlockKind::percent) return !has_words_ && !std::exchange(has_percent_, true);
@@ -127,18 +129,12 @@ class Reader {
         if (rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
             output_.warn(last_line, "what follows the end of the program is not read");
         }
-        if (skipped_ > 0) {
-            output_.warn(first_skipped_line_, std::to_string(skipped_) +
-                                                  " blocks that start with '/' are skipped, as on a control "
-                                                  "with block delete switched on");
-        }
         if (program.moves.empty()) output_.warn(0, "the program moves no tool");
         for (motion::DeclaredTool& tool : declared_) {
             tool.diameter_mm *= state_.unit_mm;
             tool.corner_mm *= state_.unit_mm;
         }
         program.tools = std::move(declared_);
-        std::ranges::stable_sort(program.warnings, {}, &Warning::line);
         return std::move(program);
     }
 
@@ -147,7 +143,6 @@ class Reader {
     State state_;
     std::vector<motion::DeclaredTool> declared_;  // in units of the program until the end
     bool has_percent_ = false, has_number_ = false, has_words_ = false;
-    int skipped_ = 0, first_skipped_line_ = 0;
 };
 
 }  // namespace

@@ -81,6 +81,7 @@ enum class Note {
     tool_without_change,
     default_feed,
     preset_as_origin,
+    deletable_blocks,
     count
 };
 

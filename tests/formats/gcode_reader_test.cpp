@@ -245,7 +245,7 @@ TEST(GcodeReader, SkipsOrReadsDeletableBlocksAsAsked) {
     const char* const text = "G21 M3 F100\nG0 X0 Y0 Z0\n/G1 X1\n/2 G1 X2\nG1 X3\n";
     const Program skipped = program_of(text);
     EXPECT_EQ(skipped.moves.size(), 1U);
-    EXPECT_TRUE(warns_of(skipped, 3, "2 blocks"));
+    EXPECT_TRUE(warns_of(skipped, 3, "skipped"));
     GcodeOptions read_all;
     read_all.skip_deletable_blocks = false;
     EXPECT_EQ(program_of(text, read_all).moves.size(), 3U);
