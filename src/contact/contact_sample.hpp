@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Contact rendered to three senses: this is the record that carries it. Whoever makes contact (a cutter in
+// stock, a finger on a surface or on a screen) writes ContactSamples; whoever renders it (sight, haptics,
+// sound) reads them. Neither side knows the other.
+//
+//   field        a cutter                               a finger or probe
+//   position     tool tip                               point of contact
+//   normal       tool axis, tip to shank                out of the material
+//   force        on the tool, mean over a turn          on the finger
+//   slip         feed velocity of the tip               velocity along the surface
+//   area         cut across the feed: |slip| area is    of the patch that touches
+//                the material removed per second
+//   phase        spindle angle, from the datum of       0
+//                ForceSpectrum
+//   spectrum     force over the turn                    none
+//
+// Plain data: copied freely, no allocation. Vectors stand in the stock's (the touched body's) frame. A sample
+// is a moment, not an interval; between two of them every number runs linearly, phase with its own rate.
+#pragma once
+
+#include <cmath>
+
+#include "base/vec3.hpp"
+#include "contact/force_spectrum.hpp"
+
+namespace tribo::contact {
+
+struct ContactSample {
+    double t_s = 0;  // since the session began; samples come in order of time, equal times make a step
+    Vec3 position_mm;
+    Vec3 normal{0, 0, 1};  // unit
+    Vec3 force_n;          // on the one that touches; zero: no contact
+    Vec3 slip_mm_per_s;    // of the one that touches, relative to the material
+    double area_mm2 = 0;   // >= 0
+
+    double phase_rad = 0;             // at t_s; whole turns may be left out
+    double phase_rate_rad_per_s = 0;  // >= 0 for a spindle that turns the right way
+
+    // The periodic part of the force, in the tool's frame; null or empty: none. Borrowed: it has to live only
+    // as long as the call that takes the sample.
+    const ForceSpectrum* spectrum = nullptr;
+};
+
+// Material removed per second by a cutter: feed x area.
+inline double removal_rate_mm3_per_s(const ContactSample& s) {
+    return length(s.slip_mm_per_s) * s.area_mm2;
+}
+
+// Whether every number of the sample is one; senses refuse a sample that is not. Real-time safe.
+inline bool is_finite(const ContactSample& s) {
+    if (!(std::isfinite(s.t_s) && tribo::is_finite(s.position_mm) && tribo::is_finite(s.normal) &&
+          tribo::is_finite(s.force_n) && tribo::is_finite(s.slip_mm_per_s) && std::isfinite(s.area_mm2) &&
+          std::isfinite(s.phase_rad) && std::isfinite(s.phase_rate_rad_per_s))) {
+        return false;
+    }
+    if (s.spectrum == nullptr) return true;
+    for (const ForceHarmonic& h : s.spectrum->harmonics) {
+        for (const std::complex<double>& channel : {h.x, h.y, h.z, h.torque}) {
+            if (!std::isfinite(channel.real()) || !std::isfinite(channel.imag())) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace tribo::contact
