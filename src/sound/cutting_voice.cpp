@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "sound/cutting_voice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "sound/calibration.hpp"
+
+namespace tribo::sound {
+namespace {
+
+// What a step of an amplitude takes; shorter is heard as a click, longer blurs the bite of the cutter.
+constexpr double kStepSeconds = 0.010;
+// Swing of the chip noise with the partials, as a share of its level.
+constexpr double kNoiseSwing = 0.5;
+
+}  // namespace
+
+CuttingVoice::CuttingVoice(const CuttingVoiceOptions& options)
+    : options_(options), chips_(options.seed, options.sample_rate_hz, options.chip_band) {
+    bell_size_ = static_cast<std::size_t>(
+        std::clamp(std::floor(kStepSeconds * options.sample_rate_hz / kQuantumFrames + 0.5), 2.0,
+                   static_cast<double>(kMaxKernel)));
+    double sum = 0;
+    for (std::size_t k = 0; k < bell_size_; ++k) {
+        bell_[k] =
+            1 - math::cos(math::kTwoPi * static_cast<double>(k + 1) / static_cast<double>(bell_size_ + 1));
+        sum += bell_[k];
+    }
+    for (std::size_t k = 0; k < bell_size_; ++k) bell_[k] /= sum;
+}
+
+CuttingVoice::Excitation CuttingVoice::now() const {
+    if (elapsed_ >= length_) return to_;
+    if (waits_) return from_;
+    const double t = static_cast<double>(elapsed_) / static_cast<double>(length_);
+    return {to_.step, mix(from_.partials, to_.partials, t),
+            from_.noise_pa + t * (to_.noise_pa - from_.noise_pa)};
+}
+
+void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
+    from_ = now();
+    to_.partials =
+        next.spectrum != nullptr ? in_plane_partials(*next.spectrum, kPascalPerNewton) : Partials{};
+    to_.noise_pa = kPascalPerMm3PerS * contact::removal_rate_mm3_per_s(next);
+    to_.step = to_.partials.silent() ? from_.step : next.spectrum->order_step;
+    if (to_.step != from_.step) {
+        from_.step = to_.step;
+        from_.partials = {};
+    }
+    length_ = quanta;
+    elapsed_ = 0;
+    waits_ = !excited_;  // before the first sample there is nothing to come from
+    excited_ = true;
+    const double seconds_per_quantum = kQuantumFrames / options_.sample_rate_hz;
+    phase_.lead(next.phase_rad, next.phase_rate_rad_per_s * seconds_per_quantum, quanta, sounding());
+}
+
+void CuttingVoice::release() {
+    to_.partials = {};
+    to_.noise_pa = 0;
+    length_ = elapsed_ = 0;
+}
+
+CuttingVoice::Level CuttingVoice::next_level(const PhasePiece& phase) const {
+    Level sum;
+    if (asked_sounding_ == 0) return sum;
+    for (std::size_t k = 0; k < bell_size_; ++k) {
+        const Level& level = asked_[(newest_ + k) % bell_size_];
+        sum.noise_pa += bell_[k] * level.noise_pa;
+        sum.partials.count = std::max(sum.partials.count, level.partials.count);
+        for (std::size_t n = 0; n < static_cast<std::size_t>(level.partials.count); ++n) {
+            sum.partials.re[n] += bell_[k] * level.partials.re[n];
+            sum.partials.im[n] += bell_[k] * level.partials.im[n];
+        }
+    }
+    // It is played in this quantum and the next two: where the spindle runs up, by what it will be then.
+    const double first = std::abs(phase.slope(0)), last = std::abs(phase.slope(kQuantumFrames));
+    const double rad_per_frame = step_ * (last + 2 * std::max(last - first, 0.0));
+    sum.partials = audible(sum.partials, rad_per_frame / math::kTwoPi * options_.sample_rate_hz,
+                           options_.sample_rate_hz);
+    return sum;
+}
+
+void CuttingVoice::add(Quantum& pressure_pa) {
+    const PhasePiece phase = phase_.advance();
+    const Excitation wanted = now();
+    ++elapsed_;
+    if (!sounding()) step_ = wanted.step;
+
+    newest_ = (newest_ + bell_size_ - 1) % bell_size_;
+    Level& asked = asked_[newest_];
+    asked_sounding_ -= asked.silent() ? 0 : 1;
+    asked = {wanted.step == step_ ? wanted.partials : Partials{}, wanted.noise_pa};
+    asked_sounding_ += asked.silent() ? 0 : 1;
+
+    before_ = here_;
+    here_ = after_;
+    after_ = next_level(phase);
+    Quantum tone{};
+    if (!before_.partials.silent() || !here_.partials.silent() || !after_.partials.silent()) {
+        play(before_.partials, here_.partials, after_.partials, phase, step_, tone);
+        for (std::size_t j = 0; j < tone.size(); ++j) pressure_pa[j] += tone[j];
+    }
+    add_noise(tone, pressure_pa);
+    frame_ += kQuantumFrames;
+}
+
+void CuttingVoice::add_noise(const Quantum& tone, Quantum& pressure_pa) {
+    if (before_.noise_pa == 0 && here_.noise_pa == 0 && after_.noise_pa == 0) {
+        chips_fresh_ = true;
+        return;
+    }
+    if (chips_fresh_) chips_.clear();
+    chips_fresh_ = false;
+    Quantum chips;
+    chips_.render(frame_, chips);
+    const Spline level(before_.noise_pa, here_.noise_pa, after_.noise_pa);
+    const Spline peak(before_.partials.peak(), here_.partials.peak(), after_.partials.peak());
+    for (std::size_t j = 0; j < chips.size(); ++j) {
+        const double t = static_cast<double>(j) * (1.0 / kQuantumFrames);
+        const double highest = peak.at(t);
+        const double swing = highest > 0 ? kNoiseSwing * tone[j] / highest : 0;
+        pressure_pa[j] += level.at(t) * (1 + swing) * chips[j];
+    }
+}
+
+}  // namespace tribo::sound

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "sound/soundtrack.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "base/math.hpp"
+#include "sound/calibration.hpp"
+#include "sound/cutting_voice.hpp"
+#include "sound/limiter.hpp"
+#include "sound/partials.hpp"
+#include "sound/published_voice.hpp"
+
+namespace tribo::sound {
+namespace {
+
+constexpr double kMmPerM = 1000;
+
+// The loudness of a source that leaps follows by this share of what is left per quantum, twice over: 21 ms.
+constexpr double kFollow = 0.125;
+
+std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& options) {
+    std::vector<std::unique_ptr<Voice>> voices;
+    if (options.as_published) {
+        voices.push_back(std::make_unique<PublishedVoice>(options.sample_rate_hz));
+    } else {
+        voices.push_back(std::make_unique<CuttingVoice>(
+            CuttingVoiceOptions{static_cast<double>(options.sample_rate_hz), options.seed, {}}));
+    }
+    return voices;
+}
+
+}  // namespace
+
+Result<void> check(const SoundtrackOptions& options) {
+    if (options.sample_rate_hz < kLowestSampleRateHz || options.sample_rate_hz > kHighestSampleRateHz) {
+        return fail("a sample rate of " + std::to_string(options.sample_rate_hz) + " Hz",
+                    "try 48000 or 44100 (" + std::to_string(kLowestSampleRateHz) + " to " +
+                        std::to_string(kHighestSampleRateHz) + " are possible)");
+    }
+    if (!(options.gain_db >= -120 && options.gain_db <= 60)) {
+        return fail("gain_db is outside -120 ... 60", "try 0, or a few dB up or down");
+    }
+    if (!is_finite(options.listener_mm)) {
+        return fail("listener_mm is not three finite numbers", "try the centre of the stock's top");
+    }
+    if (!(options.distance_factor > 0 && std::isfinite(options.distance_factor))) {
+        return fail("distance_factor is not above 0", "try 1, or more to make a small part sound larger");
+    }
+    return {};
+}
+
+double rolloff(double distance_mm, double distance_factor) {
+    return kReferenceDistance / std::max(kReferenceDistance, distance_factor * distance_mm / kMmPerM);
+}
+
+Soundtrack::Soundtrack(const SoundtrackOptions& options) : Soundtrack(options, cutting_voices(options)) {}
+
+Soundtrack::Soundtrack(const SoundtrackOptions& options, std::vector<std::unique_ptr<Voice>> voices)
+    : options_(options),
+      voices_(std::move(voices)),
+      samples_per_pascal_(math::pow(10, options.gain_db / 20) / kFullScalePascal) {
+    assert(check(options));
+}
+
+std::int64_t Soundtrack::frame_at(double t_s) const {
+    constexpr double kFarthest = 0x1p52;
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor(t_s * options_.sample_rate_hz + 0.5), 0.0, kFarthest));
+}
+
+bool Soundtrack::excite(const contact::ContactSample& next) {
+    if (!contact::is_finite(next)) return false;
+    const std::int64_t asked = (frame_at(next.t_s) + kQuantumFrames / 2) / kQuantumFrames;
+    const std::int64_t arrival = std::max(asked, quantum_);
+    // The voices reach it at the border of a quantum; the angle is brought to that moment.
+    contact::ContactSample there = next;
+    const double shift_s = static_cast<double>(arrival * kQuantumFrames) / options_.sample_rate_hz - next.t_s;
+    there.phase_rad += shift_s * next.phase_rate_rad_per_s;
+    for (const auto& voice : voices_) voice->excite(there, arrival - quantum_);
+
+    const double loudness =
+        rolloff(distance(next.position_mm, options_.listener_mm), options_.distance_factor);
+    if (!excited_) before_ = here_ = after_ = slow_ = rolloff_to_ = loudness;
+    rolloff_from_ = arrival == quantum_ ? loudness : rolloff_now();
+    rolloff_to_ = loudness;
+    departure_ = quantum_;
+    arrival_ = arrival;
+    excited_ = true;
+    released_ = false;
+    return true;
+}
+
+void Soundtrack::release() {
+    for (const auto& voice : voices_) voice->release();
+    arrival_ = quantum_;
+    released_ = true;
+}
+
+double Soundtrack::rolloff_now() const {
+    if (quantum_ >= arrival_) return rolloff_to_;
+    const double t = static_cast<double>(quantum_ - departure_) / static_cast<double>(arrival_ - departure_);
+    return rolloff_from_ + t * (rolloff_to_ - rolloff_from_);
+}
+
+void Soundtrack::make_quantum() {
+    if (!released_ && static_cast<double>((quantum_ - arrival_) * kQuantumFrames) >
+                          kHoldSeconds * options_.sample_rate_hz) {
+        release();
+    }
+    Quantum pressure_pa{};
+    for (const auto& voice : voices_) voice->add(pressure_pa);
+    before_ = here_;
+    here_ = after_;
+    slow_ += kFollow * (rolloff_now() - slow_);
+    after_ += kFollow * (slow_ - after_);
+    const Spline loudness(before_, here_, after_);
+    for (std::size_t j = 0; j < made_.size(); ++j) {
+        const double share = loudness.at(static_cast<double>(j) * (1.0 / kQuantumFrames));
+        made_[j] = static_cast<float>(limited(samples_per_pascal_ * share * pressure_pa[j]));
+    }
+    ++quantum_;
+}
+
+void Soundtrack::render(std::span<float> interleaved) {
+    for (std::size_t i = 0; i + 1 < interleaved.size(); i += kChannels) {
+        const auto place = static_cast<std::size_t>(frame_ % kQuantumFrames);
+        if (place == 0) make_quantum();
+        interleaved[i] = interleaved[i + 1] = made_[place];
+        ++frame_;
+    }
+}
+
+std::vector<float> steady_wave(const contact::ContactSample& cut, const SoundtrackOptions& options,
+                               double seconds) {
+    constexpr double kStartSeconds = 0.05;
+    Soundtrack track(options);
+    std::vector<float> wave;
+    const auto keep_left = [&](std::span<const float> block) {
+        for (std::size_t i = 0; i < block.size(); i += kChannels) wave.push_back(block[i]);
+    };
+    contact::ContactSample moment = cut;
+    moment.t_s = 0;
+    track.play_to(moment, keep_left);
+    moment.t_s = kStartSeconds + seconds + kTailSeconds;
+    moment.phase_rad += moment.t_s * moment.phase_rate_rad_per_s;
+    track.play_to(moment, keep_left);
+    const auto length = static_cast<std::size_t>(track.frame_at(seconds));
+    const auto start = static_cast<std::size_t>(track.frame_at(kStartSeconds));
+    wave.resize(start + length);
+    wave.erase(wave.begin(), wave.begin() + static_cast<std::ptrdiff_t>(start));
+    return wave;
+}
+
+}  // namespace tribo::sound

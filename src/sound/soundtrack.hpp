@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// From contact samples to stereo: voices, distance, level, limiter.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/result.hpp"
+#include "contact/contact_sample.hpp"
+#include "sound/voice.hpp"
+
+namespace tribo::sound {
+
+inline constexpr int kChannels = 2;
+inline constexpr double kTailSeconds = 0.02;       // what a release takes, and some
+inline constexpr int kLowestSampleRateHz = 32000;  // carries the chip noise up to 8 kHz with room
+inline constexpr int kHighestSampleRateHz = 192000;
+
+struct SoundtrackOptions {
+    int sample_rate_hz = 48000;  // kLowestSampleRateHz ... kHighestSampleRateHz
+    double gain_db = 0;          // -120 ... 60
+    Vec3 listener_mm;            // stock frame
+    double distance_factor = 1;  // > 0; distances count times this (the paper's; > 1 enlarges a small part)
+    bool as_published = false;   // eq. 23 as printed in place of partials and noise
+    std::uint64_t seed = 1;      // of the noise
+};
+
+// Refuses numbers out of range, naming the job file's key.
+Result<void> check(const SoundtrackOptions& options);
+
+// Pressure of a source `distance_mm` away as a share of the pressure at 1 m: 1 / r, and 1 within 1 m.
+double rolloff(double distance_mm, double distance_factor);
+
+// Renders frames 0, 1, 2, ... of a stereo track: interleaved, both channels alike (the place of the source
+// is heard as loudness only), sample = limited(gain * rolloff * pressure / kFullScalePascal), never beyond
+// -1 ... 1, never scaled to fit. Frame n is at n / sample_rate seconds of the samples' time. The same bits
+// whatever the blocks. A minute with 32 partials and noise takes 0.25 s.
+//
+// excite(), release() and render() are real-time safe; one thread at a time.
+class Soundtrack {
+  public:
+    // The voices of a cut, by the options.
+    explicit Soundtrack(const SoundtrackOptions& options);
+    // Voices of the caller's.
+    Soundtrack(const SoundtrackOptions& options, std::vector<std::unique_ptr<Voice>> voices);
+
+    int sample_rate_hz() const { return options_.sample_rate_hz; }
+    std::int64_t frames_rendered() const { return frame_; }
+
+    // The contact moves on to `next`; render frames_left() frames before the one after it. A sample whose
+    // time has passed is taken at once. A sample that is not finite is refused: false, nothing changes.
+    // Excitation older than 0.1 s without a new one dies away: what lost its source must not drone.
+    bool excite(const contact::ContactSample& next);
+    // Frames until the last sample is reached.
+    std::int64_t frames_left() const { return std::max<std::int64_t>(arrival_ * kQuantumFrames - frame_, 0); }
+    // No contact from now on.
+    void release();
+    // interleaved.size() / 2 frames.
+    void render(std::span<float> interleaved);
+
+    // excite() and everything up to it, in blocks handed to sink(std::span<const float> interleaved).
+    template <class Sink>
+    bool play_to(const contact::ContactSample& next, Sink&& sink) {
+        const bool taken = excite(next);
+        play(frames_left(), sink);
+        return taken;
+    }
+    // The rest of a track of `duration_s`, and kTailSeconds more in which whatever sounds dies away.
+    template <class Sink>
+    void play_out(double duration_s, Sink&& sink) {
+        play(frame_at(duration_s) - frame_, sink);
+        release();
+        play(frame_at(duration_s + kTailSeconds) - frame_, sink);
+    }
+    // The frame next to a time.
+    std::int64_t frame_at(double t_s) const;
+
+  private:
+    static constexpr int kBlockFrames = 1024;
+    static constexpr double kHoldSeconds = 0.1;
+    template <class Sink>
+    void play(std::int64_t frames, Sink&& sink) {
+        std::array<float, kChannels * kBlockFrames> block;
+        while (frames > 0) {
+            const std::int64_t n = std::min<std::int64_t>(frames, kBlockFrames);
+            const std::span<float> part(block.data(), static_cast<std::size_t>(kChannels * n));
+            render(part);
+            sink(std::span<const float>(part));
+            frames -= n;
+        }
+    }
+    double rolloff_now() const;
+    void make_quantum();
+
+    SoundtrackOptions options_;
+    std::vector<std::unique_ptr<Voice>> voices_;
+    double samples_per_pascal_ = 0;
+    std::int64_t quantum_ = 0;  // the next one to be made
+    std::int64_t frame_ = 0;    // the next one to be given out
+    std::int64_t arrival_ = 0;  // quantum at which the last sample is reached
+    bool excited_ = false, released_ = true;
+    double rolloff_from_ = 1, rolloff_to_ = 1;
+    std::int64_t departure_ = 0;                // quantum at which rolloff_from_ held
+    double slow_ = 1;                           // half way through the smoothing
+    double before_ = 1, here_ = 1, after_ = 1;  // smooth, a quantum apart
+    std::array<float, kQuantumFrames> made_{};  // the last quantum; frame_ says how much of it is out
+};
+
+// `seconds` of an unchanging cut, one channel, long enough after its start to be steady: what figure 8 of the
+// paper shows. Options and sample as for a Soundtrack.
+std::vector<float> steady_wave(const contact::ContactSample& cut, const SoundtrackOptions& options,
+                               double seconds);
+
+}  // namespace tribo::sound

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The audio thread never allocates: this program's operator new counts.
+#include <atomic>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <new>
+
+#include "sound/cuts.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+    std::abort();
+}
+void operator delete(void* p) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+
+namespace tribo::sound {
+namespace {
+
+TEST(SoundOfTheAudioThread, never_allocates) {
+    const contact::ForceSpectrum two = test::falling_spectrum(2, 64), four = test::falling_spectrum(4, 16);
+    std::vector<float> buffer(2 * 128);
+    for (const bool as_published : {false, true}) {
+        SoundtrackOptions options;
+        options.as_published = as_published;
+        Soundtrack track(options);
+        const long before = allocations;
+        double t = 0;
+        for (int k = 0; k < 400; ++k) {
+            track.excite(test::cut_at(t,
+                                      k % 7 == 0    ? nullptr
+                                      : k % 50 < 25 ? &two
+                                                    : &four,
+                                      60 * k, k % 3 * 100.0));
+            track.render(buffer);
+            if (k % 90 == 89) track.release();
+            t += 128 / 48000.0;
+        }
+        EXPECT_EQ(allocations - before, 0);
+    }
+    const long before = allocations;
+    delete new int(1);
+    EXPECT_GE(allocations - before, 0);
+    buffer = std::vector<float>(10);
+    EXPECT_GT(allocations - before, 0);  // the counter counts
+}
+
+}  // namespace
+}  // namespace tribo::sound
