@@ -11,6 +11,7 @@
 #include "base/vec3.hpp"
 #include "milling/coefficients.hpp"
 #include "milling/cutter.hpp"
+#include "motion/keyframe_motion.hpp"
 
 namespace tribo::formats {
 
@@ -33,14 +34,14 @@ struct JobMaterial {
 };
 
 enum class PathKind { keyframes, gcode, apt };
-enum class Interpolation { spline, linear };
 
 struct JobPath {
     PathKind kind = PathKind::keyframes;
     std::string file;
-    Interpolation interpolation = Interpolation::spline;  // of keyframes; programs say it themselves
-    std::string machine;                                  // name of a machine for rotary words; may be empty
-    double unit_mm = 1;                                   // of keyframes only
+    motion::Interpolation interpolation =
+        motion::Interpolation::spline;  // of keyframes; programs say it themselves
+    std::string machine;                // name of a machine for rotary words; may be empty
+    double unit_mm = 1;                 // of keyframes only
 };
 
 // What the process is where the program does not say; 0: the program must.

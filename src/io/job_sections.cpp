@@ -143,7 +143,7 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table) {
                      "remove it");
     }
     path.interpolation =
-        static_cast<formats::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
+        static_cast<motion::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
     path.machine = section.text("machine").value_or("");
     path.unit_mm = unit_mm(section);
     return path;

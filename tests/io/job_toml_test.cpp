@@ -68,7 +68,7 @@ TEST(JobFile, of_the_readme_says_what_it_says) {
     EXPECT_EQ(job.process.feed_mm_per_min, 900);
     EXPECT_EQ(job.path.kind, formats::PathKind::keyframes);
     EXPECT_EQ(job.path.file, "jobs/bowl.csv");
-    EXPECT_EQ(job.path.interpolation, formats::Interpolation::spline);
+    EXPECT_EQ(job.path.interpolation, motion::Interpolation::spline);
     EXPECT_EQ(job.sound.listener_mm.value(), (Vec3{0, 0, 0}));
     EXPECT_EQ(job.sound.distance_factor, 1);
     EXPECT_EQ(job.haptics.force_scale, 0.01);

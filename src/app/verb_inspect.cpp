@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// `tribo inspect FILE`: what a program, a model or a job holds.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/exit.hpp"
+#include "app/verbs.hpp"
+#include "io/facts.hpp"
+#include "io/job_toml.hpp"
+#include "io/model_file.hpp"
+#include "io/picture.hpp"
+#include "io/program_file.hpp"
+
+namespace tribo::app {
+namespace {
+
+// Counts times where a program says no feed at all, so that it can be looked at without a job.
+constexpr double kAssumedFeedMmPerMin = 1000;
+// Points along a curved move in a picture.
+constexpr int kPicturePoints = 16;
+
+struct Call {
+    std::string file;
+    bool json = false;
+    std::string picture;
+};
+
+// What was found: facts to print and something to draw.
+struct Found {
+    io::Facts facts;
+    TriangleMesh mesh;
+    std::vector<io::PictureLine> lines;
+};
+
+io::PictureLine feed_line(const motion::Program& program) {
+    io::PictureLine line;
+    line.colours = {{0.12F, 0.44F, 0.55F}};
+    for (const motion::Move& move : program.moves) {
+        if (move.kind != motion::MoveKind::feed) continue;
+        const int points = move.arc || move.quadratic ? kPicturePoints : 1;
+        if (line.points_mm.empty()) line.points_mm.push_back(move.start.tip_mm);
+        for (int i = 1; i <= points; ++i) {
+            line.points_mm.push_back(motion::pose_at(move, static_cast<double>(i) / points).tip_mm);
+        }
+    }
+    return line;
+}
+
+Found found_program(const motion::Program& program, formats::PathKind kind, double rapid_mm_per_min) {
+    Found found{io::describe(program, kind, rapid_mm_per_min), {}, {feed_line(program)}};
+    for (const Vec3 p : found.lines[0].points_mm) {
+        found.mesh.positions.push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    return found;
+}
+
+io::FileResult<Found> inspect_program(std::string_view bytes, const std::string& file,
+                                      formats::PathKind kind) {
+    Result<motion::Program> program = io::parse_program(bytes, file, kind);
+    if (!program) {
+        // Perhaps nothing but the feed is missing, which a job would give.
+        const Error first = program.error();
+        program = io::parse_program(bytes, file, kind, {.default_feed_mm_per_min = kAssumedFeedMmPerMin});
+        if (!program) return std::unexpected(io::Failure(first));
+        program->warnings.push_back({file, first.line, first.cause + ": times are counted at 1000 mm/min"});
+    }
+    return found_program(*program, kind, formats::JobMachine{}.rapid_mm_per_min);
+}
+
+io::FileResult<Found> inspect_model(const std::string& file) {
+    io::FileResult<formats::Model> model = io::read_model_file({file, 1});
+    if (!model) return std::unexpected(model.error());
+    io::Facts facts = io::describe(*model);
+    return Found{std::move(facts), std::move(model->mesh), {}};
+}
+
+io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
+    const io::FileResult<formats::Job> job = io::parse_job(bytes, file);
+    if (!job) return std::unexpected(job.error());
+    const io::FileResult<motion::Program> program = io::read_program(*job);
+    if (!program) return std::unexpected(program.error());
+    Found found = found_program(*program, job->path.kind, job->machine.rapid_mm_per_min);
+    std::optional<io::Facts> part;
+    if (job->part) {
+        io::FileResult<formats::Model> model = io::read_model_file(*job->part);
+        if (!model) return std::unexpected(model.error());
+        part = io::describe(*model);
+        found.mesh = std::move(model->mesh);
+    }
+    found.facts = io::describe(*job, &found.facts, part ? &*part : nullptr);
+    return found;
+}
+
+io::FileResult<Found> inspect_file(const std::string& file) {
+    const io::FileResult<std::string> bytes = io::read_file(file);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (std::filesystem::path(file).extension() == ".toml") return inspect_job(*bytes, file);
+    const std::optional<formats::PathKind> program = io::detect_program(*bytes, file);
+    if (formats::detect_model_format(*bytes, file) && !program) return inspect_model(file);
+    if (program) return inspect_program(*bytes, file, *program);
+    return std::unexpected(
+        io::Failure({file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
+                     "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl) "
+                     "or a job (.toml)"}));
+}
+
+int inspect(const Call& call) {
+    const io::FileResult<Found> found = inspect_file(call.file);
+    if (!found) return report(found.error());
+    if (!call.picture.empty()) {
+        const io::Image image = io::draw_part(found->mesh, found->lines);
+        if (const auto written = io::write_png(call.picture, image); !written) return report(written.error());
+    }
+    if (call.json) {
+        std::fputs(found->facts.json.c_str(), stdout);
+    } else {
+        std::printf("%s\n%s", call.file.c_str(), io::aligned(found->facts.lines).c_str());
+        for (const Warning& warning : found->facts.warnings) std::printf("%s\n", warning.message().c_str());
+    }
+    return std::fflush(stdout) == 0 ? kDone
+                                    : report(io::system_failure("standard output", "write", errno).error());
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program, int& exit_code) {
+    const auto call = std::make_shared<Call>();
+    CLI::App* verb =
+        program.add_subcommand("inspect", "Say what a program, a model or a job holds, with warnings");
+    verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model or a job")->required();
+    verb->add_flag("--json", call->json, "Print one JSON object");
+    verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
+    verb->callback([call, &exit_code] { exit_code = inspect(*call); });
+}
+
+}  // namespace tribo::app

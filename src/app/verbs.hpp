@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The verbs of the program, one file each: a function that adds the verb to the command line and, when it is
+// called, stores the code to exit with.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tribo::app {
+
+void add_render(CLI::App& program, int& exit_code);
+void add_inspect(CLI::App& program, int& exit_code);
+
+}  // namespace tribo::app

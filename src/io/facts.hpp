@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What a file holds, said twice: for a machine as JSON, for a person as aligned lines.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/job.hpp"
+#include "formats/model.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::io {
+
+struct Facts {
+    std::string json;                                        // one object, "schema" and "kind" first
+    std::vector<std::pair<std::string, std::string>> lines;  // name and text
+    Warnings warnings;                                       // those of the JSON
+};
+
+// {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
+Facts describe(const motion::Program& program, formats::PathKind format, double rapid_mm_per_min = 10000);
+// {kind: "model", triangles, area_mm2, bounds_mm, warnings, ...}
+Facts describe(const formats::Model& model);
+// {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".
+Facts describe(const formats::Job& job, const Facts* program, const Facts* part);
+
+// The lines as text, names padded to one width.
+std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines);
+
+}  // namespace tribo::io

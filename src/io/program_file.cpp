@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "io/program_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "formats/apt_reader.hpp"
+#include "formats/gcode_reader.hpp"
+#include "formats/keyframes_csv.hpp"
+
+namespace tribo::io {
+namespace {
+
+using formats::PathKind;
+
+constexpr std::size_t kLookedAt = 4096;  // characters from the start
+
+struct Extension {
+    std::string_view text;
+    PathKind kind;
+};
+constexpr std::array kExtensions{
+    Extension{".ngc", PathKind::gcode},     Extension{".nc", PathKind::gcode},
+    Extension{".gcode", PathKind::gcode},   Extension{".gc", PathKind::gcode},
+    Extension{".tap", PathKind::gcode},     Extension{".cnc", PathKind::gcode},
+    Extension{".mpf", PathKind::gcode},     Extension{".eia", PathKind::gcode},
+    Extension{".min", PathKind::gcode},     Extension{".apt", PathKind::apt},
+    Extension{".cls", PathKind::apt},       Extension{".cldata", PathKind::apt},
+    Extension{".cl", PathKind::apt},        Extension{".aptsource", PathKind::apt},
+    Extension{".csv", PathKind::keyframes},
+};
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return out;
+}
+
+// A line that begins like a block of G-code: an optional N word, then G or M and a digit.
+bool begins_like_gcode(std::string_view line) {
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto skip_blanks = [&] {
+        while (!line.empty() && (line[0] == ' ' || line[0] == '\t')) line.remove_prefix(1);
+    };
+    skip_blanks();
+    if (line.starts_with("n")) {
+        line.remove_prefix(1);
+        while (!line.empty() && digit(line[0])) line.remove_prefix(1);
+        skip_blanks();
+    }
+    return line.size() >= 2 && (line[0] == 'g' || line[0] == 'm') && digit(line[1]);
+}
+
+std::optional<PathKind> detect_by_content(std::string_view bytes) {
+    const std::string text = lower(bytes.substr(0, kLookedAt));
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+        const std::string_view line = std::string_view(text).substr(at, end - at);
+        if (line.starts_with("x,y,z,i,j,k")) return PathKind::keyframes;
+        if (line.starts_with("goto") || line.starts_with("partno") || line.starts_with("multax"))
+            return PathKind::apt;
+        if (begins_like_gcode(line)) return PathKind::gcode;
+        at = end + 1;
+    }
+    return {};
+}
+
+Result<motion::Program> parse_keyframes(std::string_view bytes, const std::string& path,
+                                        const ProgramFileOptions& options) {
+    const auto keyframes = formats::read_keyframes(bytes, {.source_name = path, .unit_mm = options.unit_mm});
+    if (!keyframes) return std::unexpected(keyframes.error());
+    motion::KeyframeOptions motion_options;
+    motion_options.interpolation = options.interpolation;
+    auto moves = motion::keyframe_moves(*keyframes, options.default_feed_mm_per_min, motion_options);
+    if (!moves) {
+        Error error = moves.error();
+        error.file = path;
+        return std::unexpected(std::move(error));
+    }
+    motion::Program program;
+    program.source = path;
+    program.moves = *std::move(moves);
+    return program;
+}
+
+}  // namespace
+
+std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path) {
+    const std::string extension = lower(std::filesystem::path(path).extension().string());
+    for (const Extension& known : kExtensions) {
+        if (extension == known.text) return known.kind;
+    }
+    return detect_by_content(bytes);
+}
+
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
+                                      const ProgramFileOptions& options) {
+    switch (kind) {
+        case PathKind::keyframes:
+            return parse_keyframes(bytes, path, options);
+        case PathKind::apt: {
+            formats::AptOptions apt;
+            apt.source_name = path;
+            apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
+            return formats::read_apt(bytes, apt);
+        }
+        case PathKind::gcode:
+            break;
+    }
+    formats::GcodeOptions gcode;
+    gcode.source_name = path;
+    gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    return formats::read_gcode(bytes, gcode);
+}
+
+FileResult<motion::Program> read_program(const formats::Job& job) {
+    const FileResult<std::string> bytes = read_file(job.path.file);
+    if (!bytes) return std::unexpected(bytes.error());
+    auto program = parse_program(*bytes, job.path.file, job.path.kind,
+                                 {.default_feed_mm_per_min = job.process.feed_mm_per_min,
+                                  .unit_mm = job.path.unit_mm,
+                                  .interpolation = job.path.interpolation});
+    if (!program) return std::unexpected(Failure(program.error()));
+    return *std::move(program);
+}
+
+}  // namespace tribo::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Tool paths from files, whichever of the three formats they are in, as one list of moves.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/job.hpp"
+#include "io/files.hpp"
+#include "motion/keyframe_motion.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::io {
+
+struct ProgramFileOptions {
+    double default_feed_mm_per_min = 0;  // where the program says none; 0: G-code and APT are then refused
+    double unit_mm = 1;                  // of keyframes
+    motion::Interpolation interpolation = motion::Interpolation::spline;  // of keyframes
+};
+
+// By extension (.ngc .nc .gcode .tap ..., .apt .cls .cldata ..., .csv), and by content where that says
+// nothing; empty for what is no program.
+std::optional<formats::PathKind> detect_program(std::string_view bytes, const std::string& path);
+
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, formats::PathKind kind,
+                                      const ProgramFileOptions& options = {});
+
+// The program that a job names, with the job's feed where the program says none.
+FileResult<motion::Program> read_program(const formats::Job& job);
+
+}  // namespace tribo::io
