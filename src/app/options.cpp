@@ -59,7 +59,7 @@ std::string explain_usage(const CLI::App& program, const CLI::ParseError& error)
     const std::string help =
         "see '" + std::string(&app == &program ? "tribo" : "tribo " + app.get_name()) + " --help'";
     const std::vector<std::string> extras = program.remaining(true);
-    if (error.get_name() == "ExtrasError" && !extras.empty()) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !extras.empty()) {
         const std::string& unknown = extras.front();
         const bool flag = unknown.starts_with("-");
         const std::string bare = unknown.substr(0, unknown.find('='));

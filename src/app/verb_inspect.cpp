@@ -50,12 +50,16 @@ io::PictureLine feed_line(const motion::Program& program) {
     return line;
 }
 
+// Points without triangles: the picture leaves room for the lines that run through them.
+void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
+    for (const Vec3 p : points) {
+        mesh.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+}
+
 Found found_program(const motion::Program& program, formats::PathKind kind, double rapid_mm_per_min) {
     Found found{io::describe(program, kind, rapid_mm_per_min), {}, {feed_line(program)}};
-    for (const Vec3 p : found.lines[0].points_mm) {
-        found.mesh.positions.push_back(
-            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    }
+    make_room(found.mesh, found.lines[0].points_mm);
     return found;
 }
 
@@ -63,11 +67,10 @@ io::FileResult<Found> inspect_program(std::string_view bytes, const std::string&
                                       formats::PathKind kind) {
     Result<motion::Program> program = io::parse_program(bytes, file, kind);
     if (!program) {
-        // Perhaps nothing but the feed is missing, which a job would give.
+        // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
         const Error first = program.error();
         program = io::parse_program(bytes, file, kind, {.default_feed_mm_per_min = kAssumedFeedMmPerMin});
         if (!program) return std::unexpected(io::Failure(first));
-        program->warnings.push_back({file, first.line, first.cause + ": times are counted at 1000 mm/min"});
     }
     return found_program(*program, kind, formats::JobMachine{}.rapid_mm_per_min);
 }
@@ -91,6 +94,7 @@ io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& fil
         if (!model) return std::unexpected(model.error());
         part = io::describe(*model);
         found.mesh = std::move(model->mesh);
+        make_room(found.mesh, found.lines[0].points_mm);
     }
     found.facts = io::describe(*job, &found.facts, part ? &*part : nullptr);
     return found;

@@ -66,7 +66,7 @@ class Builder {
     Facts finish() {
         json["warnings"] = Json::array();
         for (const Warning& w : facts.warnings) json["warnings"].push_back(w.message());
-        facts.json = dump(json) + "\n";
+        facts.json = pretty(json);
         return std::move(facts);
     }
 
@@ -187,11 +187,6 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
     b.json["rapid_s"] = s.rapid_s;
     if (s.dwell_s > 0) b.json["dwell_s"] = s.dwell_s;
     b.facts.warnings = program.warnings;
-    if (program.has_rotary_words) {
-        b.facts.warnings.push_back({program.source, program.first_rotary_line,
-                                    "rotary words A, B, C mean nothing without a machine: lengths and bounds "
-                                    "leave them out, and render refuses the program"});
-    }
     return b.finish();
 }
 

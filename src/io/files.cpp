@@ -20,10 +20,11 @@ struct Closing {
     ~Closing() { ::close(descriptor); }
 };
 
-const char* remedy_for(int error_number) {
+const char* remedy_for(int error_number, bool reading) {
     switch (error_number) {
         case ENOENT:
         case ENOTDIR:
+            if (!reading) return "make the folder first, or try another";
             return "try the path again: it is taken from the folder in which the program runs, or from the "
                    "job file's";
         case EACCES:
@@ -82,7 +83,7 @@ std::unexpected<Failure> system_failure(const std::string& file, const char* doi
     const Fault fault = names_something_wrong(error_number) ? Fault::input : Fault::system;
     return std::unexpected(
         Failure({file, 0, 0, std::string("cannot ") + doing + ": " + std::strerror(error_number),
-                 remedy_for(error_number)},
+                 remedy_for(error_number, std::string_view(doing) == "read")},
                 fault));
 }
 

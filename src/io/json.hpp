@@ -21,9 +21,11 @@ inline void set(Json& object, const char* key, std::optional<double> value) {
 inline Json triple(Vec3 v) {
     return Json::array({v.x, v.y, v.z});
 }
-// Bytes that are not UTF-8 (a Latin-1 comment in a program) become replacement characters.
-inline std::string dump(const Json& json, int indent = 2) {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+// One line. Bytes that are not UTF-8 (a Latin-1 comment in a program) become replacement characters.
+inline std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+// Indented, but arrays of plain values on one line; ends with a line end.
+std::string pretty(const Json& json);
 
 }  // namespace tribo::io

@@ -258,7 +258,7 @@ std::string sound_json(const ReportSound& sound) {
     json += ",\"high\":" + array_of(sound.envelope_pascal, 3, [](const auto& step) { return step.second; });
     json += "},\"waves\":[";
     for (const ReportWave& wave : sound.waves) {
-        json += "{\"label\":" + dump(Json(wave.label), -1) + ",\"rate\":" + number(wave.rate_hz, 8) +
+        json += "{\"label\":" + dump(Json(wave.label)) + ",\"rate\":" + number(wave.rate_hz, 8) +
                 ",\"samples\":" + array_of(wave.pascal, 4, [](float p) { return p; }) + "},";
     }
     if (json.back() == ',') json.pop_back();

@@ -49,7 +49,7 @@ std::string summary_json(const Summary& s) {
     for (const Warning& w : s.warnings) json["warnings"].push_back(w.message());
     set(json, "seconds", s.seconds);
     set(json, "peak_memory_mb", s.peak_memory_mb);
-    return dump(json) + "\n";
+    return pretty(json);
 }
 
 }  // namespace tribo::io
