@@ -33,6 +33,8 @@ struct JobMaterial {
     std::optional<milling::CuttingCoefficients> coefficients;
 };
 
+using motion::Interpolation;
+
 enum class PathKind { keyframes, gcode, apt };
 
 struct JobPath {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace tribo::test {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kExamples = std::string(TRIBO_SOURCE_DIR) + "/examples/";
+
+TEST(Inspect, says_what_the_examples_hold) {
+    const Outcome plate = run_tribo({"inspect", kExamples + "plate/plate.nc", "--json"});
+    ASSERT_EQ(plate.code, 0) << plate.err;
+    const Json program = Json::parse(plate.out);
+    for (const char* key :
+         {"schema", "kind", "moves", "path_mm", "rapid_mm", "bounds_mm", "tools", "rotary", "warnings"}) {
+        EXPECT_TRUE(program.contains(key)) << key;
+    }
+    const Outcome bowl = run_tribo({"inspect", "bowl/bowl.toml", "--json"}, kExamples);
+    ASSERT_EQ(bowl.code, 0) << bowl.err;
+    const Json job = Json::parse(bowl.out);
+    EXPECT_EQ(job["kind"], "job");
+    EXPECT_GT(job["program"]["path_mm"].get<double>(), 1000);
+    EXPECT_EQ(job["part"]["kind"], "model");
+    const Outcome surface = run_tribo({"inspect", kExamples + "bowl/bowl.wrl"});
+    ASSERT_EQ(surface.code, 0) << surface.err;
+    EXPECT_NE(surface.out.find("triangles"), std::string::npos);
+}
+
+TEST(Inspect, points_at_the_line_that_is_wrong) {
+    const Scratch scratch;
+    scratch.put("p.ngc", "G21\nG0 X0 Y0 Z0\nG1 X1 F100 Q\n");
+    const Outcome program = run_tribo({"inspect", "p.ngc"}, scratch.path());
+    EXPECT_EQ(program.code, 2);
+    EXPECT_TRUE(program.err.starts_with("p.ngc:3:")) << program.err;
+    scratch.put("j.toml", "[stock]\nbox_mmm = 3\n");
+    const Outcome job = run_tribo({"inspect", "j.toml"}, scratch.path());
+    EXPECT_EQ(job.code, 2);
+    EXPECT_EQ(job.err, "j.toml:2:1: error: unknown key 'box_mmm' in [stock]; try 'box_mm'\n");
+    scratch.put("x.dat", "dear diary");
+    EXPECT_EQ(run_tribo({"inspect", "x.dat"}, scratch.path()).code, 2);
+    scratch.put("empty.stl", "");
+    EXPECT_EQ(run_tribo({"inspect", "empty.stl"}, scratch.path()).code, 2);
+}
+
+TEST(Inspect, reads_a_program_without_a_feed_and_says_so) {
+    const Scratch scratch;
+    scratch.put("p.ngc", "G21\nM3 S1\nG0 X0 Y0 Z0\nG1 X10\n");
+    const Outcome outcome = run_tribo({"inspect", "p.ngc"}, scratch.path());
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("p.ngc:4: warning: no feed"), std::string::npos) << outcome.out;
+}
+
+TEST(Inspect, draws_what_it_found) {
+    const Scratch scratch;
+    for (const char* file : {"plate/plate.nc", "bowl/bowl.wrl", "bowl/bowl.toml"}) {
+        const Outcome outcome = run_tribo({"inspect", kExamples + file, "--picture", scratch / "p.png"});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const std::string png = scratch.get("p.png");
+        EXPECT_TRUE(png.starts_with("\x89PNG")) << file;
+        EXPECT_GT(png.size(), 5000u) << file;
+    }
+    const Outcome refused = run_tribo({"inspect", kExamples + "plate/plate.nc", "--picture", "/dev/full"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("No space left"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace tribo::test

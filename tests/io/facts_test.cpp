@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "io/facts.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/job_toml.hpp"
+#include "io/program_file.hpp"
+
+namespace tribo::io {
+namespace {
+
+using Json = nlohmann::json;
+
+Facts of_program(const char* text) {
+    const auto program = parse_program(text, "p.ngc", formats::PathKind::gcode);
+    EXPECT_TRUE(program) << program.error().text();
+    return describe(program.value(), formats::PathKind::gcode);
+}
+
+TEST(Facts, of_a_program_have_the_promised_keys) {
+    // A quarter circle of radius 10 at feed after a rapid of 5; the arc bulges to x = 10.
+    const Facts facts = of_program("G21 G90\nT2 M6\nM3 S5000\nG0 X0 Y-10 Z5\nG0 Z0\nG3 X10 Y0 I0 J10 F600\n");
+    const Json json = Json::parse(facts.json);
+    EXPECT_EQ(json["schema"], "tribo.inspect/1");
+    EXPECT_EQ(json["kind"], "program");
+    EXPECT_EQ(json["moves"], 2);
+    EXPECT_NEAR(json["path_mm"].get<double>(), 15.707963267948966, 1e-9);
+    EXPECT_NEAR(json["rapid_mm"].get<double>(), 5, 1e-12);
+    const double expected[2][3] = {{0, -10, 0}, {10, 0, 0}};
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(json["bounds_mm"][i][k].get<double>(), expected[i][k], 1e-9);
+        }
+    }
+    EXPECT_EQ(json["tools"], Json::parse("[2]"));
+    EXPECT_EQ(json["rotary"], false);
+    EXPECT_EQ(json["dialect"], "LinuxCNC");
+    EXPECT_TRUE(json["warnings"].is_array());
+    const std::string text = aligned(facts.lines);
+    EXPECT_NE(text.find("path     15.708 mm at feed, 5 mm rapid"), std::string::npos) << text;
+}
+
+TEST(Facts, of_a_program_with_rotary_words_warn) {
+    const Json json = Json::parse(of_program("G21\nM3 S1\nG0 X0 Y0 Z0\nG1 X1 A5 F100\n").json);
+    EXPECT_EQ(json["rotary"], true);
+    EXPECT_NE(json["warnings"].dump().find("without a machine"), std::string::npos);
+}
+
+TEST(Facts, of_a_model_have_the_promised_keys) {
+    formats::Model cube;  // of edge 2
+    for (int i = 0; i < 8; ++i) {
+        cube.mesh.positions.push_back({i & 1 ? 2.0F : 0, i & 2 ? 2.0F : 0, i & 4 ? 2.0F : 0});
+    }
+    cube.mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                           {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    cube.warnings = {{"c.stl", 0, "odd"}};
+    const Json json = Json::parse(describe(cube).json);
+    EXPECT_EQ(json["kind"], "model");
+    EXPECT_EQ(json["triangles"], 12);
+    EXPECT_EQ(json["area_mm2"], 24.0);
+    EXPECT_EQ(json["bounds_mm"], Json::parse("[[0.0,0.0,0.0],[2.0,2.0,2.0]]"));
+    EXPECT_EQ(json["closed"], true);
+    EXPECT_EQ(json["volume_mm3"], 8.0);
+    EXPECT_EQ(json["warnings"][0], "c.stl: warning: odd");
+    cube.mesh.triangles.pop_back();
+    const Json open = Json::parse(describe(cube).json);
+    EXPECT_EQ(open["closed"], false);
+    EXPECT_FALSE(open.contains("volume_mm3"));
+}
+
+TEST(Facts, of_a_job_hold_those_of_its_files) {
+    const auto job = parse_job(
+        "[stock]\nbox_mm=[[0,0,0],[1,2,3]]\n[cutter]\nkind=\"ball\"\ndiameter_mm=6\n"
+        "[material]\nname=\"al7075-t6\"\n[path]\ngcode=\"p.ngc\"\n",
+        "j.toml");
+    ASSERT_TRUE(job) << job.error().text();
+    const Facts program = of_program("G21\nM3 S1\nG0 X0 Y0 Z0\nG1 X1 F100\nG1 X2 A1\n");
+    const Facts facts = describe(*job, &program, nullptr);
+    const Json json = Json::parse(facts.json);
+    EXPECT_EQ(json["kind"], "job");
+    EXPECT_EQ(json["stock"]["box_mm"][1][2], 3.0);
+    EXPECT_EQ(json["cutters"][0]["kind"], "ball");
+    EXPECT_EQ(json["material"]["name"], "al7075-t6");
+    EXPECT_EQ(json["program"]["moves"], 2);
+    EXPECT_EQ(json["program"]["path_mm"], 2.0);
+    EXPECT_FALSE(json["warnings"].empty());
+    EXPECT_FALSE(json.contains("part"));
+}
+
+}  // namespace
+}  // namespace tribo::io

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "io/program_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "io/job_toml.hpp"
+#include "io/scratch.hpp"
+
+namespace tribo::io {
+namespace {
+
+using formats::PathKind;
+using test::Scratch;
+
+TEST(ProgramFormat, is_told_by_the_extension_and_else_by_the_content) {
+    const struct {
+        const char* path;
+        const char* text;
+        std::optional<PathKind> kind;
+    } cases[] = {
+        {"a.ngc", "", PathKind::gcode},
+        {"a.NC", "", PathKind::gcode},
+        {"b.cldata", "", PathKind::apt},
+        {"c.csv", "", PathKind::keyframes},
+        {"a.txt", "%\n(comment)\nN10 G21 G90\n", PathKind::gcode},
+        {"a.txt", "; made by\r\ng0x1y2\r\n", PathKind::gcode},
+        {"O1234", "O1234\nM3 S100\n", PathKind::gcode},
+        {"b", "PARTNO / BLADE\nGOTO/1,2,3\n", PathKind::apt},
+        {"b", "$$ comment\nGOTO  / 1,2,3\n", PathKind::apt},
+        {"c.txt", "X,Y,Z,I,J,K\n0,0,0,0,0,1\n", PathKind::keyframes},
+        {"d", "dear diary\n", std::nullopt},
+        {"d", "", std::nullopt},
+        {"d", "good morning\nmidday\n", std::nullopt},
+    };
+    for (const auto& c : cases) EXPECT_EQ(detect_program(c.text, c.path), c.kind) << c.path << ": " << c.text;
+}
+
+TEST(ProgramFile, of_every_format_gives_the_same_moves) {
+    const std::pair<PathKind, const char*> same[] = {
+        {PathKind::gcode, "G21 G90\nG0 X0 Y0 Z5\nM3 S100\nG1 X10 F600\nG1 Y20\n"},
+        {PathKind::apt, "UNITS/MM\nFEDRAT/600,MMPM\nGOTO/0,0,5\nGOTO/10,0,5\nGOTO/10,20,5\n"},
+        {PathKind::keyframes,
+         "x,y,z,i,j,k,feed_mm_per_min\n0,0,5,0,0,1,\n10,0,5,0,0,1,600\n10,20,5,0,0,1,600\n"},
+    };
+    for (const auto& [kind, text] : same) {
+        const auto program = parse_program(text, "p", kind, {.interpolation = motion::Interpolation::linear});
+        ASSERT_TRUE(program) << program.error().text();
+        ASSERT_EQ(program->moves.size(), 2u) << text;
+        EXPECT_EQ(program->moves[0].end.tip_mm, (Vec3{10, 0, 5}));
+        EXPECT_EQ(program->moves[1].end.tip_mm, (Vec3{10, 20, 5}));
+        EXPECT_EQ(program->moves[1].feed_mm_per_min, 600);
+        EXPECT_EQ(program->source, "p");
+    }
+}
+
+TEST(ProgramFile, takes_the_jobs_feed_where_it_has_none) {
+    const Scratch scratch;
+    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
+    scratch.put("p.ngc", "G21\nM3 S100\nG0 X0 Y0 Z0\nG1 X10\n");
+    scratch.put("p.apt", "UNITS/MM\nGOTO/0,0,0\nGOTO/10,0,0\n");
+    for (const auto& [kind, file] :
+         {std::pair{PathKind::keyframes, "p.csv"}, std::pair{PathKind::gcode, "p.ngc"},
+          std::pair{PathKind::apt, "p.apt"}}) {
+        formats::Job job;
+        job.path.kind = kind;
+        job.path.file = scratch / file;
+        job.path.unit_mm = 10;
+        job.process.feed_mm_per_min = 750;
+        const auto program = read_program(job);
+        ASSERT_TRUE(program) << program.error().text();
+        EXPECT_EQ(program->moves.back().feed_mm_per_min, 750) << file;
+        EXPECT_EQ(program->moves.back().end.tip_mm.x, 10) << file;
+    }
+}
+
+TEST(ProgramFile, that_is_wrong_is_refused_with_its_name) {
+    const Scratch scratch;
+    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,-1\n");  // from up to down: no one motion
+    formats::Job job;
+    job.path.file = scratch / "p.csv";
+    job.process.feed_mm_per_min = 100;
+    const auto poles = read_program(job);
+    ASSERT_FALSE(poles);
+    EXPECT_EQ(poles.error().file, scratch / "p.csv");
+    EXPECT_EQ(poles.error().fault, Fault::input);
+    job.path.file = scratch / "none.csv";
+    EXPECT_EQ(read_program(job).error().file, scratch / "none.csv");
+}
+
+}  // namespace
+}  // namespace tribo::io
