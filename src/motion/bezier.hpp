@@ -4,6 +4,7 @@
 // Source: Farin 2002, Curves and Surfaces for CAGD, 5th ed., ch. 4-6.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -28,11 +29,16 @@ T mix(const T& a, const T& b, double t) {
     return (1 - t) * a + t * b;
 }
 
+// Buffers of up to this many points are the common case, and cheaper to set up than those for kMaxDegree.
+inline constexpr std::size_t kFewPoints = 8;
+
 // The curve's value at t (de Casteljau). No allocation.
-template <class T>
+template <class T, std::size_t Room = kFewPoints>
 T de_casteljau(std::span<const T> control, double t) {
     assert(!control.empty() && control.size() <= kMaxDegree + 1);
-    std::array<T, kMaxDegree + 1> b{};
+    if constexpr (Room < kMaxDegree + 1)
+        if (control.size() > Room) return de_casteljau<T, kMaxDegree + 1>(control, t);
+    std::array<T, Room> b{};
     std::copy(control.begin(), control.end(), b.begin());
     for (std::size_t n = control.size() - 1; n > 0; --n)
         for (std::size_t i = 0; i < n; ++i) b[i] = mix(b[i], b[i + 1], t);

@@ -56,11 +56,13 @@ std::size_t find_span(const BSpline<T>& s, double u) {
 }
 
 // The blossom of the piece over span k at `degree` arguments in any order. No allocation.
-template <class T>
+template <class T, std::size_t Room = kFewPoints>
 T blossom(const BSpline<T>& s, std::size_t k, std::span<const double> arguments) {
     const std::size_t n = s.degree;
     assert(arguments.size() == n && s.knots[k] < s.knots[k + 1]);
-    std::array<T, kMaxDegree + 1> d{};
+    if constexpr (Room < kMaxDegree + 1)
+        if (n >= Room) return blossom<T, kMaxDegree + 1>(s, k, arguments);
+    std::array<T, Room> d{};
     for (std::size_t i = 0; i <= n; ++i) d[i] = s.control[k - n + i];
     for (std::size_t r = 1; r <= n; ++r)
         for (std::size_t i = n; i >= r; --i) {
