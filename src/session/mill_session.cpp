@@ -81,6 +81,7 @@ class MillSession::Run {
     motion::Schedule schedule_;
     field::CarvedField stock_;
     MillTotals totals_;
+    double end_s_ = 0;
 
   private:
     struct Row {
@@ -210,8 +211,8 @@ class MillSession::Run {
         values.mean_torque_nm = 1e-3 * p.mean_torque_nmm;
         values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
         values.removed_mm3 = row.cut.removed_mm3;
-        sinks.row({values, row.cut.engagement, row.spectrum, row.feed, row.cutter, row.end_s, row.angle_rad,
-                   seconds > 0 ? row.cut.chip_mm3 / seconds : 0});
+        sinks.row({values, row.cut.engagement, row.spectrum, row.cut.pose.frame, row.feed, p, row.cutter,
+                   row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0});
     }
 
     void add_collision(const MillCollision& c) {
@@ -243,7 +244,7 @@ class MillSession::Run {
     std::vector<milling::Collision> collisions_;
     std::vector<double> cutting_at_;  // seconds by cutter
     std::size_t next_move_ = 0;
-    double end_s_ = 0, now_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
+    double now_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
 };
 
 MillSession::MillSession(MillSetup setup, ParallelFor parallel)
@@ -252,6 +253,9 @@ MillSession::~MillSession() = default;
 
 bool MillSession::run(const MillSinks& sinks) {
     return run_->run(sinks);
+}
+double MillSession::duration_s() const {
+    return run_->end_s_;
 }
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;

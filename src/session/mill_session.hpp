@@ -49,7 +49,9 @@ struct MillRow {
     const milling::ForceRow& values;
     const milling::Engagement& engagement;
     const contact::ForceSpectrum& spectrum;
+    milling::ToolFrame frame;
     milling::FeedPerTooth feed;
+    milling::ForcePeaks peaks;
     std::size_t cutter = 0;
     double end_s = 0;              // values.t_s is the start
     double spindle_angle_rad = 0;  // at the start
@@ -90,6 +92,8 @@ class MillSession {
     // Mills from start to end. False: stopped by `progress`; the stock is then somewhere in between.
     bool run(const MillSinks& sinks);
 
+    // Of the program, or until_s where that is sooner.
+    double duration_s() const;
     const field::CarvedField& stock() const;
     const MillTotals& totals() const;
     const MillSetup& setup() const;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Where the rows of a session go: forces.csv, sound.wav, and what the report shows.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/files.hpp"
+#include "io/report_html.hpp"
+#include "io/wav.hpp"
+#include "milling/published_force.hpp"
+#include "session/mill_session.hpp"
+#include "sound/soundtrack.hpp"
+#include "sound/waveform.hpp"
+
+namespace tribo::app {
+
+// forces.csv, row by row; with the paper's forces beside the corrected ones in published_forces.csv where
+// asked for.
+class ForceFile {
+  public:
+    static io::FileResult<ForceFile> create(const std::string& path);
+    void add(const session::MillRow& row);
+    io::FileResult<void> finish();
+
+  private:
+    explicit ForceFile(io::FileWriter file) : file_(std::move(file)) {}
+    io::FileWriter file_;
+    std::string line_;
+};
+
+// The paper's [K]{A}, as printed and as corrected, for each row's deepest band in the middle of its
+// engagement.
+class PublishedForceFile {
+  public:
+    static io::FileResult<PublishedForceFile> create(const std::string& path);
+    void add(const session::MillRow& row, const milling::Cutter& cutter,
+             const milling::CuttingCoefficients& k);
+    io::FileResult<void> finish();
+
+  private:
+    explicit PublishedForceFile(io::FileWriter file) : file_(std::move(file)) {}
+    io::FileWriter file_;
+};
+
+struct SoundFileOptions {
+    io::WavFormat format;
+    sound::SoundtrackOptions track;
+};
+
+// sound.wav as long as the program, silent where nothing is cut, and the stretch of it that the report plays.
+class SoundFile {
+  public:
+    static io::FileResult<SoundFile> create(const std::string& path, const SoundFileOptions& options,
+                                            double duration_s);
+    void add(const session::MillRow& row);
+    io::FileResult<void> finish(double duration_s);
+    io::ReportSound for_report() const;
+
+  private:
+    SoundFile(io::WavWriter file, const SoundFileOptions& options);
+    void write(std::span<const float> block);
+
+    SoundFileOptions options_;
+    io::WavWriter file_;
+    std::unique_ptr<sound::Soundtrack> track_;
+    sound::Waveform waveform_;
+    double last_end_s_ = -1;
+    std::vector<float> heard_;
+    std::int64_t heard_from_ = -1;  // frame of the first sound
+};
+
+// Rows for the plots, and the turn with the largest force.
+class ReportRows {
+  public:
+    void add(const session::MillRow& row);
+    std::vector<io::ReportRow> rows;
+    // Works the worst turn out again, instant by instant.
+    std::optional<io::ReportTurn> turn(const session::MillSetup& setup) const;
+
+  private:
+    struct Worst {
+        double force_n = 0;
+        milling::Engagement engagement;
+        milling::FeedPerTooth feed;
+        std::size_t cutter = 0;
+        double t_s = 0, rpm = 0;
+        int line = 0;
+    } worst_;
+};
+
+}  // namespace tribo::app
