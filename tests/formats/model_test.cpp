@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What all readers share: telling the format, cutting polygons, and the units.
 #include "formats/model.hpp"
 

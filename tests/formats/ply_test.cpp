@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PLY: the three encodings give the same model, any types and extra properties pass, lies are told.
 #include "formats/ply.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // STL in both forms: round trips, the ways in which real files lie, and each refusal's message.
 #include "formats/stl.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // VRML 2.0: what is seen, where it is placed, what is refused, and files made to be slow or deep.
 #include "formats/vrml.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Engagement measured on stock of known shape, against the angles and areas that geometry gives.
 #include "milling/engagement_probe.hpp"
 

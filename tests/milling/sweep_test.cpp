@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The swept volume against a brute force that knows nothing of its formulas: the tool is tried at very many
 // instants.
 #include "milling/sweep.hpp"
