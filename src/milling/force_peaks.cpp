@@ -16,8 +16,9 @@ namespace {
 constexpr double kStepRad = 1.0 / 24;
 // A stretch shorter than this bends by less than 1e-4 of the force between its ends.
 constexpr double kShortRad = 0.015;
-// Fewest steps while a rounded piece enters or leaves, when the force turns with the part that is in.
+// Fewest steps while a rounded piece at the tip enters or leaves, and which piece counts as such.
 constexpr int kRootSteps = 4;
+constexpr double kTipShare = 0.2;
 // Borders closer than this are one.
 constexpr double kSameRad = 1e-9;
 constexpr int kNoChange = -1;
@@ -133,39 +134,32 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
     const double length = to - from, period = tool.period_rad(), middle = 0.5 * (from + to);
     // Teeth that are entering or leaving; those wholly within are in the series.
     partial_.clear();
+    bool root = false;
     for (const EngagedEdge* edge : sampled_) {
         const ToothRange teeth = teeth_within(*edge, middle, period);
         for (int n = teeth.first; n <= teeth.last; ++n) {
             const double ahead = edge->phase_rad + n * period, tip = middle + ahead;
-            const bool whole =
-                tip > edge->entry_rad + edge->lag1_rad && tip < edge->exit_rad + edge->lag0_rad;
-            if (!whole) partial_.push_back({edge, ahead});
+            if (tip > edge->entry_rad + edge->lag1_rad && tip < edge->exit_rad + edge->lag0_rad) continue;
+            partial_.push_back({edge, ahead});
+            root = root || edge->z0_mm < kTipShare * edge->z1_mm;
         }
     }
+    const int least = root ? kRootSteps : length < kShortRad ? 1 : 2;
+    const int steps = std::max(least, static_cast<int>(std::ceil((root ? 2 : 1) * length / kStepRad)));
     double sine, cosine, sin_step, cos_step;
     math::sincos(from, sine, cosine);
-    if (!partial_.empty()) {
-        // A rounded piece enters and leaves with the root of the angle, near the tip: even steps of that
-        // root.
-        const int steps = std::max(kRootSteps, static_cast<int>(std::ceil(2 * length / kStepRad)));
-        for (int i = 0; i <= steps; ++i) {
-            const double root = static_cast<double>(i) / steps, theta = from + length * root * root;
-            if (i > 0) math::sincos(theta, sine, cosine);
-            if (i > 0 || from == 0 || jumps_) {
-                last_ = series_.at(theta, sine, cosine);
-                for (const PartialTooth& p : partial_)
-                    last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
-            }
-            extremes.add(last_, i);
-        }
-        return;
-    }
-    const int steps = length < kShortRad ? 1 : std::max(2, static_cast<int>(std::ceil(length / kStepRad)));
-    const double step = length / steps;
-    math::sincos(step, sin_step, cos_step);
+    math::sincos(length / steps, sin_step, cos_step);
     for (int i = 0; i <= steps; ++i) {
+        // A piece at the tip enters and leaves with the root of the angle: even steps of that root.
+        const double part = static_cast<double>(i) / steps,
+                     theta = from + length * (root ? part * part : part);
+        if (root && i > 0) math::sincos(theta, sine, cosine);
         // Helical edges leave no jump at a border: what ended the last stretch starts this one.
-        if (i > 0 || from == 0 || jumps_) last_ = series_.at(from + i * step, sine, cosine);
+        if (i > 0 || from == 0 || jumps_) {
+            last_ = series_.at(theta, sine, cosine);
+            for (const PartialTooth& p : partial_)
+                last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
+        }
         extremes.add(last_, i);
         const double turned = cosine * cos_step - sine * sin_step;
         sine = sine * cos_step + cosine * sin_step;

@@ -8,6 +8,18 @@
 #include "milling/profile_quadrature.hpp"
 
 namespace tribo::milling {
+namespace {
+
+// Taylor series, good to 1e-14 up to here.
+constexpr double kSmallTurnRad = 0.12;
+
+void small_sincos(double x, double& sine, double& cosine) {
+    const double z = x * x;
+    sine = x * (1 - z * (1.0 / 6) * (1 - z * (1.0 / 20) * (1 - z * (1.0 / 42))));
+    cosine = 1 - z * 0.5 * (1 - z * (1.0 / 12) * (1 - z * (1.0 / 30) * (1 - z * (1.0 / 56))));
+}
+
+}  // namespace
 
 contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge, double tip_rad) {
     const bool straight = edge.straight();
@@ -33,12 +45,23 @@ contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge
         const double height = edge.z1_mm - edge.z0_mm;
         return segment_force(edge.load, low, high, straight ? height : height * (high - low) / whole);
     }
+    // The rotations of the points lie close together: one sine and cosine, then small turns from there.
+    const double middle = 0.5 * (low + high);
+    double sin_middle, cos_middle;
+    math::sincos(middle, sin_middle, cos_middle);
+    const bool small = high - low < 2 * kSmallTurnRad;
     contact::ToolForce sum;
     visit_profile(tool, edge.chip, z0, z1, profile_rule(tool, z0, z1, 2 * (high - low)),
                   [&](double point_lag, const EdgeLoad& load) {
-                      double sine, cosine;
-                      math::sincos(tip_rad - point_lag, sine, cosine);
-                      const contact::ToolForce f = force_at_rotation(load, sine, cosine);
+                      const double turn = tip_rad - point_lag - middle;
+                      double s, c;
+                      if (small) {
+                          small_sincos(turn, s, c);
+                      } else {
+                          math::sincos(turn, s, c);
+                      }
+                      const contact::ToolForce f = force_at_rotation(load, sin_middle * c + cos_middle * s,
+                                                                     cos_middle * c - sin_middle * s);
                       sum.force_n += f.force_n;
                       sum.torque_nmm += f.torque_nmm;
                   });
