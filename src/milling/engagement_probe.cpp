@@ -41,7 +41,6 @@ EngagementProbe::EngagementProbe(const Cutter& cutter) : cutter_(cutter) {
         math::sincos((n + 0.5) * math::kTwoPi / kAngles, sin_[n], cos_[n]);
     }
     levels_.reserve(64);
-    borders_.reserve(64);
 }
 
 double EngagementProbe::least_sine(const CutPose& pose, double z) const {
@@ -191,27 +190,26 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
         for (int n = 0; n < kLevels; ++n) add_level(bottom + (high - bottom) * (n + 0.5) / kLevels);
     }
 
-    borders_.assign(1, low);
+    // Between levels that differ by more than a few probes lies a step or a slope: look there until they
+    // agree or the step is as thin as heights are wanted.
     const double fine = std::max(0.002 * (high - low), 0.001);
-    for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
-        Level below = levels_[n], above = levels_[n + 1];
-        if (std::popcount(below.mask ^ above.mask) > kStepProbes) {
-            while (above.z - below.z > fine) {
-                const double z = 0.5 * (below.z + above.z);
-                const Mask mask = look(field, pose, z);
-                const bool like_below = std::popcount(mask ^ below.mask) <= std::popcount(mask ^ above.mask);
-                (like_below ? below : above) = {z, mask};
-            }
+    for (std::size_t n = 0; n + 1 < levels_.size();) {
+        const Level below = levels_[n], above = levels_[n + 1];
+        if (std::popcount(below.mask ^ above.mask) <= kStepProbes || above.z - below.z <= fine) {
+            ++n;
+            continue;
         }
-        borders_.push_back(0.5 * (below.z + above.z));
+        const double z = 0.5 * (below.z + above.z);
+        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1, {z, look(field, pose, z)});
     }
-    borders_.push_back(high);
+    // Each level stands for the heights that are nearer to it than to its neighbours; alike ones on the
+    // cylinder are one.
     for (std::size_t n = 0; n < levels_.size();) {
         std::size_t end = n + 1;
-        const double corner_top = corner;
-        while (end < levels_.size() && levels_[end].mask == levels_[n].mask && borders_[n] >= corner_top)
-            ++end;
-        if (levels_[n].mask != 0) add_bands(field, pose, levels_[n].mask, borders_[n], borders_[end], out);
+        const double z0 = n == 0 ? low : 0.5 * (levels_[n - 1].z + levels_[n].z);
+        while (end < levels_.size() && levels_[end].mask == levels_[n].mask && z0 >= corner) ++end;
+        const double z1 = end == levels_.size() ? high : 0.5 * (levels_[end - 1].z + levels_[end].z);
+        if (levels_[n].mask != 0) add_bands(field, pose, levels_[n].mask, z0, z1, out);
         n = end;
     }
 }

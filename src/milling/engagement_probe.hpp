@@ -61,7 +61,6 @@ class EngagementProbe {
     Cutter cutter_;
     double sin_[kAngles], cos_[kAngles];
     std::vector<Level> levels_;
-    std::vector<double> borders_;
 };
 
 // Volume that the engaged surface sweeps for each mm of tip travel, mm2: the area that the chips take out of
