@@ -77,7 +77,7 @@ double EngagementProbe::refine(const field::CarvedField& field, const CutPose& p
     };
     // Regula falsi in the Illinois form on the exact distance.
     constexpr int kSteps = 8;
-    constexpr double kAngle = 2e-4, kDepth = 1e-5;  // rad, mm
+    constexpr double kAngle = 5e-4, kDepth = 1e-4;  // rad, mm
     double out = depth(outside), in = depth(inside);
     if (out < 0) return outside;
     double angle = inside;
@@ -144,7 +144,7 @@ double EngagementProbe::bottom_fraction(const field::CarvedField& field, const C
     for (int ring = 0; ring < kRings; ++ring) {
         // Rings of equal area, so that every probe stands for the same share of the disc.
         const double r = radius * std::sqrt((ring + 0.5) / kRings);
-        for (int n = ring % 2; n < kAngles; n += 2, ++of) {
+        for (int n = ring % 4; n < kAngles; n += 4, ++of) {
             const Vec3 p = pose.tip_mm + r * sin_[n] * pose.frame.x + r * cos_[n] * pose.frame.y;
             in += static_cast<int>(field.is_material(p, kSkin));
         }
@@ -187,6 +187,8 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
     }
     if (high > round_top) {
         const double bottom = levels_.empty() ? low : round_top;
+        // Where the tool climbs or dives, what it meets just above its bottom is thin and changes fast.
+        if (levels_.empty()) add_level(low + 0.01 * (high - low));
         for (int n = 0; n < kLevels; ++n) add_level(bottom + (high - bottom) * (n + 0.5) / kLevels);
     }
 
