@@ -2,9 +2,24 @@
 #include "base/mesh.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <compare>
 #include <utility>
 
 namespace tribo {
+namespace {
+
+struct KeyedVertex {
+    std::array<std::uint32_t, 3> bits;
+    std::uint32_t index;
+    auto operator<=>(const KeyedVertex&) const = default;
+};
+
+std::uint32_t bits_of(float value) {
+    return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value);
+}
+
+}  // namespace
 
 Box3 bounds(const TriangleMesh& mesh) {
     Box3 box;
@@ -47,6 +62,24 @@ bool is_closed(const TriangleMesh& mesh) {
     std::sort(backward.begin(), backward.end());
     return !forward.empty() && forward == backward &&
            std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+}
+
+void weld_exactly(TriangleMesh& mesh) {
+    std::vector<KeyedVertex> sorted(mesh.positions.size());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) {
+        const Point3f& p = mesh.positions[i];
+        sorted[i] = {{bits_of(p[0]), bits_of(p[1]), bits_of(p[2])}, i};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::uint32_t> first(mesh.positions.size());
+    for (std::size_t i = 0, group = 0; i < sorted.size(); ++i) {
+        if (sorted[i].bits != sorted[group].bits) group = i;
+        first[sorted[i].index] = sorted[group].index;
+    }
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& corner : t) corner = first[corner];
+    }
+    mesh.normals.clear();
 }
 
 }  // namespace tribo

@@ -28,5 +28,13 @@ double area_mm2(const TriangleMesh& mesh);
 double volume_mm3(const TriangleMesh& mesh);
 // True when every edge is shared by exactly two triangles that run through it in opposite directions.
 bool is_closed(const TriangleMesh& mesh);
+// A triangle that uses a vertex twice.
+constexpr bool is_degenerate(const Triangle& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+// Lets triangles use the first of all positions of equal value (-0 equals 0); normals are dropped, positions
+// stay, also those no longer used, and so do triangles that come to use a vertex twice. By sorting, so
+// neither the result nor the time (n log n) depends on how the values lie.
+void weld_exactly(TriangleMesh& mesh);
 
 }  // namespace tribo

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "formats/model_mesh.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -11,16 +8,6 @@ namespace tribo::formats {
 namespace {
 
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-
-struct KeyedVertex {
-    std::array<std::uint32_t, 3> bits;
-    std::uint32_t index;
-    auto operator<=>(const KeyedVertex&) const = default;
-};
-
-std::uint32_t bits_of(float value) {
-    return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value);
-}
 
 // Gives positions new numbers in the order in which triangles first use them; drops the others.
 void renumber(TriangleMesh& mesh) {
@@ -45,7 +32,7 @@ std::size_t drop_degenerate(std::vector<Triangle>& triangles, std::vector<ModelP
     const auto keep_of = [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const Triangle t = triangles[i];
-            if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles[kept++] = t;
+            if (!is_degenerate(t)) triangles[kept++] = t;
         }
     };
     for (ModelPart& part : parts) {
@@ -67,23 +54,6 @@ std::optional<Point3f> to_position(double x, double y, double z, double unit_mm)
                     static_cast<float>(z * unit_mm)};
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return std::nullopt;
     return p;
-}
-
-void weld_exactly(TriangleMesh& mesh) {
-    std::vector<KeyedVertex> sorted(mesh.positions.size());
-    for (std::uint32_t i = 0; i < sorted.size(); ++i) {
-        const Point3f& p = mesh.positions[i];
-        sorted[i] = {{bits_of(p[0]), bits_of(p[1]), bits_of(p[2])}, i};
-    }
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<std::uint32_t> first(mesh.positions.size());
-    for (std::size_t i = 0, group = 0; i < sorted.size(); ++i) {
-        if (sorted[i].bits != sorted[group].bits) group = i;
-        first[sorted[i].index] = sorted[group].index;
-    }
-    for (Triangle& t : mesh.triangles) {
-        for (std::uint32_t& corner : t) corner = first[corner];
-    }
 }
 
 Result<Model> finish_model(Model model, const ModelOptions& options, Weld weld) {

@@ -14,10 +14,6 @@ enum class Weld { no, exact };
 // The point in mm; none when it is not finite or beyond single precision.
 std::optional<Point3f> to_position(double x, double y, double z, double unit_mm);
 
-// Makes positions of equal value one (-0 equals 0), in order of first use. By sorting, so the order of the
-// result and the time (n log n) do not depend on the values.
-void weld_exactly(TriangleMesh& mesh);
-
 // The model of the triangles read: welds, drops triangles that use a vertex twice (counted in a warning; a
 // triangle without area but with three different corners may be what closes a mesh, and stays), drops unused
 // positions. A model without triangles is an error.
