@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "surface/designed_surface.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tribo::surface {
+namespace {
+
+// Longest edge of the triangle that a sample stands for, in spacings: a right angle's two halves then have
+// their samples a spacing apart.
+constexpr double kReach = 1.5;
+
+// Halves the triangle across its longest edge until it is small, and samples the middle of what is left.
+void sample_triangle(Vec3 a, Vec3 b, Vec3 c, const SurfaceSample& whole, double longest,
+                     std::vector<SurfaceSample>& out) {
+    const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
+    if (std::max({ab, bc, ca}) <= longest) {
+        out.push_back({(a + b + c) / 3, whole.normal, whole.area_mm2, whole.triangle});
+        return;
+    }
+    const bool is_bc = bc >= ab && bc >= ca, is_ca = !is_bc && ca >= ab;
+    const Vec3 from = is_bc   ? b
+                      : is_ca ? c
+                              : a,
+               to = is_bc   ? c
+                    : is_ca ? a
+                            : b,
+               tip = is_bc   ? a
+                     : is_ca ? b
+                             : c;
+    const Vec3 middle = 0.5 * (from + to);
+    SurfaceSample half = whole;
+    half.area_mm2 *= 0.5;
+    sample_triangle(from, middle, tip, half, longest, out);
+    sample_triangle(middle, to, tip, half, longest, out);
+}
+
+}  // namespace
+
+DesignedSurface::DesignedSurface(TriangleMesh mesh, bool closed)
+    : distance_(std::move(mesh)), area_(tribo::area_mm2(distance_.mesh())), closed_(closed) {}
+
+Result<DesignedSurface> DesignedSurface::make(TriangleMesh mesh, Vec3 up) {
+    weld_exactly(mesh);
+    std::erase_if(mesh.triangles, is_degenerate);
+    if (!(tribo::area_mm2(mesh) > 0)) {
+        return fail("the designed surface has no area", "check that the model holds a surface");
+    }
+    const bool closed = is_closed(mesh);
+    double outward = 0;
+    if (closed) {
+        outward = volume_mm3(mesh);
+    } else {
+        for (const Triangle& t : mesh.triangles) {
+            const Vec3 a = mesh.position(t[0]);
+            outward += dot(up, cross(mesh.position(t[1]) - a, mesh.position(t[2]) - a));
+        }
+    }
+    if (outward < 0) {
+        for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    }
+    return DesignedSurface(std::move(mesh), closed);
+}
+
+std::vector<SurfaceSample> DesignedSurface::sample(double spacing_mm) const {
+    std::vector<SurfaceSample> samples;
+    for (std::uint32_t i = 0; i < mesh().triangles.size(); ++i) {
+        const Triangle& t = mesh().triangles[i];
+        const Vec3 a = mesh().position(t[0]), b = mesh().position(t[1]), c = mesh().position(t[2]);
+        const Vec3 twice_area = cross(b - a, c - a);
+        const SurfaceSample whole{{}, normalized(twice_area, {}), 0.5 * length(twice_area), i};
+        if (whole.normal != Vec3{}) sample_triangle(a, b, c, whole, kReach * spacing_mm, samples);
+    }
+    return samples;
+}
+
+}  // namespace tribo::surface
