@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "surface/deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "surface/height.hpp"
+#include "surface/scallop.hpp"
+
+namespace tribo::surface {
+namespace {
+
+constexpr std::size_t kChunk = 256;     // samples that one task measures
+constexpr std::size_t kSharpened = 16;  // samples from which each extreme is sharpened
+constexpr double kOffBlank = 1e-3;      // this far outside the blank's surface is outside, mm
+constexpr double kFlatScallop = 1e-4;   // lower rest is noise of the field, not a scallop, mm
+constexpr double kCrestFall = 0.75;     // most height half way to a pass, over the crest's
+constexpr int kMostMoves = 200;         // rounds of a climb; twenty do
+constexpr int kHistogramBins = 48;
+
+class Comparison {
+  public:
+    Comparison(const contact::DistanceField& machined, const DesignedSurface& designed,
+               const DeviationOptions& options)
+        : machined_(machined), designed_(designed), options_(options) {
+        const double finest = std::sqrt(2.7 * designed.area_mm2() / static_cast<double>(kMaxSamples));
+        report_.spacing_mm = std::max(options.spacing_mm, finest);
+    }
+
+    DeviationReport run(const ParallelFor& parallel) {
+        measure_all(parallel);
+        if (report_.samples.empty()) return std::move(report_);
+        summarise();
+        report_.rest = sharpest(by_height(1), 1);
+        report_.gouge = sharpest(by_height(-1), -1);
+        report_.scallop = sharpest(scallops(), 1);
+        return std::move(report_);
+    }
+
+  private:
+    // Signed height over a point of the designed surface; none where that says nothing about the cutting.
+    std::optional<double> height(Vec3 point, Vec3 normal) const {
+        const auto found = height_over(machined_, point, normal, options_.limit_mm);
+        if (!options_.blank || (found && *found >= 0)) return found;
+        if (options_.blank->distance_mm(point) > kOffBlank) return std::nullopt;
+        // Down to where the blank ended, if that comes first: what was not there was not gouged.
+        const double lowest = found.value_or(-options_.limit_mm);
+        for (double t = 0; t > lowest;) {
+            const double depth = options_.blank->distance_mm(point + t * normal);
+            if (depth > kOffBlank) return t;
+            t += std::min(depth, -kOffBlank);
+        }
+        return found;
+    }
+
+    void measure_all(const ParallelFor& parallel) {
+        const std::vector<SurfaceSample> samples = designed_.sample(report_.spacing_mm);
+        std::vector<double> heights(samples.size());
+        parallel((samples.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+            const std::size_t end = std::min(samples.size(), (chunk + 1) * kChunk);
+            for (std::size_t i = chunk * kChunk; i < end; ++i) {
+                heights[i] = height(samples[i].point_mm, samples[i].normal)
+                                 .value_or(std::numeric_limits<double>::quiet_NaN());
+            }
+        });
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (std::isnan(heights[i])) {
+                report_.unmeasured_mm2 += samples[i].area_mm2;
+                continue;
+            }
+            report_.measured_mm2 += samples[i].area_mm2;
+            report_.samples.push_back(samples[i]);
+            report_.heights_mm.push_back(static_cast<float>(heights[i]));
+        }
+    }
+
+    double height_of(std::size_t i) const { return static_cast<double>(report_.heights_mm[i]); }
+
+    void summarise() {
+        double sum = 0, squares = 0, touched = 0;
+        std::vector<std::size_t> order(report_.samples.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        for (const std::size_t i : order) {
+            const double h = height_of(i), area = report_.samples[i].area_mm2;
+            sum += h * area;
+            squares += h * h * area;
+            (h > 0 ? report_.rest_mm3 : report_.gouge_mm3) += std::abs(h) * area;
+            if (h <= options_.touch_mm) touched += area;
+        }
+        report_.mean_mm = sum / report_.measured_mm2;
+        report_.rms_mm = std::sqrt(squares / report_.measured_mm2);
+        report_.touched_share = touched / report_.measured_mm2;
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return height_of(a) != height_of(b) ? height_of(a) < height_of(b) : a < b;
+        });
+        report_.p1_mm = percentile(order, 0.01);
+        report_.p50_mm = percentile(order, 0.5);
+        report_.p99_mm = percentile(order, 0.99);
+        fill_histogram(height_of(order.front()), height_of(order.back()));
+    }
+
+    double percentile(const std::vector<std::size_t>& order, double share) const {
+        double area = 0;
+        for (const std::size_t i : order) {
+            area += report_.samples[i].area_mm2;
+            if (area >= share * report_.measured_mm2) return height_of(i);
+        }
+        return height_of(order.back());
+    }
+
+    void fill_histogram(double lowest, double highest) {
+        DeviationHistogram& h = report_.histogram;
+        h.first_mm = lowest;
+        h.bin_mm = std::max(highest - lowest, 1e-9) / kHistogramBins;
+        h.shares.assign(kHistogramBins, 0);
+        for (std::size_t i = 0; i < report_.samples.size(); ++i) {
+            const int bin =
+                std::min(kHistogramBins - 1, static_cast<int>((height_of(i) - lowest) / h.bin_mm));
+            h.shares[static_cast<std::size_t>(bin)] += report_.samples[i].area_mm2 / report_.measured_mm2;
+        }
+    }
+
+    // The samples from which an extreme may be sharpened: the highest (side 1) or the deepest (-1).
+    std::vector<std::size_t> by_height(double side) const {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < report_.samples.size(); ++i) {
+            if (side * height_of(i) > 0) found.push_back(i);
+        }
+        const std::size_t kept = std::min(found.size(), kSharpened);
+        std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(),
+                          [&](std::size_t a, std::size_t b) {
+                              return height_of(a) != height_of(b) ? side * height_of(a) > side * height_of(b)
+                                                                  : a < b;
+                          });
+        found.resize(kept);
+        return found;
+    }
+
+    // The highest samples on crests between passes.
+    std::vector<std::size_t> scallops() const {
+        const TouchedSamples touched(report_.samples, report_.heights_mm, options_.touch_mm,
+                                     options_.pass_width_mm);
+        std::vector<std::size_t> order, found;
+        for (std::size_t i = 0; i < report_.samples.size(); ++i) {
+            if (height_of(i) > kFlatScallop) order.push_back(i);
+        }
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return height_of(a) != height_of(b) ? height_of(a) > height_of(b) : a < b;
+        });
+        for (const std::size_t i : order) {
+            if (found.size() == kSharpened) break;
+            const auto crossing = touched.around(report_.samples[i], height_of(i));
+            if (crossing && is_crest(i, *crossing) && !is_blank(i)) found.push_back(i);
+        }
+        return found;
+    }
+
+    // True where the surface falls away on both sides. On a flank with a wall above it, one side rises.
+    bool is_crest(std::size_t i, const Crossing& crossing) const {
+        const SurfaceSample& s = report_.samples[i];
+        const double half_way = 0.5 * std::min(crossing.first_mm, crossing.second_mm);
+        for (const double way : {half_way, -half_way}) {
+            const field::MeshPoint at =
+                designed_.distance().closest(s.point_mm + way * crossing.way, s.triangle);
+            const auto h = height(at.point_mm, at.normal);
+            if (!h || *h > kCrestFall * height_of(i)) return false;
+        }
+        return true;
+    }
+
+    // True where the machined surface is still the blank's: no cutter was there.
+    bool is_blank(std::size_t i) const {
+        const SurfaceSample& s = report_.samples[i];
+        return options_.blank &&
+               options_.blank->distance_mm(s.point_mm + height_of(i) * s.normal) > -kOffBlank;
+    }
+
+    // Climbs from each sample, staying within the spacing of it, and gives the best top.
+    DeviationExtreme sharpest(const std::vector<std::size_t>& from, double side) const {
+        DeviationExtreme best;
+        for (const std::size_t i : from) {
+            const DeviationExtreme top = climb(report_.samples[i], side);
+            if (top.mm > best.mm) best = top;
+        }
+        return best;
+    }
+
+    // Pattern search along the designed surface in eight directions, the step halved where none leads up.
+    DeviationExtreme climb(const SurfaceSample& start, double side) const {
+        const Vec3 u = any_perpendicular(start.normal), v = cross(start.normal, u);
+        const double diagonal = std::sqrt(0.5);
+        const Vec3 ways[] = {
+            u, -u, v, -v, diagonal * (u + v), diagonal * (u - v), -diagonal * (u + v), diagonal * (v - u)};
+        DeviationExtreme best{side * height(start.point_mm, start.normal).value_or(0), start.point_mm};
+        std::uint32_t triangle = start.triangle;
+        int moves = 0;
+        for (double step = report_.spacing_mm / 2; step > report_.spacing_mm / 65536 && moves < kMostMoves;) {
+            bool climbed = false;
+            ++moves;
+            for (const Vec3 way : ways) {
+                const field::MeshPoint at = designed_.distance().closest(best.at_mm + step * way, triangle);
+                if (distance(at.point_mm, start.point_mm) > report_.spacing_mm) continue;
+                const auto h = height(at.point_mm, at.normal);
+                if (!h || side * *h <= best.mm) continue;
+                best = {side * *h, at.point_mm};
+                triangle = at.triangle;
+                climbed = true;
+            }
+            if (!climbed) step /= 2;
+        }
+        return best;
+    }
+
+    const contact::DistanceField& machined_;
+    const DesignedSurface& designed_;
+    const DeviationOptions& options_;
+    DeviationReport report_;
+};
+
+}  // namespace
+
+DeviationReport compare(const contact::DistanceField& machined, const DesignedSurface& designed,
+                        const DeviationOptions& options, const ParallelFor& parallel) {
+    return Comparison(machined, designed, options).run(parallel);
+}
+
+std::vector<float> deviations_of(const TriangleMesh& machined, const DesignedSurface& designed,
+                                 const ParallelFor& parallel) {
+    std::vector<float> result(machined.positions.size());
+    parallel((result.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(result.size(), (chunk + 1) * kChunk);
+        std::uint32_t guess = 0;
+        for (std::size_t i = chunk * kChunk; i < end; ++i) {
+            const auto found =
+                designed.distance().closest(machined.position(static_cast<std::uint32_t>(i)), guess);
+            result[i] = static_cast<float>(found.distance_mm);
+            guess = found.triangle;
+        }
+    });
+    return result;
+}
+
+}  // namespace tribo::surface
