@@ -15,6 +15,7 @@
 #include "field/box_shape.hpp"
 #include "field/contour.hpp"
 #include "formats/stl.hpp"
+#include "io/gltf.hpp"
 #include "io/job_toml.hpp"
 #include "io/memory.hpp"
 #include "io/model_file.hpp"
@@ -36,7 +37,8 @@ struct Solid {
 
 io::FileResult<Solid> read_solid(const formats::JobSolid& solid) {
     if (!solid.model) return Solid{std::make_unique<field::BoxShape>(solid.box_mm), solid.box_mm.volume()};
-    return std::unexpected(io::Failure({solid.model->path, 0, 0, "stock from a model is not read", "give box_mm"}));
+    return std::unexpected(
+        io::Failure({solid.model->path, 0, 0, "stock from a model is not read", "give box_mm"}));
 }
 
 // Everything the job names, read and checked.
@@ -257,7 +259,7 @@ class Outputs {
             return true;
         });
         if (auto done = stl->finish(); !done) return done;
-        return {};
+        return io::write_glb(folder_.file("machined.glb"), mesh);
     }
 
     io::FileResult<void> write_report(const session::MillSession& session, const io::Summary& summary,

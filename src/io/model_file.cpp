@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/model_file.hpp"
 
+#include "io/gltf.hpp"
+
 namespace tribo::io {
 
 FileResult<formats::Model> read_model_file(const formats::ModelFile& file) {
@@ -9,7 +11,9 @@ FileResult<formats::Model> read_model_file(const formats::ModelFile& file) {
     formats::ModelOptions options;
     options.source_name = file.path;
     options.unit_mm = file.unit_mm;
-    auto model = formats::read_model(*bytes, options);
+    const auto format = formats::detect_model_format(*bytes, file.path);
+    auto model = format == formats::ModelFormat::gltf ? read_gltf(*bytes, options)
+                                                      : formats::read_model(*bytes, options);
     if (!model) return std::unexpected(Failure(model.error()));
     return *std::move(model);
 }
