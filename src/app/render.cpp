@@ -14,6 +14,7 @@
 #include "app/threads.hpp"
 #include "field/box_shape.hpp"
 #include "field/contour.hpp"
+#include "field/mesh_shape.hpp"
 #include "formats/stl.hpp"
 #include "io/gltf.hpp"
 #include "io/job_toml.hpp"
@@ -24,6 +25,7 @@
 #include "io/program_file.hpp"
 #include "io/summary_json.hpp"
 #include "session/mill_setup.hpp"
+#include "surface/deviation.hpp"
 
 namespace tribo::app {
 namespace {
@@ -37,8 +39,16 @@ struct Solid {
 
 io::FileResult<Solid> read_solid(const formats::JobSolid& solid) {
     if (!solid.model) return Solid{std::make_unique<field::BoxShape>(solid.box_mm), solid.box_mm.volume()};
-    return std::unexpected(
-        io::Failure({solid.model->path, 0, 0, "stock from a model is not read", "give box_mm"}));
+    auto model = io::read_model_file(*solid.model);
+    if (!model) return std::unexpected(model.error());
+    auto shape = field::MeshShape::make(std::move(model->mesh));
+    if (!shape) {
+        Error error = shape.error();
+        error.file = solid.model->path;
+        return std::unexpected(io::Failure(error));
+    }
+    const double volume = volume_mm3((*shape)->mesh());
+    return Solid{std::move(*shape), volume};
 }
 
 // Everything the job names, read and checked.
@@ -246,6 +256,9 @@ class Outputs {
         if (call_.wants("mesh")) {
             if (auto done = write_mesh(mesh); !done) return done;
         }
+        if (loaded_.part) {
+            if (auto done = compare(session, summary); !done) return done;
+        }
         if (call_.wants("report")) return write_report(session, summary, std::move(mesh));
         return {};
     }
@@ -262,6 +275,26 @@ class Outputs {
         return io::write_glb(folder_.file("machined.glb"), mesh);
     }
 
+    io::FileResult<void> compare(const session::MillSession& session, io::Summary& summary) {
+        auto designed = surface::DesignedSurface::make(std::move(loaded_.part->mesh));
+        if (!designed) {
+            Error error = designed.error();
+            error.file = loaded_.job.part->path;
+            return std::unexpected(io::Failure(error));
+        }
+        surface::DeviationOptions options;
+        options.pass_width_mm = 0;
+        for (const milling::Cutter& c : session.setup().cutters) {
+            options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
+        }
+        options.blank = &session.stock().blank();
+        const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
+        summary.gouge_max_mm = d.gouge.mm;
+        summary.rest_max_mm = d.rest.mm;
+        summary.scallop_max_mm = d.scallop.mm;
+        return {};
+    }
+
     io::FileResult<void> write_report(const session::MillSession& session, const io::Summary& summary,
                                       TriangleMesh mesh) {
         io::ReportData data;
@@ -274,7 +307,10 @@ class Outputs {
         mesh = {};
         data.rows = io::thin_rows(report_.rows, 4000);
         data.turn = report_.turn(session.setup());
-        if (sound_) data.sound = sound_->for_report();
+        if (sound_) {
+            data.sound = sound_->for_report();
+            data.sound->waves = report_.waves(session.setup(), sound_->options());
+        }
         data.facts = facts_of(loaded_);
         return io::write_file(folder_.file("report.html"), io::report_html(data));
     }

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "formats/forces_csv.hpp"
+#include "sound/calibration.hpp"
 
 namespace tribo::app {
 namespace {
@@ -142,7 +143,10 @@ io::ReportSound SoundFile::for_report() const {
     io::ReportSound sound;
     const double rate = options_.track.sample_rate_hz;
     sound.seconds = static_cast<double>(waveform_.frames()) / rate;
-    for (const sound::Extremes& e : waveform_.columns()) sound.envelope_pascal.emplace_back(e.min, e.max);
+    for (const sound::Extremes& e : waveform_.columns()) {
+        constexpr auto kPascal = static_cast<float>(sound::kFullScalePascal);
+        sound.envelope_pascal.emplace_back(kPascal * e.min, kPascal * e.max);
+    }
     sound.heard_from_s = static_cast<double>(std::max<std::int64_t>(heard_from_, 0)) / rate;
     sound.rate_hz = rate;
     sound.stereo = heard_;
@@ -154,7 +158,8 @@ void ReportRows::add(const session::MillRow& row) {
     rows.push_back({v.t_s, row.end_s - v.t_s, v.line, v.tip_mm, length(v.mean_n), row.peaks.peak_force_n,
                     v.entry_deg, v.exit_deg, v.axial_depth_mm, v.spindle_rpm, v.feed_mm_per_min});
     if (row.peaks.peak_force_n > worst_.force_n) {
-        worst_ = {row.peaks.peak_force_n, row.engagement, row.feed, row.cutter, v.t_s, v.spindle_rpm, v.line};
+        worst_ = {row.peaks.peak_force_n, row.engagement,         row.feed,           row.cutter, v.t_s,
+                  v.spindle_rpm,          v.feed_mm_per_min / 60, row.chip_mm3_per_s, v.line};
     }
 }
 
@@ -176,6 +181,36 @@ std::optional<io::ReportTurn> ReportRows::turn(const session::MillSetup& setup) 
         turn.spectrum.emplace_back(spectrum.order(n) * worst_.rpm / 60, amplitude);
     }
     return turn;
+}
+
+std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
+                                              const sound::SoundtrackOptions& options) const {
+    std::vector<io::ReportWave> waves;
+    if (worst_.force_n <= 0) return waves;
+    const auto wave = [&](double speed, double feed) {
+        milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
+        const double share = feed / speed;
+        model.engage(worst_.engagement,
+                     {worst_.feed.feed_per_tooth_mm * share, worst_.feed.axial_feed_per_tooth_mm * share});
+        contact::ForceSpectrum spectrum;
+        model.spectrum(setup.harmonics, spectrum);
+        contact::ContactSample cut;
+        cut.position_mm = options.listener_mm;
+        cut.force_n = model.mean().force_n;
+        cut.slip_mm_per_s = {worst_.feed_mm_per_s * feed, 0, 0};
+        cut.area_mm2 = worst_.feed_mm_per_s > 0 ? worst_.chip_mm3_per_s / worst_.feed_mm_per_s : 0;
+        cut.phase_rate_rad_per_s = worst_.rpm * speed / 60 * math::kTwoPi;
+        cut.spectrum = &spectrum;
+        char label[80];
+        std::snprintf(label, sizeof label, "%.0f rpm, %.0f mm/min, peak %.0f N", worst_.rpm * speed,
+                      worst_.feed_mm_per_s * feed * 60, model.peaks().peak_force_n);
+        std::vector<float> samples = sound::steady_wave(cut, options, kWaveS);
+        for (float& sample : samples) sample *= static_cast<float>(sound::kFullScalePascal);
+        waves.push_back({label, static_cast<double>(options.sample_rate_hz), std::move(samples)});
+    };
+    wave(1, 1);
+    wave(1.5, 0.5);
+    return waves;
 }
 
 }  // namespace tribo::app

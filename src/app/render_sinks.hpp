@@ -58,6 +58,7 @@ class SoundFile {
     void add(const session::MillRow& row);
     io::FileResult<void> finish(double duration_s);
     io::ReportSound for_report() const;
+    const sound::SoundtrackOptions& options() const { return options_.track; }
 
   private:
     SoundFile(io::WavWriter file, const SoundFileOptions& options);
@@ -79,6 +80,10 @@ class ReportRows {
     std::vector<io::ReportRow> rows;
     // Works the worst turn out again, instant by instant.
     std::optional<io::ReportTurn> turn(const session::MillSetup& setup) const;
+    // Figure 8 of the paper: how that cut sounds, and how it would half as fast with the spindle at one and a
+    // half times its speed.
+    std::vector<io::ReportWave> waves(const session::MillSetup& setup,
+                                      const sound::SoundtrackOptions& options) const;
 
   private:
     struct Worst {
@@ -86,7 +91,7 @@ class ReportRows {
         milling::Engagement engagement;
         milling::FeedPerTooth feed;
         std::size_t cutter = 0;
-        double t_s = 0, rpm = 0;
+        double t_s = 0, rpm = 0, feed_mm_per_s = 0, chip_mm3_per_s = 0;
         int line = 0;
     } worst_;
 };
