@@ -288,6 +288,10 @@ class Outputs {
             options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
         }
         options.blank = &session.stock().blank();
+        // Cusps are sharpened from the samples: a cell apart is enough to find them.
+        options.spacing_mm =
+            std::max(session.setup().cell_mm,
+                     std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
         const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
         summary.gouge_max_mm = d.gouge.mm;
         summary.rest_max_mm = d.rest.mm;

@@ -1,0 +1,111 @@
+// `tribo render` from outside: which files come out, what is refused, what a killed run leaves.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <set>
+
+#include "app/program.hpp"
+
+namespace tribo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJob = R"(
+[stock]
+box_mm = [[0, 0, -10], [30, 20, 0]]
+[cutter]
+kind = "flat"
+diameter_mm = 6
+flutes = 2
+length_mm = 20
+[material]
+name = "al7075-t6"
+[process]
+spindle_rpm = 6000
+feed_mm_per_min = 900
+[path]
+gcode = "slot.nc"
+)";
+constexpr const char* kProgram = "G21 G90\nG0 X-5 Y10 Z-2\nG1 X35\nM30\n";
+
+void write(const fs::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+class Render : public ::testing::Test {
+  protected:
+    Render() : folder_(scratch_.path()) {
+        write(folder_ / "slot.toml", kJob);
+        write(folder_ / "slot.nc", kProgram);
+    }
+    std::set<std::string> files_in(const std::string& name) const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder_ / name))
+            names.insert(entry.path().filename());
+        return names;
+    }
+    Outcome render(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{"render", "slot.toml"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_tribo(arguments, folder_.string());
+    }
+    Scratch scratch_;
+    fs::path folder_;
+};
+
+TEST_F(Render, writes_every_file_that_the_page_promises) {
+    const Outcome run = render({"--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(files_in("out"), (std::set<std::string>{"summary.json", "forces.csv", "machined.glb",
+                                                      "machined.stl", "sound.wav", "report.html"}));
+    EXPECT_NE(run.out.find("removed"), std::string::npos);
+}
+
+TEST_F(Render, writes_only_what_is_asked_for_and_the_summary) {
+    ASSERT_EQ(render({"--out", "a", "--only", "summary"}).code, 0);
+    EXPECT_EQ(files_in("a"), std::set<std::string>{"summary.json"});
+    ASSERT_EQ(render({"--out", "b", "--only", "forces,sound", "--as-published"}).code, 0);
+    EXPECT_EQ(files_in("b"),
+              (std::set<std::string>{"summary.json", "forces.csv", "published_forces.csv", "sound.wav"}));
+}
+
+TEST_F(Render, replaces_an_older_folder_whole_and_no_other) {
+    ASSERT_EQ(render({"--out", "out"}).code, 0);
+    ASSERT_EQ(render({"--out", "out", "--only", "summary"}).code, 0);
+    EXPECT_EQ(files_in("out"), std::set<std::string>{"summary.json"});
+    fs::create_directory(folder_ / "mine");
+    write(folder_ / "mine" / "letter.txt", "dear");
+    EXPECT_EQ(render({"--out", "mine"}).code, 2);
+    EXPECT_EQ(files_in("mine"), std::set<std::string>{"letter.txt"});
+}
+
+TEST_F(Render, refuses_more_memory_than_allowed_and_names_a_resolution_that_fits) {
+    const Outcome run = render({"--out", "out", "--resolution", "0.01", "--memory", "200"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("try --resolution"), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Render, names_the_line_of_what_it_cannot_mill) {
+    write(folder_ / "slot.nc", "G21 G90\nG0 X0 Y0 Z0 A30\nG1 X10\n");
+    const Outcome run = render({"--out", "out"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("slot.nc:2"), std::string::npos) << run.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Render, stopped_by_the_user_leaves_nothing) {
+    const Outcome run = run_tribo({"render", "slot.toml", "--out", "out", "--resolution", "0.02"},
+                                  folder_.string(), 150, SIGTERM);
+    if (run.code == 0) GTEST_SKIP() << "done before the signal came";
+    EXPECT_EQ(run.code, 128 + SIGTERM);
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+        EXPECT_EQ(entry.path().filename().string().find("tribo-partial"), std::string::npos);
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace tribo::test
