@@ -90,6 +90,39 @@ TRIBO_LANES F8 sqrt(F8 a) {
 #endif
 }
 
+TRIBO_LANES bool both(bool a, bool b) {
+    return a && b;
+}
+TRIBO_LANES I8 both(I8 a, I8 b) {
+    return a & b;
+}
+TRIBO_LANES bool either(bool a, bool b) {
+    return a || b;
+}
+TRIBO_LANES I8 either(I8 a, I8 b) {
+    return a | b;
+}
+// Whether it holds in any lane.
+TRIBO_LANES bool any(bool m) {
+    return m;
+}
+TRIBO_LANES bool any(I8 m) {
+#if defined(__AVX__)
+    return _mm256_movemask_ps(reinterpret_cast<__m256>(m)) != 0;
+#elif defined(__SSE2__)
+    __m128 half[2];
+    std::memcpy(half, &m, sizeof m);
+    return _mm_movemask_ps(_mm_or_ps(half[0], half[1])) != 0;
+#else
+    long long part[4];
+    std::memcpy(part, &m, sizeof m);
+    return (part[0] | part[1] | part[2] | part[3]) != 0;
+#endif
+}
+
+TRIBO_LANES F8 splat(float f) {
+    return F8{f, f, f, f, f, f, f, f};
+}
 TRIBO_LANES F8 load(const float* p) {
     F8 v;
     std::memcpy(&v, p, sizeof v);

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/math.hpp"
 #include "base/simd.hpp"
 #include "milling/sweep_kernels.hpp"
 #include "milling/sweep_lines.hpp"
+#include "motion/direction.hpp"
 #include "motion/program.hpp"
 
 namespace tribo::milling {
@@ -16,7 +18,13 @@ namespace {
 
 using namespace simd;
 
+using field::kLatticeEdge;
+
+#include "milling/sweep_search.inl"
+
 #include "milling/sweep_distance.inl"
+
+#include "milling/sweep_curved.inl"
 
 // The tool at one pose, cap included.
 Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {
@@ -45,60 +53,70 @@ auto by_kind(CutterKind kind, const F& f) {
     return f.template operator()<CutterKind::flat>();
 }
 
-// Direction out of the tool, of which `radial` (unit, or zero on the axis) and `axis` are known.
-Vec3 tool_normal(const ToolProfile& tool, double rho, double z, Vec3 radial, Vec3 axis) {
+Nearest curved_nearest(const ToolProfile& tool, const CurvedLine& line, Vec3 point) {
     const Profile<double> p(tool);
-    double distance, by_rho, by_z;
-    by_kind(tool.kind, [&]<CutterKind kind>() { profile_gradient<kind>(p, rho, z, distance, by_rho, by_z); });
-    if (z - p.L > distance) return axis;
-    return normalized(by_rho * radial + by_z * axis, -axis);
+    return by_kind(tool.kind, [&]<CutterKind kind>() { return curved_nearest<kind>(p, line, point); });
 }
 
-Vec3 to_vec3(const Vector<double>& v) {
-    return {v.x, v.y, v.z};
+// How the profile's distance grows with rho and with z: unit.
+struct ProfileNormal {
+    double by_rho, by_z;
+};
+ProfileNormal profile_normal(const ToolProfile& tool, double rho, double z) {
+    const double side = rho - (tool.radius_mm - tool.corner_mm), under = tool.corner_mm - z;
+    const double out = length({std::max(side, 0.0), std::max(under, 0.0), 0});
+    if (out > 0) return {std::max(side, 0.0) / out, -std::max(under, 0.0) / out};
+    return side >= under ? ProfileNormal{1, 0} : ProfileNormal{0, -1};
 }
 
-double curved_distance(const ToolProfile& tool, const CurvedLine& line, Vec3 point) {
-    const Profile<double> p(tool);
-    const Curve<double> c(line);
-    return by_kind(tool.kind, [&]<CutterKind kind>() {
-        return curved_least<kind>(p, c, spread<double>(point)).distance;
-    });
+// The tool at one instant as a point sees it.
+struct ToolView {
+    Vec3 axis, radial;  // unit; radial zero on the axis
+    double rho, z, drho, dz;
+};
+ToolView view(const CurvedLine& c, Vec3 point, double t) {
+    const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
+    const Vec3 raw = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
+    const double size = length(raw);
+    ToolView v;
+    v.axis = raw / size;
+    const Vec3 axis_rate = (turning - dot(turning, v.axis) * v.axis) / size;
+    v.z = dot(d, v.axis);
+    const Vec3 radial = d - v.z * v.axis;
+    v.rho = length(radial);
+    v.radial = normalized(radial, {0, 0, 0});
+    v.dz = dot(d, axis_rate) - dot(velocity, v.axis);
+    v.drho = -dot(v.radial, velocity) - v.z * dot(v.radial, axis_rate);
+    return v;
 }
 
-// The normal of the swept surface. Where side and bottom of a flat cutter meet, the edge makes the surface:
-// its normal is the mix of both normals that the travel of the edge lies in.
-Vec3 curved_gradient(const ToolProfile& tool, const CurvedLine& line, Vec3 point) {
-    const Profile<double> p(tool);
-    const Curve<double> c(line);
-    const Vector<double> at = spread<double>(point);
-    const double t = by_kind(tool.kind, [&]<CutterKind kind>() { return curved_least<kind>(p, c, at).t; });
-    const Seen<double> s = seen_from(c, at, t);
-    const Vec3 axis = to_vec3(s.axis), radial = normalized(to_vec3(s.radial), {0, 0, 0});
-    constexpr double kEdge = 1e-4;  // mm, how well the search meets the edge
-    const double side_rate = s.drho, bottom_rate = -s.dz;
-    if (tool.kind == CutterKind::flat && t > 0 && t < 1 && side_rate * bottom_rate < 0 &&
-        std::abs(s.rho - tool.radius_mm + s.z) < kEdge) {
-        const double share = bottom_rate / (bottom_rate - side_rate);
-        return normalized(share * radial - (1 - share) * axis);
+// Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet, the edge
+// makes the surface: across its travel, between the two normals.
+Vec3 swept_normal(const ToolProfile& tool, const CurvedLine& line, Vec3 point, double t) {
+    const ToolView v = view(line, point, t);
+    constexpr double kEdge = 1e-5;  // mm; many times what the search settles at
+    if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz > 0 &&
+        std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
+        const double side = std::abs(v.dz), bottom = std::abs(v.drho);
+        return normalized(side * v.radial - bottom * v.axis);
     }
-    return tool_normal(tool, s.rho, s.z, radial, axis);
+    const ProfileNormal n = profile_normal(tool, v.rho, v.z);
+    return normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis);
 }
 
 class StraightSweep final : public field::Shape {
   public:
-    StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 to, Vec3 axis) : tool_(tool), start_(from) {
-        const Vec3 travel = to - from;
-        line_.rise = dot(travel, axis);
-        const Vec3 across = travel - line_.rise * axis;
-        line_.across = length(across);
+    StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis) : tool_(tool), start_(from) {
+        double rise = dot(travel, axis);
+        Vec3 across = travel - rise * axis;
         // Below this share the part along or across the axis is rounding of the axis itself.
         constexpr double kRounding = 1e-12;
-        if (std::abs(line_.rise) < kRounding * line_.across) line_.rise = 0;
-        if (line_.across < kRounding * std::abs(line_.rise)) line_.across = 0;
+        if (std::abs(rise) < kRounding * length(across)) rise = 0;
+        if (length(across) < kRounding * std::abs(rise)) across = {};
         frame_.z = axis;
-        frame_.x = line_.across > 0 ? across / line_.across : any_perpendicular(axis);
+        frame_.x = normalized(across, any_perpendicular(axis));
         frame_.y = cross(frame_.z, frame_.x);
+        line_ = StraightLine(length(across), rise);
     }
 
     Box3 bounds_mm() const override {
@@ -121,12 +139,15 @@ class StraightSweep final : public field::Shape {
     }
 
     Vec3 gradient(Vec3 point) const override {
-        if (line_.rise != 0) return curved_gradient(tool_, {travel(), {}, frame_.z, {}, {}}, point - start_);
-        const Vec3 q = frame_.into(point - start_);
-        const double t = line_.across > 0 ? std::clamp(q.x / line_.across, 0.0, 1.0) : 0;
-        const Vec3 radial{q.x - t * line_.across, q.y, 0};
-        return frame_.out_of(
-            tool_normal(tool_, length(radial), q.z, normalized(radial, {0, 0, 0}), {0, 0, 1}));
+        CurvedLine line;
+        line.tip1 = travel();
+        line.axis0 = frame_.z;
+        line.stretches = 1;
+        const Vec3 d = point - start_;
+        const Nearest nearest = curved_nearest(tool_, line, d);
+        const double cap = dot(d, frame_.z) - std::max(line_.rise, 0.0) - tool_.length_mm;
+        if (cap > nearest.distance) return frame_.z;
+        return swept_normal(tool_, line, d, nearest.t);
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -154,19 +175,32 @@ class ArcSweep final : public field::Shape {
         frame_.z = axis;
         frame_.x = normalized(radial, any_perpendicular(axis));
         frame_.y = cross(frame_.z, frame_.x);
-        // Turning to the right is turning to the left with y mirrored; the distance formula never sees the
-        // difference.
+        // Turning to the right is turning to the left with y mirrored; the formula never sees the difference.
         const double turn = arc.turn_rad * (dot(arc.normal, axis) < 0 ? -1 : 1);
         if (turn < 0) frame_.y = -frame_.y;
-        math::sincos(std::abs(turn), line_.end_y, line_.end_x);
         assert(std::abs(turn) <= math::kPi + 1e-9);
+        math::sincos(std::abs(turn), line_.end_y, line_.end_x);
         line_.end_y = std::max(line_.end_y, 0.0);
-        path_ = motion::tip_bounds(move);
     }
 
     Box3 bounds_mm() const override {
-        Box3 box = tool_box(tool_, {}, frame_.z);
-        return {path_.min + box.min, path_.max + box.max};
+        Box3 box;
+        const Box3 tool = tool_box(tool_, {}, frame_.z);
+        // The path's extremes: its ends, and where its tangent has no part along a coordinate.
+        const auto include = [&](Vec3 radial) {
+            const Vec3 tip = centre_ + line_.radius * radial;
+            box.include(Box3{tip + tool.min, tip + tool.max});
+        };
+        include(frame_.x);
+        include(line_.end_x * frame_.x + line_.end_y * frame_.y);
+        for (int k = 0; k < 3; ++k) {
+            for (const double sign : {1.0, -1.0}) {
+                const Vec3 toward = normalized({sign * frame_.x[k], sign * frame_.y[k], 0}, {1, 0, 0});
+                if (toward.y >= 0 && toward.x * line_.end_y - toward.y * line_.end_x >= 0)
+                    include(toward.x * frame_.x + toward.y * frame_.y);
+            }
+        }
+        return box;
     }
 
     double distance_mm(Vec3 point) const override {
@@ -179,15 +213,21 @@ class ArcSweep final : public field::Shape {
 
     Vec3 gradient(Vec3 point) const override {
         const Vec3 q = frame_.into(point - centre_);
-        const Vec3 start{line_.radius, 0, 0}, end{line_.radius * line_.end_x, line_.radius * line_.end_y, 0};
-        const Vec3 flat{q.x, q.y, 0};
-        Vec3 nearest = squared_length(flat - start) < squared_length(flat - end) ? start : end;
+        const Vec3 start{line_.radius, 0, 0}, end = line_.radius * Vec3{line_.end_x, line_.end_y, 0};
+        const Vec3 level{q.x, q.y, 0};
+        Vec3 nearest = squared_length(level - start) < squared_length(level - end) ? start : end;
         if (std::min(q.y, q.x * line_.end_y - q.y * line_.end_x) >= 0) {
-            nearest = line_.radius * normalized(flat, {1, 0, 0});
+            nearest = line_.radius * normalized(level, {1, 0, 0});
         }
-        const Vec3 radial = flat - nearest;
-        return frame_.out_of(
-            tool_normal(tool_, length(radial), q.z, normalized(radial, {0, 0, 0}), {0, 0, 1}));
+        const Vec3 radial = level - nearest;
+        const double rho = length(radial);
+        const Profile<double> p(tool_);
+        const double cap = q.z - tool_.length_mm;
+        if (cap > by_kind(tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, rho * rho, q.z); })) {
+            return frame_.z;
+        }
+        const ProfileNormal n = profile_normal(tool_, rho, q.z);
+        return frame_.out_of(normalized(n.by_rho * normalized(radial, {0, 0, 0}) + Vec3{0, 0, n.by_z}, {0, 0, -1}));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -199,47 +239,77 @@ class ArcSweep final : public field::Shape {
     Vec3 centre_;  // at the height of the tip
     Frame frame_;
     ArcLine line_;
-    Box3 path_;
 };
 
 class CurvedSweep final : public field::Shape {
   public:
     CurvedSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool), start_(move.start.tip_mm) {
-        Vec3 tip = 0.5 * (move.start.tip_mm + move.end.tip_mm),
-             axis = 0.5 * (move.start.axis + move.end.axis);
-        if (move.quadratic) {
-            tip = move.quadratic->tip_control_mm;
-            axis = move.quadratic->axis_control;
-        }
-        line_.tip1 = 2 * (tip - move.start.tip_mm);
-        line_.tip2 = move.start.tip_mm - 2 * tip + move.end.tip_mm;
-        line_.axis0 = move.start.axis;
-        line_.axis1 = 2 * (axis - move.start.axis);
-        line_.axis2 = move.start.axis - 2 * axis + move.end.axis;
+        const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
+        const Vec3 a = move.start.axis, b = move.end.axis;
+        line_.tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm);
+        line_.tip2 = move.end.tip_mm - move.start.tip_mm - line_.tip1;
+        line_.axis0 = a;
+        line_.axis1 = 2 * (middle.axis_control - a);
+        line_.axis2 = b - a - line_.axis1;
+        line_.stretches = stretches_needed(line_);
     }
 
     Box3 bounds_mm() const override {
-        // The tip stays in the hull of its control points. The unit axis stays within its turn of either end.
-        const Vec3 end = line_.axis0 + line_.axis1 + line_.axis2;
-        const double bulge = tool_.length_mm * (length(line_.axis1) + length(line_.axis2));
-        Box3 path, tool = tool_box(tool_, {}, line_.axis0);
-        for (const Vec3 p : {Vec3{}, 0.5 * line_.tip1, line_.tip1 + line_.tip2}) path.include(start_ + p);
-        tool.include(tool_box(tool_, {}, normalized(end)));
-        tool = tool.inflated(0.125 * bulge * (length(line_.axis1) + length(line_.axis2)));
-        return {path.min + tool.min, path.max + tool.max};
+        // A point of the tool leaves the chord between two of the poses by at most a share of the square of their
+        // spacing.
+        constexpr int kPoses = 17;
+        const double turn = length(line_.axis1) + 2 * length(line_.axis2);
+        const double bend = 2 * length(line_.tip2) +
+                            (tool_.length_mm + tool_.radius_mm) * (2 * length(line_.axis2) + 2 * turn * turn);
+        Box3 box;
+        for (int n = 0; n < kPoses; ++n) {
+            const double t = n / (kPoses - 1.0);
+            box.include(tool_box(tool_, start_ + tip_at(line_, t), axis_at(line_, t)));
+        }
+        return box.inflated(bend / (8.0 * (kPoses - 1) * (kPoses - 1)));
     }
 
-    double distance_mm(Vec3 point) const override { return curved_distance(tool_, line_, point - start_); }
-    Vec3 gradient(Vec3 point) const override { return curved_gradient(tool_, line_, point - start_); }
+    double distance_mm(Vec3 point) const override {
+        const Nearest nearest = curved_nearest(tool_, line_, point - start_);
+        return std::max(nearest.distance, nearest.lowest - tool_.length_mm);
+    }
+
+    Vec3 gradient(Vec3 point) const override {
+        const Vec3 d = point - start_;
+        const Nearest nearest = curved_nearest(tool_, line_, d);
+        if (nearest.lowest - tool_.length_mm <= nearest.distance) return swept_normal(tool_, line_, d, nearest.t);
+        Vec3 axis = line_.axis0;
+        for (int k = 0; k <= line_.stretches; ++k) {
+            const double t = static_cast<double>(k) / line_.stretches;
+            if (dot(d - tip_at(line_, t), axis_at(line_, t)) <= nearest.lowest + 1e-9) axis = axis_at(line_, t);
+        }
+        return axis;
+    }
+
     void sample(const field::Lattice& lattice, float* out) const override {
         sweep_kernels().curved(tool_, line_, start_, lattice, out);
     }
 
   private:
+    // A straight tip and an axis that turns along the great circle at an even pace, to the fifth order.
+    static motion::Quadratic even_turn(const motion::Move& move) {
+        const motion::ToolPose middle = motion::pose_at(move, 0.5);
+        const double half = 0.5 * motion::angle_rad(move.start.axis, move.end.axis);
+        const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
+        return {middle.tip_mm, (2 * size) * middle.axis - 0.5 * (move.start.axis + move.end.axis)};
+    }
+    static int stretches_needed(const CurvedLine& line);
+
     ToolProfile tool_;
     Vec3 start_;
     CurvedLine line_;
 };
+
+int CurvedSweep::stretches_needed(const CurvedLine& line) {
+    static const int forced = std::getenv("STR") ? std::atoi(std::getenv("STR")) : 4;
+    (void)line;
+    return forced;
+}
 
 }  // namespace
 
@@ -247,7 +317,7 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Mov
     const ToolProfile tool(cutter);
     if (move.arc) return std::make_unique<ArcSweep>(tool, move);
     if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);
-    return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm, move.start.axis);
+    return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm, move.start.axis);
 }
 
 }  // namespace tribo::milling

@@ -9,7 +9,11 @@ namespace {
 using namespace simd;
 using field::kLatticeEdge;
 
+#include "milling/sweep_search.inl"
+
 #include "milling/sweep_distance.inl"
+
+#include "milling/sweep_curved.inl"
 
 // Node coordinates relative to the reference, float only after the subtraction; node n along each axis.
 struct Offsets {
@@ -28,10 +32,21 @@ struct Offsets {
     }
 };
 
+template <class T>
+struct Vector {
+    T x, y, z;
+};
+TRIBO_LANES Vector<F8> spread(Vec3 v) {
+    return {broadcast<F8>(v.x), broadcast<F8>(v.y), broadcast<F8>(v.z)};
+}
+TRIBO_LANES F8 dot(const Vector<F8>& a, const Vector<F8>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 // Calls distance(x, y, z) with the coordinates of each row of nodes in the frame.
 template <class F>
 TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, float* out, const F& distance) {
-    const Vector<F8> x = spread<F8>(frame.x), y = spread<F8>(frame.y), z = spread<F8>(frame.z);
+    const Vector<F8> x = spread(frame.x), y = spread(frame.y), z = spread(frame.z);
     for (int c = 0; c < kLatticeEdge; ++c) {
         const F8 dz = broadcast<F8>(at.z[c]);
         for (int b = 0; b < kLatticeEdge; ++b) {
@@ -94,11 +109,10 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
 template <CutterKind kind>
 void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, float* out) {
     const Profile<F8> p(tool);
-    const Curve<F8> curve(line);
+    const SeenFrame frame(line);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b) {
-            store(out, curved_least<kind>(p, curve, {at.x, broadcast<F8>(at.y[b]), broadcast<F8>(at.z[c])})
-                           .distance);
+            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c])));
             out += kLatticeEdge;
         }
     }

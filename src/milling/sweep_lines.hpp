@@ -25,7 +25,13 @@ struct Frame {
 
 // Travel (across, 0, rise) in a frame whose z is the tool axis.
 struct StraightLine {
-    double across = 0, rise = 0;
+    double across = 0, rise = 0, per_across = 0, per_length_squared = 0;  // 0 where there is no way
+
+    StraightLine() = default;
+    StraightLine(double a, double r) : across(a), rise(r) {
+        if (a > 0) per_across = 1 / a;
+        if (a > 0 || r != 0) per_length_squared = 1 / (a * a + r * r);
+    }
 };
 
 // Travel about the frame's z (the tool axis or its opposite is parallel to it) from (radius, 0) to the left
@@ -38,6 +44,7 @@ struct ArcLine {
 // is made unit.
 struct CurvedLine {
     Vec3 tip1, tip2, axis0, axis1, axis2;
+    int stretches = 4;  // of t, looked through one by one
 };
 
 }  // namespace tribo::milling

@@ -249,8 +249,8 @@ RC_GTEST_PROP(Sweep, gradient_points_where_the_distance_grows, ()) {
     RC_ASSERT(std::abs(length(g) - 1) < 1e-9);
     // Ahead along it lies the outside, behind it the inside; across it the surface runs on.
     constexpr double kStep = 0.02;
-    RC_ASSERT(sweep->distance_mm(*p + kStep * g) > 0);
-    RC_ASSERT(sweep->distance_mm(*p - kStep * g) < 0);
+    RC_ASSERT(sweep->distance_mm(*p + kStep * g) > -1e-9);
+    RC_ASSERT(sweep->distance_mm(*p - kStep * g) < 1e-9);
 }
 
 TEST(Sweep, of_a_reversed_move_is_the_same_volume) {
