@@ -20,11 +20,9 @@ using namespace simd;
 
 using field::kLatticeEdge;
 
-#include "milling/sweep_search.inl"
-
-#include "milling/sweep_distance.inl"
-
 #include "milling/sweep_curved.inl"
+#include "milling/sweep_distance.inl"
+#include "milling/sweep_search.inl"
 
 // The tool at one pose, cap included.
 Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {
@@ -90,8 +88,8 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
     return v;
 }
 
-// Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet, the edge
-// makes the surface: across its travel, between the two normals.
+// Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet,
+// the edge makes the surface: across its travel, between the two normals.
 Vec3 swept_normal(const ToolProfile& tool, const CurvedLine& line, Vec3 point, double t) {
     const ToolView v = view(line, point, t);
     constexpr double kEdge = 1e-5;  // mm; many times what the search settles at
@@ -223,11 +221,13 @@ class ArcSweep final : public field::Shape {
         const double rho = length(radial);
         const Profile<double> p(tool_);
         const double cap = q.z - tool_.length_mm;
-        if (cap > by_kind(tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, rho * rho, q.z); })) {
+        if (cap > by_kind(tool_.kind,
+                          [&]<CutterKind kind>() { return profile_distance<kind>(p, rho * rho, q.z); })) {
             return frame_.z;
         }
         const ProfileNormal n = profile_normal(tool_, rho, q.z);
-        return frame_.out_of(normalized(n.by_rho * normalized(radial, {0, 0, 0}) + Vec3{0, 0, n.by_z}, {0, 0, -1}));
+        return frame_.out_of(
+            normalized(n.by_rho * normalized(radial, {0, 0, 0}) + Vec3{0, 0, n.by_z}, {0, 0, -1}));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -255,8 +255,8 @@ class CurvedSweep final : public field::Shape {
     }
 
     Box3 bounds_mm() const override {
-        // A point of the tool leaves the chord between two of the poses by at most a share of the square of their
-        // spacing.
+        // A point of the tool leaves the chord between two of the poses by at most a share of the square of
+        // their spacing.
         constexpr int kPoses = 17;
         const double turn = length(line_.axis1) + 2 * length(line_.axis2);
         const double bend = 2 * length(line_.tip2) +
@@ -277,11 +277,13 @@ class CurvedSweep final : public field::Shape {
     Vec3 gradient(Vec3 point) const override {
         const Vec3 d = point - start_;
         const Nearest nearest = curved_nearest(tool_, line_, d);
-        if (nearest.lowest - tool_.length_mm <= nearest.distance) return swept_normal(tool_, line_, d, nearest.t);
+        if (nearest.lowest - tool_.length_mm <= nearest.distance)
+            return swept_normal(tool_, line_, d, nearest.t);
         Vec3 axis = line_.axis0;
         for (int k = 0; k <= line_.stretches; ++k) {
             const double t = static_cast<double>(k) / line_.stretches;
-            if (dot(d - tip_at(line_, t), axis_at(line_, t)) <= nearest.lowest + 1e-9) axis = axis_at(line_, t);
+            if (dot(d - tip_at(line_, t), axis_at(line_, t)) <= nearest.lowest + 1e-9)
+                axis = axis_at(line_, t);
         }
         return axis;
     }
@@ -317,7 +319,8 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Mov
     const ToolProfile tool(cutter);
     if (move.arc) return std::make_unique<ArcSweep>(tool, move);
     if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);
-    return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm, move.start.axis);
+    return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm,
+                                           move.start.axis);
 }
 
 }  // namespace tribo::milling

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `tribo render` from outside: which files come out, what is refused, what a killed run leaves.
 #include <csignal>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Distance to meshes: against every triangle in turn, against boxes and spheres, and the side at every kind
 // of edge and corner.
 #include "field/mesh_shape.hpp"

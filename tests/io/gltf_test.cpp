@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What write_glb writes, read_gltf reads back; what it must not read, it refuses.
 #include "io/gltf.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "milling/materials.hpp"
 
-#include <gtest/gtest.h>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
 #include <set>

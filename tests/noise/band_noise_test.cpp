@@ -24,7 +24,8 @@ double power_at(const std::vector<double>& x, double cycles_per_sample) {
     for (std::size_t begin = 0; begin + kStretch <= x.size(); begin += kStretch, ++count) {
         std::complex<double> sum = 0;
         for (std::size_t n = 0; n < kStretch; ++n) {
-            const double hann = 1 - std::cos(2 * std::numbers::pi * (static_cast<double>(n) + 0.5) / kStretch);
+            const double hann =
+                1 - std::cos(2 * std::numbers::pi * (static_cast<double>(n) + 0.5) / kStretch);
             sum += hann * x[begin + n] *
                    std::polar(1.0, -2 * std::numbers::pi * cycles_per_sample * static_cast<double>(n));
         }

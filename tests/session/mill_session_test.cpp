@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rendered cut against what geometry and the closed forms of cutting force say: forces, volumes, chips,
 // heights.
 #include "session/mill_session.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sides and samples of designed surfaces.
 #include "surface/designed_surface.hpp"
 

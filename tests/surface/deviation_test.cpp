@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rest, gouges and scallops of cuts that have closed forms.
 #include "surface/deviation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Roughness parameters of profiles that have closed forms.
 #include "surface/roughness.hpp"
 
