@@ -20,9 +20,12 @@ using namespace simd;
 
 using field::kLatticeEdge;
 
-#include "milling/sweep_curved.inl"
-#include "milling/sweep_distance.inl"
+// Each builds on the one before.
+// clang-format off
 #include "milling/sweep_search.inl"
+#include "milling/sweep_distance.inl"
+#include "milling/sweep_curved.inl"
+// clang-format on
 
 // The tool at one pose, cap included.
 Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {

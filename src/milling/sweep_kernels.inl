@@ -9,11 +9,12 @@ namespace {
 using namespace simd;
 using field::kLatticeEdge;
 
+// Each builds on the one before.
+// clang-format off
 #include "milling/sweep_search.inl"
-
 #include "milling/sweep_distance.inl"
-
 #include "milling/sweep_curved.inl"
+// clang-format on
 
 // Node coordinates relative to the reference, float only after the subtraction; node n along each axis.
 struct Offsets {
