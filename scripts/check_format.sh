@@ -5,5 +5,5 @@ source "$(dirname "$0")/environment.sh"
 
 mode=(--dry-run --Werror)
 if [ "${1:-}" = --fix ]; then mode=(-i); fi
-find . \( -name build -o -name out -o -name node_modules \) -prune -o -name '*.[ch]pp' -print |
+find . \( -name build -o -name out -o -name node_modules \) -prune -o '(' -name '*.[ch]pp' -o -name '*.inl' ')' -print |
     sort | xargs -r -n 16 -P "$JOBS" clang-format-19 "${mode[@]}"

@@ -105,7 +105,8 @@ struct MeshTree::Builder {
     std::uint32_t split(std::uint32_t first, std::uint32_t count, const Box3& centres, int depth) {
         const Vec3 size = centres.size();
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const auto begin = items.begin() + first, end = begin + count;
+        const auto begin = items.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = begin + static_cast<std::ptrdiff_t>(count);
         if (depth < kMaxUnevenDepth && size[axis] > 0) {
             const double scale = kBins / size[axis];
             const auto bin = [&](const Item& item) {
@@ -116,10 +117,11 @@ struct MeshTree::Builder {
                 std::partition(begin, end, [&](const Item& item) { return bin(item) < border; });
             if (middle != begin && middle != end) return static_cast<std::uint32_t>(middle - begin);
         }
-        std::nth_element(begin, begin + count / 2, end, [&](const Item& a, const Item& b) {
-            return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
-                                                    : a.triangle < b.triangle;
-        });
+        std::nth_element(begin, begin + static_cast<std::ptrdiff_t>(count / 2), end,
+                         [&](const Item& a, const Item& b) {
+                             return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                                                                     : a.triangle < b.triangle;
+                         });
         return count / 2;
     }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Travels along quadratics (sweep_distance.inl says how this file is included). One point sees the tool through the
-// quadratics themselves; the eight nodes of a lattice row see it through polynomials of the tool's frame that are as good
-// as single precision, because those are linear in the point and so nearly free along a row.
+// Travels along quadratics (sweep_distance.inl says how this file is included). One point sees the tool
+// through the quadratics themselves; the eight nodes of a lattice row see it through polynomials of the
+// tool's frame that are as good as single precision, because those are linear in the point and so nearly free
+// along a row.
 
 inline Vec3 tip_at(const CurvedLine& c, double t) {
     return t * (c.tip1 + t * c.tip2);
@@ -44,20 +45,22 @@ Nearest curved_nearest(const Profile<double>& p, const CurvedLine& c, Vec3 point
         lowest = min(lowest, height);
         return i;
     };
-    const Least<double> least = least_over_unit<kind == CutterKind::flat, double>(c.stretches, node, at);
+    const Least<double> least = least_over_unit < kind == CutterKind::flat, double > (c.stretches, node, at);
     return {least.distance, least.t, lowest};
 }
 
-// The coordinates of points in the tool's frame, x and y across the axis, as polynomials of t in Newton's form through
-// Chebyshev's points. With w the turn of the axis, v the length of the tip path and d the distance of a point, all over
-// one piece, they are off by about 7e-7 w^5 (6 v + w d): 0.01 um at 30 degrees, 40 mm from the tip, 20 mm of path.
+// The coordinates of points in the tool's frame, x and y across the axis, as polynomials of t in Newton's
+// form through Chebyshev's points. With w the turn of the axis, v the length of the tip path and d the
+// distance of a point, all over one piece, they are off by about 7e-7 w^5 (6 v + w d): 0.01 um at 30 degrees,
+// 40 mm from the tip, 20 mm of path.
 struct SeenFrame {
     static constexpr int kDegree = 5, kCoefficients = 3 * (kDegree + 1), kMostStretches = 8;
     static constexpr int kEntries = 72;  // coefficients, then x, y, z and their derivatives at every node
     static_assert(kEntries >= kCoefficients + 6 * (kMostStretches + 1) && kEntries % kLatticeEdge == 0);
     // (1 - cos((2 i + 1) pi / 12)) / 2
-    static constexpr double kPoints[kDegree + 1] = {0.017037086855465844, 0.14644660940672624, 0.3705904774487396,
-                                                    0.6294095225512604,   0.8535533905932737,  0.9829629131445341};
+    static constexpr double kPoints[kDegree + 1] = {0.017037086855465844, 0.14644660940672624,
+                                                    0.3705904774487396,   0.6294095225512604,
+                                                    0.8535533905932737,   0.9829629131445341};
 
     // What each entry is for the point (0, 0, 0), and how it grows with the point's coordinates.
     float constant[kEntries] = {}, by_x[kEntries] = {}, by_y[kEntries] = {}, by_z[kEntries] = {};
@@ -128,9 +131,9 @@ struct SeenRow {
 template <CutterKind kind>
 TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
     F8 lowest = broadcast<F8>(1e30);
-    const auto seen = [&](const F8 (&value)[3], const F8 (&rate)[3]) {
-        return instant<kind>(p, value[0] * value[0] + value[1] * value[1], value[0] * rate[0] + value[1] * rate[1],
-                             value[2], rate[2]);
+    const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
+        return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
+                             value[0] * rate[0] + value[1] * rate[1], value[2], rate[2]);
     };
     F8 coefficients[SeenFrame::kCoefficients];
     for (int i = 0; i < SeenFrame::kCoefficients; ++i) coefficients[i] = row.entry(i);
@@ -156,6 +159,7 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
         lowest = min(lowest, value[2]);
         return seen(value, rate);
     };
-    const F8 distance = least_over_unit<kind == CutterKind::flat, F8>(row.frame.stretches, node, at).distance;
+    const F8 distance = least_over_unit < kind == CutterKind::flat,
+             F8 > (row.frame.stretches, node, at).distance;
     return max(distance, lowest - p.L);
 }

@@ -115,7 +115,8 @@ TRIBO_LANES T ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     return capped(p, l, sqrt(least + y * y) - p.R, z);
 }
 
-// The tool at one instant as a point sees it, from rho^2, half its derivative by t, z and its derivative by t.
+// The tool at one instant as a point sees it, from rho^2, half its derivative by t, z and its derivative by
+// t.
 template <CutterKind kind, class T>
 TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, T z, T dz) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), tiny = broadcast<T>(1e-30);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The least distance over the instants t in 0..1 of a travel, for T = double or F8 (sweep_distance.inl says how this file
-// is included). Every lane is searched as if it were alone: its result does not depend on its neighbours.
+// The least distance over the instants t in 0..1 of a travel, for T = double or F8 (sweep_distance.inl says
+// how this file is included). Every lane is searched as if it were alone: its result does not depend on its
+// neighbours.
 
-// The distance to the tool at one instant; `slope`, `drho` and `dz` are derivatives by t: of the distance, of the point's
-// distance to the axis and of its height above the tip. A flat cutter has an edge, where `gap` = distance to the side less
-// distance to the bottom passes zero; a rounded bottom is smooth (gap 1).
+// The distance to the tool at one instant; `slope`, `drho` and `dz` are derivatives by t: of the distance, of
+// the point's distance to the axis and of its height above the tip. A flat cutter has an edge, where `gap` =
+// distance to the side less distance to the bottom passes zero; a rounded bottom is smooth (gap 1).
 template <class T>
 struct Instant {
     T distance, slope, drho, dz, gap;
@@ -29,13 +30,13 @@ struct Valley {
 
 template <class T>
 TRIBO_LANES Mask<T> is_valley(const Instant<T>& a, const Instant<T>& b) {
-    return both(a.slope < broadcast<T>(0), b.slope > broadcast<T>(0));
+    return both(a.slope<broadcast<T>(0), b.slope> broadcast<T>(0));
 }
 
-// What the valley may go down to. Without the edge between its ends: where the tangents meet, or the bottom of the
-// parabola with the mean curvature, whichever is lower, less what a bottom that the point leaves ever faster lies below its
-// tangent. With the edge between them: as far as the part that is not nearest has come at an end, if from there it only
-// gets farther towards the other end.
+// What the valley may go down to. Without the edge between its ends: where the tangents meet, or the bottom
+// of the parabola with the mean curvature, whichever is lower, less what a bottom that the point leaves ever
+// faster lies below its tangent. With the edge between them: as far as the part that is not nearest has come
+// at an end, if from there it only gets farther towards the other end.
 template <bool kEdge, class T>
 TRIBO_LANES T floor_of(const Valley<T>& v, Mask<T> valley) {
     const T zero = broadcast<T>(0), half = broadcast<T>(0.5);
@@ -61,12 +62,12 @@ TRIBO_LANES T to_bottom(const Valley<T>& v, T width, T steepness) {
     return width - width * (v.b.slope + root - chord) / (steepness + root + root);
 }
 
-// From lo to where the cubic with the gaps and gap rates of both ends is zero: two steps of Newton from the chord's zero.
+// From lo to where the cubic with the gaps and gap rates of both ends is zero: two steps of Newton from the
+// chord's zero.
 template <class T>
 TRIBO_LANES T to_edge(const Valley<T>& v, T width, Mask<T> crosses) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), two = broadcast<T>(2), three = broadcast<T>(3);
-    const T change = v.b.gap - v.a.gap, p = width * (v.a.drho + v.a.dz),
-            q = width * (v.b.drho + v.b.dz);
+    const T change = v.b.gap - v.a.gap, p = width * (v.a.drho + v.a.dz), q = width * (v.b.drho + v.b.dz);
     const T c2 = three * change - two * p - q, c3 = p + q - two * change;
     T u = -v.a.gap / select(crosses, change, one);
     for (int n = 0; n < 2; ++n) {
@@ -88,8 +89,10 @@ TRIBO_LANES void descend(Valley<T> v, T floor, Mask<T> valley, Least<T>& least, 
     auto active = both(valley, floor < least.distance - settled);
     constexpr int kMostSteps = std::is_same_v<T, double> ? 40 : 12;
     for (int step = 0; step < kMostSteps && any(active); ++step) {
-        const T width = select(active, v.hi - v.lo, one), steepness = select(active, v.b.slope - v.a.slope, one);
-        // A cubic that follows the distance badly leaves one end where it is: every third step is a tangents' meeting.
+        const T width = select(active, v.hi - v.lo, one),
+                steepness = select(active, v.b.slope - v.a.slope, one);
+        // A cubic that follows the distance badly leaves one end where it is: every third step is a tangents'
+        // meeting.
         T wanted = step % 3 == 2 ? (v.a.distance - v.b.distance + v.b.slope * width) / steepness
                                  : to_bottom(v, width, steepness);
         if constexpr (kEdge) {
@@ -110,9 +113,10 @@ TRIBO_LANES void descend(Valley<T> v, T floor, Mask<T> valley, Least<T>& least, 
     }
 }
 
-// Calls visit(valley) for stretches that make up 0..1, over each of which the distance is taken to fall at first or rise at
-// last: `count` equal ones, parted again where the point comes closest to the tip's plane from above or farthest from the
-// axis. There one of the tool's parts first nears the point, then leaves it again, and both sides may hold a valley.
+// Calls visit(valley) for stretches that make up 0..1, over each of which the distance is taken to fall at
+// first or rise at last: `count` equal ones, parted again where the point comes closest to the tip's plane
+// from above or farthest from the axis. There one of the tool's parts first nears the point, then leaves it
+// again, and both sides may hold a valley.
 template <bool kEdge, class T, class N, class F, class V>
 TRIBO_LANES void over_stretches(int count, const N& node, const F& at, const V& visit) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
@@ -122,7 +126,8 @@ TRIBO_LANES void over_stretches(int count, const N& node, const F& at, const V& 
     for (int k = 1; k <= count; ++k) {
         v.hi = broadcast<T>(static_cast<double>(k) / count);
         v.b = node(k);
-        const auto lowest = both(v.a.dz < zero, v.b.dz > zero), farthest = both(v.a.drho > zero, v.b.drho < zero);
+        const auto lowest = both(v.a.dz<zero, v.b.dz> zero),
+                   farthest = both(v.a.drho > zero, v.b.drho < zero);
         const auto parted = either(lowest, farthest);
         if (any(parted)) {
             const T rate_a = select(lowest, v.a.dz, v.a.drho), rate_b = select(lowest, v.b.dz, v.b.drho);

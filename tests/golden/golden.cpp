@@ -4,9 +4,15 @@
 namespace tribo::golden {
 
 std::span<const Golden> goldens() {
-    static constexpr Golden kGoldens[] = {
-        {"math", math},   {"decimal", decimal}, {"noise_hash", noise_hash}, {"motion", motion},
-        {"field", field}, {"force", force},     {"formats", formats}};
+    static constexpr Golden kGoldens[] = {{"math", math},
+                                          {"decimal", decimal},
+                                          {"noise_hash", noise_hash},
+                                          {"motion", motion},
+                                          {"field", field},
+                                          {"force", force},
+                                          {"formats", formats},
+                                          {"mill_three_axes", mill_three_axes},
+                                          {"mill_five_axes", mill_five_axes}};
     return kGoldens;
 }
 

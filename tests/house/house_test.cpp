@@ -26,7 +26,8 @@ void expect_no_complaints(Rule rule) {
         if (!fs::exists(kRoot / top)) continue;
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
             const fs::path& path = entry.path();
-            if (path.extension() != ".cpp" && path.extension() != ".hpp") continue;
+            const fs::path kind = path.extension();
+            if (kind != ".cpp" && kind != ".hpp" && kind != ".inl") continue;
             ++files;
             for (const std::string& complaint :
                  rule(path.lexically_relative(kRoot).generic_string(), read(path)))

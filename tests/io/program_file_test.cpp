@@ -75,14 +75,15 @@ TEST(ProgramFile, takes_the_jobs_feed_where_it_has_none) {
 
 TEST(ProgramFile, that_is_wrong_is_refused_with_its_name) {
     const Scratch scratch;
-    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,-1\n");  // from up to down: no one motion
+    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,up\n");
     formats::Job job;
     job.path.file = scratch / "p.csv";
     job.process.feed_mm_per_min = 100;
-    const auto poles = read_program(job);
-    ASSERT_FALSE(poles);
-    EXPECT_EQ(poles.error().file, scratch / "p.csv");
-    EXPECT_EQ(poles.error().fault, Fault::input);
+    const auto wrong = read_program(job);
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().file, scratch / "p.csv");
+    EXPECT_EQ(wrong.error().line, 3);
+    EXPECT_EQ(wrong.error().fault, Fault::input);
     job.path.file = scratch / "none.csv";
     EXPECT_EQ(read_program(job).error().file, scratch / "none.csv");
 }

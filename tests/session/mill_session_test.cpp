@@ -51,6 +51,7 @@ Cutter cutter(CutterKind kind, double diameter, int flutes = 2) {
     Cutter c;
     c.kind = kind;
     c.diameter_mm = diameter;
+    if (kind == CutterKind::bull) c.corner_mm = diameter / 6;
     c.flutes = flutes;
     c.helix_deg = 30;
     c.length_mm = 40;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/hash.hpp"
+#include "base/math.hpp"
+#include "contact/contact_sample.hpp"
+#include "field/box_shape.hpp"
+#include "field/contour.hpp"
+#include "formats/gcode_reader.hpp"
+#include "golden/golden.hpp"
+#include "session/mill_setup.hpp"
+#include "sound/soundtrack.hpp"
+
+namespace tribo::golden {
+namespace {
+
+// Mills the program out of a block and hashes everything that comes out: rows, sound, totals, stock, mesh. 0
+// when it is refused.
+std::uint64_t milled(const formats::Job& job, motion::Program program) {
+    const Box3 block{{-12, -12, -8}, {12, 12, 0}};
+    session::MillInputs inputs;
+    inputs.program = std::move(program);
+    inputs.blank = std::make_unique<field::BoxShape>(block);
+    inputs.blank_volume_mm3 = block.volume();
+    Warnings warnings;
+    auto setup = session::prepare_mill(job, std::move(inputs), {0.5, {}}, warnings);
+    if (!setup) return 0;
+    session::MillSession session(std::move(*setup), serial_for);
+
+    Hash hash;
+    sound::Soundtrack track({});
+    std::vector<float> block_of_sound(1000);
+    session::MillSinks sinks;
+    sinks.row = [&](const session::MillRow& row) {
+        const milling::ForceRow& v = row.values;
+        for (const double value :
+             {v.t_s, v.entry_deg, v.exit_deg, v.axial_depth_mm, v.peak_fxy_n, v.mean_torque_nm,
+              v.peak_torque_nm, v.removed_mm3, row.chip_mm3_per_s, row.spindle_angle_rad})
+            hash.add(value);
+        for (const Vec3 value : {v.tip_mm, v.axis, v.mean_n, v.peak_n, row.frame.x}) hash.add(value);
+        hash.add(v.line);
+        for (const contact::ForceHarmonic& h : row.spectrum.harmonics) {
+            hash.add(h.x.real());
+            hash.add(h.torque.imag());
+        }
+        contact::ContactSample sample;
+        sample.t_s = v.t_s;
+        sample.position_mm = v.tip_mm;
+        sample.force_n = v.mean_n;
+        sample.slip_mm_per_s = {15, 0, 0};
+        sample.area_mm2 = row.chip_mm3_per_s / 15;
+        sample.phase_rad = row.spindle_angle_rad;
+        sample.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
+        sample.spectrum = &row.spectrum;
+        track.excite(sample);
+        track.render(block_of_sound);
+        for (const float value : block_of_sound) hash.add(value);
+    };
+    if (!session.run(sinks)) return 0;
+    const session::MillTotals& t = session.totals();
+    for (const double value : {t.duration_s, t.cutting_s, t.path_mm, t.removed_mm3, t.remaining_mm3,
+                               t.chip_mm3, t.mean_force_n, t.peak_force_n, t.peak_power_w})
+        hash.add(value);
+    hash.add(t.rows);
+    const TriangleMesh mesh = field::contour(session.stock());
+    for (const Point3f& p : mesh.positions) hash.add(p);
+    hash.add(mesh.triangles.size());
+    return t.rows > 10 ? hash.value() : 0;
+}
+
+formats::Job job_with(const milling::Cutter& cutter) {
+    formats::Job job;
+    job.cutters = {cutter};
+    job.material.name = "al7075-t6";
+    job.process = {6000, 900};
+    return job;
+}
+
+}  // namespace
+
+// A ball cutter on straight, circular and helical moves, in and out of the block.
+std::uint64_t mill_three_axes() {
+    constexpr std::string_view kProgram = R"(G21 G90 G17 S6000 M3
+G0 X-16 Y-6 Z2
+G1 Z-2 F900
+X16
+Y-3
+X-10
+G2 X-2 Y5 I8 J0
+G3 X4 Y5 I3 J0 Z-3.5
+G1 X8 Y-9 Z-1
+G0 Z5
+)";
+    milling::Cutter cutter;
+    cutter.kind = milling::CutterKind::ball;
+    cutter.diameter_mm = 6;
+    cutter.flutes = 3;
+    cutter.length_mm = 20;
+    auto program = formats::read_gcode(kProgram);
+    return program ? milled(job_with(cutter), std::move(*program)) : 0;
+}
+
+// A bull-nose cutter whose axis turns along a curved motion.
+std::uint64_t mill_five_axes() {
+    milling::Cutter cutter;
+    cutter.kind = milling::CutterKind::bull;
+    cutter.corner_mm = 1;
+    cutter.diameter_mm = 8;
+    cutter.length_mm = 25;
+    const formats::Job job = job_with(cutter);
+    std::vector<motion::Keyframe> keyframes;
+    for (int i = 0; i <= 10; ++i) {
+        const double x = 3.0 * i - 15, y = 6 * math::sin(0.4 * i);
+        motion::Keyframe keyframe;
+        keyframe.pose = {{x, y, -2 - 0.01 * x * x}, normalized({0.02 * x, -0.03 * y, 1})};
+        keyframe.weight = 1 + 0.2 * (i % 2);
+        keyframe.line = i + 1;
+        keyframes.push_back(keyframe);
+    }
+    auto program = session::keyframe_program(job, keyframes, "keyframes");
+    return program ? milled(job, std::move(*program)) : 0;
+}
+
+}  // namespace tribo::golden
