@@ -49,7 +49,7 @@ class MillSession::Run {
     Run(MillSetup setup, ParallelFor parallel)
         : setup_(std::move(setup)),
           parallel_(std::move(parallel)),
-          schedule_(motion::schedule(setup_.moves, setup_.timing).value()),
+          schedule_(*motion::schedule(setup_.moves, setup_.timing)),
           stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
           machining_(stock_, setup_.cutters, fixture_fields(setup_.fixtures, setup_.cell_mm)) {
         for (auto& share : models_) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decimal.hpp"
 #include "base/math.hpp"
 #include "motion/keyframe_motion.hpp"
 #include "motion/moves.hpp"
@@ -48,7 +49,7 @@ void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& so
     for (const milling::Cutter& cutter : setup.cutters) {
         if (cutter.diameter_mm < 4 * setup.cell_mm) {
             warnings.push_back({source, 0,
-                                "the grid is coarse for a cutter of " + std::to_string(cutter.diameter_mm) +
+                                "the grid is coarse for a cutter of " + format_decimal(cutter.diameter_mm) +
                                     " mm: fewer than four cells across; try a finer --resolution"});
         }
     }
