@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
 #include "base/math.hpp"
 #include "base/simd.hpp"
@@ -310,10 +309,15 @@ class CurvedSweep final : public field::Shape {
     CurvedLine line_;
 };
 
-int CurvedSweep::stretches_needed(const CurvedLine& line) {
-    static const int forced = std::getenv("STR") ? std::atoi(std::getenv("STR")) : 4;
-    (void)line;
-    return forced;
+// One stretch must be short enough that each part of the tool comes nearest at most once over it.
+int CurvedSweep::stretches_needed(const CurvedLine& c) {
+    const Vec3 leaving = c.tip1 + 2 * c.tip2;
+    const double speed = std::max(length(c.tip1), length(leaving));
+    const double turn = std::max(length(c.axis1), length(c.axis1 + 2 * c.axis2));
+    const double bend = speed > 0 ? 2 * length(c.tip2) / speed : 0;
+    constexpr double kFirst = 0.04;  // rad; doubles with the number of stretches
+    const double bow = std::max(turn, 0.5 * bend);
+    return bow < kFirst ? 1 : bow < 4 * kFirst ? 2 : bow < 8 * kFirst ? 4 : SeenFrame::kMostStretches;
 }
 
 }  // namespace
