@@ -18,9 +18,11 @@ namespace tribo::milling {
 //     iteration, to 0.01 um), and
 //   - arcs of at most half a turn about a line parallel to the axis, without rise.
 // For pieces whose tip or axis runs along a quadratic, or whose axis turns, the nearest instant is found by
-// iteration: the surface is off by less than 0.1 um as long as a piece turns its axis by less than 12 degrees
-// and its tip path by less than 30 (motion::to_elementary keeps to that). Other moves are not elementary and
-// must not come here.
+// search: good to 0.1 um for pieces of up to 30 degrees of turn and about 5 mm of travel, which
+// motion::to_elementary's tolerances keep to wherever a path bends. On straight pieces of 50 mm and more
+// whose axis turns at the same time a point in some thousands may miss its nearest instant. The cap of a
+// curved sweep is the highest that the tool's top comes. Other moves are not elementary and must not come
+// here.
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
 
 }  // namespace tribo::milling

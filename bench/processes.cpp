@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// The finishing job as a user runs it: tribo render, from start to exit.
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cuts.hpp"
+#include "harness.hpp"
+
+namespace tribo::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first `most` of the processors that this process may use.
+void keep_to_processors(int most) {
+    cpu_set_t allowed, chosen;
+    CPU_ZERO(&chosen);
+    if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
+    for (int n = 0; n < CPU_SETSIZE && CPU_COUNT(&chosen) < most; ++n) {
+        if (CPU_ISSET(n, &allowed)) CPU_SET(n, &chosen);
+    }
+    sched_setaffinity(0, sizeof chosen, &chosen);
+}
+
+struct Cost {
+    double seconds = 0, processor_s = 0, peak_mb = 0;
+};
+
+// Nothing when the program failed; it has then said why.
+std::optional<Cost> run(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
+    argv.push_back(nullptr);
+    const double start = wall_s();
+    const pid_t child = fork();
+    if (child == 0) {
+        keep_to_processors(2);
+        const int nothing = open("/dev/null", O_WRONLY);
+        dup2(nothing, STDOUT_FILENO);
+        execv(program.c_str(), argv.data());
+        std::perror(program.c_str());
+        _exit(127);
+    }
+    int status = 0;
+    rusage used{};
+    if (child < 0 || wait4(child, &status, 0, &used) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        return {};
+    }
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return Cost{wall_s() - start, seconds(used.ru_utime) + seconds(used.ru_stime),
+                static_cast<double>(used.ru_maxrss) * 1024e-6};
+}
+
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "tribo-bench-XXXXXX").string();
+        if (mkdtemp(name.data())) path_ = name;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove_all(path_, ignored);
+    }
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+}  // namespace
+
+// Comes first: a child's peak memory starts from what this process holds at the fork.
+void measure_processes(Report& report, int repeats) {
+    report.section("Finishing job as a process on 2 processors: 16,121 moves, 8.5 m, D1 flat, 0.1 mm grid");
+    const TemporaryFolder folder;
+    if (folder.path().empty()) {
+        report.note("no temporary folder: left out");
+        return;
+    }
+    const std::string job = folder.path() / "job.toml", out = folder.path() / "out";
+    {
+        const FinishingJob finishing;
+        std::ofstream(folder.path() / "path.nc") << finishing.gcode();
+        std::ofstream(job) << finishing.toml("path.nc");
+    }
+    struct Goal {
+        const char* only;
+        double seconds, megabytes;
+    };
+    for (const Goal& goal : {Goal{"summary", 1, 100}, {"mesh", 2.5, 250}}) {
+        std::vector<double> wall, processor, peak;
+        for (int n = 0; n < repeats; ++n) {
+            const auto cost =
+                run(TRIBO_PROGRAM, {"render", job, "--out", out, "--resolution", "0.1", "--only", goal.only});
+            if (!cost) {
+                report.note("tribo render failed: left out");
+                return;
+            }
+            wall.push_back(cost->seconds);
+            processor.push_back(cost->processor_s);
+            peak.push_back(cost->peak_mb);
+        }
+        const std::string name = std::string("tribo render --only ") + goal.only;
+        Entry seconds{name, median(wall), "s", goal.seconds};
+        Entry memory{name + ", peak memory", median(peak), "MB", goal.megabytes};
+        if (goal.only == std::string("mesh")) {
+            // Measured once on a part of this kind, mesh written; it is not run here.
+            seconds.peer = memory.peer = "CAMotics";
+            seconds.peer_value = 35;
+            memory.peer_value = 4500;
+        }
+        report.add(seconds);
+        report.add({name + ", processor time", median(processor), "s"});
+        report.add(memory);
+    }
+}
+
+}  // namespace tribo::bench
