@@ -25,7 +25,7 @@ thread_sanitizer() {
 }
 
 fuzz_one() {
-    local reader=$1 seconds=$2 work=build/fuzz/work/$1 log=build/fuzz/work/$1.log
+    local reader=$1 seconds=$2 work=build/fuzz/grown/$1 log=build/fuzz/grown/$1.log
     mkdir -p "$work" build/fuzz/crashes
     # Findings go to the first folder; the committed corpus is only read.
     if "build/fuzz/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
