@@ -21,7 +21,7 @@ thread_sanitizer() {
     local targets
     mapfile -t targets < <(thread_targets)
     if [ ${#targets[@]} -eq 0 ]; then return; fi
-    cmake --build --preset tsan --target "${targets[@]}" && run_ctest tsan -R "$with_threads"
+    cmake --build --preset tsan --target "${targets[@]}" && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" run_ctest tsan -R "$with_threads"
 }
 
 fuzz_one() {
