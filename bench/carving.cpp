@@ -81,14 +81,10 @@ void measure_carving(Report& report, int repeats) {
             return carving.us_per_mm;
         });
         Entry speed{move_text(length.mm), time, "us/mm", length.goal};
-        Entry memory{move_text(length.mm) + ", memory", carving.bytes_per_mm, "bytes/mm"};
-        if (const auto peer = openvdb_carve(half_immersion(length.mm, length.peer_passes), kCellMm)) {
-            speed.peer = memory.peer = "OpenVDB";
-            speed.peer_value = peer->us_per_mm;
-            memory.peer_value = peer->bytes_per_mm;
-        }
+        speed.peer_value = openvdb_us_per_mm(half_immersion(length.mm, length.peer_passes), kCellMm);
+        if (speed.peer_value) speed.peer = "OpenVDB";
         report.add(speed);
-        report.add(memory);
+        report.add({move_text(length.mm) + ", memory", carving.bytes_per_mm, "bytes/mm"});
     }
 }
 

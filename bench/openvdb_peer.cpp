@@ -21,7 +21,7 @@ bool has_openvdb() {
     return false;
 }
 
-std::optional<PeerCarving> openvdb_carve(const Cuts&, double) {
+std::optional<double> openvdb_us_per_mm(const Cuts&, double) {
     return {};
 }
 
@@ -82,6 +82,7 @@ openvdb::FloatGrid::Ptr level_set(const Distance& distance, const Box3& box, dou
         }
     }
     openvdb::tools::signedFloodFill(tree, false);
+    openvdb::tools::pruneLevelSet(tree, false);  // leaves near the surface that hold none of it
     return grid;
 }
 
@@ -91,13 +92,11 @@ bool has_openvdb() {
     return true;
 }
 
-std::optional<PeerCarving> openvdb_carve(const Cuts& cuts, double cell_mm) {
+std::optional<double> openvdb_us_per_mm(const Cuts& cuts, double cell_mm) {
     openvdb::initialize();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     auto stock = level_set([&](Vec3 p) { return box_distance(cuts.block_mm, p); }, cuts.block_mm, cell_mm);
-    const auto before = static_cast<double>(stock->memUsage());
     std::vector<double> us;
-    double length = 0;
     const double radius = cuts.cutter.radius_mm();
     for (const auto& moves : cuts.passes) {
         double mm = 0;
@@ -117,11 +116,9 @@ std::optional<PeerCarving> openvdb_carve(const Cuts& cuts, double cell_mm) {
             mm += motion::path_length_mm(move);
         }
         us.push_back(1e6 * (thread_s() - start) / mm);
-        length += mm;
     }
     if (us.size() > 1) us.erase(us.begin());
-    const double bytes = static_cast<double>(stock->memUsage()) - before;
-    return PeerCarving{median(us), bytes / length};
+    return median(us);
 }
 
 #endif

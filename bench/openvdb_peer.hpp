@@ -11,13 +11,11 @@ namespace tribo::bench {
 
 bool has_openvdb();
 
-struct PeerCarving {
-    double us_per_mm = 0;     // median over passes after the first, making the sweeps' level sets included
-    double bytes_per_mm = 0;  // growth of the stock's grid
-};
-
+// Time per mm of cut, median over the passes after the first, making the sweeps' level sets included. No
+// memory figure: this grid holds the blank's surface from the start, which the cuts then take away, so its
+// growth says nothing.
 // On one thread. Straight moves of a flat cutter across its axis only. Nothing where OpenVDB is not
 // installed.
-std::optional<PeerCarving> openvdb_carve(const Cuts& cuts, double cell_mm);
+std::optional<double> openvdb_us_per_mm(const Cuts& cuts, double cell_mm);
 
 }  // namespace tribo::bench

@@ -34,8 +34,9 @@ struct Cost {
     double seconds = 0, processor_s = 0, peak_mb = 0;
 };
 
-// Nothing when the program failed; it has then said why.
-std::optional<Cost> run(const std::string& program, const std::vector<std::string>& arguments) {
+// Nothing when the program failed; `log` then says why.
+std::optional<Cost> run(const std::string& program, const std::vector<std::string>& arguments,
+                        const std::string& log) {
     std::vector<char*> argv{const_cast<char*>(program.c_str())};
     for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
     argv.push_back(nullptr);
@@ -43,8 +44,9 @@ std::optional<Cost> run(const std::string& program, const std::vector<std::strin
     const pid_t child = fork();
     if (child == 0) {
         keep_to_processors(2);
-        const int nothing = open("/dev/null", O_WRONLY);
-        dup2(nothing, STDOUT_FILENO);
+        const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
         execv(program.c_str(), argv.data());
         std::perror(program.c_str());
         _exit(127);
@@ -89,7 +91,8 @@ void measure_processes(Report& report, int repeats) {
         report.note("no temporary folder: left out");
         return;
     }
-    const std::string job = folder.path() / "job.toml", out = folder.path() / "out";
+    const std::string job = folder.path() / "job.toml", out = folder.path() / "out",
+                      log = folder.path() / "log.txt";
     {
         const FinishingJob finishing;
         std::ofstream(folder.path() / "path.nc") << finishing.gcode();
@@ -103,9 +106,12 @@ void measure_processes(Report& report, int repeats) {
         std::vector<double> wall, processor, peak;
         for (int n = 0; n < repeats; ++n) {
             const auto cost =
-                run(TRIBO_PROGRAM, {"render", job, "--out", out, "--resolution", "0.1", "--only", goal.only});
+                run(TRIBO_PROGRAM, {"render", job, "--out", out, "--resolution", "0.1", "--only", goal.only},
+                    log);
             if (!cost) {
-                report.note("tribo render failed: left out");
+                report.note("tribo render failed: left out; it said:");
+                std::ifstream said(log);
+                for (std::string line; std::getline(said, line);) report.note(line);
                 return;
             }
             wall.push_back(cost->seconds);
