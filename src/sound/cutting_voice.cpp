@@ -41,6 +41,7 @@ CuttingVoice::Excitation CuttingVoice::now() const {
 
 void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
     from_ = now();
+    const bool was_in_contact = !to_.partials.silent();
     to_.partials =
         next.spectrum != nullptr ? in_plane_partials(*next.spectrum, kPascalPerNewton) : Partials{};
     to_.noise_pa = kPascalPerMm3PerS * contact::removal_rate_mm3_per_s(next);
@@ -53,6 +54,8 @@ void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quant
     elapsed_ = 0;
     waits_ = !excited_;  // before the first sample there is nothing to come from
     excited_ = true;
+    if (to_.partials.silent()) return;
+    if (!was_in_contact && !sounding()) phase_.forget();
     const double seconds_per_quantum = kQuantumFrames / options_.sample_rate_hz;
     phase_.lead(next.phase_rad, next.phase_rate_rad_per_s * seconds_per_quantum, quanta, sounding());
 }

@@ -24,7 +24,8 @@ struct CuttingVoiceOptions {
 // paper's A2, linear), whose level swings by half with the partials, as chips come tooth by tooth.
 //
 // An amplitude that steps takes 13 ms along a smooth S, and amplitudes stay 6.7 ms behind their excitation
-// (at 48 kHz); the phase does not. A spectrum with another order_step waits until the old one has faded.
+// (at 48 kHz); the phase does not. Samples without a spectrum need not know the spindle: theirs is
+// not listened to. A spectrum with another order_step waits until the old one has faded.
 // About 80 ns a frame with 32 partials and noise, nothing in silence; 50 KB, no allocation after
 // construction.
 class CuttingVoice final : public Voice {

@@ -86,7 +86,7 @@ bool Soundtrack::excite(const contact::ContactSample& next) {
     rolloff_from_ = arrival == quantum_ ? loudness : rolloff_now();
     rolloff_to_ = loudness;
     departure_ = quantum_;
-    arrival_ = arrival;
+    arrival_ = alive_until_ = arrival;
     excited_ = true;
     released_ = false;
     return true;
@@ -105,7 +105,7 @@ double Soundtrack::rolloff_now() const {
 }
 
 void Soundtrack::make_quantum() {
-    if (!released_ && static_cast<double>((quantum_ - arrival_) * kQuantumFrames) >
+    if (!released_ && static_cast<double>((quantum_ - alive_until_) * kQuantumFrames) >
                           kHoldSeconds * options_.sample_rate_hz) {
         release();
     }

@@ -69,6 +69,12 @@ class Soundtrack {
         play(frames_left(), sink);
         return taken;
     }
+    // What sounds goes on as it is until `t_s`, however long that takes.
+    template <class Sink>
+    void play_on(double t_s, Sink&& sink) {
+        alive_until_ = std::max(alive_until_, frame_at(t_s) / kQuantumFrames);
+        play(frame_at(t_s) - frame_, sink);
+    }
     // The rest of a track of `duration_s`, and kTailSeconds more in which whatever sounds dies away.
     template <class Sink>
     void play_out(double duration_s, Sink&& sink) {
@@ -99,9 +105,10 @@ class Soundtrack {
     SoundtrackOptions options_;
     std::vector<std::unique_ptr<Voice>> voices_;
     double samples_per_pascal_ = 0;
-    std::int64_t quantum_ = 0;  // the next one to be made
-    std::int64_t frame_ = 0;    // the next one to be given out
-    std::int64_t arrival_ = 0;  // quantum at which the last sample is reached
+    std::int64_t quantum_ = 0;      // the next one to be made
+    std::int64_t frame_ = 0;        // the next one to be given out
+    std::int64_t arrival_ = 0;      // quantum at which the last sample is reached
+    std::int64_t alive_until_ = 0;  // quantum from which nobody answers for the excitation
     bool excited_ = false, released_ = true;
     double rolloff_from_ = 1, rolloff_to_ = 1;
     std::int64_t departure_ = 0;                // quantum at which rolloff_from_ held

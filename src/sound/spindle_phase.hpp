@@ -23,6 +23,8 @@ class SpindlePhase {
     // The spindle is at `angle` with `rate` after `quanta` >= 0 quanta. Unless something sounds, what was
     // told before holds exactly; while it sounds, an angle that does not fit is approached.
     void lead(double angle, double rate, std::int64_t quanta, bool sounding);
+    // What was told before no longer counts: the next lead() holds from now on, at its rate.
+    void forget() { told_ = false; }
     // The next quantum.
     PhasePiece advance();
 

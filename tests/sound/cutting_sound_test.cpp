@@ -170,6 +170,26 @@ TEST(CuttingSound, of_a_spindle_at_rest_is_silence) {
     for (const float v : track_of(samples, 0.5)) ASSERT_EQ(v, 0);
 }
 
+TEST(CuttingSound, does_not_listen_to_the_spindle_of_a_tool_in_the_air) {
+    const contact::ForceSpectrum spectrum = falling_spectrum(2, 5);
+    const auto wave = [&](double rpm_in_the_air) {
+        return track_of(
+            std::vector{cut_at(0.05, nullptr, rpm_in_the_air), cut_at(0.1, nullptr, rpm_in_the_air),
+                        cut_at(0.15, &spectrum, 7000), cut_at(0.2, &spectrum, 7000),
+                        cut_at(0.22, nullptr, rpm_in_the_air), cut_at(0.4, &spectrum, 7000)},
+            0.4);
+    };
+    const std::vector<float> told = wave(7000);
+    EXPECT_GT(test::rms(told), 0.001);
+    EXPECT_EQ(wave(0), told);
+    EXPECT_EQ(wave(20000), told);
+    // At full level the phase is the spindle's from the first sample in contact on.
+    for (std::size_t n = 7200 + 800; n < 9600; ++n) {
+        const double angle = 7000 / 60.0 * 2 * std::numbers::pi * static_cast<double>(n) / kRate;
+        ASSERT_NEAR(static_cast<double>(told[n]), promised(spectrum, angle), 1e-6) << n;
+    }
+}
+
 TEST(CuttingSound, level_is_linear_in_force) {
     const contact::ForceSpectrum once = falling_spectrum(3, 9, 10), twice = falling_spectrum(3, 9, 20);
     const std::vector<float> a = track_of(std::vector{cut_at(0, &once, 8000), cut_at(1, &once, 8000)}, 1);

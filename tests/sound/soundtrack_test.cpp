@@ -154,6 +154,26 @@ TEST(Soundtrack, dies_away_when_nothing_new_is_told) {
     for (const float v : after) ASSERT_EQ(v, 0);
 }
 
+TEST(Soundtrack, goes_on_unchanged_for_as_long_as_it_is_told_to) {
+    const contact::ForceSpectrum spectrum = falling_spectrum(2, 8);
+    Soundtrack held{SoundtrackOptions{}}, told{SoundtrackOptions{}};
+    std::vector<float> x, y;
+    const auto into = [](std::vector<float>& wave) {
+        return [&wave](std::span<const float> block) { wave.insert(wave.end(), block.begin(), block.end()); };
+    };
+    held.play_to(cut_at(0, &spectrum, 6000, 100), into(x));
+    held.play_on(0.7, into(x));
+    held.play_out(1, into(x));
+    told.play_to(cut_at(0, &spectrum, 6000, 100), into(y));
+    told.play_to(cut_at(0.7, &spectrum, 6000, 100), into(y));
+    told.release();
+    told.play_out(1, into(y));
+    ASSERT_EQ(x.size(), y.size());
+    // Up to the end, where the one without an end dies away 0.1 s later.
+    for (std::size_t i = 0; i < 2 * 33600; ++i) ASSERT_NEAR(x[i], y[i], 1e-6f) << i;
+    for (std::size_t i = 2 * 39400; i < x.size(); ++i) ASSERT_EQ(x[i], 0);
+}
+
 TEST(Soundtrack, takes_a_sample_that_comes_late_at_once) {
     const contact::ForceSpectrum spectrum = falling_spectrum(2, 1);
     Soundtrack track{SoundtrackOptions{}};
