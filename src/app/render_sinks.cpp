@@ -118,23 +118,30 @@ void SoundFile::add(const session::MillRow& row) {
     const double start = row.values.t_s;
     if (start > last_end_s_ + kSameCutS) {
         // The tool was in the air: silence until it meets material again.
-        track_->release();
+        end_cut();
+        contact::ContactSample none;
+        none.position_mm = row.values.tip_mm;
         if (heard_from_ < 0) {
-            contact::ContactSample none;
             none.t_s = std::max(0.0, start - kLeadInS);
             track_->play_to(none, sink);
             heard_from_ = track_->frames_rendered();
         }
-        contact::ContactSample none;
         none.t_s = start;
-        none.position_mm = row.values.tip_mm;
         track_->play_to(none, sink);
+        track_->play_to(sample_of(row, start), sink);
     }
     track_->play_to(sample_of(row, 0.5 * (start + row.end_s)), sink);
     last_end_s_ = row.end_s;
 }
 
+void SoundFile::end_cut() {
+    if (last_end_s_ >= 0)
+        track_->play_on(last_end_s_, [this](std::span<const float> block) { write(block); });
+    track_->release();
+}
+
 io::FileResult<void> SoundFile::finish(double duration_s) {
+    end_cut();
     track_->play_out(duration_s, [this](std::span<const float> block) { write(block); });
     return file_.finish();
 }

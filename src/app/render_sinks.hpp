@@ -63,6 +63,8 @@ class SoundFile {
   private:
     SoundFile(io::WavWriter file, const SoundFileOptions& options);
     void write(std::span<const float> block);
+    // The last row sounds to its end, and no longer.
+    void end_cut();
 
     SoundFileOptions options_;
     io::WavWriter file_;
