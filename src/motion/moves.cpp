@@ -8,6 +8,7 @@
 #include "base/math.hpp"
 #include "motion/arc_frame.hpp"
 #include "motion/direction.hpp"
+#include "motion/quadratic_cut.hpp"
 
 namespace tribo::motion {
 
@@ -15,24 +16,6 @@ namespace {
 
 // Part of the tolerance within which a piece counts as straight: merging neighbours adds up a few of them.
 constexpr double kStraightShare = 0.01;
-// Part of the tolerance that a piece may use at the parameters where it is checked, the rest being for those
-// between.
-constexpr double kCheckedShare = 0.9;
-// Halvings after which a piece is taken as it is: a cusp, where no quadratic ever fits.
-constexpr int kCutDepth = 24;
-// A pose closer than this to the end of the move before is that end, mm and rad.
-constexpr double kJoin = 1e-9;
-
-// Where the error of a quadratic that meets a cubic at 0, 1/2 and 1 is largest (0.211, 0.789), and around.
-constexpr std::array<double, 6> kChecked{0.1, 0.2113, 0.35, 0.65, 0.7887, 0.9};
-
-// The middle control point that leads the axis from a to b through `middle` at constant speed, to the fifth
-// order where they are on one great circle.
-Vec3 axis_control(Vec3 a, Vec3 middle, Vec3 b) {
-    const double half = 0.5 * angle_rad(a, b);
-    const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
-    return (2 * size) * middle - 0.5 * (a + b);
-}
 
 Move with_ends(const Move& like, const ToolPose& start, const ToolPose& end) {
     Move m = like;
@@ -44,7 +27,7 @@ Move with_ends(const Move& like, const ToolPose& start, const ToolPose& end) {
 }
 
 bool is_nothing(const Move& m) {
-    return distance(m.start.tip_mm, m.end.tip_mm) < kJoin && distance(m.start.axis, m.end.axis) < kJoin;
+    return is_same_pose(m.start, m.end);
 }
 
 class Cutting {
@@ -56,14 +39,13 @@ class Cutting {
         ToolPose start = motion.pose(0);
         if (!moves_.empty()) {
             const ToolPose& before = moves_.back().end;
-            if (distance(before.tip_mm, start.tip_mm) < kJoin && distance(before.axis, start.axis) < kJoin)
-                start = before;
+            if (is_same_pose(before, start)) start = before;
         }
         const ToolPose end = motion.pose(1);
         if (is_straight(motion))
             append_straight(with_ends(like_, start, end));
         else
-            cut(motion, 0, start, 1, end, 0);
+            cut(motion, start, end);
     }
 
   private:
@@ -105,30 +87,10 @@ class Cutting {
         moves_.push_back(next);
     }
 
-    void cut(const BezierMotion& motion, double a, const ToolPose& start, double b, const ToolPose& end,
-             int depth) {
-        const double m = 0.5 * (a + b);
-        const ToolPose middle = motion.pose(m);
-        Move piece = with_ends(like_, start, end);
-        piece.quadratic = Quadratic{2.0 * middle.tip_mm - 0.5 * (start.tip_mm + end.tip_mm),
-                                    axis_control(start.axis, middle.axis, end.axis)};
-        if (depth < kCutDepth && !fits(piece, motion, a, b, middle)) {
-            cut(motion, a, start, m, middle, depth + 1);
-            cut(motion, m, middle, b, end, depth + 1);
-        } else if (!is_nothing(piece) || distance(middle.tip_mm, start.tip_mm) > kJoin) {
-            moves_.push_back(piece);
-        }
-    }
-
-    bool fits(const Move& piece, const BezierMotion& motion, double a, double b,
-              const ToolPose& middle) const {
-        const double turn = angle_rad(piece.start.axis, middle.axis) + angle_rad(middle.axis, piece.end.axis);
-        if (turn > kMaxPieceTurnRad) return false;
-        return std::all_of(kChecked.begin(), kChecked.end(), [&](double t) {
-            const ToolPose is = pose_at(piece, t), should = motion.pose(mix(a, b, t));
-            return distance(is.tip_mm, should.tip_mm) <= kCheckedShare * tolerance_.tip_mm &&
-                   distance(is.axis, should.axis) <= kCheckedShare * tolerance_.axis_rad;
-        });
+    void cut(const BezierMotion& motion, const ToolPose& start, const ToolPose& end) {
+        const auto pose_of = [&](double u) { return motion.pose(u); };
+        const auto sink = [&](const Move& piece, double, double) { moves_.push_back(piece); };
+        QuadraticCut(pose_of, like_, tolerance_, sink).cut(0, start, 1, end);
     }
 
     const Move& like_;
