@@ -102,6 +102,9 @@ std::optional<MGroup> group_of_m(int tenths) {
         case 480:
         case 490:
             return MGroup::overrides;
+        case 980:
+        case 990:
+            return MGroup::subprogram;
         case 4280:
         case 4290:
         case 4300:
@@ -192,9 +195,7 @@ Unread unread_g(int tenths) {
 Unread unread_m(int tenths) {
     switch (tenths) {
         case 970:
-        case 980:
-        case 990:
-            return {"subprograms", kPlainMoves};
+            return {"subroutines that start at a line number", kPlainMoves};
         case 100:
         case 110:
             return {"clamps", kDelete};

@@ -29,12 +29,13 @@ enum class GGroup {
 };
 
 enum class MGroup {
-    stop,       // M0 M1 M2 M30 M60
-    tool,       // M6
-    spindle,    // M3 M4 M5
-    coolant,    // M7 M8 M9
-    overrides,  // M48 M49
-    tool_tip,   // M428 M429 M430: LinuxCNC's switches between kinematics
+    stop,        // M0 M1 M2 M30 M60
+    tool,        // M6
+    spindle,     // M3 M4 M5
+    coolant,     // M7 M8 M9
+    overrides,   // M48 M49
+    subprogram,  // M98 M99
+    tool_tip,    // M428 M429 M430: LinuxCNC's switches between kinematics
     count
 };
 

@@ -1,179 +1,195 @@
 // SPDX-License-Identifier: MIT
 #include "formats/gcode_lexer.hpp"
 
-#include <array>
 #include <utility>
 
 namespace tribo::formats::gcode {
 namespace {
 
-// Longest number in a word, characters without its sign and blanks; no control writes half as many.
-constexpr std::size_t kLongestNumber = 64;
-
-constexpr const char* kPlainWords = "let the CAM system or the control write it out as plain G0 to G3 moves";
-
-bool is_number_character(char c) {
-    return is_digit(c) || c == '.';
-}
+// What begins with a letter and a number, and yet is no word: TRAORI, X=5.
+constexpr const char* kOtherDialect = "post-process the program for LinuxCNC or Fanuc";
 
 }  // namespace
 
-Lexer::Lexer(std::string_view bytes, std::string source_name, bool skip_deletable)
-    : lines_(bytes), source_name_(std::move(source_name)), skip_deletable_(skip_deletable) {}
-
-std::unexpected<Error> Lexer::refuse(std::size_t at, std::string cause, std::string remedy) const {
-    return fail_at(source_name_, lines_.number(), static_cast<int>(at) + 1, std::move(cause),
-                   std::move(remedy));
+Lexer::Lexer(std::string_view bytes, std::string source_name, bool skip_deletable,
+             const Parameters& parameters)
+    : lines_(bytes),
+      source_name_(std::move(source_name)),
+      skip_deletable_(skip_deletable),
+      parameters_(parameters) {
+    cursor_.source_name = &source_name_;
 }
 
-void Lexer::skip_blanks() {
-    while (at_ < line_.size() && is_blank(line_[at_])) ++at_;
+bool skip_block_head(Cursor& cursor) {
+    bool deletable = false;
+    if (cursor.peek_after_blanks() == '/') {
+        deletable = true;
+        ++cursor.at;
+        if (is_digit(cursor.peek())) ++cursor.at;  // which of several delete switches
+    }
+    if (to_upper(cursor.peek_after_blanks()) == 'N') {
+        ++cursor.at;
+        while (is_digit(cursor.peek_after_blanks()) || cursor.peek() == '.') ++cursor.at;
+    }
+    return deletable;
 }
 
 Result<bool> Lexer::next(Block& block) {
     const auto line = lines_.next();
     if (!line) return false;
-    line_ = *line;
-    at_ = 0;
+    cursor_.line = *line;
+    cursor_.at = 0;
+    cursor_.number = lines_.number();
     block.kind = BlockKind::words;
     block.line = lines_.number();
     block.column = 1;
     block.deletable = false;
     block.words.clear();
+    block.assignments.clear();
     block.comments.clear();
 
-    skip_blanks();
-    if (at_ < line_.size() && line_[at_] == '%') {
+    if (cursor_.peek_after_blanks() == '%') {
         block.kind = BlockKind::percent;
-        block.column = static_cast<int>(at_) + 1;
+        block.column = static_cast<int>(cursor_.at) + 1;
         return true;
     }
-    if (at_ < line_.size() && line_[at_] == '/') {
+    if (cursor_.peek() == '/') {
         block.deletable = true;
         if (skip_deletable_) return true;
-        ++at_;
-        if (at_ < line_.size() && is_digit(line_[at_])) ++at_;  // which of several delete switches
+        ++cursor_.at;
+        if (is_digit(cursor_.peek())) ++cursor_.at;  // which of several delete switches
     }
     for (;;) {
-        skip_blanks();
-        if (at_ >= line_.size() || line_[at_] == ';') break;
-        const char c = line_[at_];
-        const Result<void> read = c == '('             ? read_comment(block)
-                                  : to_upper(c) == 'O' ? read_o_word(block)
-                                                       : read_word(block);
+        const char c = cursor_.peek_after_blanks();
+        if (cursor_.at >= cursor_.line.size() || c == ';') break;
+        if ((c == 'O' || c == 'o') && block.words.empty()) {
+            block.kind = BlockKind::o_word;
+            block.column = static_cast<int>(cursor_.at) + 1;
+            return true;
+        }
+        const Result<void> read = c == '('   ? read_comment(block)
+                                  : c == '#' ? read_assignment(block)
+                                             : read_word(block);
         if (!read) return std::unexpected(read.error());
     }
-    if (at_ < line_.size()) block.comments.push_back(line_.substr(at_ + 1));
+    if (cursor_.at < cursor_.line.size()) block.comments.push_back(cursor_.line.substr(cursor_.at + 1));
     return true;
 }
 
-Result<void> Lexer::read_comment(Block& block) {
-    const std::size_t open = at_;
-    const std::size_t close = line_.find_first_of("()", open + 1);
-    if (close == std::string_view::npos) {
-        return refuse(open, "a comment is opened here and not closed on this line", "add the missing ')'");
+Result<void> Lexer::read_end(Block& block) {
+    while (!cursor_.at_end()) {
+        if (cursor_.peek() != '(') {
+            return cursor_.refuse(cursor_.at, "nothing but a comment may follow here",
+                                  "move the rest to the next line");
+        }
+        if (auto read = read_comment(block); !read) return read;
     }
-    if (line_[close] == '(') {
-        return refuse(close, "a comment is opened inside another comment",
-                      "use square brackets inside a comment");
-    }
-    block.comments.push_back(line_.substr(open + 1, close - open - 1));
-    at_ = close + 1;
     return {};
 }
 
-Result<void> Lexer::read_o_word(Block& block) {
-    const std::size_t start = at_++;
-    skip_blanks();
-    const std::size_t digits = at_;
-    while (at_ < line_.size() && is_digit(line_[at_])) ++at_;
-    const bool numbered = at_ > digits;
-    while (numbered) {
-        skip_blanks();
-        if (at_ >= line_.size() || line_[at_] != '(') break;
-        if (const auto read = read_comment(block); !read) return read;
+Result<void> Lexer::read_comment(Block& block) {
+    const std::string_view line = cursor_.line;
+    const std::size_t open = cursor_.at;
+    const std::size_t close = line.find_first_of("()", open + 1);
+    if (close == std::string_view::npos) {
+        return cursor_.refuse(open, "a comment is opened here and not closed on this line",
+                              "add the missing ')'");
     }
-    const bool alone = numbered && (at_ >= line_.size() || line_[at_] == ';');
-    if (!alone || !block.words.empty()) {
-        return refuse(start, "O-words (subroutines, loops and branches) are not read yet", kPlainWords);
+    if (line[close] == '(') {
+        return cursor_.refuse(close, "a comment is opened inside another comment",
+                              "use square brackets inside a comment");
     }
-    block.kind = BlockKind::program_number;
-    block.column = static_cast<int>(start) + 1;
+    block.comments.push_back(line.substr(open + 1, close - open - 1));
+    cursor_.at = close + 1;
+    return {};
+}
+
+Result<void> Lexer::read_assignment(Block& block) {
+    Assignment assignment;
+    const std::size_t start = cursor_.at;
+    assignment.column = static_cast<int>(start) + 1;
+    if (auto read = read_parameter_name(cursor_, parameters_, assignment.to); !read) return read;
+    if (cursor_.peek_after_blanks() != '=') {
+        return cursor_.refuse(start, "a parameter stands here without '=' and a value",
+                              "assign a value to it, or put a letter before it");
+    }
+    ++cursor_.at;
+    const auto value = read_value(cursor_, parameters_);
+    if (!value) return std::unexpected(value.error());
+    assignment.value = *value;
+    block.assignments.push_back(std::move(assignment));
     return {};
 }
 
 Result<void> Lexer::read_word(Block& block) {
-    const std::size_t start = at_;
-    const char c = line_[start];
-    if (c == '#' || c == '[') {
-        return refuse(start, "variables and expressions are not read yet", kPlainWords);
-    }
+    const std::size_t start = cursor_.at;
+    const char c = cursor_.peek();
     if (c == '/') {
-        return refuse(start, "'/' deletes whole blocks and stands inside one",
-                      "move it to the start of the line");
+        return cursor_.refuse(start, "'/' deletes whole blocks and stands inside one",
+                              "move it to the start of the line");
+    }
+    if (c == '[') {
+        return cursor_.refuse(start, "an expression stands here without a letter or parameter to give it to",
+                              "write X[...] or #1=[...]");
     }
     if (!is_letter(c)) {
-        return refuse(
-            start, shown_character(c) + " cannot start a word",
-            is_number_character(c) ? "put a letter before the number" : "delete it or put it into a comment");
+        return cursor_.refuse(start, shown_character(c) + " cannot start a word",
+                              is_digit(c) || c == '.' ? "put a letter before the number"
+                                                      : "delete it or put it into a comment");
     }
-    ++at_;
+    ++cursor_.at;
     const char letter = to_upper(c);
-    const auto value = read_number(letter);
+    const auto value = read_number(letter, start);
     if (!value) return std::unexpected(value.error());
+    if (letter == 'O') {
+        return cursor_.refuse(start, "an O-word stands inside the block", "move it to a line of its own");
+    }
     if (letter != 'N') {
         block.words.push_back({letter, *value, static_cast<int>(start) + 1});
     } else if (!block.words.empty()) {
-        return refuse(start, "a line number (N) stands inside the block", "move it to the start of the line");
+        return cursor_.refuse(start, "a line number (N) stands inside the block",
+                              "move it to the start of the line");
     }
     return {};
 }
 
-// Blanks between sign and digits, and between digits, do not count: RS274/NGC 3.3.2.
-Result<double> Lexer::read_number(char letter) {
-    const std::size_t word = at_ - 1;
-    skip_blanks();
-    const bool has_sign = at_ < line_.size() && (line_[at_] == '-' || line_[at_] == '+');
-    const bool negative = has_sign && line_[at_] == '-';
+Result<double> Lexer::read_number(char letter, std::size_t word) {
+    char c = cursor_.peek_after_blanks();
+    const bool has_sign = c == '-' || c == '+', negative = c == '-';
     if (has_sign) {
-        ++at_;
-        skip_blanks();
+        ++cursor_.at;
+        c = cursor_.peek_after_blanks();
     }
-    std::array<char, kLongestNumber> digits;
-    std::size_t length = 0;
-    while (at_ < line_.size() && is_number_character(line_[at_])) {
-        if (length == digits.size()) {
-            return refuse(word, std::string("the number after ") + letter + " has more than 64 digits",
-                          "round it");
-        }
-        digits[length++] = line_[at_++];
-        skip_blanks();
+    if (is_digit(c) || c == '.') {
+        const auto digits = read_digits(cursor_, word);
+        if (!digits) return std::unexpected(digits.error());
+        return negative ? -**digits : **digits;
     }
-    const auto value = number_of({digits.data(), length});
-    if (value) return negative ? -*value : *value;
+    if (!starts_computed_value(cursor_)) return refuse_number(letter, word, has_sign);
+    auto value = read_value(cursor_, parameters_);
+    if (value && negative) *value = -*value;
+    return value;
+}
 
-    const char next = at_ < line_.size() ? line_[at_] : ' ';
-    if (length > 0) {
-        return refuse(word, std::string("the number after ") + letter + " is malformed",
-                      "write it with digits and at most one decimal point");
-    }
-    if (next == '#' || next == '[') {
-        return refuse(at_, "variables and expressions are not read yet", kPlainWords);
-    }
+// Says what stands where the number of a word should.
+std::unexpected<Error> Lexer::refuse_number(char letter, std::size_t word, bool has_sign) {
+    const std::string_view line = cursor_.line;
+    const char next = cursor_.peek();
     if (next == '=') {
-        return refuse(word, std::string("'") + letter + "=' is a word of another dialect",
-                      "post-process the program for LinuxCNC or Fanuc");
+        return cursor_.refuse(word, std::string("'") + letter + "=' is a word of another dialect",
+                              kOtherDialect);
     }
     if (is_letter(next) && !has_sign) {
         std::size_t end = word;
-        while (end < line_.size() && (is_letter(line_[end]) || is_digit(line_[end])) && end - word < 20) {
+        while (end < line.size() && (is_letter(line[end]) || is_digit(line[end])) && end - word < 20) {
             ++end;
         }
-        return refuse(word,
-                      "'" + std::string(line_.substr(word, end - word)) + "' is not a letter with a number",
-                      "post-process the program for LinuxCNC or Fanuc, or put text into a comment");
+        return cursor_.refuse(
+            word, "'" + std::string(line.substr(word, end - word)) + "' is not a letter with a number",
+            std::string(kOtherDialect) + ", or put text into a comment");
     }
-    return refuse(word, std::string("no number after ") + letter, "add the number or delete the letter");
+    return cursor_.refuse(word, std::string("no number after ") + letter,
+                          "add the number or delete the letter");
 }
 
 }  // namespace tribo::formats::gcode

@@ -36,14 +36,8 @@ motion::Move new_move(motion::MoveKind kind, const Command& command, const State
     return move;
 }
 
-Result<void> append(motion::Move move, Output& output) {
-    if (output.program.moves.size() >= output.options.max_moves) {
-        return output.refuse(
-            move.line, 1, "the program has more than " + std::to_string(output.options.max_moves) + " moves",
-            "split it");
-    }
-    output.program.moves.push_back(std::move(move));
-    return {};
+Result<void> append(const motion::Move& move, const State& state, Output& output) {
+    return output.append(move, state.active().turn_deg);
 }
 
 struct Target {
@@ -245,7 +239,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     note_spindle(command, state, output);
     const bool stays = !move.arc && move.start.tip_mm == move.end.tip_mm;
     state.tip_mm = target->tip_mm;
-    return stays ? Result<void>{} : append(std::move(move), output);
+    return stays ? Result<void>{} : append(move, state, output);
 }
 
 // G53: coordinates that count from the machine's own zero, of which a program says nothing.
@@ -300,7 +294,7 @@ Result<void> move_rapidly(Command& command, State& state, Output& output) {
     state.known = target->known;
     move.end.tip_mm = state.tip_mm;
     if (!known || !state.knows_tip() || move.start.tip_mm == move.end.tip_mm) return {};
-    return append(std::move(move), output);
+    return append(move, state, output);
 }
 
 Result<void> apply_motion(Command& command, State& state, Output& output) {
@@ -324,7 +318,7 @@ Result<void> dwell(double seconds, const Command& command, const State& state, O
     if (!state.knows_tip() || seconds == 0) return {};
     motion::Move move = new_move(motion::MoveKind::dwell, command, state);
     move.duration_s = seconds;
-    return append(std::move(move), output);
+    return append(move, state, output);
 }
 
 }  // namespace tribo::formats::gcode

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "formats/gcode_reader.hpp"
 
+#include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "formats/gcode_command.hpp"
+#include "formats/gcode_flow.hpp"
 #include "formats/gcode_lexer.hpp"
 #include "formats/gcode_modes.hpp"
 #include "formats/gcode_motion.hpp"
 #include "formats/gcode_offsets.hpp"
+#include "formats/gcode_parameters.hpp"
 #include "formats/gcode_state.hpp"
 #include "formats/gcode_tool_comment.hpp"
 
@@ -18,8 +22,11 @@ namespace {
 
 class Reader {
   public:
-    Reader(std::string_view bytes, const GcodeOptions& options)
-        : lexer_(bytes, options.source_name, options.skip_deletable_blocks), output_(options) {
+    Reader(std::string_view bytes, const GcodeOptions& options, MoveSink* sink)
+        : output_(options, sink),
+          parameters_(state_, output_),
+          lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
+          flow_(bytes, options, lexer_, parameters_) {
         state_.unit_mm = mm_per(options.default_unit);
     }
 
@@ -27,9 +34,13 @@ class Reader {
         Block block;
         bool more = true;
         while (more) {
+            state_.line = lexer_.place().number() + 1;
             const auto found = lexer_.next(block);
             if (!found) return std::unexpected(found.error());
-            if (!*found) break;
+            if (!*found) {
+                if (auto done = flow_.end_text(block.line); !done) return std::unexpected(done.error());
+                break;
+            }
             const auto goes_on = run(block);
             if (!goes_on) return std::unexpected(goes_on.error());
             more = *goes_on;
@@ -39,12 +50,8 @@ class Reader {
 
   private:
     // False where the program ends.
-    Result<bool> run(const Block& block) {
-        for (const std::string_view comment : block.comments) {
-            if (const auto tool = tool_in_comment(comment)) {
-                declared_.push_back({tool->number, tool->diameter, tool->corner, block.line});
-            }
-        }
+    Result<bool> run(Block& block) {
+        for (const std::string_view comment : block.comments) read_comment(comment, block.line);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
                 output_.warn(block.line,
@@ -53,7 +60,11 @@ class Reader {
             return true;
         }
         if (block.kind == BlockKind::percent) return !has_words_ && !std::exchange(has_percent_, true);
-        if (block.kind == BlockKind::program_number) return start_program(block);
+        if (auto counted = flow_.count_step(block.line); !counted) return std::unexpected(counted.error());
+        if (block.kind == BlockKind::o_word) return run_o_word(block);
+        for (const Assignment& assignment : block.assignments) {
+            if (auto done = assign(assignment, block.line); !done) return std::unexpected(done.error());
+        }
         if (block.words.empty()) return true;
         has_words_ = true;
 
@@ -63,6 +74,32 @@ class Reader {
             return std::unexpected(std::move(command.error()));
         }
         return execute(*command);
+    }
+
+    void read_comment(std::string_view comment, int line) {
+        const auto tool = tool_in_comment(comment);
+        if (!tool) return;
+        if (!tool_lines_.insert(line).second) return;  // a loop may lead here again
+        declared_.push_back({tool->number, tool->diameter, tool->corner, line});
+        output_.declare_tool({tool->number, tool->diameter * state_.unit_mm});
+    }
+
+    Result<void> assign(const Assignment& assignment, int line) {
+        has_words_ = true;
+        const ParameterName& to = assignment.to;
+        auto done = to.number != 0 ? parameters_.set(to.number, assignment.value)
+                                   : parameters_.set(to.name, assignment.value);
+        if (done) return done;
+        return output_.refuse(line, assignment.column, std::move(done.error().cause),
+                              std::move(done.error().remedy));
+    }
+
+    Result<bool> run_o_word(Block& block) {
+        const auto is_number = flow_.run(block);
+        if (!is_number) return std::unexpected(is_number.error());
+        if (*is_number) return start_program(block);
+        has_words_ = true;
+        return true;
     }
 
     Result<bool> start_program(const Block& block) {
@@ -83,9 +120,51 @@ class Reader {
                 return std::unexpected(done.error());
             }
         }
+        const bool calls = command.m(MGroup::subprogram).has_value();
+        if (calls) {
+            command.use('P');
+            command.use('L');
+        }
         if (const Word* word = command.first_unused()) return refuse_unused(command, *word);
+        if (calls) return call_or_return(command);
         const auto stop = command.m(MGroup::stop);
         return !(stop && (stop->tenths == 20 || stop->tenths == 300));
+    }
+
+    // M98 P L and M99
+    Result<bool> call_or_return(Command& command) {
+        const Code code = *command.m(MGroup::subprogram);
+        const Word* number = command.use('P');
+        const Word* times = command.use('L');
+        const int line = command.line();
+        if (code.tenths == 990) {
+            if (number != nullptr) {
+                return output_.refuse(line, number->column, "M99 P (return to another line) is not read",
+                                      "let the control or the CAM system write the jump out");
+            }
+            const auto returned = flow_.return_from_program(line, code.column);
+            if (returned && !*returned) {
+                output_.warn(line, "M99 in the main program would run it again: it ends here");
+            }
+            return returned;
+        }
+        if (number == nullptr || !is_whole(*number, 1)) {
+            return output_.refuse(line, number == nullptr ? code.column : number->column,
+                                  "M98 needs the number of a program as P", "write M98 P1000 for O1000");
+        }
+        if (times != nullptr && !is_whole(*times, 0)) {
+            return output_.refuse(line, times->column, "L of M98 is no number of times",
+                                  "write a whole number");
+        }
+        if (times != nullptr && times->value == 0) return true;
+        const auto count = times == nullptr ? 1L : static_cast<long>(times->value);
+        if (auto done = flow_.call_program(*number, count, line); !done) return std::unexpected(done.error());
+        return true;
+    }
+
+    static bool is_whole(const Word& word, double least) {
+        constexpr double most = 999'999'999;
+        return word.value >= least && word.value <= most && word.value == std::floor(word.value);
     }
 
     void note_rotary_words(Command& command) {
@@ -125,11 +204,11 @@ class Reader {
         if (!has_words_) {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
         }
-        const std::string_view rest = lexer_.rest();
+        const std::string_view rest = lexer_.place().rest();
         if (rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
             output_.warn(last_line, "what follows the end of the program is not read");
         }
-        if (program.moves.empty()) output_.warn(0, "the program moves no tool");
+        if (output_.moves == 0) output_.warn(0, "the program moves no tool");
         for (motion::DeclaredTool& tool : declared_) {
             tool.diameter_mm *= state_.unit_mm;
             tool.corner_mm *= state_.unit_mm;
@@ -138,10 +217,13 @@ class Reader {
         return std::move(program);
     }
 
-    Lexer lexer_;
     Output output_;
     State state_;
+    Parameters parameters_;
+    Lexer lexer_;
+    Flow flow_;
     std::vector<motion::DeclaredTool> declared_;  // in units of the program until the end
+    std::set<int> tool_lines_;
     bool has_percent_ = false, has_number_ = false, has_words_ = false;
 };
 
@@ -149,7 +231,11 @@ class Reader {
 }  // namespace gcode
 
 Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options) {
-    return gcode::Reader(bytes, options).read();
+    return gcode::Reader(bytes, options, nullptr).read();
+}
+
+Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options, MoveSink& sink) {
+    return gcode::Reader(bytes, options, &sink).read();
 }
 
 }  // namespace tribo::formats

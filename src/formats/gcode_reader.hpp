@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// G-code to moves: lines, arcs and helices, units, planes, work offsets, feed modes and tool changes, modal
-// words without G. What it does not know it refuses with line and column, it never guesses. The dialect is
-// LinuxCNC's (RS274/NGC): a dwell's P is in seconds, '/' blocks are skipped, arc centres are incremental
-// until G90.1. Any thread; allocates; time and memory linear in the bytes.
+// G-code to moves: an interpreter of the LinuxCNC (RS274/NGC) and Fanuc family. Lines, arcs, splines, canned
+// cycles, cutter compensation, offsets, feed modes, tool changes; parameters, expressions, subroutines, loops
+// and branches. What it does not know it refuses with line and column, it never guesses. '/' blocks are
+// skipped, arc centres are incremental until G90.1. Any thread; allocates; time linear in the bytes, or in
+// the blocks that loops run.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "formats/length_unit.hpp"
@@ -15,14 +17,37 @@
 
 namespace tribo::formats {
 
-inline constexpr std::string_view gcode_dialect = "LinuxCNC";
+// Whose control the program is for, where two read one word differently: G4 P counts seconds in LinuxCNC and
+// milliseconds on a Fanuc control, G76 is a lathe's thread here and fine boring there, G5.1 a spline here and
+// look-ahead there.
+enum class GcodeDialect { linuxcnc, fanuc };
+
+constexpr std::string_view name_of(GcodeDialect dialect) {
+    return dialect == GcodeDialect::fanuc ? "Fanuc" : "LinuxCNC";
+}
+
+// What cutter compensation needs to know of a tool.
+struct GcodeTool {
+    int number = 0;
+    double diameter_mm = 0;
+};
 
 struct GcodeOptions {
-    std::string source_name;                           // stands in messages
+    std::string source_name;  // stands in messages
+    GcodeDialect dialect = GcodeDialect::linuxcnc;
     LengthUnit default_unit = LengthUnit::millimetre;  // until the first G20 or G21, with a warning
     double default_feed_mm_per_min = 0;                // for feed moves before the first F; 0: refused
     bool skip_deletable_blocks = true;                 // blocks that start with '/'
+    std::vector<GcodeTool> tools;                      // for G41 and G42; they win over the program's own
     std::size_t max_moves = 10'000'000;                // more are refused: at 300 bytes each they take 3 GB
+    std::size_t max_steps = 20'000'000;  // blocks that loops and calls may run before they count as endless
+};
+
+// Takes the moves of a program as they are read, so that a long one need not be held whole.
+class MoveSink {
+  public:
+    virtual ~MoveSink() = default;
+    virtual void take(const motion::Move& move) = 0;
 };
 
 // The moves of a program, in the stock's frame: the work offsets that the program sets itself (G10 L2, G92)
@@ -31,5 +56,9 @@ struct GcodeOptions {
 // Rotary words (A B C) are noted in the program and otherwise left out. Arcs turn by `turn_rad` > 0; G2's
 // have their normal turned over.
 Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options = {});
+
+// The same, with the moves going to the sink and not into the program. Memory does not grow with the bytes
+// but for splines, warnings and O-words; max_moves counts all the same.
+Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options, MoveSink& sink);
 
 }  // namespace tribo::formats

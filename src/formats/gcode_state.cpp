@@ -3,7 +3,58 @@
 
 #include <utility>
 
+#include "base/math.hpp"
+
 namespace tribo::formats::gcode {
+
+Vec3 turned(Vec3 v, double degrees) {
+    if (degrees == 0) return v;
+    double sine = 0, cosine = 0;
+    math::sincos(degrees * math::kRadPerDeg, sine, cosine);
+    return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z};
+}
+
+Result<void> Output::append(const motion::Move& move, double turn_deg) {
+    if (moves >= options.max_moves) {
+        return refuse(move.line, 1,
+                      "the program has more than " + std::to_string(options.max_moves) + " moves",
+                      "split it");
+    }
+    ++moves;
+    const motion::Move* given = &move;
+    motion::Move in_stock;
+    if (turn_deg != 0) {
+        in_stock = move;
+        for (motion::ToolPose* pose : {&in_stock.start, &in_stock.end}) {
+            pose->tip_mm = turned(pose->tip_mm, turn_deg);
+            pose->axis = turned(pose->axis, turn_deg);
+        }
+        if (in_stock.arc) {
+            in_stock.arc->centre_mm = turned(in_stock.arc->centre_mm, turn_deg);
+            in_stock.arc->normal = turned(in_stock.arc->normal, turn_deg);
+        }
+        if (in_stock.quadratic) {
+            in_stock.quadratic->tip_control_mm = turned(in_stock.quadratic->tip_control_mm, turn_deg);
+            in_stock.quadratic->axis_control = turned(in_stock.quadratic->axis_control, turn_deg);
+        }
+        given = &in_stock;
+    }
+    if (sink_ != nullptr) {
+        sink_->take(*given);
+    } else {
+        program.moves.push_back(*given);
+    }
+    return {};
+}
+
+std::optional<double> Output::tool_diameter_mm(int number) const {
+    for (const auto* tools : {&options.tools, &declared_}) {
+        for (auto tool = tools->rbegin(); tool != tools->rend(); ++tool) {
+            if (tool->number == number) return tool->diameter_mm;
+        }
+    }
+    return std::nullopt;
+}
 
 bool Output::first(Note note) {
     return !std::exchange(noted_[static_cast<std::size_t>(note)], true);

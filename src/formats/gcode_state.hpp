@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/result.hpp"
 #include "base/vec3.hpp"
@@ -14,27 +15,54 @@ namespace tribo::formats::gcode {
 
 enum class Plane { xy, zx, yz };  // G17 G18 G19
 enum class FeedMode { per_minute, inverse_time, per_turn };
-enum class MotionMode { none, rapid, line, arc_clockwise, arc_counter_clockwise };
+enum class MotionMode {
+    none,
+    rapid,
+    line,
+    arc_clockwise,
+    arc_counter_clockwise,
+    cubic_spline,      // G5
+    quadratic_spline,  // G5.1
+    nurbs,             // G5.2: control points with weights
+    nurbs_with_knots,  // G6.2
+    cycle,             // G73 to G89
+};
 enum class Spindle { off, clockwise, counter_clockwise };
 
 // What is known of a coordinate: nothing has stated it yet; it is known; or the machine took the axis to a
 // place that only it knows (G28, G53).
 enum class Known { unstated, yes, lost };
 
+// Turned about z; the very same where the angle is 0.
+Vec3 turned(Vec3 v, double degrees);
+
 inline constexpr int kWorkSystems = 9;  // G54 to G59, G59.1 to G59.3
 
 struct WorkSystem {
-    Vec3 origin_mm;  // in the stock's frame
+    Vec3 origin_mm;       // in the stock's frame
+    double turn_deg = 0;  // about the stock's z
     bool set = false;
 };
 
+// A canned cycle in force, with the words that stay until they are written again.
+struct Cycle {
+    int tenths = 0;                              // 810 for G81; 0: none
+    int line = 0;                                // where its code stood
+    std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
+    std::optional<double> peck_mm, dwell_s;
+    double initial_mm = 0;  // where the cycle axis stood at its start, to which G98 returns
+};
+
 struct State {
+    int line = 0;  // of the block that runs
     double unit_mm = 1;
     bool unit_stated = false;
     Plane plane = Plane::xy;
     bool incremental = false;
     bool absolute_centres = false;  // G90.1
     MotionMode motion = MotionMode::none;
+    Cycle cycle;
+    bool retract_to_r = false;  // G99
 
     FeedMode feed_mode = FeedMode::per_minute;
     std::optional<double> feed;  // mm/min, 1/min or mm per turn
@@ -48,21 +76,26 @@ struct State {
 
     std::array<WorkSystem, kWorkSystems> work;
     int active_work = 0;
-    Vec3 preset_mm;  // G92's
+    Vec3 preset_mm;  // G92's and G52's
     bool preset_on = true;
 
-    Vec3 tip_mm;  // in the stock's frame; 0 where not known
+    // In the frame of the program's axes: the stock's, turned about z by the work system's turn (mostly 0).
+    // 0 where not known.
+    Vec3 tip_mm;
     std::array<Known, 3> known{Known::unstated, Known::unstated, Known::unstated};
     int lost_line = 0;  // of the last block that lost an axis
 
-    // Where the program's zero stands in the stock's frame.
+    const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
+    // Where the program's zero stands, in the frame of its axes.
     Vec3 origin_mm() const {
-        const Vec3& origin = work[static_cast<std::size_t>(active_work)].origin_mm;
+        const Vec3 origin = turned(active().origin_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
     bool knows_tip() const {
         return known[0] == Known::yes && known[1] == Known::yes && known[2] == Known::yes;
     }
+    // G40, G41, ... in tenths.
+    double compensation_code() const { return 400; }
     // The tool that cuts: before the first M6 the one that T names, as nothing else can be in the spindle.
     int tool() const { return has_changed_tool ? loaded_tool : selected_tool; }
 };
@@ -79,6 +112,7 @@ enum class Note {
     tool_length,
     machine_position,
     tool_without_change,
+    unassigned_parameter,
     default_feed,
     preset_as_origin,
     deletable_blocks,
@@ -88,10 +122,20 @@ enum class Note {
 // Where blocks put what they give: moves, warnings and errors.
 class Output {
   public:
-    explicit Output(const GcodeOptions& options) : options(options) { program.source = options.source_name; }
+    // Moves go to the sink, or into the program where there is none.
+    Output(const GcodeOptions& options, MoveSink* sink) : options(options), sink_(sink) {
+        program.source = options.source_name;
+    }
 
     const GcodeOptions& options;
     motion::Program program;
+    std::size_t moves = 0;  // so far
+
+    // A move in the frame of the program's axes, which stands turned by `turn_deg` in the stock's.
+    Result<void> append(const motion::Move& move, double turn_deg);
+    // Where the options and the program name it.
+    std::optional<double> tool_diameter_mm(int number) const;
+    void declare_tool(const GcodeTool& tool) { declared_.push_back(tool); }
 
     // True the first time it is asked of a note.
     bool first(Note note);
@@ -99,6 +143,8 @@ class Output {
     std::unexpected<Error> refuse(int line, int column, std::string cause, std::string remedy) const;
 
   private:
+    MoveSink* sink_;
+    std::vector<GcodeTool> declared_;
     std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
 };
 

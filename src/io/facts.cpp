@@ -155,8 +155,8 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
     b.json["format"] = path_name(format);
     b.line("format", std::string(path_name(format)));
     if (format == formats::PathKind::gcode) {
-        b.json["dialect"] = formats::gcode_dialect;
-        b.line("dialect", std::string(formats::gcode_dialect));
+        b.json["dialect"] = formats::name_of(formats::GcodeDialect::linuxcnc);
+        b.line("dialect", std::string(formats::name_of(formats::GcodeDialect::linuxcnc)));
     }
     b.json["moves"] = s.moves;
     b.json["feed_moves"] = s.feed_moves;

@@ -35,11 +35,53 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G21\nG0 X1 X2\n", 2, 7, "X stands twice"},
         {"G21\nG0 X1 N5\n", 2, 7, "line number"},
         {"G21\nG0 X1 / Y1\n", 2, 7, "deletes whole blocks"},
-        {"#1=5\n", 1, 1, "variables"},
-        {"G21\nG0 X#1\n", 2, 5, "variables"},
-        {"G21\nG1 X[1+2]\n", 2, 5, "variables"},
-        {"O100 sub\n", 1, 1, "O-words"},
-        {"O<name> call\n", 1, 1, "O-words"},
+        {"#1\n", 1, 1, "without '=' and a value"},
+        {"#0=5\n", 1, 1, "from 1 to 5602"},
+        {"#5603=5\n", 1, 1, "from 1 to 5602"},
+        {"#1.5=5\n", 1, 1, "not a whole one"},
+        {"#1=\n", 1, 4, "a number is missing"},
+        {"#<>=1\n", 1, 2, "a name without letters"},
+        {"#<a=1\n", 1, 2, "not closed"},
+        {"#5420=1\n", 1, 1, "#5420 shows the state of the control"},
+        {"#<_line>=1\n", 1, 1, "#<_line> shows the state"},
+        {"#5221=1\n", 1, 1, "#5221 holds an offset"},
+        {"G21\nG0 X#<depth>\n", 2, 5, "#<depth> has no value"},
+        {"G21\nG0 X#5061\n", 2, 5, "a probe or an input has measured"},
+        {"G21\nG0 X[#5420+1]\n", 2, 6, "X, which is not known here"},
+        {"G21\nG1 X[1+2\n", 2, 5, "'[' is not closed"},
+        {"G21\nG1 X[1 $ 2]\n", 2, 8, "'$' is neither an operator nor the end"},
+        {"G21\nG1 X[1 +]\n", 2, 9, "a number is missing"},
+        {"G21\nG1 X[1/0]\n", 2, 7, "division by zero"},
+        {"G21\nG1 X[5 MOD 0]\n", 2, 8, "division by zero"},
+        {"G21\nG1 X[-8 ** 0.5]\n", 2, 9, "power without a real value"},
+        {"G21\nG1 XSQRT[-1]\n", 2, 5, "no value there: SQRT"},
+        {"G21\nG1 XACOS[2]\n", 2, 5, "no value there: ACOS"},
+        {"G21\nG1 XLN[0]\n", 2, 5, "no value there: LN"},
+        {"G21\nG1 XATAN[1]\n", 2, 12, "ATAN has one argument"},
+        {"G21\nG1 X[FOO[1]]\n", 2, 6, "neither a number nor a function"},
+        {"G21\nG1 X[EXISTS[1]]\n", 2, 12, "EXISTS asks for a parameter"},
+        {"G21\n[1+2]\n", 2, 1, "without a letter or parameter"},
+        {"G21\nG1 X" + std::string(70, '[') + "1\n", 2, 65, "nested more than 60 deep"},
+        {"O100 sub\n", 1, 1, "o100 sub is never closed"},
+        {"O100 if [1]\n", 1, 1, "o100 if is never closed"},
+        {"O100 if\nO100 endif\n", 1, 8, "if without its [expression]"},
+        {"O100 else\n", 1, 1, "without its if"},
+        {"O100 endwhile\n", 1, 1, "without the start of its loop"},
+        {"O100 repeat [2]\nO101 break\nO100 endrepeat\n", 2, 1, "stands in no loop of that label"},
+        {"O100 repeat [1e3]\nO100 endrepeat\n", 1, 15, "neither an operator nor the end"},
+        {"O100 endsub\n", 1, 1, "outside of that subroutine"},
+        {"O100 jump\n", 1, 6, "'jump' is nothing that an O-word does"},
+        {"O100 sub\nO100 endsub\nO100 call 5\n", 3, 11, "nothing but a comment"},
+        {"O<name> call\n", 1, 1, "this file has no o<name> sub"},
+        {"O[1+1] while [1]\n", 1, 1, "only a call may compute"},
+        {"O sub\n", 1, 1, "O without a number or <name>"},
+        {"O1 sub\nO1 call\nO1 endsub\nO1 call\n", 2, 1, "more than 100 deep"},
+        {"G21\nM98\n", 2, 1, "the number of a program as P"},
+        {"G21\nM98 P1000\n", 2, 5, "M98 calls O1000, which this file does not have"},
+        {"M98 P7 L-1\nM30\nO7\nM99\n", 1, 8, "no number of times"},
+        {"M98 P7\nM30\nO7\nG21\n", 4, 1, "before M99 has ended O7"},
+        {"M98 P7\nM30\nO7\nG21\nO8\nM99\n", 5, 1, "another program starts here"},
+        {"M98 P7\nM30\nO7\nM99 P10\n", 4, 5, "return to another line"},
         {"O1 (a)\nO2 (b)\n", 2, 1, "second program"},
         {"TRAORI\n", 1, 1, "'TRAORI' is not a letter with a number"},
         {"G1 X=5\n", 1, 4, "'X=' is a word of another dialect"},
@@ -56,7 +98,6 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G43.4 H1\n", 1, 1, "G43.4 (tool tip control) is not read yet"},
         {"G68.2 X0\n", 1, 1, "planes) is not read yet"},
         {"G38.2 Z-5\n", 1, 1, "G38.2 (probing) is not read yet"},
-        {"M98 P1000\n", 1, 1, "M98 (subprograms) is not read yet"},
         {"G21\nX1 Y2\n", 2, 1, "without a motion code"},
         {"G21 G0 X0 Y0 Z0\nG80\nX1\n", 3, 1, "without a motion code"},
         {"G21 M3\nG0 X0 Y0 Z0\nG1 X1\n", 3, 4, "before any F"},
@@ -106,6 +147,19 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         EXPECT_EQ(error.column, refusal.column) << refusal.text << error.text();
         EXPECT_NE(error.cause.find(refusal.cause), std::string::npos) << refusal.text << error.text();
         EXPECT_FALSE(error.remedy.empty()) << error.text();
+    }
+}
+
+TEST(GcodeReader, RefusesLoopsWithoutEndAndNamesALineOfThem) {
+    GcodeOptions options;
+    options.max_steps = 1000;
+    for (const char* text : {"#1=0\nO1 while [1]\n#1=[#1+1]\nO1 endwhile\n", "O1 do\n\n\nO1 while [1 EQ 1]\n",
+                             "O1 repeat [100000]\n\nO1 endrepeat\n"}) {
+        const auto program = read_gcode(text, options);
+        ASSERT_FALSE(program.has_value()) << text;
+        EXPECT_NE(program.error().cause.find("does not seem to end"), std::string::npos);
+        EXPECT_GE(program.error().line, 1);
+        EXPECT_LE(program.error().line, 4);
     }
 }
 
