@@ -7,9 +7,6 @@
 
 namespace tribo::formats::gcode {
 
-// The coordinate word of an axis (0 x, 1 y, 2 z) in mm, if the block has it; refused beyond a kilometre.
-Result<std::optional<double>> coordinate_mm(Command& command, int axis, const State& state, Output& output);
-
 // Where the words of the block take the tip at a rapid, and the move there if start and end are known.
 Result<void> move_rapidly(Command& command, State& state, Output& output);
 
@@ -17,6 +14,6 @@ Result<void> move_rapidly(Command& command, State& state, Output& output);
 Result<void> apply_motion(Command& command, State& state, Output& output);
 
 // A stop of so many seconds where the tip stands.
-Result<void> dwell(double seconds, const Command& command, const State& state, Output& output);
+Result<void> dwell(double seconds, const Command& command, State& state, Output& output);
 
 }  // namespace tribo::formats::gcode

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "formats/gcode_motion.hpp"
+#include "formats/gcode_moves.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
 
 constexpr double kLongestDwellS = 86'400;
 
-Result<void> apply_dwell(Command& command, const State& state, Output& output, int column) {
+Result<void> apply_dwell(Command& command, State& state, Output& output, int column) {
     const Word* seconds = command.use('P');
     if (seconds == nullptr) {
         return output.refuse(command.line(), column, "a dwell (G4) without P", "write its seconds as P");
