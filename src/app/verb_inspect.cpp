@@ -10,6 +10,7 @@
 #include "app/exit.hpp"
 #include "app/verbs.hpp"
 #include "io/facts.hpp"
+#include "io/gzip.hpp"
 #include "io/job_toml.hpp"
 #include "io/model_file.hpp"
 #include "io/picture.hpp"
@@ -104,6 +105,7 @@ io::FileResult<Found> inspect_file(const std::string& file) {
     const io::FileResult<std::string> bytes = io::read_file(file);
     if (!bytes) return std::unexpected(bytes.error());
     if (std::filesystem::path(file).extension() == ".toml") return inspect_job(*bytes, file);
+    if (io::is_gzip(*bytes)) return inspect_model(file);
     const std::optional<formats::PathKind> program = io::detect_program(*bytes, file);
     if (formats::detect_model_format(*bytes, file) && !program) return inspect_model(file);
     if (program) return inspect_program(*bytes, file, *program);

@@ -3,7 +3,9 @@
 // does not know it refuses with file and line, it never guesses.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,10 +23,25 @@ std::string_view name(ModelFormat format);
 // (mesh and welding) the largest model takes about 1 GB.
 inline constexpr std::uint64_t kMaxTriangles = 20'000'000;
 
+// A file that a model names (VRML: Inline, EXTERNPROTO).
+struct ModelNeighbour {
+    std::string name;   // one file has one name, however it was asked for; stands in messages
+    std::string bytes;  // unpacked
+};
+
+// Finds the file that `url` names in the file called `from`, of at most `limit_bytes` once unpacked. What it
+// may open is the caller's to decide; the error's cause completes "the file '...' is not read: ".
+using ModelNeighbours = std::function<Result<ModelNeighbour>(std::string_view url, const std::string& from,
+                                                             std::uint64_t limit_bytes)>;
+
 struct ModelOptions {
     std::string source_name;  // stands in messages; its extension decides where the content does not
     double unit_mm = 1;       // length of one unit of the file, mm; finite, > 0
+    ModelNeighbours neighbours = {};  // none: a model that needs another file is refused
 };
+
+// sRGB.
+using Rgb8 = std::array<std::uint8_t, 3>;
 
 // A run of triangles that the file draws as one shape.
 struct ModelPart {
@@ -36,6 +53,7 @@ struct ModelPart {
 struct Model {
     TriangleMesh mesh;  // mm; no unused and no non-finite position; no triangle with two equal corners
     std::vector<ModelPart> parts;  // VRML only: in order, together all triangles
+    std::vector<Rgb8> colours = {};  // one per triangle, the mean of its corners; empty where the file has none
     ModelFormat format = ModelFormat::stl;
     Warnings warnings;
 };

@@ -27,12 +27,17 @@ void renumber(TriangleMesh& mesh) {
 }
 
 // Drops triangles that use a vertex twice; gives how many.
-std::size_t drop_degenerate(std::vector<Triangle>& triangles, std::vector<ModelPart>& parts) {
+std::size_t drop_degenerate(Model& model) {
+    std::vector<Triangle>& triangles = model.mesh.triangles;
+    std::vector<ModelPart>& parts = model.parts;
+    const bool coloured = !model.colours.empty();
     std::size_t kept = 0;
     const auto keep_of = [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const Triangle t = triangles[i];
-            if (!is_degenerate(t)) triangles[kept++] = t;
+            if (is_degenerate(t)) continue;
+            if (coloured) model.colours[kept] = model.colours[i];
+            triangles[kept++] = t;
         }
     };
     for (ModelPart& part : parts) {
@@ -44,6 +49,7 @@ std::size_t drop_degenerate(std::vector<Triangle>& triangles, std::vector<ModelP
     if (parts.empty()) keep_of(0, triangles.size());
     const std::size_t dropped = triangles.size() - kept;
     triangles.resize(kept);
+    if (coloured) model.colours.resize(kept);
     return dropped;
 }
 
@@ -58,7 +64,7 @@ std::optional<Point3f> to_position(double x, double y, double z, double unit_mm)
 
 Result<Model> finish_model(Model model, const ModelOptions& options, Weld weld) {
     if (weld == Weld::exact) weld_exactly(model.mesh);
-    const std::size_t dropped = drop_degenerate(model.mesh.triangles, model.parts);
+    const std::size_t dropped = drop_degenerate(model);
     if (model.mesh.triangles.empty()) {
         return fail_at(options.source_name, 0, 0, "the model has no triangles",
                        "export it with its surface as a mesh");

@@ -18,41 +18,59 @@ constexpr std::array kTransformUsed{"children"sv, "translation"sv,      "rotatio
 constexpr std::array kChoiceUsed{"choice"sv, "whichChoice"sv};
 constexpr std::array kLevelUsed{"level"sv};
 constexpr std::array kLevelPassed{"center"sv, "range"sv};
-constexpr std::array kShapeUsed{"geometry"sv};
-constexpr std::array kShapePassed{"appearance"sv};
-constexpr std::array kFaceSetUsed{"coord"sv, "coordIndex"sv, "ccw"sv, "solid"sv, "creaseAngle"sv};
-constexpr std::array kFaceSetPassed{"color"sv,          "normal"sv,          "texCoord"sv,
-                                    "colorIndex"sv,     "normalIndex"sv,     "texCoordIndex"sv,
-                                    "colorPerVertex"sv, "normalPerVertex"sv, "convex"sv};
+constexpr std::array kInlineUsed{"url"sv};
+constexpr std::array kInlinePassed{"bboxCenter"sv, "bboxSize"sv};
+constexpr std::array kShapeUsed{"geometry"sv, "appearance"sv};
+constexpr std::array kAppearanceUsed{"material"sv};
+constexpr std::array kAppearancePassed{"texture"sv, "textureTransform"sv};
+constexpr std::array kMaterialUsed{"diffuseColor"sv};
+constexpr std::array kMaterialPassed{"ambientIntensity"sv, "emissiveColor"sv, "shininess"sv,
+                                     "specularColor"sv, "transparency"sv};
+constexpr std::array kColourUsed{"color"sv};
+constexpr std::array kFaceSetUsed{"coord"sv, "coordIndex"sv, "ccw"sv,        "solid"sv,
+                                  "color"sv, "colorIndex"sv, "creaseAngle"sv, "colorPerVertex"sv};
+constexpr std::array kFaceSetPassed{"normal"sv,        "texCoord"sv,        "normalIndex"sv,
+                                    "texCoordIndex"sv, "normalPerVertex"sv, "convex"sv};
+constexpr std::array kBoxUsed{"size"sv};
+constexpr std::array kConeUsed{"bottomRadius"sv, "height"sv, "side"sv, "bottom"sv};
+constexpr std::array kCylinderUsed{"radius"sv, "height"sv, "side"sv, "bottom"sv, "top"sv};
+constexpr std::array kSphereUsed{"radius"sv};
+constexpr std::array kGridUsed{"height"sv, "xDimension"sv, "xSpacing"sv,    "zDimension"sv,     "zSpacing"sv,
+                               "ccw"sv,    "solid"sv,      "creaseAngle"sv, "colorPerVertex"sv, "color"sv};
+constexpr std::array kGridPassed{"normal"sv, "texCoord"sv, "normalPerVertex"sv, "set_height"sv};
+constexpr std::array kExtrusionUsed{"crossSection"sv, "spine"sv,  "scale"sv, "orientation"sv, "beginCap"sv,
+                                    "endCap"sv,       "ccw"sv,    "solid"sv, "creaseAngle"sv};
+constexpr std::array kExtrusionPassed{"convex"sv,    "set_crossSection"sv, "set_orientation"sv,
+                                      "set_scale"sv, "set_spine"sv};
 constexpr std::array kCoordinateUsed{"point"sv};
 
 constexpr std::array kNodes{
     VrmlNodeType{"Anchor", VrmlRole::group, kChildren, kGroupPassed},
-    VrmlNodeType{"Appearance"},
+    VrmlNodeType{"Appearance", VrmlRole::appearance, kAppearanceUsed, kAppearancePassed},
     VrmlNodeType{"AudioClip"},
     VrmlNodeType{"Background"},
     VrmlNodeType{"Billboard", VrmlRole::group, kChildren, kGroupPassed},
-    VrmlNodeType{"Box", VrmlRole::other_surface},
+    VrmlNodeType{"Box", VrmlRole::box, kBoxUsed},
     VrmlNodeType{"Collision", VrmlRole::group, kChildren, kGroupPassed},
-    VrmlNodeType{"Color"},
+    VrmlNodeType{"Color", VrmlRole::colour, kColourUsed},
     VrmlNodeType{"ColorInterpolator"},
-    VrmlNodeType{"Cone", VrmlRole::other_surface},
+    VrmlNodeType{"Cone", VrmlRole::cone, kConeUsed},
     VrmlNodeType{"Coordinate", VrmlRole::coordinate, kCoordinateUsed},
     VrmlNodeType{"CoordinateInterpolator"},
-    VrmlNodeType{"Cylinder", VrmlRole::other_surface},
+    VrmlNodeType{"Cylinder", VrmlRole::cylinder, kCylinderUsed},
     VrmlNodeType{"CylinderSensor"},
     VrmlNodeType{"DirectionalLight"},
-    VrmlNodeType{"ElevationGrid", VrmlRole::other_surface},
-    VrmlNodeType{"Extrusion", VrmlRole::other_surface},
+    VrmlNodeType{"ElevationGrid", VrmlRole::grid, kGridUsed, kGridPassed},
+    VrmlNodeType{"Extrusion", VrmlRole::extrusion, kExtrusionUsed, kExtrusionPassed},
     VrmlNodeType{"Fog"},
     VrmlNodeType{"FontStyle"},
     VrmlNodeType{"Group", VrmlRole::group, kChildren, kGroupPassed},
     VrmlNodeType{"ImageTexture"},
     VrmlNodeType{"IndexedFaceSet", VrmlRole::face_set, kFaceSetUsed, kFaceSetPassed},
     VrmlNodeType{"IndexedLineSet", VrmlRole::no_surface},
-    VrmlNodeType{"Inline", VrmlRole::other_surface},
+    VrmlNodeType{"Inline", VrmlRole::inline_file, kInlineUsed, kInlinePassed},
     VrmlNodeType{"LOD", VrmlRole::level, kLevelUsed, kLevelPassed},
-    VrmlNodeType{"Material"},
+    VrmlNodeType{"Material", VrmlRole::material, kMaterialUsed, kMaterialPassed},
     VrmlNodeType{"MovieTexture"},
     VrmlNodeType{"NavigationInfo"},
     VrmlNodeType{"Normal"},
@@ -66,9 +84,9 @@ constexpr std::array kNodes{
     VrmlNodeType{"ProximitySensor"},
     VrmlNodeType{"ScalarInterpolator"},
     VrmlNodeType{"Script", VrmlRole::script},
-    VrmlNodeType{"Shape", VrmlRole::shape, kShapeUsed, kShapePassed},
+    VrmlNodeType{"Shape", VrmlRole::shape, kShapeUsed},
     VrmlNodeType{"Sound"},
-    VrmlNodeType{"Sphere", VrmlRole::other_surface},
+    VrmlNodeType{"Sphere", VrmlRole::sphere, kSphereUsed},
     VrmlNodeType{"SphereSensor"},
     VrmlNodeType{"SpotLight"},
     VrmlNodeType{"Switch", VrmlRole::choice, kChoiceUsed},

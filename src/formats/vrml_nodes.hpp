@@ -9,18 +9,33 @@
 namespace tribo::formats {
 
 enum class VrmlRole : std::uint8_t {
-    group,          // its children are seen
-    transform,      // a group with a place
-    choice,         // Switch: one child or none is seen
-    level,          // LOD: its first level is seen
-    shape,          // its geometry is seen
-    face_set,       // IndexedFaceSet
-    coordinate,     // points for geometry
-    other_surface,  // gives a surface that this reader does not make: refused where it would be seen
-    no_surface,     // geometry of points, lines or letters: passed over with a warning
-    silent,         // has no geometry
-    script          // has fields of its own making, so its inside is skipped unread
+    group,        // its children are seen
+    transform,    // a group with a place
+    choice,       // Switch: one child or none is seen
+    level,        // LOD: its first level is seen
+    inline_file,  // the nodes of another file are seen; they stand in its field `children` once read
+    shape,        // its geometry is seen
+    face_set,     // IndexedFaceSet
+    box,
+    cone,
+    cylinder,
+    sphere,
+    grid,  // ElevationGrid
+    extrusion,
+    coordinate,  // points for geometry
+    appearance,
+    material,
+    colour,      // colours for geometry
+    no_surface,  // geometry of points, lines or letters: passed over with a warning
+    silent,      // has no geometry
+    script,      // has fields of its own making, so its inside is skipped unread
+    instance     // of a prototype, where it stands in the body of another
 };
+
+// Geometry that this reader makes triangles of.
+constexpr bool is_surface(VrmlRole role) {
+    return role >= VrmlRole::face_set && role <= VrmlRole::extrusion;
+}
 
 struct VrmlNodeType {
     std::string_view name;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "formats/vrml_files.hpp"
+
+#include <utility>
+
+#include "formats/model_text.hpp"
+#include "formats/vrml.hpp"
+#include "formats/vrml_parser.hpp"
+
+namespace tribo::formats {
+
+Result<void> VrmlFiles::read_model(std::string_view text) {
+    text_bytes_ = text.size();
+    tree_.files.push_back({options_.source_name, {}, text});
+    known_.push_back({options_.source_name, true, VrmlTop{}});
+    auto top = parse_vrml(tree_, *this, 0);
+    if (!top) return std::unexpected(top.error());
+    tree_.roots = std::move(top->roots);
+    return {};
+}
+
+Result<void> VrmlFiles::load(Known& known, ModelNeighbour file, const VrmlPlace& at) {
+    if (tree_.files.size() >= kMaxVrmlFiles) {
+        return tree_.refuse(at, "the model has more than " + std::to_string(kMaxVrmlFiles) + " files",
+                            "export it as one file");
+    }
+    if (depth_ >= kMaxVrmlFileDepth) {
+        return tree_.refuse(
+            at, "files name each other more than " + std::to_string(kMaxVrmlFileDepth) + " deep",
+            "export the model as one file");
+    }
+    text_bytes_ += file.bytes.size();
+    tree_.files.push_back({std::move(file.name), std::move(file.bytes), {}});
+    VrmlFile& kept = tree_.files.back();
+    kept.text = without_byte_order_mark(kept.bytes);
+    if (auto ok = check_vrml_header(kept.text, kept.name, true); !ok) return ok;
+    const auto number = static_cast<std::uint32_t>(tree_.files.size() - 1);
+    if (!kept.text.starts_with("#VRML")) {
+        tree_.warn_once({number, 1, 1, 0}, "no '#VRML V2.0 utf8' at the start: read all the same");
+    }
+    known.is_open = true;
+    ++depth_;
+    known.top = parse_vrml(tree_, *this, number);
+    --depth_;
+    known.is_open = false;
+    if (!known.top) return std::unexpected(known.top.error());
+    return {};
+}
+
+Result<const VrmlTop*> VrmlFiles::open(std::string_view url, const VrmlPlace& at) {
+    const std::string remedy = "put the file beside the model, or export the model as one file";
+    const auto key = std::pair(at.file, url);
+    auto asked = asked_.find(key);
+    if (asked == asked_.end()) {
+        const auto refused = [&](const std::string& cause) {
+            return tree_.refuse(at, "the file " + quoted(url) + " is not read: " + cause, remedy);
+        };
+        Result<std::size_t> number = std::size_t{0};
+        if (!options_.neighbours) {
+            number = refused("the model was given without its folder");
+        } else if (text_bytes_ >= kMaxVrmlText) {
+            number = refused("the model's files hold more than 64 MB");
+        } else if (auto file = options_.neighbours(url, tree_.files[at.file].name, kMaxVrmlText - text_bytes_);
+                   !file) {
+            number = refused(file.error().cause);
+        } else {
+            std::size_t n = 0;
+            while (n < known_.size() && known_[n].name != file->name) ++n;
+            number = n;
+            if (n == known_.size()) {
+                known_.push_back({file->name, false, VrmlTop{}});
+                if (auto ok = load(known_[n], *std::move(file), at); !ok)
+                    known_[n].top = std::unexpected(ok.error());
+            }
+        }
+        asked = asked_.emplace(key, std::move(number)).first;
+    }
+    if (!asked->second) return std::unexpected(asked->second.error());
+    const Known& known = known_[*asked->second];
+    if (known.is_open) {
+        return tree_.refuse(at, "the file " + quoted(url) + " names itself, directly or through others",
+                            "break the circle");
+    }
+    if (!known.top) return std::unexpected(known.top.error());
+    return &*known.top;
+}
+
+void VrmlFiles::read_inline(VrmlNodeId node) {
+    const VrmlValue* url = tree_.find(node, "url");
+    if (!url || tree_.strings_of(*url).empty()) return;
+    const VrmlPlace at = url->start;
+    const std::vector<std::string_view> urls(tree_.strings_of(*url).begin(), tree_.strings_of(*url).end());
+    std::optional<Error> first_error;
+    for (const std::string_view one : urls) {
+        const auto top = open(one, at);
+        if (!top) {
+            if (!first_error) first_error = top.error();
+            continue;
+        }
+        VrmlField children{"children", {}};
+        children.value.kind = VrmlValue::Kind::nodes;
+        children.value.start = at;
+        children.value.first = static_cast<std::uint32_t>(tree_.links.size());
+        children.value.count = static_cast<std::uint32_t>((*top)->roots.size());
+        if (children.value.count == 0) children.value.kind = VrmlValue::Kind::null;
+        tree_.links.insert(tree_.links.end(), (*top)->roots.begin(), (*top)->roots.end());
+        tree_.nodes[node].first_field = static_cast<std::uint32_t>(tree_.fields.size());
+        tree_.nodes[node].fields = 1;
+        tree_.fields.push_back(children);
+        return;
+    }
+    tree_.refusals.push_back(*std::move(first_error));
+    tree_.nodes[node].number = static_cast<std::uint32_t>(tree_.refusals.size());
+}
+
+Result<std::uint32_t> VrmlFiles::read_external(std::span<const std::string_view> urls, const VrmlPlace& at) {
+    std::optional<Error> first_error;
+    for (const std::string_view url : urls) {
+        const std::size_t hash = url.find('#');
+        const auto top = open(url.substr(0, hash), at);
+        if (!top) {
+            if (!first_error) first_error = top.error();
+            continue;
+        }
+        for (const auto& [name, number] : (*top)->prototypes) {
+            if (hash == std::string_view::npos || name == url.substr(hash + 1)) return number;
+        }
+        if (!first_error) {
+            first_error =
+                tree_.refuse(at, "the file of " + quoted(url) + " has no such prototype", "correct the url")
+                    .error();
+        }
+    }
+    if (first_error) return std::unexpected(*std::move(first_error));
+    return tree_.refuse(at, "EXTERNPROTO without a url", "name the file");
+}
+
+}  // namespace tribo::formats
