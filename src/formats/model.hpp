@@ -35,8 +35,8 @@ using ModelNeighbours = std::function<Result<ModelNeighbour>(std::string_view ur
                                                              std::uint64_t limit_bytes)>;
 
 struct ModelOptions {
-    std::string source_name;  // stands in messages; its extension decides where the content does not
-    double unit_mm = 1;       // length of one unit of the file, mm; finite, > 0
+    std::string source_name;          // stands in messages; its extension decides where the content does not
+    double unit_mm = 1;               // length of one unit of the file, mm; finite, > 0
     ModelNeighbours neighbours = {};  // none: a model that needs another file is refused
 };
 
@@ -53,7 +53,8 @@ struct ModelPart {
 struct Model {
     TriangleMesh mesh;  // mm; no unused and no non-finite position; no triangle with two equal corners
     std::vector<ModelPart> parts;  // VRML only: in order, together all triangles
-    std::vector<Rgb8> colours = {};  // one per triangle, the mean of its corners; empty where the file has none
+    std::vector<Rgb8> colours =
+        {};  // one per triangle, the mean of its corners; empty where the file has none
     ModelFormat format = ModelFormat::stl;
     Warnings warnings;
 };

@@ -47,8 +47,8 @@ Frame straight_frame(Vec3 along) {
     const Vec3 up{0, 1, 0};
     if (along == Vec3{}) return {{1, 0, 0}, up, {0, 0, 1}};
     const double c = dot(up, along);
-    if (c <= -1 + kStraight) return {{1, 0, 0}, -up, {0, 0, -1}};  // half a turn about x
-    const Vec3 a = cross(up, along);  // of length sin
+    if (c <= -1 + kStraight) return {{-1, 0, 0}, -up, {0, 0, 1}};  // half a turn about z
+    const Vec3 a = cross(up, along);                               // of length sin
     const auto turned = [&](Vec3 p) { return c * p + cross(a, p) + dot(a, p) / (1 + c) * a; };
     return {turned({1, 0, 0}), along, turned({0, 0, 1})};
 }
@@ -76,8 +76,7 @@ std::vector<Frame> frames(std::span<const Vec3> spine) {
     }
     for (std::size_t i = 0; i < n; ++i) {
         if (i > 0 && dot(z[i], z[i - 1]) < 0) z[i] = -z[i];
-        const Vec3 x = normalized(cross(y[i], z[i]), {});
-        out[i] = {x, y[i], cross(x, y[i])};
+        out[i] = {normalized(cross(y[i], z[i]), {}), y[i], z[i]};
     }
     return out;
 }
@@ -112,8 +111,9 @@ class ExtrusionReader {
 
   private:
     Result<void> read_fields() {
-        for (const auto& [name, flag] : {std::pair{"ccw", &ccw_}, std::pair{"solid", &surface_.solid},
-                                         std::pair{"beginCap", &begin_cap_}, std::pair{"endCap", &end_cap_}}) {
+        for (const auto& [name, flag] :
+             {std::pair{"ccw", &ccw_}, std::pair{"solid", &surface_.solid},
+              std::pair{"beginCap", &begin_cap_}, std::pair{"endCap", &end_cap_}}) {
             if (auto ok = fields_.read_flag(name, *flag); !ok) return ok;
         }
         if (auto ok = fields_.read_size("creaseAngle", surface_.crease_angle_rad, 0, true); !ok) return ok;
@@ -133,7 +133,8 @@ class ExtrusionReader {
         for (const auto& [name, count] :
              {std::pair{"scale", scale_.size() / 2}, std::pair{"orientation", orientation_.size() / 4}}) {
             if (count != 1 && count < rings) {
-                return fields_.refuse_field(name, quoted(name) + " must have one value, or one for each of the " +
+                return fields_.refuse_field(name, quoted(name) +
+                                                      " must have one value, or one for each of the " +
                                                       std::to_string(rings) + " points of the spine");
             }
         }
@@ -181,7 +182,8 @@ class ExtrusionReader {
     // Closed sections and spines and pointed ends have corners twice.
     void join_equal_points() {
         const std::vector<Vec3>& p = surface_.points;
-        if (!std::ranges::all_of(p, [](Vec3 q) { return is_finite(q); })) return;  // refused where it is placed
+        if (!std::ranges::all_of(p, [](Vec3 q) { return is_finite(q); }))
+            return;  // refused where it is placed
         std::vector<std::uint32_t> order(p.size()), joined(p.size());
         std::iota(order.begin(), order.end(), 0);
         const auto key = [&](std::uint32_t i) { return std::array{p[i].x, p[i].y, p[i].z}; };

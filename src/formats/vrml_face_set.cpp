@@ -175,7 +175,7 @@ class FaceSetReader {
     VrmlFields fields_;
     PolygonTriangulator& triangulator_;
     VrmlSurface surface_;
-    std::vector<std::uint32_t> corners_;   // point of each; each face ends with kFaceEnd
+    std::vector<std::uint32_t> corners_;  // point of each; each face ends with kFaceEnd
     std::vector<std::size_t> face_ends_;  // triangles up to the end of each face
 };
 

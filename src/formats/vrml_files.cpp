@@ -25,9 +25,9 @@ Result<void> VrmlFiles::load(Known& known, ModelNeighbour file, const VrmlPlace&
                             "export it as one file");
     }
     if (depth_ >= kMaxVrmlFileDepth) {
-        return tree_.refuse(
-            at, "files name each other more than " + std::to_string(kMaxVrmlFileDepth) + " deep",
-            "export the model as one file");
+        return tree_.refuse(at,
+                            "files name each other more than " + std::to_string(kMaxVrmlFileDepth) + " deep",
+                            "export the model as one file");
     }
     text_bytes_ += file.bytes.size();
     tree_.files.push_back({std::move(file.name), std::move(file.bytes), {}});
@@ -60,7 +60,8 @@ Result<const VrmlTop*> VrmlFiles::open(std::string_view url, const VrmlPlace& at
             number = refused("the model was given without its folder");
         } else if (text_bytes_ >= kMaxVrmlText) {
             number = refused("the model's files hold more than 64 MB");
-        } else if (auto file = options_.neighbours(url, tree_.files[at.file].name, kMaxVrmlText - text_bytes_);
+        } else if (auto file =
+                       options_.neighbours(url, tree_.files[at.file].name, kMaxVrmlText - text_bytes_);
                    !file) {
             number = refused(file.error().cause);
         } else {
@@ -85,32 +86,37 @@ Result<const VrmlTop*> VrmlFiles::open(std::string_view url, const VrmlPlace& at
     return &*known.top;
 }
 
-void VrmlFiles::read_inline(VrmlNodeId node) {
-    const VrmlValue* url = tree_.find(node, "url");
-    if (!url || tree_.strings_of(*url).empty()) return;
-    const VrmlPlace at = url->start;
-    const std::vector<std::string_view> urls(tree_.strings_of(*url).begin(), tree_.strings_of(*url).end());
+VrmlNodeId VrmlFiles::add_inline(const VrmlNodeType& type, const VrmlPlace& at,
+                                 std::span<const VrmlField> fields) {
+    std::vector<std::string_view> urls;
+    VrmlField children{"children", {}};
+    for (const VrmlField& field : fields) {
+        if (field.name != "url") continue;
+        const auto given = tree_.strings_of(field.value);
+        urls.assign(given.begin(), given.end());
+        children.value.start = field.value.start;
+    }
     std::optional<Error> first_error;
-    for (const std::string_view one : urls) {
-        const auto top = open(one, at);
+    for (const std::string_view url : urls) {
+        const auto top = open(url, children.value.start);
         if (!top) {
             if (!first_error) first_error = top.error();
             continue;
         }
-        VrmlField children{"children", {}};
+        const std::vector<VrmlNodeId>& roots = (*top)->roots;
+        if (roots.empty()) return tree_.add(type, at, {});
         children.value.kind = VrmlValue::Kind::nodes;
-        children.value.start = at;
         children.value.first = static_cast<std::uint32_t>(tree_.links.size());
-        children.value.count = static_cast<std::uint32_t>((*top)->roots.size());
-        if (children.value.count == 0) children.value.kind = VrmlValue::Kind::null;
-        tree_.links.insert(tree_.links.end(), (*top)->roots.begin(), (*top)->roots.end());
-        tree_.nodes[node].first_field = static_cast<std::uint32_t>(tree_.fields.size());
-        tree_.nodes[node].fields = 1;
-        tree_.fields.push_back(children);
-        return;
+        children.value.count = static_cast<std::uint32_t>(roots.size());
+        tree_.links.insert(tree_.links.end(), roots.begin(), roots.end());
+        return tree_.add(type, at, std::span(&children, 1));
     }
-    tree_.refusals.push_back(*std::move(first_error));
-    tree_.nodes[node].number = static_cast<std::uint32_t>(tree_.refusals.size());
+    const VrmlNodeId node = tree_.add(type, at, {});
+    if (first_error) {
+        tree_.refusals.push_back(*std::move(first_error));
+        tree_.nodes[node].number = static_cast<std::uint32_t>(tree_.refusals.size());
+    }
+    return node;
 }
 
 Result<std::uint32_t> VrmlFiles::read_external(std::span<const std::string_view> urls, const VrmlPlace& at) {

@@ -27,9 +27,9 @@ class VrmlFiles {
 
     // The model's own text, whose header has been checked.
     Result<void> read_model(std::string_view text);
-    // Reads the first file of the node's `url` that can be read and hangs its nodes under `children`; why
-    // none can be goes to the tree's refusals.
-    void read_inline(VrmlNodeId node);
+    // Adds an Inline node after the nodes of the first file of its `url` that can be read, which stand in its
+    // field `children`; why none can be goes to the tree's refusals.
+    VrmlNodeId add_inline(const VrmlNodeType& type, const VrmlPlace& at, std::span<const VrmlField> fields);
     // The prototype that the urls (file.wrl#Name) lead to.
     Result<std::uint32_t> read_external(std::span<const std::string_view> urls, const VrmlPlace& at);
 

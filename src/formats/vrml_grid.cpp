@@ -74,14 +74,15 @@ Result<VrmlSurface> read_vrml_grid(VrmlTree& tree, VrmlNodeId grid) {
     for (std::uint32_t j = 0; j + 1 < nz; ++j) {
         for (std::uint32_t i = 0; i + 1 < nx; ++i) {
             const std::uint32_t a = nx * j + i, b = a + 1, d = a + nx, c = d + 1;
-            surface.triangles.push_back({a, ccw ? d : c, ccw ? c : d});
-            surface.triangles.push_back({a, ccw ? c : b, ccw ? b : c});
+            surface.triangles.push_back({a, ccw ? d : b, ccw ? b : d});
+            surface.triangles.push_back({b, ccw ? d : c, ccw ? c : d});
         }
     }
     const std::vector<Rgb8> colours = read_vrml_colours(tree, grid, "color");
     const std::size_t wanted = per_vertex ? surface.points.size() : surface.triangles.size() / 2;
     if (!colours.empty() && colours.size() < wanted) {
-        tree.warn_once(tree.nodes[grid].place, "the colours of an ElevationGrid do not fit and were left out");
+        tree.warn_once(tree.nodes[grid].place,
+                       "the colours of an ElevationGrid do not fit and were left out");
     } else if (!colours.empty()) {
         add_colours(surface, colours, per_vertex);
     }

@@ -27,7 +27,7 @@ constexpr std::array kMaterialUsed{"diffuseColor"sv};
 constexpr std::array kMaterialPassed{"ambientIntensity"sv, "emissiveColor"sv, "shininess"sv,
                                      "specularColor"sv, "transparency"sv};
 constexpr std::array kColourUsed{"color"sv};
-constexpr std::array kFaceSetUsed{"coord"sv, "coordIndex"sv, "ccw"sv,        "solid"sv,
+constexpr std::array kFaceSetUsed{"coord"sv, "coordIndex"sv, "ccw"sv,         "solid"sv,
                                   "color"sv, "colorIndex"sv, "creaseAngle"sv, "colorPerVertex"sv};
 constexpr std::array kFaceSetPassed{"normal"sv,        "texCoord"sv,        "normalIndex"sv,
                                     "texCoordIndex"sv, "normalPerVertex"sv, "convex"sv};
@@ -38,10 +38,10 @@ constexpr std::array kSphereUsed{"radius"sv};
 constexpr std::array kGridUsed{"height"sv, "xDimension"sv, "xSpacing"sv,    "zDimension"sv,     "zSpacing"sv,
                                "ccw"sv,    "solid"sv,      "creaseAngle"sv, "colorPerVertex"sv, "color"sv};
 constexpr std::array kGridPassed{"normal"sv, "texCoord"sv, "normalPerVertex"sv, "set_height"sv};
-constexpr std::array kExtrusionUsed{"crossSection"sv, "spine"sv,  "scale"sv, "orientation"sv, "beginCap"sv,
-                                    "endCap"sv,       "ccw"sv,    "solid"sv, "creaseAngle"sv};
-constexpr std::array kExtrusionPassed{"convex"sv,    "set_crossSection"sv, "set_orientation"sv,
-                                      "set_scale"sv, "set_spine"sv};
+constexpr std::array kExtrusionUsed{"crossSection"sv, "spine"sv, "scale"sv, "orientation"sv, "beginCap"sv,
+                                    "endCap"sv,       "ccw"sv,   "solid"sv, "creaseAngle"sv};
+constexpr std::array kExtrusionPassed{"convex"sv, "set_crossSection"sv, "set_orientation"sv, "set_scale"sv,
+                                      "set_spine"sv};
 constexpr std::array kCoordinateUsed{"point"sv};
 
 constexpr std::array kNodes{

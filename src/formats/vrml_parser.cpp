@@ -388,9 +388,12 @@ class Parser {
             if (!unfolded) return std::unexpected(unfolded.error());
             return deliver(*unfolded, closed.defined_name);
         }
+        if (closed.type->role == VrmlRole::inline_file && !in_template()) {
+            return deliver(files_.add_inline(*closed.type, place_of(closed.start), closed.fields),
+                           closed.defined_name);
+        }
         const VrmlNodeId id = add_node(*closed.type, closed.start, closed.fields);
         if (closed.type->role == VrmlRole::instance) tree_.nodes[id].number = closed.prototype;
-        if (closed.type->role == VrmlRole::inline_file && !in_template()) files_.read_inline(id);
         return deliver(id, closed.defined_name);
     }
 

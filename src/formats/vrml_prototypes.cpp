@@ -40,10 +40,10 @@ Result<std::uint32_t> VrmlPrototypes::define(std::string_view name, std::vector<
     }
     std::reverse(made.body.begin(), made.body.end());
     if (made.depth > kMaxPrototypeDepth) {
-        return tree_.refuse(at,
-                            "prototypes stand within prototypes more than " +
-                                std::to_string(kMaxPrototypeDepth) + " deep",
-                            "export the model without prototypes");
+        return tree_.refuse(
+            at,
+            "prototypes stand within prototypes more than " + std::to_string(kMaxPrototypeDepth) + " deep",
+            "export the model without prototypes");
     }
     all_.push_back(std::move(made));
     return static_cast<std::uint32_t>(all_.size() - 1);
@@ -100,8 +100,8 @@ Result<VrmlNodeId> VrmlPrototypes::copy(std::uint32_t number, std::span<const Vr
                     const VrmlNodeId child = tree_.links[k];
                     const auto place = std::lower_bound(body.begin(), body.end(), child);
                     const bool is_inside = place != body.end() && *place == child;
-                    tree_.links.push_back(
-                        is_inside ? copies[static_cast<std::size_t>(place - body.begin())] : child);
+                    tree_.links.push_back(is_inside ? copies[static_cast<std::size_t>(place - body.begin())]
+                                                    : child);
                 }
             }
             fields.push_back(field);
@@ -110,14 +110,13 @@ Result<VrmlNodeId> VrmlPrototypes::copy(std::uint32_t number, std::span<const Vr
             const auto inner = copy(node.number, fields);
             if (!inner) return inner;
             copies.push_back(*inner);
+        } else if (node.type->role == VrmlRole::inline_file) {
+            copies.push_back(files_.add_inline(*node.type, node.place, fields));
         } else {
-            const VrmlNodeId made = tree_.add(*node.type, node.place, fields);
-            copies.push_back(made);
-            if (node.type->role == VrmlRole::inline_file) files_.read_inline(made);
+            copies.push_back(tree_.add(*node.type, node.place, fields));
         }
     }
-    if (copies.empty()) return tree_.add(skipped_vrml_node(), {}, {});
-    return copies.back();
+    return copies.empty() ? tree_.add(skipped_vrml_node(), {}, {}) : copies.back();
 }
 
 }  // namespace tribo::formats

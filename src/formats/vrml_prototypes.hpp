@@ -26,10 +26,10 @@ class VrmlPrototypes {
   public:
     VrmlPrototypes(VrmlTree& tree, VrmlFiles& files) : tree_(tree), files_(files) {}
 
-    // `first` is the node that an instance stands for; without it instances are nothing. All nodes of the body
-    // have ids from `body_from` on. Gives its number.
-    Result<std::uint32_t> define(std::string_view name, std::vector<VrmlField> interface, VrmlNodeId body_from,
-                                 std::optional<VrmlNodeId> first, const VrmlPlace& at);
+    // `first` is the node that an instance stands for; without it instances are nothing. All nodes of the
+    // body have ids from `body_from` on. Gives its number.
+    Result<std::uint32_t> define(std::string_view name, std::vector<VrmlField> interface,
+                                 VrmlNodeId body_from, std::optional<VrmlNodeId> first, const VrmlPlace& at);
     std::uint32_t define_missing(std::string_view name);
     const VrmlPrototype& operator[](std::uint32_t number) const { return all_[number]; }
 

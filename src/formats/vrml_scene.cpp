@@ -30,10 +30,11 @@ class SceneReader {
         }
         if (triangulator_.crossing_faces() > 0) {
             const std::uint64_t faces = triangulator_.crossing_faces();
-            tree_.warn_once(crossing_at_, faces == 1 ? "a face crosses itself or has no area"
-                                                     : std::to_string(faces) +
-                                                           " faces cross themselves or have no area, the first "
-                                                           "in the node of this line");
+            tree_.warn_once(crossing_at_, faces == 1
+                                              ? "a face crosses itself or has no area"
+                                              : std::to_string(faces) +
+                                                    " faces cross themselves or have no area, the first "
+                                                    "in the node of this line");
         }
         model_.warnings = std::move(tree_.warnings);
         return finish_model(std::move(model_), options_, Weld::no);

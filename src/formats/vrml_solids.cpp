@@ -72,7 +72,8 @@ class SolidReader {
     }
     void close_ring(std::uint32_t first, bool looks_up) {
         for (std::uint32_t i = 1; i + 1 < kSides; ++i) {
-            surface_.triangles.push_back({first, first + (looks_up ? i : i + 1), first + (looks_up ? i + 1 : i)});
+            surface_.triangles.push_back(
+                {first, first + (looks_up ? i : i + 1), first + (looks_up ? i + 1 : i)});
         }
     }
     void add_band(std::uint32_t lower, std::uint32_t upper) {

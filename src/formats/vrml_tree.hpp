@@ -35,8 +35,9 @@ struct VrmlValue {
     };
     Kind kind = Kind::null;
     bool truth = false;
-    std::uint32_t first = 0, count = 0;  // of numbers, strings or links; bound: number of the interface's field
-    VrmlPlace start;                     // of its first word
+    std::uint32_t first = 0,
+                  count = 0;  // of numbers, strings or links; bound: number of the interface's field
+    VrmlPlace start;          // of its first word
 };
 
 struct VrmlField {

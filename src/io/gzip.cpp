@@ -30,7 +30,8 @@ bool is_gzip(std::string_view bytes) {
     return bytes.starts_with("\x1f\x8b");
 }
 
-Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit_bytes, const std::string& source_name) {
+Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit_bytes,
+                           const std::string& source_name) {
     const auto refuse = [&](std::string cause, std::string remedy) {
         return fail_at(source_name, 0, 0, std::move(cause), std::move(remedy));
     };

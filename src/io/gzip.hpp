@@ -12,8 +12,8 @@ namespace tribo::io {
 
 bool is_gzip(std::string_view bytes);
 
-// What is packed, all members of it. Refused as soon as more than `limit_bytes` come out, so that a small file
-// cannot take all memory.
+// What is packed, all members of it. Refused as soon as more than `limit_bytes` come out, so that a small
+// file cannot take all memory.
 Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit_bytes, const std::string& source_name);
 
 }  // namespace tribo::io

@@ -60,7 +60,8 @@ class Neighbours {
             bytes = *std::move(unpacked);
         }
         // Named as the user would: the model's folder and the way from there.
-        const fs::path shown = fs::path(model_).parent_path() / path.lexically_relative(model_path_.parent_path());
+        const fs::path shown =
+            fs::path(model_).parent_path() / path.lexically_relative(model_path_.parent_path());
         return formats::ModelNeighbour{shown.string(), *std::move(bytes)};
     }
 
