@@ -51,7 +51,12 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 400:
             return GGroup::cutter_side;
         case 430:
+        case 434:
+        case 435:
         case 490:
+        case 1680:
+        case 1690:
+        case 2340:
             return GGroup::tool_length;
         case 980:
         case 990:
@@ -105,6 +110,8 @@ std::optional<MGroup> group_of_m(int tenths) {
         case 980:
         case 990:
             return MGroup::subprogram;
+        case 1280:
+        case 1290:
         case 4280:
         case 4290:
         case 4300:
@@ -156,11 +163,6 @@ Unread unread_g(int tenths) {
         case 431:
         case 432:
             return {"tool length offsets out of the program", "use G43 H"};
-        case 434:
-        case 435:
-        case 2340:
-        case 1690:
-            return {"tool tip control", kApt};
         case 500:
         case 510:
             return {"scaling", kPlainMoves};
@@ -204,9 +206,6 @@ Unread unread_m(int tenths) {
         case 660:
         case 670:
             return {"analogue outputs", kDelete};
-        case 1280:
-        case 1290:
-            return {"tool tip control", kApt};
         default:
             return {"", kDelete};
     }

@@ -18,7 +18,7 @@ enum class GGroup {
     feed_mode,     // G93 G94 G95
     units,         // G20 G21
     cutter_side,   // G40
-    tool_length,   // G43 G49
+    tool_length,   // G43 G49, and with tool tip control G43.4 G43.5 G168 G169 G234
     return_level,  // G98 G99
     work_offset,   // G54 to G59.3
     path_control,  // G61 G61.1 G64
@@ -35,7 +35,7 @@ enum class MGroup {
     coolant,     // M7 M8 M9
     overrides,   // M48 M49
     subprogram,  // M98 M99
-    tool_tip,    // M428 M429 M430: LinuxCNC's switches between kinematics
+    tool_tip,    // tool tip control: M128 M129, LinuxCNC's M428 M429 M430
     count
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "formats/gcode_rotary.hpp"
+
 namespace tribo::formats::gcode {
 namespace {
 
@@ -72,31 +74,21 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
         state.loaded_tool = state.selected_tool;
         state.has_changed_tool = true;
     }
-    if (const auto code = command.m(MGroup::tool_tip)) {
-        motion::Program& program = output.program;
-        if (!program.has_rotary_words) program.first_rotary_line = command.line();
-        program.has_rotary_words = true;
-        if (output.first(Note::tool_tip_switch)) {
-            output.warn(
-                command.line(),
-                code_text('M', code->tenths) +
-                    " switches the machine's kinematics: the program needs a machine to be understood");
-        }
-    }
     return {};
 }
 
 Result<void> set_tool_length(Command& command, Output& output) {
     const auto code = command.g(GGroup::tool_length);
-    const Word* offset = command.has('H') && code && code->tenths == 430 ? command.use('H') : nullptr;
-    if (!code || code->tenths == 490) return {};
+    if (!code || code->tenths == 490 || code->tenths == 1680) return {};
+    const Word* offset = command.use('H');
     if (offset != nullptr && offset->value < 0) {
         return output.refuse(command.line(), offset->column, "the tool length number is negative",
                              "correct H");
     }
     if (output.first(Note::tool_length)) {
         output.warn(command.line(),
-                    "G43: the tool's length is taken as measured right, so that coordinates name its tip");
+                    code_text('G', code->tenths) +
+                        ": the tool's length is taken as measured right, so that coordinates name its tip");
     }
     return {};
 }
@@ -156,7 +148,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     if (const auto code = command.g(GGroup::distance)) state.incremental = code->tenths == 910;
     if (const auto code = command.g(GGroup::arc_distance)) state.absolute_centres = code->tenths == 901;
     set_motion_mode(command, state);
-    return {};
+    return switch_tip_control(command, state, output);
 }
 
 }  // namespace tribo::formats::gcode

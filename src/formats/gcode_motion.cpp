@@ -6,6 +6,7 @@
 #include "formats/decimal_text.hpp"
 #include "formats/gcode_arc.hpp"
 #include "formats/gcode_moves.hpp"
+#include "formats/gcode_rotary.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -90,8 +91,9 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
         move.arc = *arc;
     }
     if (auto fed = set_feed(move, command, state, output); !fed) return fed;
+    set_turning_time(move, state);
     note_spindle(command, state, output);
-    const bool stays = !move.arc && move.start.tip_mm == move.end.tip_mm;
+    const bool stays = !move.arc && move.start.tip_mm == move.end.tip_mm && !state.rotary.turns();
     state.tip_mm = target->tip_mm;
     return stays ? Result<void>{} : append(move, state, output);
 }
@@ -131,20 +133,21 @@ Result<void> move_rapidly(Command& command, State& state, Output& output) {
     state.tip_mm = target->tip_mm;
     state.known = target->known;
     move.end.tip_mm = state.tip_mm;
-    if (!known || !state.knows_tip() || move.start.tip_mm == move.end.tip_mm) return {};
+    if (!known || !state.knows_tip()) return {};
+    if (move.start.tip_mm == move.end.tip_mm && !state.rotary.turns()) return {};
     return append(move, state, output);
 }
 
 Result<void> apply_motion(Command& command, State& state, Output& output) {
     const bool turns =
         state.motion == MotionMode::arc_clockwise || state.motion == MotionMode::arc_counter_clockwise;
-    const bool moves = command.has_any("XYZ") || (turns && command.has_any("IJKR"));
-    if (command.has_g(GGroup::non_modal, 530)) {
+    const bool moves = command.has_any("XYZ") || (turns && command.has_any("IJKR")) || state.rotary.stated;
+    if (command.has_g(GGroup::non_modal, 530) && (command.has_any("XYZ") || !state.rotary.stated)) {
         return move_to_machine_position(command, state, output, command.g(GGroup::non_modal)->column);
     }
     if (!moves) return {};
     if (state.motion == MotionMode::none) {
-        return output.refuse(command.line(), column_of_any(command, "XYZ"),
+        return output.refuse(command.line(), column_of_any(command, "XYZABC"),
                              "coordinates without a motion code in force",
                              "write G0, G1, G2 or G3 on this line or before it");
     }

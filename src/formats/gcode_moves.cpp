@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/decimal_text.hpp"
+#include "formats/gcode_rotary.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -36,7 +37,9 @@ motion::Move new_move(motion::MoveKind kind, const Command& command, const State
 }
 
 Result<void> append(const motion::Move& move, State& state, Output& output) {
-    return output.append(move, state.active().turn_deg);
+    if (output.machine) return append_on_machine(move, state, output);
+    const double turn_deg = state.active().turn_deg;
+    return turn_deg == 0 ? output.append(move) : output.append(turned(move, turn_deg));
 }
 
 Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command, State& state,

@@ -13,6 +13,7 @@
 #include "formats/gcode_motion.hpp"
 #include "formats/gcode_offsets.hpp"
 #include "formats/gcode_parameters.hpp"
+#include "formats/gcode_rotary.hpp"
 #include "formats/gcode_state.hpp"
 #include "formats/gcode_tool_comment.hpp"
 
@@ -111,8 +112,10 @@ class Reader {
     }
 
     Result<bool> execute(Command& command) {
-        note_rotary_words(command);
         if (auto done = apply_modes(command, state_, output_); !done) return std::unexpected(done.error());
+        if (auto done = read_rotary_words(command, state_, output_); !done) {
+            return std::unexpected(done.error());
+        }
         const auto consumed = apply_non_modal(command, state_, output_);
         if (!consumed) return std::unexpected(consumed.error());
         if (!*consumed) {
@@ -120,6 +123,7 @@ class Reader {
                 return std::unexpected(done.error());
             }
         }
+        state_.rotary.now_rad = state_.rotary.target_rad;
         const bool calls = command.m(MGroup::subprogram).has_value();
         if (calls) {
             command.use('P');
@@ -167,18 +171,6 @@ class Reader {
         return word.value >= least && word.value <= most && word.value == std::floor(word.value);
     }
 
-    void note_rotary_words(Command& command) {
-        if (!command.has_any("ABC")) return;
-        for (const char letter : {'A', 'B', 'C'}) command.use(letter);
-        motion::Program& program = output_.program;
-        if (!program.has_rotary_words) program.first_rotary_line = command.line();
-        program.has_rotary_words = true;
-        if (output_.first(Note::rotary_words)) {
-            output_.warn(command.line(),
-                         "rotary words (A B C) mean nothing without a machine: their motion is left out");
-        }
-    }
-
     std::unexpected<Error> refuse_unused(const Command& command, const Word& word) const {
         const std::string letter(1, word.letter);
         switch (word.letter) {
@@ -207,6 +199,11 @@ class Reader {
         const std::string_view rest = lexer_.place().rest();
         if (rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
             output_.warn(last_line, "what follows the end of the program is not read");
+        }
+        if (output_.machine) {
+            for (Warning& found : output_.machine->findings(program.source)) {
+                program.warnings.push_back(std::move(found));
+            }
         }
         if (output_.moves == 0) output_.warn(0, "the program moves no tool");
         for (motion::DeclaredTool& tool : declared_) {

@@ -13,6 +13,7 @@
 
 #include "base/result.hpp"
 #include "formats/length_unit.hpp"
+#include "motion/machine.hpp"
 #include "motion/program.hpp"
 
 namespace tribo::formats {
@@ -39,6 +40,7 @@ struct GcodeOptions {
     double default_feed_mm_per_min = 0;                // for feed moves before the first F; 0: refused
     bool skip_deletable_blocks = true;                 // blocks that start with '/'
     std::vector<GcodeTool> tools;                      // for G41 and G42; they win over the program's own
+    const motion::Machine* machine = nullptr;          // for rotary words; motion::check accepts it
     std::size_t max_moves = 10'000'000;                // more are refused: at 300 bytes each they take 3 GB
     std::size_t max_steps = 20'000'000;  // blocks that loops and calls may run before they count as endless
 };
@@ -53,8 +55,9 @@ class MoveSink {
 // The moves of a program, in the stock's frame: the work offsets that the program sets itself (G10 L2, G92)
 // are applied, others are zero; the tool's length is not applied, as coordinates name its tip. The tool axis
 // is +z. A block that does not move the tip gives no move, and so do rapids before X, Y and Z are all known.
-// Rotary words (A B C) are noted in the program and otherwise left out. Arcs turn by `turn_rad` > 0; G2's
-// have their normal turned over.
+// Rotary words (A B C) need a machine: with one every move is what the tip does in the stock, with tool tip
+// control (G43.4, M428 ...) or without; else they are noted in the program and left out. Arcs turn by
+// `turn_rad` > 0; G2's have their normal turned over.
 Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options = {});
 
 // The same, with the moves going to the sink and not into the program. Memory does not grow with the bytes

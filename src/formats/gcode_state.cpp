@@ -14,35 +14,34 @@ Vec3 turned(Vec3 v, double degrees) {
     return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z};
 }
 
-Result<void> Output::append(const motion::Move& move, double turn_deg) {
+motion::Move turned(const motion::Move& move, double degrees) {
+    motion::Move result = move;
+    for (motion::ToolPose* pose : {&result.start, &result.end}) {
+        pose->tip_mm = turned(pose->tip_mm, degrees);
+        pose->axis = turned(pose->axis, degrees);
+    }
+    if (result.arc) {
+        result.arc->centre_mm = turned(result.arc->centre_mm, degrees);
+        result.arc->normal = turned(result.arc->normal, degrees);
+    }
+    if (result.quadratic) {
+        result.quadratic->tip_control_mm = turned(result.quadratic->tip_control_mm, degrees);
+        result.quadratic->axis_control = turned(result.quadratic->axis_control, degrees);
+    }
+    return result;
+}
+
+Result<void> Output::append(const motion::Move& move) {
     if (moves >= options.max_moves) {
         return refuse(move.line, 1,
                       "the program has more than " + std::to_string(options.max_moves) + " moves",
                       "split it");
     }
     ++moves;
-    const motion::Move* given = &move;
-    motion::Move in_stock;
-    if (turn_deg != 0) {
-        in_stock = move;
-        for (motion::ToolPose* pose : {&in_stock.start, &in_stock.end}) {
-            pose->tip_mm = turned(pose->tip_mm, turn_deg);
-            pose->axis = turned(pose->axis, turn_deg);
-        }
-        if (in_stock.arc) {
-            in_stock.arc->centre_mm = turned(in_stock.arc->centre_mm, turn_deg);
-            in_stock.arc->normal = turned(in_stock.arc->normal, turn_deg);
-        }
-        if (in_stock.quadratic) {
-            in_stock.quadratic->tip_control_mm = turned(in_stock.quadratic->tip_control_mm, turn_deg);
-            in_stock.quadratic->axis_control = turned(in_stock.quadratic->axis_control, turn_deg);
-        }
-        given = &in_stock;
-    }
     if (sink_ != nullptr) {
-        sink_->take(*given);
+        sink_->take(move);
     } else {
-        program.moves.push_back(*given);
+        program.moves.push_back(move);
     }
     return {};
 }

@@ -10,6 +10,7 @@
 #include "base/result.hpp"
 #include "base/vec3.hpp"
 #include "formats/gcode_reader.hpp"
+#include "formats/machine_run.hpp"
 
 namespace tribo::formats::gcode {
 
@@ -35,6 +36,7 @@ enum class Known { unstated, yes, lost };
 
 // Turned about z; the very same where the angle is 0.
 Vec3 turned(Vec3 v, double degrees);
+motion::Move turned(const motion::Move& move, double degrees);
 
 inline constexpr int kWorkSystems = 9;  // G54 to G59, G59.1 to G59.3
 
@@ -51,6 +53,19 @@ struct Cycle {
     std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
     std::optional<double> peck_mm, dwell_s;
     double initial_mm = 0;  // where the cycle axis stood at its start, to which G98 returns
+};
+
+// Rotary axes and tool tip control (gcode_rotary.hpp).
+struct RotaryState {
+    Vec3 now_rad;                 // A B C of the machine, offsets applied
+    Vec3 target_rad;              // where the block leads them
+    bool stated = false;          // the block has rotary words
+    bool tip_control = false;     // coordinates are the tip's in the stock, not the machine's
+    bool by_length_code = false;  // switched on by a G43.4 of some kind, so that G49 ends it
+    bool vectors = false;         // I J K of a line are the tool's axis (G43.5)
+    std::array<Vec3, kWorkSystems> origin_rad{};
+
+    bool turns() const { return now_rad != target_rad; }
 };
 
 struct State {
@@ -80,10 +95,12 @@ struct State {
     bool preset_on = true;
 
     // In the frame of the program's axes: the stock's, turned about z by the work system's turn (mostly 0).
-    // 0 where not known.
+    // 0 where not known. On a machine without tool tip control: X Y Z of the machine, counted from the
+    // stock's zero.
     Vec3 tip_mm;
     std::array<Known, 3> known{Known::unstated, Known::unstated, Known::unstated};
     int lost_line = 0;  // of the last block that lost an axis
+    RotaryState rotary;
 
     const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
     // Where the program's zero stands, in the frame of its axes.
@@ -116,6 +133,7 @@ enum class Note {
     default_feed,
     preset_as_origin,
     deletable_blocks,
+    rotary_home,
     count
 };
 
@@ -125,14 +143,19 @@ class Output {
     // Moves go to the sink, or into the program where there is none.
     Output(const GcodeOptions& options, MoveSink* sink) : options(options), sink_(sink) {
         program.source = options.source_name;
+        if (options.machine != nullptr) {
+            machine.emplace(*options.machine);
+            program.machine = options.machine->name;
+        }
     }
 
     const GcodeOptions& options;
     motion::Program program;
-    std::size_t moves = 0;  // so far
+    std::size_t moves = 0;              // so far
+    std::optional<MachineRun> machine;  // that the program runs on; none: a machine of three axes
 
-    // A move in the frame of the program's axes, which stands turned by `turn_deg` in the stock's.
-    Result<void> append(const motion::Move& move, double turn_deg);
+    // A move in the stock's frame.
+    Result<void> append(const motion::Move& move);
     // Where the options and the program name it.
     std::optional<double> tool_diameter_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_.push_back(tool); }

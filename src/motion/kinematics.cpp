@@ -178,14 +178,16 @@ std::optional<Reached> Kinematics::joints(const ToolPose& pose_in_stock, const J
     return best;
 }
 
-std::optional<Overtravel> Kinematics::overtravel(const Joints& joints) const {
+int Kinematics::overtravel(const Joints& joints, std::array<Overtravel, 6>& found) const {
+    int count = 0;
     for (int i = 0; i < count_; ++i) {
         const Factor& f = factors_[static_cast<std::size_t>(i)];
         const double value = f.value(joints);
         if (overshoot(value, f.min, f.max) <= kLimitSlack) continue;
-        return Overtravel{kWords[static_cast<std::size_t>(f.word)], value, value < f.min ? f.min : f.max};
+        found[static_cast<std::size_t>(count++)] = {kWords[static_cast<std::size_t>(f.word)], value,
+                                                    value < f.min ? f.min : f.max};
     }
-    return std::nullopt;
+    return count;
 }
 
 bool Kinematics::has_axis(char word) const {

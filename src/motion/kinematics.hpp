@@ -44,8 +44,8 @@ class Kinematics {
     // axis, to 1e-6.
     std::optional<Reached> joints(const ToolPose& pose_in_stock, const Joints& near) const;
 
-    // The first axis, in the order from the part to the tool, that is beyond its travel.
-    std::optional<Overtravel> overtravel(const Joints& joints) const;
+    // The axes beyond their travel, in the order from the part to the tool; how many they are.
+    int overtravel(const Joints& joints, std::array<Overtravel, 6>& found) const;
 
     bool has_axis(char word) const;
     // Whether rotary axes move the tip without tool tip control by a lever that depends on the tool's length.

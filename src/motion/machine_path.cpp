@@ -19,6 +19,7 @@ Vec3 coordinates_at(const MachineBlock& block, double t) {
     move.start.tip_mm = block.start_mm;
     move.end.tip_mm = block.end_mm;
     move.arc = block.arc;
+    move.quadratic = block.quadratic;
     return pose_at(move, t).tip_mm;
 }
 
@@ -31,12 +32,16 @@ Move rigid_move(const Kinematics& machine, const MachineBlock& block, const Move
     Move move = like;
     move.start = pose_at(machine, block, 0);
     move.end = pose_at(machine, block, 1);
-    move.quadratic.reset();
+    move.quadratic = block.quadratic;
     move.arc = block.arc;
+    const auto placed = [&](Vec3 coordinates) {
+        return machine.pose({coordinates + machine.stock_mm(), block.start_rad}).tip_mm;
+    };
+    if (block.quadratic) {
+        move.quadratic->axis_control = move.start.axis;
+        if (!block.tip_control) move.quadratic->tip_control_mm = placed(block.quadratic->tip_control_mm);
+    }
     if (block.arc && !block.tip_control) {
-        const auto placed = [&](Vec3 coordinates) {
-            return machine.pose({coordinates + machine.stock_mm(), block.start_rad}).tip_mm;
-        };
         move.arc->centre_mm = placed(block.arc->centre_mm);
         move.arc->normal = placed(block.arc->centre_mm + block.arc->normal) - move.arc->centre_mm;
     }
@@ -46,7 +51,7 @@ Move rigid_move(const Kinematics& machine, const MachineBlock& block, const Move
 // Whether one straight move along a great circle is the block, at the parameters where pieces are checked.
 bool is_straight(const Kinematics& machine, const MachineBlock& block, const Move& straight,
                  const PieceTolerance& tolerance) {
-    if (block.arc || dot(straight.start.axis, straight.end.axis) < 0) return false;
+    if (block.arc || block.quadratic || dot(straight.start.axis, straight.end.axis) < 0) return false;
     const auto holds = [&](double t) {
         const ToolPose is = pose_at(straight, t), should = pose_at(machine, block, t);
         return distance(is.tip_mm, should.tip_mm) <= kStraightShare * tolerance.tip_mm &&

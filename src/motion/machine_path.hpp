@@ -17,7 +17,10 @@ namespace tribo::motion {
 struct MachineBlock {
     bool tip_control = false;
     Vec3 start_mm, end_mm;
-    std::optional<Arc> arc;  // in the program's coordinates, like start and end
+    // The curve from start to end, if it is not straight; in the program's coordinates too. The quadratic's
+    // axis is of no meaning.
+    std::optional<Arc> arc;
+    std::optional<Quadratic> quadratic;
     Vec3 start_rad, end_rad;
 };
 

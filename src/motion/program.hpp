@@ -65,6 +65,7 @@ struct Program {
     std::vector<Move> moves;
     std::vector<DeclaredTool> tools;
     bool has_rotary_words = false;  // axis words A B C: meaningless without a machine
+    std::string machine;            // that its rotary words were read with; empty: none
     int first_rotary_line = 0;
     Warnings warnings;
 };

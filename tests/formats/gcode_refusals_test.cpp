@@ -95,7 +95,6 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G5.2 X1\n", 1, 1, "G5.2 (splines) is not read yet"},
         {"G41 D1\n", 1, 1, "G41 (cutter radius compensation) is not read yet"},
         {"G83 Z-5 R2 Q1\n", 1, 1, "G83 (canned cycles) is not read yet"},
-        {"G43.4 H1\n", 1, 1, "G43.4 (tool tip control) is not read yet"},
         {"G68.2 X0\n", 1, 1, "planes) is not read yet"},
         {"G38.2 Z-5\n", 1, 1, "G38.2 (probing) is not read yet"},
         {"G21\nX1 Y2\n", 2, 1, "without a motion code"},

@@ -208,17 +208,19 @@ TEST(Kinematics, say_that_an_axis_cannot_be_reached) {
     EXPECT_FALSE(head.joints({{}, normalized(Vec3{1, 0, -0.01})}, {}));
 }
 
-TEST(Kinematics, name_the_axis_that_travels_too_far) {
+TEST(Kinematics, name_the_axes_that_travel_too_far) {
     Machine machine = named("xyzac-trt");
     machine.tool_side[1].max = 100;
     machine.part_side[0].min = -10 * kDeg;
     const Kinematics table(machine);
-    EXPECT_FALSE(table.overtravel({{1000, 100, 0}, {-10 * kDeg, 0, 0}}));
-    const auto y = table.overtravel({{0, 101, 0}, {}});
-    ASSERT_TRUE(y);
-    EXPECT_EQ(y->word, 'Y');
-    EXPECT_EQ(y->limit, 100);
-    EXPECT_EQ(table.overtravel({{0, 101, 0}, {-11 * kDeg, 0, 0}})->word, 'A');
+    std::array<Overtravel, 6> found;
+    EXPECT_EQ(table.overtravel({{1000, 100, 0}, {-10 * kDeg, 0, 0}}, found), 0);
+    ASSERT_EQ(table.overtravel({{0, 101, 0}, {}}, found), 1);
+    EXPECT_EQ(found[0].word, 'Y');
+    EXPECT_EQ(found[0].limit, 100);
+    ASSERT_EQ(table.overtravel({{0, 101, 0}, {-11 * kDeg, 0, 0}}, found), 2);
+    EXPECT_EQ(found[0].word, 'A');
+    EXPECT_EQ(found[1].word, 'Y');
 }
 
 TEST(Machine, refuses_chains_that_cannot_be) {
