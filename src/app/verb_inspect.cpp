@@ -12,6 +12,7 @@
 #include "io/facts.hpp"
 #include "io/gzip.hpp"
 #include "io/job_toml.hpp"
+#include "io/machine_file.hpp"
 #include "io/model_file.hpp"
 #include "io/picture.hpp"
 #include "io/program_file.hpp"
@@ -28,6 +29,7 @@ struct Call {
     std::string file;
     bool json = false;
     std::string picture;
+    std::string machine;
 };
 
 // What was found: facts to print and something to draw.
@@ -64,16 +66,24 @@ Found found_program(const motion::Program& program, formats::PathKind kind, doub
     return found;
 }
 
-io::FileResult<Found> inspect_program(std::string_view bytes, const std::string& file,
-                                      formats::PathKind kind) {
-    Result<motion::Program> program = io::parse_program(bytes, file, kind);
+io::FileResult<Found> inspect_program(std::string_view bytes, const Call& call, formats::PathKind kind) {
+    formats::JobMachine machine;
+    if (!call.machine.empty()) {
+        io::FileResult<formats::JobMachine> named = io::read_machine_named(call.machine);
+        if (!named) return std::unexpected(named.error());
+        machine = *std::move(named);
+    }
+    io::ProgramFileOptions options;
+    if (machine.kinematics) options.machine = &*machine.kinematics;
+    Result<motion::Program> program = io::parse_program(bytes, call.file, kind, options);
     if (!program) {
         // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
         const Error first = program.error();
-        program = io::parse_program(bytes, file, kind, {.default_feed_mm_per_min = kAssumedFeedMmPerMin});
+        options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
+        program = io::parse_program(bytes, call.file, kind, options);
         if (!program) return std::unexpected(io::Failure(first));
     }
-    return found_program(*program, kind, formats::JobMachine{}.rapid_mm_per_min);
+    return found_program(*program, kind, machine.rapid_mm_per_min);
 }
 
 io::FileResult<Found> inspect_model(const std::string& file) {
@@ -101,14 +111,15 @@ io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& fil
     return found;
 }
 
-io::FileResult<Found> inspect_file(const std::string& file) {
+io::FileResult<Found> inspect_file(const Call& call) {
+    const std::string& file = call.file;
     const io::FileResult<std::string> bytes = io::read_file(file);
     if (!bytes) return std::unexpected(bytes.error());
     if (std::filesystem::path(file).extension() == ".toml") return inspect_job(*bytes, file);
     if (io::is_gzip(*bytes)) return inspect_model(file);
     const std::optional<formats::PathKind> program = io::detect_program(*bytes, file);
     if (formats::detect_model_format(*bytes, file) && !program) return inspect_model(file);
-    if (program) return inspect_program(*bytes, file, *program);
+    if (program) return inspect_program(*bytes, call, *program);
     return std::unexpected(
         io::Failure({file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
                      "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl) "
@@ -116,7 +127,7 @@ io::FileResult<Found> inspect_file(const std::string& file) {
 }
 
 int inspect(const Call& call) {
-    const io::FileResult<Found> found = inspect_file(call.file);
+    const io::FileResult<Found> found = inspect_file(call);
     if (!found) return report(found.error());
     if (!call.picture.empty()) {
         const io::Image image = io::draw_part(found->mesh, found->lines);
@@ -141,6 +152,8 @@ void add_inspect(CLI::App& program, int& exit_code) {
     verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model or a job")->required();
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
+    verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")
+        ->type_name("NAME|F.toml");
     verb->callback([call, &exit_code] { exit_code = inspect(*call); });
 }
 

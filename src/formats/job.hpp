@@ -12,6 +12,7 @@
 #include "milling/coefficients.hpp"
 #include "milling/cutter.hpp"
 #include "motion/keyframe_motion.hpp"
+#include "motion/machine.hpp"
 
 namespace tribo::formats {
 
@@ -42,8 +43,8 @@ struct JobPath {
     std::string file;
     motion::Interpolation interpolation =
         motion::Interpolation::spline;  // of keyframes; programs say it themselves
-    std::string machine;                // name of a machine for rotary words; may be empty
-    double unit_mm = 1;                 // of keyframes only
+    std::string machine;  // of G-code: a machine's name, or the file that describes it; may be empty
+    double unit_mm = 1;   // of keyframes only
 };
 
 // What the process is where the program does not say; 0: the program must.
@@ -82,20 +83,12 @@ struct JobHaptics {
     std::optional<double> stiffness_n_per_mm;  // > 0
 };
 
-// A rotary axis of the machine, in the order from the frame to the tool or to the table.
-struct MachineAxis {
-    char word = 'A';  // A, B or C
-    bool carries_part = true;
-    Vec3 direction{1, 0, 0};  // unit
-    Vec3 point_mm;            // any point on the axis, machine frame with the axes at zero
-    double min_deg = -360, max_deg = 360;
-};
-
 struct JobMachine {
     double rapid_mm_per_min = 10000;    // > 0
     double acceleration_mm_per_s2 = 0;  // > 0; 0: feeds are reached at once
-    std::vector<MachineAxis> axes;      // described axes; empty: none
-    std::optional<Box3> limits_mm;      // travel of the tool tip in the stock frame
+    // Its axes, named or described; motion::check accepts them. None: three axes, and rotary words are
+    // refused.
+    std::optional<motion::Machine> kinematics;
 };
 
 struct Job {

@@ -173,6 +173,10 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
     if (!program.tools.empty()) b.json["declared_tools"] = declared_tools(program);
     b.json["rotary"] = s.rotary;
     b.json["tilted"] = s.tilted;
+    if (!program.machine.empty()) {
+        b.json["machine"] = program.machine;
+        b.line("machine", program.machine);
+    }
     if (s.tilted) b.line("axis", "leaves +z");
     if (s.feed_mm_per_min.most > 0) {
         b.json["feed_mm_per_min"] = {s.feed_mm_per_min.least, s.feed_mm_per_min.most};

@@ -29,14 +29,9 @@ constexpr std::array kSoundModes{"hrtf"sv, "sphere"sv, "pan"sv};
 constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "probe"sv,
                                   "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
 constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
-constexpr std::array kMachineKeys{"rapid_mm_per_min"sv, "acceleration_mm_per_s2"sv, "axes"sv, "limits_mm"sv};
-constexpr std::array kAxisKeys{"word"sv, "carries"sv, "direction"sv, "point_mm"sv, "min_deg"sv, "max_deg"sv};
-constexpr std::array kAxisWords{"A"sv, "B"sv, "C"sv};
-constexpr std::array kCarriedWords{"part"sv, "tool"sv};
 
 constexpr double kLargestGainDb = 120;
 constexpr double kLargestUnitMm = 1e6;  // a kilometre; coordinates stay far from overflow
-constexpr double kLargestAngleDeg = 1e6;
 constexpr double kLargestFriction = 10;
 
 double unit_mm(TomlSection& section) {
@@ -145,6 +140,12 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table) {
     path.interpolation =
         static_cast<motion::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
     path.machine = section.text("machine").value_or("");
+    if (is_machine_file(path.machine)) {
+        path.machine = file.beside(path.machine);
+    } else if (!path.machine.empty()) {
+        const Result<motion::Machine> known = motion::named_machine(path.machine);
+        if (!known) section.fail("machine", known.error().cause, known.error().remedy);
+    }
     path.unit_mm = unit_mm(section);
     return path;
 }
@@ -197,35 +198,6 @@ formats::JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
     }
     haptics.stiffness_n_per_mm = section.number("stiffness_n_per_mm", kPositive);
     return haptics;
-}
-
-formats::JobMachine read_machine(TomlFile& file, const toml::table& table, const std::string& label) {
-    TomlSection section(file, table, label, kMachineKeys);
-    formats::JobMachine machine;
-    machine.rapid_mm_per_min =
-        section.number("rapid_mm_per_min", kPositive).value_or(machine.rapid_mm_per_min);
-    machine.acceleration_mm_per_s2 = section.number("acceleration_mm_per_s2", kPositive).value_or(0);
-    machine.limits_mm = section.box("limits_mm");
-    for (const toml::table* axis_table : section.tables("axes")) {
-        TomlSection axis(file, *axis_table, "an axis", kAxisKeys);
-        for (const std::string_view key : {"word"sv, "carries"sv, "direction"sv}) {
-            if (!axis.has(key)) axis.missing(key);
-        }
-        formats::MachineAxis read;
-        read.word = kAxisWords[axis.word("word", kAxisWords).value_or(0)][0];
-        read.carries_part = axis.word("carries", kCarriedWords).value_or(0) == 0;
-        const Vec3 direction = axis.point("direction").value_or(read.direction);
-        if (!(length(direction) > 0)) axis.fail("direction", "'direction' has no length", "try [1, 0, 0]");
-        read.direction = normalized(direction);
-        read.point_mm = axis.point("point_mm").value_or(Vec3{});
-        read.min_deg = axis.number("min_deg", {-kLargestAngleDeg, kLargestAngleDeg}).value_or(read.min_deg);
-        read.max_deg = axis.number("max_deg", {-kLargestAngleDeg, kLargestAngleDeg}).value_or(read.max_deg);
-        if (read.max_deg <= read.min_deg) {
-            axis.fail("max_deg", "'max_deg' is not above 'min_deg'", "exchange them");
-        }
-        machine.axes.push_back(read);
-    }
-    return machine;
 }
 
 }  // namespace tribo::io

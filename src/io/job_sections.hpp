@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/job.hpp"
+#include "io/files.hpp"
 #include "io/toml_section.hpp"
 
 namespace tribo::io {
@@ -21,6 +22,12 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table);
 formats::JobEngagement read_engagement(TomlFile& file, const toml::table& table);
 formats::JobSound read_sound(TomlFile& file, const toml::table& table);
 formats::JobHaptics read_haptics(TomlFile& file, const toml::table& table);
-formats::JobMachine read_machine(TomlFile& file, const toml::table& table, const std::string& label);
+// Whether [path] names a file that describes a machine, or a machine.
+inline bool is_machine_file(std::string_view machine) {
+    return machine.ends_with(".toml");
+}
+// [machine], the file that it names or the one that [path] names, on the machine that [path] names; `path`
+// has been read.
+FileResult<formats::JobMachine> read_machine(TomlSection& job, const formats::JobPath& path);
 
 }  // namespace tribo::io

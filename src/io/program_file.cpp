@@ -114,6 +114,7 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
     formats::GcodeOptions gcode;
     gcode.source_name = path;
     gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    gcode.machine = options.machine;
     return formats::read_gcode(bytes, gcode);
 }
 
@@ -123,7 +124,8 @@ FileResult<motion::Program> read_program(const formats::Job& job) {
     auto program = parse_program(*bytes, job.path.file, job.path.kind,
                                  {.default_feed_mm_per_min = job.process.feed_mm_per_min,
                                   .unit_mm = job.path.unit_mm,
-                                  .interpolation = job.path.interpolation});
+                                  .interpolation = job.path.interpolation,
+                                  .machine = job.machine.kinematics ? &*job.machine.kinematics : nullptr});
     if (!program) return std::unexpected(Failure(program.error()));
     return *std::move(program);
 }

@@ -249,6 +249,12 @@ std::vector<const toml::table*> TomlSection::tables(std::string_view key) {
     return {};
 }
 
+const toml::table* TomlSection::only_table(std::string_view key) {
+    const std::vector<const toml::table*> found = tables(key);
+    if (found.size() > 1) fail(key, "there may be only one [" + std::string(key) + "]", "remove the others");
+    return found.empty() ? nullptr : found.front();
+}
+
 Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
     toml::parse_result parsed = toml::parse(text, file);
     if (parsed) return std::move(parsed).table();

@@ -12,6 +12,7 @@
 #define TOML_ENABLE_WINDOWS_COMPAT 0
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -62,6 +63,7 @@ class TomlSection {
                 std::span<const std::string_view> keys);
 
     bool has(std::string_view key) const { return table_.contains(key); }
+    bool has_text(std::string_view key) const { return table_[key].is_string(); }
     std::optional<double> number(std::string_view key, Range range = kAnyNumber);
     std::optional<int> integer(std::string_view key, int min, int max);
     std::optional<std::string> text(std::string_view key);
@@ -81,6 +83,8 @@ class TomlSection {
 
     // The tables under a key: of one table, or of an array of tables.
     std::vector<const toml::table*> tables(std::string_view key);
+    // The one table under a key, null where it is absent; several are an error.
+    const toml::table* only_table(std::string_view key);
 
     // Reports at the key's value, or at the table where the key is absent.
     void fail(std::string_view key, std::string cause, std::string remedy = {});
@@ -97,6 +101,9 @@ class TomlSection {
     const toml::table& table_;
     std::string label_;
 };
+
+// Job and machine files are written by hand; larger ones are something else.
+inline constexpr std::uint64_t kLargestJobBytes = std::uint64_t{4} << 20;
 
 // Parses; an Error with its place where this is not TOML.
 Result<toml::table> parse_toml(std::string_view text, const std::string& file);

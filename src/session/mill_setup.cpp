@@ -97,10 +97,11 @@ Result<motion::Program> keyframe_program(const formats::Job& job, std::span<cons
 Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const MillOptions& options,
                                Warnings& warnings) {
     const motion::Program& program = inputs.program;
-    if (program.has_rotary_words) {
+    if (program.has_rotary_words && program.machine.empty()) {
         return fail_at(program.source, program.first_rotary_line, 0,
                        "rotary words mean nothing without a machine",
-                       "give the path as APT CLDATA or keyframes, which hold the tool axis itself");
+                       "add machine = \"NAME\" to [path], NAME being one of " + motion::machine_names() +
+                           " or a .toml file that describes one");
     }
     if (program.moves.empty()) {
         return fail_at(program.source, 0, 0, "the program moves nothing", "give it at least one feed move");

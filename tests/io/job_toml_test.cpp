@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <rapidcheck/gtest.h>
 
 #include "io/scratch.hpp"
@@ -139,7 +140,9 @@ mesh = "clamp.obj"
 rapid_mm_per_min = 20000
 acceleration_mm_per_s2 = 3000
 limits_mm = [[-100,-100,-100],[100,100,100]]
-axes = [{ word = "C", carries = "part", direction = [0,0,2], point_mm = [1,2,3], min_deg = -90, max_deg = 90 }]
+stock_mm = [0,0,13]
+tool_length_mm = 80
+axes = [{ word = "A", pivot_mm = [0,20,10], limits_deg = [-90, 45] }, { word = "C", direction = [0,0,-2], zero_deg = 90 }]
 )");
     EXPECT_EQ(job.part->path, "/models/p.stl");
     EXPECT_EQ(job.part->unit_mm, 25.4);
@@ -165,9 +168,17 @@ axes = [{ word = "C", carries = "part", direction = [0,0,2], point_mm = [1,2,3],
     ASSERT_EQ(job.fixtures.size(), 2u);
     EXPECT_EQ(job.fixtures[1].model.value().path, "jobs/clamp.obj");
     EXPECT_EQ(job.machine.acceleration_mm_per_s2, 3000);
-    ASSERT_EQ(job.machine.axes.size(), 1u);
-    EXPECT_EQ(job.machine.axes[0].direction, (Vec3{0, 0, 1}));
-    EXPECT_EQ(job.machine.limits_mm.value().max.x, 100);
+    const motion::Machine& machine = job.machine.kinematics.value();
+    EXPECT_EQ(machine.name, "xyzac-trt");
+    ASSERT_EQ(machine.part_side.size(), 2u);
+    EXPECT_EQ(machine.part_side[0].direction, (Vec3{1, 0, 0}));
+    EXPECT_EQ(machine.part_side[0].pivot_mm, (Vec3{0, 20, 10}));
+    EXPECT_DOUBLE_EQ(machine.part_side[0].max, std::numbers::pi / 4);
+    EXPECT_EQ(machine.part_side[1].direction, (Vec3{0, 0, -1}));
+    EXPECT_DOUBLE_EQ(machine.part_side[1].zero, std::numbers::pi / 2);
+    EXPECT_EQ(machine.axis('X')->max, 100);
+    EXPECT_EQ(machine.stock_mm, (Vec3{0, 0, 13}));
+    EXPECT_EQ(machine.tool_length_mm.value(), 80);
 }
 
 TEST(JobFile, may_have_a_byte_order_mark_and_line_ends_of_any_system) {
@@ -190,6 +201,38 @@ TEST(JobFile, takes_its_machine_from_a_file_of_its_own) {
     EXPECT_EQ(wrong.error().line, 2);
     std::filesystem::remove(scratch / "machines/m.toml");
     EXPECT_EQ(read_job(scratch / "job.toml").error().file, scratch / "machines/m.toml");
+}
+
+TEST(JobFile, describes_a_machine_axis_by_axis_from_the_frame_outwards) {
+    const Job job = job_of(std::string(kBowl) + R"(
+[machine]
+axes = [
+  { word = "Y", carries = "part", direction = [0,-1,0], limits_mm = [-200, 200] },
+  { word = "C", carries = "part", direction = [0,0,-1] },
+  { word = "B", carries = "tool", direction = [0,1,0], pivot_mm = [0,0,120], limits_deg = [-95, 95] },
+]
+)");
+    const motion::Machine& machine = job.machine.kinematics.value();
+    EXPECT_EQ(machine.name, "described in jobs/bowl.toml");
+    ASSERT_EQ(machine.part_side.size(), 2u);
+    EXPECT_EQ(machine.part_side[0].word, 'Y');
+    EXPECT_EQ(machine.part_side[1].word, 'C');
+    ASSERT_EQ(machine.tool_side.size(), 3u);  // X and Z are straight axes at the frame
+    EXPECT_EQ(machine.tool_side[2].word, 'B');
+    EXPECT_EQ(machine.axis('Y')->min, -200);
+}
+
+TEST(JobFile, takes_the_machine_of_its_path_from_a_file) {
+    const Scratch scratch;
+    scratch.put("m.toml", "based_on = \"xyzbc-trt\"\nstock_mm = [0,0,40]\n");
+    std::string text = kBowl;
+    const std::string keyframes = "keyframes = \"bowl.csv\"";
+    text.replace(text.find(keyframes), keyframes.size(), "gcode = \"p.ngc\"\nmachine = \"m.toml\"");
+    scratch.put("job.toml", text);
+    const FileResult<Job> job = read_job(scratch / "job.toml");
+    ASSERT_TRUE(job) << job.error().text();
+    EXPECT_EQ(job->machine.kinematics.value().stock_mm.z, 40);
+    EXPECT_TRUE(job->machine.kinematics->axis('B') != nullptr);
 }
 
 struct BadJob {
@@ -306,7 +349,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadJob{"distance_factor = 1.0", "mode = \"pan\"\nhrtf = \"a.sofa\"", 21, "the mode does not use it"},
         BadJob{"length_mm = 40.0", "holder = {diameter_mm = [1, 2], length_mm = 3}", 10,
                "2 diameters has 1 lengths"},
-        BadJob{"[sound]", "[machine]\naxes = [{word = \"D\"}]\n[sound]", 19, "missing in an axis"},
+        BadJob{"[sound]", "[machine]\naxes = [{word = \"A\"}]\n[sound]", 19, "missing in an axis"},
+        BadJob{"keyframes = \"bowl.csv\"", "gcode = \"p.ngc\"\nmachine = \"xyzab-trt\"", 18,
+               "there is no machine 'xyzab-trt'"},
+        BadJob{"[sound]", "[machine]\nbased_on = \"xyzac\"\n[sound]", 19,
+               "there is no machine 'xyzac'; try 'xyzac-trt'"},
+        BadJob{"[sound]", "[machine]\nstock_mm = [0,0,0]\n[sound]", 19, "belongs to a machine with axes"},
+        BadJob{"[sound]",
+               "[machine]\nbased_on = \"xyzac-trt\"\naxes = [{word = \"A\", limits_deg = [5, 4]}]\n[sound]",
+               20, "is not a lower and an upper limit"},
+        BadJob{"[sound]",
+               "[machine]\nbased_on = \"xyzac-trt\"\naxes = [{word = \"A\", limits_mm = [4, 5]}]\n[sound]",
+               20, "'limits_mm' does not fit the axis A; write degrees"},
+        BadJob{"[sound]",
+               "[machine]\nbased_on = \"xyzac-trt\"\naxes = [{word = \"A\", carries = \"tool\"}]\n[sound]",
+               20, "what carries what is settled"},
+        BadJob{"[sound]",
+               "[machine]\naxes = [{word = \"A\", carries = \"part\", direction = [0,0,1]}]\n[sound]", 19,
+               "it tilts nothing"},
         BadJob{"[cutter]", "[[cutter]]\nnumber = 1\nkind = \"ball\"\ndiameter_mm = 6\n[[cutter]]\nnumber = 1",
                10, "two cutters have the number 1"}));
 
