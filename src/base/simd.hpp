@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -21,6 +22,7 @@ namespace {
 
 using F8 = float __attribute__((vector_size(32)));
 using I8 = int __attribute__((vector_size(32)));
+using S8 = short __attribute__((vector_size(16)));
 
 // What a comparison of two T gives.
 template <class T>
@@ -44,7 +46,9 @@ TRIBO_LANES T broadcast(double v) {
     }
 }
 
-TRIBO_LANES double select(bool m, double a, double b) {
+template <class T>
+    requires std::is_floating_point_v<T>
+TRIBO_LANES T select(bool m, T a, T b) {
     return m ? a : b;
 }
 TRIBO_LANES F8 select(I8 m, F8 a, F8 b) {
@@ -120,6 +124,23 @@ TRIBO_LANES bool any(I8 m) {
 #endif
 }
 
+// A mask for lanes of 16 bits.
+TRIBO_LANES S8 narrow(I8 m) {
+    return __builtin_convertvector(m, S8);
+}
+
+TRIBO_LANES S8 splat(std::uint16_t v) {
+    const auto s = static_cast<short>(v);
+    return S8{s, s, s, s, s, s, s, s};
+}
+TRIBO_LANES S8 load(const std::uint16_t* p) {
+    S8 v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+TRIBO_LANES void store(std::uint16_t* p, S8 v) {
+    std::memcpy(p, &v, sizeof v);
+}
 TRIBO_LANES F8 splat(float f) {
     return F8{f, f, f, f, f, f, f, f};
 }

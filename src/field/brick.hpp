@@ -29,8 +29,9 @@ struct Brick {
     BrickCoord coord;
     double volume_mm3 = 0;                         // of the material in it
     std::array<float, kLatticeNodes> distance_mm;  // at the nodes, negative in material, at least -near
-    std::array<std::uint16_t, kLatticeNodes>
-        winner;                   // index into `shapes` of the shape that gives the distance
+    // Index into `shapes` of the shape that gives the distance, where that is within near of the surface;
+    // else it may be kUnlisted.
+    std::array<std::uint16_t, kLatticeNodes> winner;
     std::vector<ShapeId> shapes;  // those that give the distance at some node near the surface
 };
 
@@ -43,16 +44,8 @@ struct CarveResult {
     bool changed = false;  // some node near the surface moved
     bool won = false;      // the shape gives the distance at some node near the surface
     float least_mm = 0;    // smallest distance left
+    double removed_cells = 0;
 };
-
-// Lowers the material of a brick to the complement of a shape: distance = max(distance, -shape), `winner` =
-// index where that changed. Nodes deeper than `near_mm` stay as they are.
-CarveResult carve_nodes(Brick& brick, const float* shape_mm, std::uint16_t index, float near_mm);
-
-// Volume of the material of one brick: each node stands for the cells around it (half, a quarter, an eighth
-// of them on faces, edges, corners), filled by the fraction clamp(1/2 - distance / cell): exact for planes
-// along the grid, without bias for others.
-double brick_volume_mm3(const float* distance_mm, double cell_mm);
 
 // Forgets the shapes that give the distance at no node within `near_mm` of the surface.
 void prune_shapes(Brick& brick, float near_mm);

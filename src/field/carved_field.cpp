@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "field/brick_kernels.hpp"
+
 namespace tribo::field {
 namespace {
 
@@ -33,6 +35,7 @@ BrickCoord grid_size(const Box3& blank, double cell) {
 
 CarvedField::CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel)
     : cell_(cell_mm),
+      per_cell_(1 / cell_mm),
       near_(kNearCells * cell_mm),
       brick_radius_(0.5 * std::sqrt(3.0) * kBrickCells * cell_mm),
       parallel_(std::move(parallel)),
@@ -50,11 +53,14 @@ Vec3 CarvedField::centre(BrickCoord b) const {
 }
 
 BrickCoord CarvedField::brick_at(Vec3 p) const {
-    const double per_brick = 1 / (kBrickCells * cell_);
-    const Vec3 q = (p - origin_) * per_brick;
+    const Vec3 q = (p - origin_) * (per_cell_ / kBrickCells);
     // Far points are clamped before the conversion, which would overflow.
     const auto whole = [](double v) { return static_cast<int>(std::floor(std::clamp(v, -1e9, 1e9))); };
     return {whole(q.x), whole(q.y), whole(q.z)};
+}
+
+double CarvedField::volume_mm3(const float* distance_mm) const {
+    return brick_kernels().volume_cells(distance_mm, static_cast<float>(cell_)) * cell_ * cell_ * cell_;
 }
 
 double CarvedField::blank_brick_volume(BrickCoord b) const {
@@ -64,21 +70,24 @@ double CarvedField::blank_brick_volume(BrickCoord b) const {
     if (d < -brick_radius_ - cell_) return edge * edge * edge;
     std::array<float, kLatticeNodes> nodes;
     blank().sample(lattice(b), nodes.data());
-    return brick_volume_mm3(nodes.data(), cell_);
+    return volume_mm3(nodes.data());
 }
 
 void CarvedField::fill_from_blank(Brick& brick) const {
-    blank().sample(lattice(brick.coord), brick.distance_mm.data());
     const auto floor = static_cast<float>(-near_);
-    bool near = false;
-    for (float& d : brick.distance_mm) {
-        d = std::max(d, floor);
-        near |= d > floor;
-    }
     brick.shapes.clear();
-    if (near) brick.shapes.push_back(0);
-    brick.winner.fill(near ? 0 : Brick::kUnlisted);
-    brick.volume_mm3 = brick_volume_mm3(brick.distance_mm.data(), cell_);
+    if (blank().distance_mm(centre(brick.coord)) < -brick_radius_ - near_) {
+        brick.distance_mm.fill(floor);
+        brick.winner.fill(Brick::kUnlisted);
+        const double edge = kBrickCells * cell_;
+        brick.volume_mm3 = edge * edge * edge;
+        return;
+    }
+    blank().sample(lattice(brick.coord), brick.distance_mm.data());
+    for (float& d : brick.distance_mm) d = std::max(d, floor);
+    brick.shapes.push_back(0);
+    brick.winner.fill(0);
+    brick.volume_mm3 = volume_mm3(brick.distance_mm.data());
 }
 
 void CarvedField::clear(BrickCoord b, BrickRef ref) {
@@ -137,21 +146,23 @@ void CarvedField::update(Update& u, const Shape& shape, ShapeId id) {
     shape.sample(lattice(u.coord), carved.data());
     if (u.fresh) fill_from_blank(brick);
     const auto index = static_cast<std::uint16_t>(brick.shapes.size());
-    const CarveResult result = carve_nodes(brick, carved.data(), index, static_cast<float>(near_));
+    const CarveResult result =
+        brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
+                              static_cast<float>(near_), static_cast<float>(cell_));
     if (!result.changed) {
         u.drop = u.fresh;
         return;
     }
-    const double before = brick.volume_mm3;
-    brick.volume_mm3 = brick_volume_mm3(brick.distance_mm.data(), cell_);
-    u.removed_mm3 = before - brick.volume_mm3;
     if (result.least_mm > kClearCells * cell_) {
         u.air = true;
-        u.removed_mm3 = before;
+        u.removed_mm3 = brick.volume_mm3;
         return;
     }
+    u.removed_mm3 = result.removed_cells * cell_ * cell_ * cell_;
+    brick.volume_mm3 -= u.removed_mm3;
+    if (!result.won) return;
     brick.shapes.push_back(id);
-    if (!result.won || brick.shapes.size() % kPruneEvery == 0) prune_shapes(brick, static_cast<float>(near_));
+    if (brick.shapes.size() % kPruneEvery == 0) prune_shapes(brick, static_cast<float>(near_));
 }
 
 double CarvedField::carve(std::unique_ptr<const Shape> shape) {
@@ -185,14 +196,31 @@ double CarvedField::carve(std::unique_ptr<const Shape> shape) {
     return removed;
 }
 
+CarvedField::NearNode CarvedField::nearest_node(BrickCoord b, Vec3 p) const {
+    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell_;
+    const auto nearest = [](double v) {
+        return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
+    };
+    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+    return {node_index(i, j, k), q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+}
+
 CarvedField::Exact CarvedField::exact(BrickRef ref, Vec3 p) const {
     if (ref == kUntouched) return {blank().distance_mm(p), 0};
     if (ref == kAir) return {kClearCells * cell_, 0};
     const Brick& brick = pool_[ref];
     Exact best{-near_, 0};
-    for (const ShapeId id : brick.shapes) {
-        const double d = id == 0 ? shapes_[0]->distance_mm(p) : -shapes_[id]->distance_mm(p);
+    const auto measure = [&](ShapeId id) {
+        const double d =
+            id == 0 ? shapes_[0]->distance_mm(p) : -shapes_[id]->distance_below(p, -best.distance_mm);
         if (d > best.distance_mm) best = {d, id};
+    };
+    // The shape that gives the distance at the nearest node most likely gives it here; the others need only
+    // show that they do not.
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely) measure(brick.shapes[n]);
     }
     return best;
 }
@@ -217,19 +245,22 @@ bool CarvedField::is_material(Vec3 p, double skin_mm) const {
     if (ref == kAir) return false;
     if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
     const Brick& brick = pool_[ref];
-    const Vec3 q = (p - lattice(b).node(0, 0, 0)) / cell_;
-    const auto nearest = [](double v) { return std::clamp(static_cast<int>(v + 0.5), 0, kLatticeEdge - 1); };
-    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+    const NearNode near = nearest_node(b, p);
+    const auto node = static_cast<std::size_t>(near.index);
+    const double way = cell_ * length(near.off_cells);
     // What the node says holds as far around it as its distance, less rounding.
-    const double d = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
-    const double way =
-        cell_ * length(q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+    const double d = static_cast<double>(brick.distance_mm[node]);
     constexpr double kRounding = 1e-3;
     if (d > way + kRounding * cell_) return false;
     if (d < -way - kRounding * cell_ - skin_mm) return true;
-    for (auto id = brick.shapes.rbegin(); id != brick.shapes.rend(); ++id) {
-        const double shape = shapes_[*id]->distance_mm(p);
-        if ((*id == 0 ? shape : -shape) >= -skin_mm) return false;
+    const auto in_material = [&](ShapeId id) {
+        return id == 0 ? shapes_[0]->distance_mm(p) < -skin_mm
+                       : shapes_[id]->distance_below(p, skin_mm) >= skin_mm;
+    };
+    const std::uint16_t likely = brick.winner[node];
+    if (likely != Brick::kUnlisted && !in_material(brick.shapes[likely])) return false;
+    for (std::size_t n = brick.shapes.size(); n-- > 0;) {
+        if (n != likely && !in_material(brick.shapes[n])) return false;
     }
     return true;
 }

@@ -82,10 +82,17 @@ class CarvedField final : public contact::DistanceField {
     void clear(BrickCoord b, BrickRef ref);
     void update(Update& u, const Shape& shape, ShapeId id);
     void fill_from_blank(Brick& brick) const;
+    double volume_mm3(const float* distance_mm) const;
     double blank_brick_volume(BrickCoord b) const;
     Vec3 centre(BrickCoord b) const;
+    // The node of a brick that is nearest to a point, and where the point lies from it.
+    struct NearNode {
+        int index;
+        Vec3 off_cells;
+    };
+    NearNode nearest_node(BrickCoord b, Vec3 point_mm) const;
 
-    double cell_, near_, brick_radius_;
+    double cell_, per_cell_, near_, brick_radius_;
     Vec3 origin_;
     ParallelFor parallel_;
     std::vector<std::unique_ptr<const Shape>> shapes_;  // [0] is the blank

@@ -32,6 +32,9 @@ class Shape {
     // Contains every point of the solid.
     virtual Box3 bounds_mm() const = 0;
     virtual double distance_mm(Vec3 point_mm) const = 0;
+    // distance_mm where that is below `bound_mm`, else something from the bound up: cheaper where the
+    // distance takes a search that the bound cuts short.
+    virtual double distance_below(Vec3 point_mm, double /*bound_mm*/) const { return distance_mm(point_mm); }
     // Unit direction in which distance_mm grows fastest.
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
     // distance_mm at all nodes in single precision, out[a + 8 b + 64 c], the same bits whatever the machine.

@@ -53,9 +53,9 @@ auto by_kind(CutterKind kind, const F& f) {
     return f.template operator()<CutterKind::flat>();
 }
 
-Nearest curved_nearest(const ToolProfile& tool, const CurvedLine& line, Vec3 point) {
+Nearest curved_nearest(const ToolProfile& tool, const CurvedLine& line, Vec3 point, double bound = kNever) {
     const Profile<double> p(tool);
-    return by_kind(tool.kind, [&]<CutterKind kind>() { return curved_nearest<kind>(p, line, point); });
+    return by_kind(tool.kind, [&]<CutterKind kind>() { return curved_nearest<kind>(p, line, point, bound); });
 }
 
 // How the profile's distance grows with rho and with z: unit.
@@ -271,8 +271,10 @@ class CurvedSweep final : public field::Shape {
         return box.inflated(bend / (8.0 * (kPoses - 1) * (kPoses - 1)));
     }
 
-    double distance_mm(Vec3 point) const override {
-        const Nearest nearest = curved_nearest(tool_, line_, point - start_);
+    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
+
+    double distance_below(Vec3 point, double bound) const override {
+        const Nearest nearest = curved_nearest(tool_, line_, point - start_, bound);
         return std::max(nearest.distance, nearest.lowest - tool_.length_mm);
     }
 

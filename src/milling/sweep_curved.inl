@@ -11,13 +11,14 @@ inline Vec3 axis_at(const CurvedLine& c, double t) {
     return normalized(c.axis0 + t * (c.axis1 + t * c.axis2));
 }
 
-// Where the tool comes nearest, its flat top apart, and the least height above the tip at the nodes.
+// Where the tool comes nearest if that is below a bound, its flat top apart, and the least height above the
+// tip at the nodes.
 struct Nearest {
     double distance, t, lowest;
 };
 
 template <CutterKind kind>
-Nearest curved_nearest(const Profile<double>& p, const CurvedLine& c, Vec3 point) {
+Nearest curved_nearest(const Profile<double>& p, const CurvedLine& c, Vec3 point, double bound) {
     double lowest = 1e30;
     // n is the axis but for its length 1 / per.
     const auto seen = [&](Vec3 d, Vec3 velocity, Vec3 n, Vec3 turning, double per, double& height) {
@@ -45,7 +46,8 @@ Nearest curved_nearest(const Profile<double>& p, const CurvedLine& c, Vec3 point
         lowest = min(lowest, height);
         return i;
     };
-    const Least<double> least = least_over_unit < kind == CutterKind::flat, double > (c.stretches, node, at);
+    const Least<double> least = least_over_unit < kind == CutterKind::flat,
+                        double > (c.stretches, bound, node, at);
     return {least.distance, least.t, lowest};
 }
 
@@ -160,6 +162,6 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
         return seen(value, rate);
     };
     const F8 distance = least_over_unit < kind == CutterKind::flat,
-             F8 > (row.frame.stretches, node, at).distance;
+             F8 > (row.frame.stretches, broadcast<F8>(kNever), node, at).distance;
     return max(distance, lowest - p.L);
 }

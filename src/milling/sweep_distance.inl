@@ -145,7 +145,7 @@ TRIBO_LANES T ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
         return instant<CutterKind::bull>(p, dx * dx + y * y, -dx * l.across, z - t * l.rise, -l.rise);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return capped(p, l, least_over_unit<false, T>(1, node, at).distance, z);
+    return capped(p, l, least_over_unit<false, T>(1, broadcast<T>(kNever), node, at).distance, z);
 }
 
 // Distance to the swept path in the plane of an arc about the origin that starts on the x axis and turns to

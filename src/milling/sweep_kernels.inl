@@ -33,26 +33,19 @@ struct Offsets {
     }
 };
 
-template <class T>
-struct Vector {
-    T x, y, z;
-};
-TRIBO_LANES Vector<F8> spread(Vec3 v) {
-    return {broadcast<F8>(v.x), broadcast<F8>(v.y), broadcast<F8>(v.z)};
-}
-TRIBO_LANES F8 dot(const Vector<F8>& a, const Vector<F8>& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
 // Calls distance(x, y, z) with the coordinates of each row of nodes in the frame.
 template <class F>
 TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, float* out, const F& distance) {
-    const Vector<F8> x = spread(frame.x), y = spread(frame.y), z = spread(frame.z);
+    const auto part = [](double u) { return static_cast<float>(u); };
+    const F8 along_x = at.x * splat(part(frame.x.x)), along_y = at.x * splat(part(frame.y.x)),
+             along_z = at.x * splat(part(frame.z.x));
     for (int c = 0; c < kLatticeEdge; ++c) {
-        const F8 dz = broadcast<F8>(at.z[c]);
+        const float z[3] = {at.z[c] * part(frame.x.z), at.z[c] * part(frame.y.z), at.z[c] * part(frame.z.z)};
         for (int b = 0; b < kLatticeEdge; ++b) {
-            const Vector<F8> d{at.x, broadcast<F8>(at.y[b]), dz};
-            store(out, distance(dot(d, x), dot(d, y), dot(d, z)));
+            const float y = at.y[b];
+            store(out, distance(along_x + splat(y * part(frame.x.y) + z[0]),
+                                along_y + splat(y * part(frame.y.y) + z[1]),
+                                along_z + splat(y * part(frame.z.y) + z[2])));
             out += kLatticeEdge;
         }
     }

@@ -16,6 +16,9 @@ TRIBO_LANES Instant<T> blend(Mask<T> m, const Instant<T>& a, const Instant<T>& b
             select(m, a.dz, b.dz), kEdge ? select(m, a.gap, b.gap) : a.gap};
 }
 
+// Above every distance, mm.
+constexpr double kNever = 1e30;
+
 template <class T>
 struct Least {
     T distance, t;
@@ -149,11 +152,11 @@ TRIBO_LANES void over_stretches(int count, const N& node, const F& at, const V& 
     }
 }
 
-// The least over the whole travel. node(k) is at(k / count), perhaps at less cost.
+// The least over the whole travel, if that is below `bound`. node(k) is at(k / count), perhaps at less cost.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over_unit(int count, const N& node, const F& at) {
-    const T zero = broadcast<T>(0), never = broadcast<T>(1e30);
-    Least<T> least{never, zero};
+TRIBO_LANES Least<T> least_over_unit(int count, T bound, const N& node, const F& at) {
+    const T zero = broadcast<T>(0), never = broadcast<T>(kNever);
+    Least<T> least{bound, zero};
     Valley<T> deepest{};
     T floor = never, second = never;  // of the deepest valley, of the next
     over_stretches<kEdge, T>(count, node, at, [&](const Valley<T>& v) {
