@@ -124,6 +124,11 @@ TRIBO_LANES bool any(I8 m) {
 #endif
 }
 
+// Each lane's right neighbour; the last lane stays.
+TRIBO_LANES F8 next(F8 v) {
+    return __builtin_shufflevector(v, v, 1, 2, 3, 4, 5, 6, 7, 7);
+}
+
 // A mask for lanes of 16 bits.
 TRIBO_LANES S8 narrow(I8 m) {
     return __builtin_convertvector(m, S8);

@@ -53,11 +53,6 @@ auto by_kind(CutterKind kind, const F& f) {
     return f.template operator()<CutterKind::flat>();
 }
 
-Nearest curved_nearest(const ToolProfile& tool, const CurvedLine& line, Vec3 point, double bound = kNever) {
-    const Profile<double> p(tool);
-    return by_kind(tool.kind, [&]<CutterKind kind>() { return curved_nearest<kind>(p, line, point, bound); });
-}
-
 // How the profile's distance grows with rho and with z: unit.
 struct ProfileNormal {
     double by_rho, by_z;
@@ -92,8 +87,7 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
 
 // Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet,
 // the edge makes the surface: across its travel, between the two normals.
-Vec3 swept_normal(const ToolProfile& tool, const CurvedLine& line, Vec3 point, double t) {
-    const ToolView v = view(line, point, t);
+Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
     constexpr double kEdge = 1e-5;  // mm; many times what the search settles at
     if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz > 0 &&
         std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
@@ -129,25 +123,31 @@ class StraightSweep final : public field::Shape {
         const Vec3 q = frame_.into(point - start_);
         const Profile<double> p(tool_);
         const Line<double> l(line_);
-        if (line_.rise == 0) {
-            return by_kind(tool_.kind,
-                           [&]<CutterKind kind>() { return level_distance<kind>(p, l, q.x, q.y, q.z); });
-        }
-        if (tool_.kind == CutterKind::flat) return ramp_flat(p, l, q.x, q.y, q.z);
-        if (tool_.kind == CutterKind::ball) return ramp_ball(p, l, q.x, q.y, q.z);
-        return ramp_bull(p, l, q.x, q.y, q.z);
+        return by_kind(tool_.kind, [&]<CutterKind kind>() {
+            return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
+                                   : ramp_distance<kind>(p, l, q.x, q.y, q.z);
+        });
     }
 
     Vec3 gradient(Vec3 point) const override {
-        CurvedLine line;
-        line.tip1 = travel();
-        line.axis0 = frame_.z;
-        line.stretches = 1;
-        const Vec3 d = point - start_;
-        const Nearest nearest = curved_nearest(tool_, line, d);
-        const double cap = dot(d, frame_.z) - std::max(line_.rise, 0.0) - tool_.length_mm;
-        if (cap > nearest.distance) return frame_.z;
-        return swept_normal(tool_, line, d, nearest.t);
+        const Vec3 q = frame_.into(point - start_);
+        const Profile<double> p(tool_);
+        const Line<double> l(line_);
+        const auto nearest = by_kind(tool_.kind, [&]<CutterKind kind>() {
+            if (line_.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z);
+            const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
+            return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
+        });
+        if (q.z - std::max(line_.rise, 0.0) - tool_.length_mm > nearest.distance) return frame_.z;
+        const Vec3 across{q.x - nearest.t * line_.across, q.y, 0};
+        ToolView v;
+        v.axis = {0, 0, 1};
+        v.radial = normalized(across, {0, 0, 0});
+        v.rho = length(across);
+        v.z = q.z - nearest.t * line_.rise;
+        v.drho = -v.radial.x * line_.across;
+        v.dz = -line_.rise;
+        return frame_.out_of(swept_normal(tool_, v, nearest.t));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -245,16 +245,8 @@ class ArcSweep final : public field::Shape {
 
 class CurvedSweep final : public field::Shape {
   public:
-    CurvedSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool), start_(move.start.tip_mm) {
-        const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
-        const Vec3 a = move.start.axis, b = move.end.axis;
-        line_.tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm);
-        line_.tip2 = move.end.tip_mm - move.start.tip_mm - line_.tip1;
-        line_.axis0 = a;
-        line_.axis1 = 2 * (middle.axis_control - a);
-        line_.axis2 = b - a - line_.axis1;
-        line_.stretches = stretches_needed(line_);
-    }
+    CurvedSweep(const ToolProfile& tool, const motion::Move& move)
+        : tool_(tool), start_(move.start.tip_mm), line_(line_of(move)), instants_(line_) {}
 
     Box3 bounds_mm() const override {
         // A point of the tool leaves the chord between two of the poses by at most a share of the square of
@@ -274,22 +266,29 @@ class CurvedSweep final : public field::Shape {
     double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
 
     double distance_below(Vec3 point, double bound) const override {
-        const Nearest nearest = curved_nearest(tool_, line_, point - start_, bound);
-        return std::max(nearest.distance, nearest.lowest - tool_.length_mm);
+        const Vec3 d = point - start_;
+        Floors floors;
+        sweep_kernels().floors(tool_, instants_, d, floors);
+        return std::max(nearest(floors, d, bound).distance,
+                        static_cast<double>(floors.lowest) - tool_.length_mm);
     }
 
     Vec3 gradient(Vec3 point) const override {
         const Vec3 d = point - start_;
-        const Nearest nearest = curved_nearest(tool_, line_, d);
-        if (nearest.lowest - tool_.length_mm <= nearest.distance)
-            return swept_normal(tool_, line_, d, nearest.t);
-        Vec3 axis = line_.axis0;
-        for (int k = 0; k <= line_.stretches; ++k) {
-            const double t = static_cast<double>(k) / line_.stretches;
-            if (dot(d - tip_at(line_, t), axis_at(line_, t)) <= nearest.lowest + 1e-9)
-                axis = axis_at(line_, t);
+        Floors floors;
+        sweep_kernels().floors(tool_, instants_, d, floors);
+        const Least<double> least = nearest(floors, d, kNever);
+        if (static_cast<double>(floors.lowest) - tool_.length_mm <= least.distance)
+            return swept_normal(tool_, view(line_, d, least.t), least.t);
+        double lowest = kNever;
+        Vec3 top = line_.axis0;
+        for (int k = 0; k < CurvedInstants::kCount; ++k) {
+            const double t = static_cast<double>(k) / (CurvedInstants::kCount - 1);
+            const Vec3 axis = axis_at(line_, t);
+            const double height = dot(d - tip_at(line_, t), axis);
+            if (height < lowest) lowest = height, top = axis;
         }
-        return axis;
+        return top;
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -297,6 +296,18 @@ class CurvedSweep final : public field::Shape {
     }
 
   private:
+    static CurvedLine line_of(const motion::Move& move) {
+        const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
+        const Vec3 a = move.start.axis, b = move.end.axis;
+        CurvedLine line;
+        line.tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm);
+        line.tip2 = move.end.tip_mm - move.start.tip_mm - line.tip1;
+        line.axis0 = a;
+        line.axis1 = 2 * (middle.axis_control - a);
+        line.axis2 = b - a - line.axis1;
+        line.stretches = stretches_needed(line);
+        return line;
+    }
     // A straight tip and an axis that turns along the great circle at an even pace, to the fifth order.
     static motion::Quadratic even_turn(const motion::Move& move) {
         const motion::ToolPose middle = motion::pose_at(move, 0.5);
@@ -305,10 +316,16 @@ class CurvedSweep final : public field::Shape {
         return {middle.tip_mm, (2 * size) * middle.axis - 0.5 * (move.start.axis + move.end.axis)};
     }
     static int stretches_needed(const CurvedLine& line);
+    Least<double> nearest(const Floors& floors, Vec3 d, double bound) const {
+        const Profile<double> p(tool_);
+        return by_kind(tool_.kind,
+                       [&]<CutterKind kind>() { return curved_nearest<kind>(p, line_, floors, d, bound); });
+    }
 
     ToolProfile tool_;
     Vec3 start_;
     CurvedLine line_;
+    CurvedInstants instants_;
 };
 
 // One stretch must be short enough that each part of the tool comes nearest at most once over it.
@@ -323,6 +340,23 @@ int CurvedSweep::stretches_needed(const CurvedLine& c) {
 }
 
 }  // namespace
+
+CurvedInstants::CurvedInstants(const CurvedLine& line) {
+    for (int k = 0; k < kCount; ++k) {
+        const double t = static_cast<double>(k) / (kCount - 1);
+        const Vec3 at = tip_at(line, t), velocity = line.tip1 + 2 * t * line.tip2;
+        const Vec3 raw = line.axis0 + t * (line.axis1 + t * line.axis2),
+                   turning = line.axis1 + 2 * t * line.axis2;
+        const double per = 1 / length(raw);
+        const Vec3 unit = per * raw, rate = per * (turning - dot(turning, unit) * unit);
+        for (int n = 0; n < 3; ++n) {
+            tip[n][k] = static_cast<float>(at[n]);
+            axis[n][k] = static_cast<float>(unit[n]);
+            tip_rate[n][k] = static_cast<float>(velocity[n]);
+            axis_rate[n][k] = static_cast<float>(rate[n]);
+        }
+    }
+}
 
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& move) {
     const ToolProfile tool(cutter);

@@ -11,44 +11,76 @@ inline Vec3 axis_at(const CurvedLine& c, double t) {
     return normalized(c.axis0 + t * (c.axis1 + t * c.axis2));
 }
 
-// Where the tool comes nearest if that is below a bound, its flat top apart, and the least height above the
-// tip at the nodes.
-struct Nearest {
-    double distance, t, lowest;
-};
-
+// Fills Floors for one point: eight instants at once.
 template <CutterKind kind>
-Nearest curved_nearest(const Profile<double>& p, const CurvedLine& c, Vec3 point, double bound) {
-    double lowest = 1e30;
-    // n is the axis but for its length 1 / per.
-    const auto seen = [&](Vec3 d, Vec3 velocity, Vec3 n, Vec3 turning, double per, double& height) {
-        const double z = dot(d, n) * per;
+TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const float (&point)[3],
+                               Floors& out) {
+    constexpr bool kEdge = kind == CutterKind::flat;
+    // At 40 mm from the start, mm.
+    constexpr float kRounding = 1e-4f;
+    F8 d[3], axis[3], z = splat(0.0f), dz = splat(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        d[k] = splat(point[k]) - load(c.tip[k]);
+        axis[k] = load(c.axis[k]);
+        z += d[k] * axis[k];
+        dz += d[k] * load(c.axis_rate[k]) - axis[k] * load(c.tip_rate[k]);
+    }
+    F8 rho_squared = splat(0.0f), half_rate = splat(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        const F8 radial = d[k] - z * axis[k];
+        rho_squared += radial * radial;
+        half_rate -= radial * (load(c.tip_rate[k]) + z * load(c.axis_rate[k]));
+    }
+    Valley<F8> v;
+    v.a = instant<kind>(p, rho_squared, half_rate, z, dz);
+    v.b = {next(v.a.distance), next(v.a.slope), next(v.a.drho), next(v.a.dz), next(v.a.gap)};
+    const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
+    v.lo = splat(0.0f);
+    v.hi = width;
+    const F8 ends = min(v.a.distance, v.b.distance);
+    const auto valley = is_valley(v.a, v.b);
+    // A parted stretch may hold more than one valley, each no deeper than the way to its middle allows.
+    const F8 speed = max(max(abs(v.a.drho), abs(v.b.drho)), max(abs(v.a.dz), abs(v.b.dz)));
+    F8 floor = select(valley, floor_of<kEdge>(v, valley), ends);
+    floor = select(is_parted(v.a, v.b), min(floor, ends - speed * width), floor);
+    store(out.floor, min(floor, ends) - splat(kRounding));
+    out.lowest = z[0];
+    for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = z[k] < out.lowest ? z[k] : out.lowest;
+}
+
+// Where the tool comes nearest, its flat top apart, if that is below `bound`.
+template <CutterKind kind>
+Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, const Floors& floors, Vec3 point,
+                             double bound) {
+    constexpr bool kEdge = kind == CutterKind::flat;
+    const auto at = [&](double t) {
+        const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
+        const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
+        const double per = 1 / std::sqrt(dot(n, n)), z = dot(d, n) * per;
         const double dz = (dot(d, turning) - z * per * dot(n, turning) - dot(velocity, n)) * per;
-        height = z;
         return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz);
     };
-    double height;
-    const auto at = [&](double t) {
-        const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2);
-        return seen(point - tip_at(c, t), c.tip1 + 2 * t * c.tip2, n, c.axis1 + 2 * t * c.axis2,
-                    1 / std::sqrt(dot(n, n)), height);
-    };
-    const auto node = [&](int k) {
-        Instant<double> i;
-        if (k == 0) {  // the axis is unit at both ends
-            i = seen(point, c.tip1, c.axis0, c.axis1, 1, height);
-        } else if (k < c.stretches) {
-            i = at(static_cast<double>(k) / c.stretches);
-        } else {
-            i = seen(point - c.tip1 - c.tip2, c.tip1 + 2 * c.tip2, c.axis0 + c.axis1 + c.axis2,
-                     c.axis1 + 2 * c.axis2, 1, height);
-        }
-        lowest = min(lowest, height);
-        return i;
-    };
-    const Least<double> least = least_over_unit < kind == CutterKind::flat,
-                        double > (c.stretches, bound, node, at);
-    return {least.distance, least.t, lowest};
+    constexpr int kStretches = CurvedInstants::kCount - 1;
+    Least<double> least{bound, 0};
+    float order[kStretches];
+    for (int k = 0; k < kStretches; ++k) order[k] = floors.floor[k];
+    while (true) {
+        int k = 0;
+        for (int n = 1; n < kStretches; ++n) k = order[n] < order[k] ? n : k;
+        if (static_cast<double>(order[k]) >= least.distance - kSettled<double>) return least;
+        order[k] = static_cast<float>(kNever);
+        Valley<double> v;
+        v.lo = static_cast<double>(k) / kStretches;
+        v.hi = static_cast<double>(k + 1) / kStretches;
+        v.a = at(v.lo);
+        v.b = at(v.hi);
+        over_sides<kEdge>(v, at, [&](const Valley<double>& side) {
+            take(least, side.a.distance, side.lo);
+            take(least, side.b.distance, side.hi);
+            const bool valley = is_valley(side.a, side.b);
+            descend<kEdge>(side, valley ? floor_of<kEdge>(side, valley) : kNever, valley, least, at);
+        });
+    }
 }
 
 // The coordinates of points in the tool's frame, x and y across the axis, as polynomials of t in Newton's
@@ -132,7 +164,7 @@ struct SeenRow {
 
 template <CutterKind kind>
 TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
-    F8 lowest = broadcast<F8>(1e30);
+    F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
                              value[0] * rate[0] + value[1] * rate[1], value[2], rate[2]);
@@ -162,6 +194,6 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
         return seen(value, rate);
     };
     const F8 distance = least_over_unit < kind == CutterKind::flat,
-             F8 > (row.frame.stretches, broadcast<F8>(kNever), node, at).distance;
+             F8 > (row.frame.stretches, node, at).distance;
     return max(distance, lowest - p.L);
 }

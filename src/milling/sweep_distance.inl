@@ -76,7 +76,7 @@ TRIBO_LANES T capped(const Profile<T>& p, const Line<T>& l, T distance, T z) {
 // min over t of max(A, B), A = rho(t) - R convex, B = t rise - z linear. Either A is the larger at its own
 // minimum, or the minimum lies where B, falling, meets A: a t^2 - 2 b t + c = 0, rho^2 = (R + t rise - z)^2.
 template <class T>
-TRIBO_LANES T ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
     const auto at = [&](T t) {
         const T dx = x - t * l.across;
@@ -95,13 +95,16 @@ TRIBO_LANES T ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
         select(down * b >= zero, select(a == zero, down, stable / quotient_low), c / quotient_high);
     const T end = select(l.rise < zero, one, zero);
     const T between = min(max(meet, min(nearest, end)), max(nearest, end));
-    return capped(p, l, min(at(nearest), min(at(between), at(end))), z);
+    Least<T> least{at(nearest), nearest};
+    take(least, at(between), between);
+    take(least, at(end), end);
+    return least;
 }
 
 // The distance is smooth and convex in t: its minimum is that of the sphere below the centre's height, of the
 // cylinder above it, or where the point passes that height.
 template <class T>
-TRIBO_LANES T ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
     const T height = z - p.R;
     const auto squared = [&](T t) {
@@ -111,8 +114,10 @@ TRIBO_LANES T ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T sphere = unit_clamp((x * l.across + height * l.rise) * l.per_length_squared);
     const T cylinder = unit_clamp(x * l.per_across);
     const T level = unit_clamp(height / select(l.rise == zero, one, l.rise));
-    const T least = min(squared(sphere), min(squared(cylinder), squared(level)));
-    return capped(p, l, sqrt(least + y * y) - p.R, z);
+    Least<T> least{squared(sphere), sphere};
+    take(least, squared(cylinder), cylinder);
+    take(least, squared(level), level);
+    return {sqrt(least.distance + y * y) - p.R, least.t};
 }
 
 // The tool at one instant as a point sees it, from rho^2, half its derivative by t, z and its derivative by
@@ -139,13 +144,25 @@ TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, 
 }
 
 template <class T>
-TRIBO_LANES T ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const auto at = [&](T t) {
         const T dx = x - t * l.across;
         return instant<CutterKind::bull>(p, dx * dx + y * y, -dx * l.across, z - t * l.rise, -l.rise);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return capped(p, l, least_over_unit<false, T>(1, broadcast<T>(kNever), node, at).distance, z);
+    return least_over_unit<false, T>(1, node, at);
+}
+
+// Along and across the axis at once: where the tool comes nearest, its flat top apart.
+template <CutterKind kind, class T>
+TRIBO_LANES Least<T> ramp_nearest(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+    if constexpr (kind == CutterKind::flat) return ramp_flat(p, l, x, y, z);
+    if constexpr (kind == CutterKind::ball) return ramp_ball(p, l, x, y, z);
+    return ramp_bull(p, l, x, y, z);
+}
+template <CutterKind kind, class T>
+TRIBO_LANES T ramp_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+    return capped(p, l, ramp_nearest<kind>(p, l, x, y, z).distance, z);
 }
 
 // Distance to the swept path in the plane of an arc about the origin that starts on the x axis and turns to

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Distances of a sweep at all nodes of a lattice. The same source is compiled for SSE2 and for x86-64-v3;
-// sweep_kernels() chooses once, by the processor. Both give the same bits.
+// Distances of a sweep at all nodes of a lattice, and what bounds a curved one at a point. The same source is
+// compiled for SSE2 and for x86-64-v3; sweep_kernels() chooses once, by the processor. Both give the same
+// bits.
 #pragma once
 
 #include "field/shape.hpp"
 #include "milling/sweep_lines.hpp"
 
 namespace tribo::milling {
+
+// Lower bounds of the distance between neighbouring instants of a curved travel (the last entry is of no
+// use), less what single precision may be off, and the least height above the tip at the instants, mm.
+struct Floors {
+    float floor[CurvedInstants::kCount];
+    float lowest;
+};
 
 // `reference` is what positions are taken relative to before they become floats: the tip at the start, an
 // arc's centre at the height of the tip.
@@ -16,6 +24,8 @@ struct SweepKernels {
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
     void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&, float* out);
+    // `point` relative to the tip at the start.
+    void (*floors)(const ToolProfile&, const CurvedInstants&, Vec3 point, Floors& out);
 };
 
 const SweepKernels& sweep_kernels();

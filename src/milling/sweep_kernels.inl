@@ -58,12 +58,8 @@ void straight_of(const ToolProfile& tool, const StraightLine& line, const Frame&
     const Line<F8> l(line);
     if (line.rise == 0) {
         over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return level_distance<kind>(p, l, x, y, z); });
-    } else if constexpr (kind == CutterKind::flat) {
-        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_flat(p, l, x, y, z); });
-    } else if constexpr (kind == CutterKind::ball) {
-        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_ball(p, l, x, y, z); });
     } else {
-        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_bull(p, l, x, y, z); });
+        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z); });
     }
 }
 
@@ -125,7 +121,21 @@ void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, con
     }
 }
 
-constexpr SweepKernels kKernels{straight, arc, curved};
+void floors(const ToolProfile& tool, const CurvedInstants& at, Vec3 point, Floors& out) {
+    const Profile<F8> p(tool);
+    const float seen[3] = {static_cast<float>(point.x), static_cast<float>(point.y),
+                           static_cast<float>(point.z)};
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return curved_floors<CutterKind::flat>(p, at, seen, out);
+        case CutterKind::ball:
+            return curved_floors<CutterKind::ball>(p, at, seen, out);
+        case CutterKind::bull:
+            return curved_floors<CutterKind::bull>(p, at, seen, out);
+    }
+}
+
+constexpr SweepKernels kKernels{straight, arc, curved, floors};
 
 }  // namespace
 }  // namespace tribo::milling

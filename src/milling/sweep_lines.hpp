@@ -47,4 +47,14 @@ struct CurvedLine {
     int stretches = 4;  // of t, looked through one by one
 };
 
+// The tool at even instants of a curved travel, and how it moves there: what single precision tells of where
+// along the travel a point may be nearest.
+struct CurvedInstants {
+    static constexpr int kCount = 8;
+    float tip[3][kCount], axis[3][kCount];            // the axis is unit
+    float tip_rate[3][kCount], axis_rate[3][kCount];  // derivatives by t
+
+    explicit CurvedInstants(const CurvedLine& line);
+};
+
 }  // namespace tribo::milling

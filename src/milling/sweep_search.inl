@@ -116,56 +116,71 @@ TRIBO_LANES void descend(Valley<T> v, T floor, Mask<T> valley, Least<T>& least, 
     }
 }
 
-// Calls visit(valley) for stretches that make up 0..1, over each of which the distance is taken to fall at
-// first or rise at last: `count` equal ones, parted again where the point comes closest to the tip's plane
-// from above or farthest from the axis. There one of the tool's parts first nears the point, then leaves it
-// again, and both sides may hold a valley.
+// Where within a stretch the point comes closest to the tip's plane from above, or farthest from the axis:
+// there one of the tool's parts first nears the point, then leaves it again, and both sides may hold a
+// valley.
+template <class T>
+TRIBO_LANES Mask<T> is_parted(const Instant<T>& a, const Instant<T>& b) {
+    const T zero = broadcast<T>(0);
+    return either(both(a.dz<zero, b.dz> zero), both(a.drho > zero, b.drho < zero));
+}
+
+// Calls visit(valley) for the stretch, or for its two sides where it is parted, over each of which the
+// distance is taken to fall at first or rise at last.
+template <bool kEdge, class T, class F, class V>
+TRIBO_LANES void over_sides(Valley<T> v, const F& at, const V& visit) {
+    const T zero = broadcast<T>(0), one = broadcast<T>(1);
+    const auto parted = is_parted(v.a, v.b);
+    if (any(parted)) {
+        const auto lowest = both(v.a.dz<zero, v.b.dz> zero);
+        const T rate_a = select(lowest, v.a.dz, v.a.drho), rate_b = select(lowest, v.b.dz, v.b.drho);
+        const T share = rate_a / select(parted, rate_a - rate_b, one);
+        const T middle = select(parted, v.lo + share * (v.hi - v.lo), v.hi);
+        Instant<T> m = blend<kEdge>(parted, at(middle), v.b);
+        // Where that part is the nearest the distance is level: one way down each side.
+        const T level = broadcast<T>(0.05) * abs(rate_b - rate_a), slope = m.slope;
+        const auto is_level = both(parted, abs(slope) < level);
+        m.slope = select(is_level, level, slope);
+        visit(Valley<T>{v.lo, middle, v.a, m});
+        m.slope = select(is_level, -level, slope);
+        v.lo = middle;
+        v.a = m;
+    }
+    visit(v);
+}
+
+// The sides of `count` equal stretches that make up 0..1.
 template <bool kEdge, class T, class N, class F, class V>
 TRIBO_LANES void over_stretches(int count, const N& node, const F& at, const V& visit) {
-    const T zero = broadcast<T>(0), one = broadcast<T>(1);
     Valley<T> v;
-    v.lo = zero;
+    v.lo = broadcast<T>(0);
     v.a = node(0);
     for (int k = 1; k <= count; ++k) {
         v.hi = broadcast<T>(static_cast<double>(k) / count);
         v.b = node(k);
-        const auto lowest = both(v.a.dz<zero, v.b.dz> zero),
-                   farthest = both(v.a.drho > zero, v.b.drho < zero);
-        const auto parted = either(lowest, farthest);
-        if (any(parted)) {
-            const T rate_a = select(lowest, v.a.dz, v.a.drho), rate_b = select(lowest, v.b.dz, v.b.drho);
-            const T share = rate_a / select(parted, rate_a - rate_b, one);
-            const T middle = select(parted, v.lo + share * (v.hi - v.lo), v.hi);
-            Instant<T> m = blend<kEdge>(parted, at(middle), v.b);
-            // Where that part is the nearest the distance is level: one way down each side.
-            const T level = broadcast<T>(0.05) * abs(rate_b - rate_a), slope = m.slope;
-            const auto is_level = both(parted, abs(slope) < level);
-            m.slope = select(is_level, level, slope);
-            visit(Valley<T>{v.lo, middle, v.a, m});
-            m.slope = select(is_level, -level, slope);
-            v.lo = middle;
-            v.a = m;
-        }
-        visit(v);
+        over_sides<kEdge>(v, at, visit);
         v.lo = v.hi;
         v.a = v.b;
     }
 }
 
-// The least over the whole travel, if that is below `bound`. node(k) is at(k / count), perhaps at less cost.
+template <class T>
+TRIBO_LANES void take(Least<T>& least, T distance, T t) {
+    const auto better = distance < least.distance;
+    least.distance = select(better, distance, least.distance);
+    least.t = select(better, t, least.t);
+}
+
+// The least over the whole travel. node(k) is at(k / count), perhaps at less cost.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over_unit(int count, T bound, const N& node, const F& at) {
+TRIBO_LANES Least<T> least_over_unit(int count, const N& node, const F& at) {
     const T zero = broadcast<T>(0), never = broadcast<T>(kNever);
-    Least<T> least{bound, zero};
+    Least<T> least{never, zero};
     Valley<T> deepest{};
     T floor = never, second = never;  // of the deepest valley, of the next
     over_stretches<kEdge, T>(count, node, at, [&](const Valley<T>& v) {
-        const auto a_better = v.a.distance < least.distance;
-        least.distance = select(a_better, v.a.distance, least.distance);
-        least.t = select(a_better, v.lo, least.t);
-        const auto b_better = v.b.distance < least.distance;
-        least.distance = select(b_better, v.b.distance, least.distance);
-        least.t = select(b_better, v.hi, least.t);
+        take(least, v.a.distance, v.lo);
+        take(least, v.b.distance, v.hi);
         const auto valley = is_valley(v.a, v.b);
         const T under = select(valley, floor_of<kEdge>(v, valley), never);
         const auto deeper = under < floor;
