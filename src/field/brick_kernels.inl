@@ -26,7 +26,7 @@ CarveResult carve(float* distance, std::uint16_t* winner, const float* shape, st
                   float near_mm, float cell) {
     const F8 near = splat(near_mm), deep = splat(-near_mm), tie = splat(kTieCells * cell);
     const F8 per_cell = splat(1 / cell);
-    F8 least = load(distance), removed = splat(0.0f);
+    F8 least = splat(1e30f), removed = splat(0.0f);
     I8 changed{}, won{};
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b) {
