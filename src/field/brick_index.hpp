@@ -27,6 +27,16 @@ class BrickIndex {
     bool contains(BrickCoord b) const {
         return b.i >= 0 && b.j >= 0 && b.k >= 0 && b.i < size_.i && b.j < size_.j && b.k < size_.k;
     }
+    // Bricks counted along i, then j, then k. b must be contained.
+    std::uint64_t number(BrickCoord b) const {
+        const auto along = [](int n) { return static_cast<std::uint64_t>(n); };
+        return along(b.i) + along(size_.i) * (along(b.j) + along(size_.j) * along(b.k));
+    }
+    BrickCoord coord(std::uint64_t number) const {
+        const auto i = static_cast<std::uint64_t>(size_.i), j = static_cast<std::uint64_t>(size_.j);
+        return {static_cast<int>(number % i), static_cast<int>(number / i % j),
+                static_cast<int>(number / i / j)};
+    }
     // b must be contained.
     BrickRef get(BrickCoord b) const {
         const Chunk* chunk = chunks_[chunk_number(b)].get();

@@ -16,6 +16,10 @@ namespace {
 constexpr double kMarginCells = 2.37;
 // Work is handed to other threads from this many bricks on; below it the hand-over costs more than it saves.
 constexpr std::size_t kParallelBricks = 64;
+constexpr std::size_t kParallelShapes = 8;
+// Of the brick's number in a cut; below it the shape's number and a bit.
+constexpr int kBrickShift = 11;
+static_assert(CarvedField::kMostAtOnce == std::size_t{1} << (kBrickShift - 1));
 // A brick's list is pruned when it has grown by this many shapes.
 constexpr std::size_t kPruneEvery = 8;
 // A brick whose nodes are all further than this from material (in cells) holds none between them either:
@@ -90,30 +94,17 @@ void CarvedField::fill_from_blank(Brick& brick) const {
     brick.volume_mm3 = volume_mm3(brick.distance_mm.data());
 }
 
-void CarvedField::clear(BrickCoord b, BrickRef ref) {
-    cleared_ += ref >= kFirstBrick ? pool_[ref].volume_mm3 : blank_brick_volume(b);
-    if (ref >= kFirstBrick) pool_.give_back(ref);
-    index_.set(b, kAir);
-}
-
-void CarvedField::gather_brick(const Shape& shape, BrickCoord b) {
-    const BrickRef ref = index_.get(b);
-    if (ref == kAir) return;
-    const Vec3 c = centre(b);
-    const double d = shape.distance_mm(c);
+void CarvedField::gather_brick(const Shape& shape, std::size_t number, BrickCoord b,
+                               std::vector<Cut>& cuts) const {
+    if (index_.get(b) == kAir) return;
+    const double d = shape.distance_mm(centre(b));
     if (d >= brick_radius_ + near_) return;
-    if (d <= -brick_radius_ - cell_) {
-        clear(b, ref);
-        return;
-    }
-    if (ref == kUntouched && blank().distance_mm(c) > brick_radius_) {
-        index_.set(b, kAir);
-        return;
-    }
-    updates_.push_back({b, ref, ref == kUntouched});
+    const Cut holds_all = d <= -brick_radius_ - cell_ ? 1 : 0;
+    cuts.push_back(index_.number(b) << kBrickShift | static_cast<Cut>(number) << 1 | holds_all);
 }
 
-void CarvedField::gather(const Shape& shape) {
+void CarvedField::gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const {
+    cuts.clear();
     const Box3 reach = shape.bounds_mm().inflated(near_);
     const BrickCoord n = index_.size();
     const BrickCoord lo = brick_at(reach.min), hi = brick_at(reach.max);
@@ -131,7 +122,7 @@ void CarvedField::gather(const Shape& shape) {
                 for (int kk = k; kk <= std::min(k + kBlock - 1, k1); ++kk) {
                     for (int jj = j; jj <= std::min(j + kBlock - 1, j1); ++jj) {
                         for (int ii = i; ii <= std::min(i + kBlock - 1, i1); ++ii) {
-                            gather_brick(shape, {ii, jj, kk});
+                            gather_brick(shape, number, {ii, jj, kk}, cuts);
                         }
                     }
                 }
@@ -140,59 +131,95 @@ void CarvedField::gather(const Shape& shape) {
     }
 }
 
-void CarvedField::update(Update& u, const Shape& shape, ShapeId id) {
-    Brick& brick = pool_[u.ref];
-    std::array<float, kLatticeNodes> carved;
-    shape.sample(lattice(u.coord), carved.data());
-    if (u.fresh) fill_from_blank(brick);
-    const auto index = static_cast<std::uint16_t>(brick.shapes.size());
-    const CarveResult result =
-        brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
-                              static_cast<float>(near_), static_cast<float>(cell_));
-    if (!result.changed) {
-        u.drop = u.fresh;
-        return;
+// Cuts of one brick become one update; bricks that will need nodes get a slot.
+void CarvedField::plan_updates(std::size_t shapes) {
+    cuts_.clear();
+    for (std::size_t n = 0; n < shapes; ++n)
+        cuts_.insert(cuts_.end(), cuts_of_[n].begin(), cuts_of_[n].end());
+    if (shapes > 1) std::sort(cuts_.begin(), cuts_.end());
+    removed_by_cut_.assign(cuts_.size(), 0);
+    updates_.clear();
+    for (std::size_t n = 0; n < cuts_.size();) {
+        Update u;
+        u.first = n;
+        while (n < cuts_.size() && cuts_[n] >> kBrickShift == cuts_[u.first] >> kBrickShift) ++n;
+        u.last = n;
+        u.coord = index_.coord(cuts_[u.first] >> kBrickShift);
+        u.ref = index_.get(u.coord);
+        if (u.ref == kUntouched) {
+            u.air = blank().distance_mm(centre(u.coord)) > brick_radius_;
+            if (!u.air && (cuts_[u.first] & 1) == 0) {
+                u.ref = pool_.take(u.coord);
+                u.drop = true;  // unless it turns out to be cut
+            }
+        }
+        updates_.push_back(u);
     }
-    if (result.least_mm > kClearCells * cell_) {
-        u.air = true;
-        u.removed_mm3 = brick.volume_mm3;
-        return;
-    }
-    u.removed_mm3 = result.removed_cells * cell_ * cell_ * cell_;
-    brick.volume_mm3 -= u.removed_mm3;
-    if (!result.won) return;
-    brick.shapes.push_back(id);
-    if (brick.shapes.size() % kPruneEvery == 0) prune_shapes(brick, static_cast<float>(near_));
 }
 
-double CarvedField::carve(std::unique_ptr<const Shape> shape) {
-    updates_.clear();
-    cleared_ = 0;
-    gather(*shape);
-    for (Update& u : updates_) {
-        if (u.fresh) u.ref = pool_.take(u.coord);
+void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>> shapes) {
+    if (u.air) return;
+    if (u.drop) fill_from_blank(pool_[u.ref]);
+    std::array<float, kLatticeNodes> carved;
+    for (std::size_t n = u.first; n < u.last; ++n) {
+        if ((cuts_[n] & 1) != 0) {
+            removed_by_cut_[n] = u.ref == kUntouched ? blank_brick_volume(u.coord) : pool_[u.ref].volume_mm3;
+            u.air = true;
+            return;
+        }
+        Brick& brick = pool_[u.ref];
+        const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
+        shapes[number]->sample(lattice(u.coord), carved.data());
+        const auto index = static_cast<std::uint16_t>(brick.shapes.size());
+        const CarveResult result =
+            brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
+                                  static_cast<float>(near_), static_cast<float>(cell_));
+        if (!result.changed) continue;
+        u.drop = false;
+        if (result.least_mm > kClearCells * cell_) {
+            removed_by_cut_[n] = brick.volume_mm3;
+            u.air = true;
+            return;
+        }
+        removed_by_cut_[n] = result.removed_cells * cell_ * cell_ * cell_;
+        brick.volume_mm3 -= removed_by_cut_[n];
+        if (!result.won) continue;
+        brick.shapes.push_back(static_cast<ShapeId>(shapes_.size() + number));
+        if (brick.shapes.size() % kPruneEvery == 0) prune_shapes(brick, static_cast<float>(near_));
     }
-    const auto id = static_cast<ShapeId>(shapes_.size());
-    const auto body = [&](std::size_t n) { update(updates_[n], *shape, id); };
-    if (updates_.size() >= kParallelBricks) {
-        parallel_(updates_.size(), body);
-    } else {
-        for (std::size_t n = 0; n < updates_.size(); ++n) body(n);
-    }
-    double removed = cleared_;
+}
+
+void CarvedField::carve(std::span<std::unique_ptr<const Shape>> shapes, std::span<double> removed_mm3) {
+    assert(shapes.size() <= kMostAtOnce && removed_mm3.size() == shapes.size());
+    if (cuts_of_.size() < shapes.size()) cuts_of_.resize(shapes.size());
+    const auto over = [&](std::size_t count, std::size_t least, const auto& body) {
+        if (count >= least) return parallel_(count, body);
+        for (std::size_t n = 0; n < count; ++n) body(n);
+    };
+    over(shapes.size(), kParallelShapes, [&](std::size_t n) { gather(*shapes[n], n, cuts_of_[n]); });
+    plan_updates(shapes.size());
+    over(updates_.size(), kParallelBricks, [&](std::size_t n) { update(updates_[n], shapes); });
     for (const Update& u : updates_) {
-        removed += u.removed_mm3;
-        if (u.drop) {
-            pool_.give_back(u.ref);
-        } else if (u.air) {
-            pool_.give_back(u.ref);
-            index_.set(u.coord, kAir);
-        } else if (u.fresh) {
+        if (u.air || u.drop) {
+            if (u.ref >= kFirstBrick) pool_.give_back(u.ref);
+            if (u.air) index_.set(u.coord, kAir);
+        } else {
             index_.set(u.coord, u.ref);
         }
     }
-    shapes_.push_back(std::move(shape));
-    removed_ += removed;
+    std::fill(removed_mm3.begin(), removed_mm3.end(), 0.0);
+    for (std::size_t n = 0; n < cuts_.size(); ++n) {
+        removed_mm3[cuts_[n] >> 1 & (kMostAtOnce - 1)] += removed_by_cut_[n];
+    }
+    for (std::size_t n = 0; n < shapes.size(); ++n) {
+        removed_ += removed_mm3[n];
+        shapes_.push_back(std::move(shapes[n]));
+    }
+}
+
+double CarvedField::carve(std::unique_ptr<const Shape> shape) {
+    double removed = 0;
+    carve({&shape, 1}, {&removed, 1});
     return removed;
 }
 
@@ -202,7 +229,8 @@ CarvedField::NearNode CarvedField::nearest_node(BrickCoord b, Vec3 p) const {
         return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
     };
     const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
-    return {node_index(i, j, k), q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+    return {node_index(i, j, k),
+            q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
 }
 
 CarvedField::Exact CarvedField::exact(BrickRef ref, Vec3 p) const {
@@ -263,40 +291,6 @@ bool CarvedField::is_material(Vec3 p, double skin_mm) const {
         if (n != likely && !in_material(brick.shapes[n])) return false;
     }
     return true;
-}
-
-std::optional<Vec3> CarvedField::overlap(const Shape& shape, double depth_mm) const {
-    const Box3 reach = shape.bounds_mm();
-    const BrickCoord n = index_.size(), lo = brick_at(reach.min), hi = brick_at(reach.max);
-    std::optional<Vec3> place;
-    float deepest = static_cast<float>(-depth_mm);
-    std::array<float, kLatticeNodes> other, own;
-    for (int k = std::max(lo.k, 0); k <= std::min(hi.k, n.k - 1); ++k) {
-        for (int j = std::max(lo.j, 0); j <= std::min(hi.j, n.j - 1); ++j) {
-            for (int i = std::max(lo.i, 0); i <= std::min(hi.i, n.i - 1); ++i) {
-                const BrickRef ref = index_.get({i, j, k});
-                const Vec3 c = centre({i, j, k});
-                if (ref == kAir || shape.distance_mm(c) > brick_radius_) continue;
-                if (ref == kUntouched && blank().distance_mm(c) > brick_radius_) continue;
-                const Lattice nodes = lattice({i, j, k});
-                shape.sample(nodes, other.data());
-                const float* material = own.data();
-                if (ref == kUntouched) {
-                    blank().sample(nodes, own.data());
-                } else {
-                    material = pool_[ref].distance_mm.data();
-                }
-                for (int at = 0; at < kLatticeNodes; ++at) {
-                    const float d = std::max(other[static_cast<std::size_t>(at)], material[at]);
-                    if (d >= deepest) continue;
-                    deepest = d;
-                    place = nodes.node(at % kLatticeEdge, at / kLatticeEdge % kLatticeEdge,
-                                       at / (kLatticeEdge * kLatticeEdge));
-                }
-            }
-        }
-    }
-    return place;
 }
 
 double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2) {

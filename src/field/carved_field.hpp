@@ -5,7 +5,7 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -26,8 +26,12 @@ class CarvedField final : public contact::DistanceField {
     // how exactly the rest is measured.
     CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel = serial_for);
 
-    // Takes the shape's volume out of the material; gives the removed volume, mm3. Cost: the bricks that the
-    // shape's border passes through, and one test for each brick of its bounding box.
+    // Takes the volumes of the shapes out of the material, one after the other (at most kMostAtOnce);
+    // removed_mm3 gets what each of them removed. Cost: the bricks that each shape's border passes through,
+    // and one test for each brick of its bounding box.
+    void carve(std::span<std::unique_ptr<const Shape>> shapes, std::span<double> removed_mm3);
+    static constexpr std::size_t kMostAtOnce = 1024;
+    // The same for one; gives the removed volume.
     double carve(std::unique_ptr<const Shape> shape);
 
     // Exact at the surface; clamped to about one cell away from it. Bounded time, no allocation.
@@ -36,10 +40,6 @@ class CarvedField final : public contact::DistanceField {
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.
     bool is_material(Vec3 point_mm, double skin_mm = 0) const;
-    // The node of material that lies deepest in `shape`, if any does by more than `depth_mm`: what a tool
-    // holder or a fixture would run into. Sees overlaps down to about a cell.
-    std::optional<Vec3> overlap(const Shape& shape, double depth_mm) const;
-
     double cell_mm() const { return cell_; }
     double near_mm() const { return near_; }
     const Shape& blank() const { return *shapes_[0]; }
@@ -49,6 +49,9 @@ class CarvedField final : public contact::DistanceField {
         return {origin_, cell_, kBrickCells * b.i, kBrickCells * b.j, kBrickCells * b.k};
     }
     BrickCoord size() const { return index_.size(); }
+    Vec3 centre(BrickCoord b) const;
+    // From a brick's centre to its corners.
+    double brick_radius_mm() const { return brick_radius_; }
     BrickRef ref(BrickCoord b) const { return index_.get(b); }
     const Brick& brick(BrickRef ref) const { return pool_[ref]; }
     std::size_t bricks_in_use() const { return pool_.in_use(); }
@@ -71,20 +74,23 @@ class CarvedField final : public contact::DistanceField {
     static double estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2);
 
   private:
+    // One shape's part in one brick: brick number, shape number and whether the shape holds all of the brick,
+    // in one number that sorts by brick, then by shape.
+    using Cut = std::uint64_t;
+    // All cuts of one brick, and what becomes of it.
     struct Update {
+        std::size_t first = 0, last = 0;  // in cuts_
         BrickCoord coord;
         BrickRef ref = kUntouched;
-        bool fresh = false, drop = false, air = false;
-        double removed_mm3 = 0;
+        bool drop = false, air = false;
     };
-    void gather(const Shape& shape);
-    void gather_brick(const Shape& shape, BrickCoord b);
-    void clear(BrickCoord b, BrickRef ref);
-    void update(Update& u, const Shape& shape, ShapeId id);
+    void gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const;
+    void gather_brick(const Shape& shape, std::size_t number, BrickCoord b, std::vector<Cut>& cuts) const;
+    void plan_updates(std::size_t shapes);
+    void update(Update& u, std::span<const std::unique_ptr<const Shape>> shapes);
     void fill_from_blank(Brick& brick) const;
     double volume_mm3(const float* distance_mm) const;
     double blank_brick_volume(BrickCoord b) const;
-    Vec3 centre(BrickCoord b) const;
     // The node of a brick that is nearest to a point, and where the point lies from it.
     struct NearNode {
         int index;
@@ -98,7 +104,11 @@ class CarvedField final : public contact::DistanceField {
     std::vector<std::unique_ptr<const Shape>> shapes_;  // [0] is the blank
     BrickIndex index_;
     BrickPool pool_;
-    double removed_ = 0, cleared_ = 0;
+    double removed_ = 0;
+    // Of the carve that is going on.
+    std::vector<std::vector<Cut>> cuts_of_;  // by shape
+    std::vector<Cut> cuts_;                  // by brick
+    std::vector<double> removed_by_cut_;
     std::vector<Update> updates_;
 };
 

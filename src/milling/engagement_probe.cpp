@@ -53,25 +53,25 @@ double EngagementProbe::least_sine(const CutPose& pose, double z) const {
     return under > 0 ? -1 : 1;
 }
 
-EngagementProbe::Mask EngagementProbe::look(const field::CarvedField& field, const CutPose& pose,
+EngagementProbe::Mask EngagementProbe::look(const field::CarvedView& stock, const CutPose& pose,
                                             double z) const {
     const double r = cutter_.radius_at(z), least = least_sine(pose, z);
     const Vec3 centre = pose.tip_mm + z * pose.frame.z, x = r * pose.frame.x, y = r * pose.frame.y;
     Mask mask = 0;
     for (int n = 0; n < kAngles; ++n) {
-        if (sin_[n] > least && field.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
+        if (sin_[n] > least && stock.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
             mask |= Mask{1} << n;
     }
     return mask;
 }
 
-double EngagementProbe::refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
+double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
                                double inside) const {
     const auto depth = [&](double angle) {
         double s, c;
         math::sincos(angle, s, c);
         const double r = cutter_.radius_at(z);
-        return field.distance_mm(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x +
+        return stock.distance_mm(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x +
                                  r * c * pose.frame.y) +
                kSkin;
     };
@@ -101,19 +101,19 @@ double EngagementProbe::refine(const field::CarvedField& field, const CutPose& p
     return angle;
 }
 
-void EngagementProbe::add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0,
+void EngagementProbe::add_bands(const field::CarvedView& stock, const CutPose& pose, Mask mask, double z0,
                                 double z1, Engagement& out) const {
     const double least = least_sine(pose, 0.5 * (z0 + z1));
     if (least <= -1) {
-        add_window(field, pose, mask, {z0, z1, 0, math::kTwoPi}, out);
+        add_window(stock, pose, mask, {z0, z1, 0, math::kTwoPi}, out);
         return;
     }
     const double border = math::asin(std::min(least, 1.0));
-    add_window(field, pose, mask, {z0, z1, std::max(border, 0.0), math::kPi - border}, out);
-    if (border < 0) add_window(field, pose, mask, {z0, z1, math::kTwoPi + border, math::kTwoPi}, out);
+    add_window(stock, pose, mask, {z0, z1, std::max(border, 0.0), math::kPi - border}, out);
+    if (border < 0) add_window(stock, pose, mask, {z0, z1, math::kTwoPi + border, math::kTwoPi}, out);
 }
 
-void EngagementProbe::add_window(const field::CarvedField& field, const CutPose& pose, Mask mask,
+void EngagementProbe::add_window(const field::CarvedView& stock, const CutPose& pose, Mask mask,
                                  EngagementBand window, Engagement& out) const {
     // Within this of the window's end an interval ends there exactly: beyond it nothing is cut.
     constexpr double kSide = 0.01;  // rad
@@ -127,8 +127,8 @@ void EngagementProbe::add_window(const field::CarvedField& field, const CutPose&
         while (end < last && bit(end + 1)) ++end;
         const double before = n == first ? window.entry_rad : (n - 0.5) * step;
         const double after = end == last ? window.exit_rad : (end + 1.5) * step;
-        double entry = refine(field, pose, z, before, (n + 0.5) * step);
-        double exit = refine(field, pose, z, after, (end + 0.5) * step);
+        double entry = refine(stock, pose, z, before, (n + 0.5) * step);
+        double exit = refine(stock, pose, z, after, (end + 0.5) * step);
         if (entry - window.entry_rad < kSide) entry = window.entry_rad;
         if (window.exit_rad - exit < kSide) exit = window.exit_rad;
         if (exit > entry) out.bands.push_back({window.z0_mm, window.z1_mm, entry, exit});
@@ -136,7 +136,7 @@ void EngagementProbe::add_window(const field::CarvedField& field, const CutPose&
     }
 }
 
-double EngagementProbe::bottom_fraction(const field::CarvedField& field, const CutPose& pose) const {
+double EngagementProbe::bottom_fraction(const field::CarvedView& stock, const CutPose& pose) const {
     const double radius = cutter_.radius_mm() - cutter_.corner_radius_mm();
     if (pose.down <= 1e-9 || radius <= 0) return 0;
     constexpr int kRings = 6;
@@ -146,17 +146,17 @@ double EngagementProbe::bottom_fraction(const field::CarvedField& field, const C
         const double r = radius * std::sqrt((ring + 0.5) / kRings);
         for (int n = ring % 4; n < kAngles; n += 4, ++of) {
             const Vec3 p = pose.tip_mm + r * sin_[n] * pose.frame.x + r * cos_[n] * pose.frame.y;
-            in += static_cast<int>(field.is_material(p, kSkin));
+            in += static_cast<int>(stock.is_material(p, kSkin));
         }
     }
     return static_cast<double>(in) / of;
 }
 
-void EngagementProbe::measure(const field::CarvedField& field, const CutPose& pose, Engagement& out) {
+void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
     out.clear();
     const double corner = cutter_.corner_radius_mm(), radius = cutter_.radius_mm();
     // Heights at which the envelope can meet the blank at all.
-    const Box3 blank = field.blank().bounds_mm();
+    const Box3 blank = stock.field().blank().bounds_mm();
     double low = 0, high = cutter_.length_mm;
     for (int axis = 0; axis < 3; ++axis) {
         const double u = pose.frame.z[axis];
@@ -171,10 +171,10 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
         high = std::min(high, std::max(from / u, to / u));
     }
     if (high <= low) return;
-    out.bottom_fraction = bottom_fraction(field, pose);
+    out.bottom_fraction = bottom_fraction(stock, pose);
 
     levels_.clear();
-    const auto add_level = [&](double z) { levels_.push_back({z, look(field, pose, z)}); };
+    const auto add_level = [&](double z) { levels_.push_back({z, look(stock, pose, z)}); };
     const double round_top = std::clamp(corner, low, high);
     if (round_top > low) {
         // Through the rounded part in equal steps of the surface's angle, where the radius changes fast.
@@ -202,7 +202,7 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
             continue;
         }
         const double z = 0.5 * (below.z + above.z);
-        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1, {z, look(field, pose, z)});
+        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1, {z, look(stock, pose, z)});
     }
     // Each level stands for the heights that are nearer to it than to its neighbours; alike ones on the
     // cylinder are one.
@@ -211,7 +211,7 @@ void EngagementProbe::measure(const field::CarvedField& field, const CutPose& po
         const double z0 = n == 0 ? low : 0.5 * (levels_[n - 1].z + levels_[n].z);
         while (end < levels_.size() && levels_[end].mask == levels_[n].mask && z0 >= corner) ++end;
         const double z1 = end == levels_.size() ? high : 0.5 * (levels_[end - 1].z + levels_[end].z);
-        if (levels_[n].mask != 0) add_bands(field, pose, levels_[n].mask, z0, z1, out);
+        if (levels_[n].mask != 0) add_bands(stock, pose, levels_[n].mask, z0, z1, out);
         n = end;
     }
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "field/carved_field.hpp"
+#include "field/carved_view.hpp"
 #include "milling/cutter.hpp"
 #include "milling/engagement.hpp"
 #include "motion/program.hpp"
@@ -33,10 +33,10 @@ class EngagementProbe {
   public:
     explicit EngagementProbe(const Cutter& cutter);
 
-    // Angles are found to about 0.1 degrees, heights to 1 % of the engaged depth or 5 um. The field must not
+    // Angles are found to about 0.1 degrees, heights to 1 % of the engaged depth or 5 um. The stock must not
     // hold the cut that is being measured yet. Not for several threads at once (it keeps scratch space); no
     // allocation once warm.
-    void measure(const field::CarvedField& field, const CutPose& pose, Engagement& out);
+    void measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
 
   private:
     static constexpr int kAngles = 48;  // probes around the full circle
@@ -44,15 +44,15 @@ class EngagementProbe {
 
     // Where the envelope at height z moves into the material: at rotations with sin(phi) > least_sine.
     double least_sine(const CutPose& pose, double z) const;
-    Mask look(const field::CarvedField& field, const CutPose& pose, double z) const;
+    Mask look(const field::CarvedView& stock, const CutPose& pose, double z) const;
     // The border between two rotations of which only `inside` stands in material.
-    double refine(const field::CarvedField& field, const CutPose& pose, double z, double outside,
+    double refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
                   double inside) const;
-    void add_bands(const field::CarvedField& field, const CutPose& pose, Mask mask, double z0, double z1,
+    void add_bands(const field::CarvedView& stock, const CutPose& pose, Mask mask, double z0, double z1,
                    Engagement& out) const;
-    void add_window(const field::CarvedField& field, const CutPose& pose, Mask mask, EngagementBand window,
+    void add_window(const field::CarvedView& stock, const CutPose& pose, Mask mask, EngagementBand window,
                     Engagement& out) const;
-    double bottom_fraction(const field::CarvedField& field, const CutPose& pose) const;
+    double bottom_fraction(const field::CarvedView& stock, const CutPose& pose) const;
 
     struct Level {
         double z;

@@ -13,6 +13,14 @@ namespace {
 // An overlap of shank, holder or fixture counts from this depth on: a shank as thick as its cutter slides
 // along the wall that the cutter left.
 constexpr double kClearance = 0.05;  // mm
+// Steps and rows that are looked at together, and how many earlier sweeps of the same run may stand in the
+// way of one: with more it is cheaper to carve them first.
+constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
+// Rows are shared out in so many parts, each with probes of its own.
+constexpr std::size_t kShares = 16;
+// Around a sweep, for what rounding makes of a point on its border.
+constexpr double kMargin = 1e-3;  // mm
+
 // A rapid that takes less than this has only brushed a surface that was cut before.
 constexpr double kBrush = 1e-4;  // mm3
 
@@ -22,6 +30,20 @@ motion::Move raised(motion::Move move, double height) {
     if (move.quadratic) move.quadratic->tip_control_mm += height * move.quadratic->axis_control;
     if (move.arc) move.arc->centre_mm += height * move.start.axis;
     return move;
+}
+
+// The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
+CutPose pose_between(const motion::Move& move, double from, double to, Vec3& last_x) {
+    const motion::ToolPose mid = motion::pose_at(move, 0.5 * (from + to));
+    const Vec3 travel = motion::pose_at(move, to).tip_mm - motion::pose_at(move, from).tip_mm;
+    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), 1, 0};
+    last_x = pose.frame.x;
+    const double l = length(travel);
+    if (l > 0) {
+        pose.down = std::clamp(-dot(travel, mid.axis) / l, -1.0, 1.0);
+        pose.across = std::sqrt(std::max(0.0, 1 - pose.down * pose.down));
+    }
+    return pose;
 }
 
 }  // namespace
@@ -42,11 +64,36 @@ const char* name(CollisionKind kind) {
     return "";
 }
 
+// One step of shank or holder: a cylinder whose lower end stands `height_mm` above the tip.
+struct Machining::Cylinder {
+    CollisionKind in_stock;
+    Cutter solid;
+    double height_mm = 0;
+};
+
+// One step of the run that is going on.
+struct Machining::Sweep {
+    Step step;
+    const field::Shape* shape = nullptr;  // null for a dwell
+    Box3 bounds_mm;
+    std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut where this one comes
+    double contact = 0;                        // of a rapid: where it first meets stock
+    std::vector<Collision> collisions;
+
+    bool is_rapid() const { return step.move->kind == motion::MoveKind::rapid; }
+};
+
 Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
-                     std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options)
-    : stock_(stock), cutters_(cutters), fixtures_(std::move(fixtures)), options_(options) {
+                     std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options,
+                     ParallelFor parallel)
+    : stock_(stock),
+      cutters_(cutters),
+      fixtures_(std::move(fixtures)),
+      options_(options),
+      parallel_(std::move(parallel)),
+      probes_(kShares) {
     for (const Cutter& cutter : cutters_) {
-        probes_.emplace_back(cutter);
+        for (auto& share : probes_) share.emplace_back(cutter);
         std::vector<HolderStep> steps = cutter.holder;
         if (steps.empty()) steps.push_back({cutter.diameter_mm, 2 * cutter.length_mm});
         std::vector<Cylinder>& body = bodies_.emplace_back();
@@ -64,51 +111,61 @@ Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
     }
 }
 
-CutPose Machining::pose_between(const motion::Move& move, double from, double to) {
-    const motion::ToolPose mid = motion::pose_at(move, 0.5 * (from + to));
-    const Vec3 travel = motion::pose_at(move, to).tip_mm - motion::pose_at(move, from).tip_mm;
-    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x_), 1, 0};
-    last_x_ = pose.frame.x;
-    const double l = length(travel);
-    if (l > 0) {
-        pose.down = std::clamp(-dot(travel, mid.axis) / l, -1.0, 1.0);
-        pose.across = std::sqrt(std::max(0.0, 1 - pose.down * pose.down));
-    }
-    return pose;
-}
+Machining::~Machining() = default;
 
-void Machining::measure_rows(const motion::Move& move, std::size_t cutter, std::vector<CutRow>& rows,
-                             std::size_t first, std::size_t count) {
+void Machining::add_rows(std::size_t number, Machined& out) {
+    const motion::Move& move = *sweeps_[number].step.move;
+    const double length = motion::path_length_mm(move);
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / options_.row_mm - 1e-9)));
+    if (out.rows.size() < out.row_count + count) out.rows.resize(out.row_count + count);
     double travelled = 0;
     for (std::size_t n = 0; n < count; ++n) {
-        CutRow& row = rows[first + n];
+        CutRow& row = out.rows[out.row_count++];
+        row.step = number;
         row.from = static_cast<double>(n) / static_cast<double>(count);
         row.to = static_cast<double>(n + 1) / static_cast<double>(count);
         const double so_far = motion::path_length_mm(move, row.to);
         row.length_mm = so_far - travelled;
         travelled = so_far;
-        row.pose = pose_between(move, row.from, row.to);
-        probes_[cutter].measure(stock_, row.pose, row.engagement);
-        row.chip_mm3 =
-            row.length_mm * chip_area_mm2(cutters_[cutter], row.engagement, row.pose.across, row.pose.down);
+        row.pose = pose_between(move, row.from, row.to, last_x_);
     }
 }
 
-double Machining::first_contact(const motion::Move& move, std::size_t cutter) {
+field::CarvedView Machining::before(const Sweep& sweep) const {
+    return {stock_, sweep.earlier};
+}
+
+void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
+                             Machined& out) const {
+    for (std::size_t n = first; n < last; ++n) {
+        CutRow& row = out.rows[n];
+        const Sweep& sweep = sweeps_[row.step];
+        probes[sweep.step.cutter].measure(before(sweep), row.pose, row.engagement);
+        row.chip_mm3 = row.length_mm * chip_area_mm2(cutters_[sweep.step.cutter], row.engagement,
+                                                     row.pose.across, row.pose.down);
+    }
+}
+
+void Machining::find_contact(Sweep& sweep) const {
+    if (!stock_.blank().bounds_mm().overlaps(sweep.bounds_mm)) return;
+    const motion::Move& move = *sweep.step.move;
     const double length = motion::path_length_mm(move);
     const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / options_.rapid_row_mm)));
+    EngagementProbe probe(cutters_[sweep.step.cutter]);
     Engagement engagement;
+    Vec3 x = any_perpendicular(move.start.axis);
     for (std::size_t n = 0; n < count; ++n) {
         const double from = static_cast<double>(n) / static_cast<double>(count);
         const double to = static_cast<double>(n + 1) / static_cast<double>(count);
-        probes_[cutter].measure(stock_, pose_between(move, from, to), engagement);
-        if (!engagement.empty()) return from;
+        probe.measure(before(sweep), pose_between(move, from, to, x), engagement);
+        if (engagement.empty()) continue;
+        sweep.contact = from;
+        return;
     }
-    return 0;
 }
 
-void Machining::check_collisions(const motion::Move& move, std::size_t cutter, const field::Shape& sweep,
-                                 std::vector<Collision>& collisions) {
+void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
+    const motion::Move& move = *sweep.step.move;
     const auto report = [&](CollisionKind kind, Vec3 place) {
         // The fraction of the move at which the tip is nearest to the place: where to look in a picture.
         double best = 0, nearest = 1e300;
@@ -116,52 +173,104 @@ void Machining::check_collisions(const motion::Move& move, std::size_t cutter, c
             const double d = distance(motion::pose_at(move, n / 16.0).tip_mm, place);
             if (d < nearest) nearest = d, best = n / 16.0;
         }
-        collisions.push_back({kind, best, motion::pose_at(move, best).tip_mm});
+        sweep.collisions.push_back({number, kind, best, motion::pose_at(move, best).tip_mm});
     };
     for (const auto& fixture : fixtures_) {
-        if (const auto place = fixture->overlap(sweep, kClearance))
+        if (const auto place = field::CarvedView(*fixture).overlap(*sweep.shape, kClearance))
             report(CollisionKind::tool_in_fixture, *place);
     }
-    for (const Cylinder& part : bodies_[cutter]) {
+    for (const Cylinder& part : bodies_[sweep.step.cutter]) {
         const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
-        if (const auto place = stock_.overlap(*solid, kClearance)) report(part.in_stock, *place);
+        // The shank follows the cutter: what this move and those before it take away is not in its way.
+        std::vector<field::PendingShape> gone;
+        const Box3 reach = solid->bounds_mm();
+        for (std::size_t n = 0; n <= number; ++n) {
+            if (sweeps_[n].shape && sweeps_[n].bounds_mm.overlaps(reach))
+                gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
+        }
+        if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
+            report(part.in_stock, *place);
         for (const auto& fixture : fixtures_) {
-            if (const auto place = fixture->overlap(*solid, kClearance))
+            if (const auto place = field::CarvedView(*fixture).overlap(*solid, kClearance))
                 report(CollisionKind::holder_in_fixture, *place);
         }
     }
 }
 
-std::size_t Machining::run(const motion::Move& move, std::size_t cutter, std::vector<CutRow>& rows,
-                           std::size_t first, std::vector<Collision>& collisions) {
-    if (move.kind == motion::MoveKind::dwell) return 0;
-    std::unique_ptr<field::Shape> sweep = make_sweep(cutters_[cutter], move);
-    const field::Shape& shape = *sweep;
-    if (move.kind == motion::MoveKind::rapid) {
-        const Vec3 x = last_x_;
-        const bool inside = stock_.blank().bounds_mm().overlaps(shape.bounds_mm());
-        const double at = inside ? first_contact(move, cutter) : 0;
-        const double removed = inside ? stock_.carve(std::move(sweep)) : 0;
-        if (removed > kBrush) {
-            collisions.push_back({CollisionKind::rapid_through_stock, at, motion::pose_at(move, at).tip_mm});
+bool Machining::add_sweep(const Step& step) {
+    Sweep sweep;
+    sweep.step = step;
+    if (step.move->kind == motion::MoveKind::dwell) {
+        sweeps_.push_back(std::move(sweep));
+        return true;
+    }
+    auto shape = make_sweep(cutters_[step.cutter], *step.move);
+    sweep.shape = shape.get();
+    sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
+    for (const Sweep& other : sweeps_) {
+        if (!other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
+        if (sweep.earlier.size() == kMostPending) return false;
+        sweep.earlier.push_back({other.shape, other.bounds_mm});
+    }
+    shapes_.push_back(std::move(shape));
+    sweeps_.push_back(std::move(sweep));
+    return true;
+}
+
+std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
+    sweeps_.clear();
+    shapes_.clear();
+    out.row_count = 0;
+    out.collisions.clear();
+    for (const Step& step : steps) {
+        if (sweeps_.size() == kMostSteps || out.row_count >= kMostRows || !add_sweep(step)) break;
+        if (step.move->kind == motion::MoveKind::feed) add_rows(sweeps_.size() - 1, out);
+    }
+    // Rows in shares, then what concerns whole steps.
+    const std::size_t count = sweeps_.size();
+    parallel_(kShares + count, [&](std::size_t n) {
+        if (n < kShares) {
+            measure_rows(out.row_count * n / kShares, out.row_count * (n + 1) / kShares, probes_[n], out);
+            return;
         }
-        if (options_.collisions) check_collisions(move, cutter, shape, collisions);
-        last_x_ = x;
-        return 0;
-    }
-    const double length = motion::path_length_mm(move);
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / options_.row_mm - 1e-9)));
-    if (rows.size() < first + count) rows.resize(first + count);
-    measure_rows(move, cutter, rows, first, count);
-    const double removed = stock_.carve(std::move(sweep));
-    double chips = 0;
-    for (std::size_t n = 0; n < count; ++n) chips += rows[first + n].chip_mm3;
+        Sweep& sweep = sweeps_[n - kShares];
+        if (!sweep.shape) return;
+        if (sweep.is_rapid()) find_contact(sweep);
+        if (options_.collisions) find_collisions(n - kShares, sweep);
+    });
+    removed_.resize(shapes_.size());
+    stock_.carve(shapes_, removed_);
+
+    out.removed_mm3.assign(count, 0);
+    std::size_t shape = 0;
     for (std::size_t n = 0; n < count; ++n) {
-        CutRow& row = rows[first + n];
-        row.removed_mm3 = chips > 0 ? removed * row.chip_mm3 / chips : removed / static_cast<double>(count);
+        const Sweep& sweep = sweeps_[n];
+        if (!sweep.shape) continue;
+        out.removed_mm3[n] = removed_[shape++];
+        if (sweep.is_rapid() && out.removed_mm3[n] > kBrush) {
+            out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,
+                                      motion::pose_at(*sweep.step.move, sweep.contact).tip_mm});
+        }
+        out.collisions.insert(out.collisions.end(), sweep.collisions.begin(), sweep.collisions.end());
     }
-    if (options_.collisions) check_collisions(move, cutter, shape, collisions);
+    share_removed(out);
     return count;
+}
+
+// Each row's share of what its step removed.
+void Machining::share_removed(Machined& out) const {
+    for (std::size_t first = 0; first < out.row_count;) {
+        const std::size_t step = out.rows[first].step;
+        std::size_t last = first;
+        double chips = 0;
+        for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
+        for (std::size_t n = first; n < last; ++n) {
+            CutRow& row = out.rows[n];
+            const double share = chips > 0 ? row.chip_mm3 / chips : 1 / static_cast<double>(last - first);
+            row.removed_mm3 = out.removed_mm3[step] * share;
+        }
+        first = last;
+    }
 }
 
 }  // namespace tribo::milling

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: MIT
-// One tool move after the other against the stock: what the teeth meet, what is lost, what runs into what.
+// Tool moves against the stock: what the teeth meet, what is lost, what runs into what.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "field/carved_field.hpp"
+#include "base/parallel.hpp"
+#include "field/carved_view.hpp"
 #include "milling/cutter.hpp"
 #include "milling/engagement_probe.hpp"
 #include "motion/program.hpp"
 
 namespace tribo::milling {
 
+// One elementary move (motion::to_elementary) of one of the cutters. The move must outlive the run.
+struct Step {
+    const motion::Move* move;
+    std::size_t cutter;
+};
+
 // A stretch of one move short enough for one engagement.
 struct CutRow {
+    std::size_t step = 0;
     double from = 0, to = 0;  // fractions of the elementary move
     double length_mm = 0;     // of the tip path
     CutPose pose;             // in the middle
@@ -27,9 +35,18 @@ enum class CollisionKind { rapid_through_stock, shank, holder, tool_in_fixture, 
 const char* name(CollisionKind kind);  // as in summary.json
 
 struct Collision {
+    std::size_t step;
     CollisionKind kind;
     double at = 0;  // fraction of the elementary move
     Vec3 tip_mm;
+};
+
+// What a run of steps gives. Rows beyond row_count are room that a later run may use.
+struct Machined {
+    std::vector<CutRow> rows;
+    std::size_t row_count = 0;
+    std::vector<Collision> collisions;
+    std::vector<double> removed_mm3;  // by step
 };
 
 struct MachiningOptions {
@@ -42,35 +59,39 @@ class Machining {
   public:
     // The field and the cutters must outlive it. Fixtures are only ever tested, never cut.
     Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
-              std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options = {});
+              std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options = {},
+              ParallelFor parallel = serial_for);
+    ~Machining();
 
-    // Runs one elementary move (motion::to_elementary) of cutter number `cutter` in the span: rows go to
-    // rows[first...] (grown as needed, reused otherwise), their count is returned; collisions are appended.
-    // Rapids give no rows.
-    std::size_t run(const motion::Move& move, std::size_t cutter, std::vector<CutRow>& rows,
-                    std::size_t first, std::vector<Collision>& collisions);
+    // Runs the first of the steps: as many, at least one, as are worth looking at together, on all threads.
+    // Gives their number. What comes out depends on the steps alone, not on the threads.
+    std::size_t run(std::span<const Step> steps, Machined& out);
 
   private:
-    // One step of shank or holder: a cylinder whose lower end stands `height_mm` above the tip.
-    struct Cylinder {
-        CollisionKind in_stock;
-        Cutter solid;
-        double height_mm = 0;
-    };
-    void measure_rows(const motion::Move& move, std::size_t cutter, std::vector<CutRow>& rows,
-                      std::size_t first, std::size_t count);
-    CutPose pose_between(const motion::Move& move, double from, double to);
-    double first_contact(const motion::Move& move, std::size_t cutter);
-    void check_collisions(const motion::Move& move, std::size_t cutter, const field::Shape& sweep,
-                          std::vector<Collision>& collisions);
+    struct Cylinder;
+    struct Sweep;
+    // False where too many earlier sweeps of this run stand in the step's way.
+    bool add_sweep(const Step& step);
+    void add_rows(std::size_t number, Machined& out);
+    void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
+                      Machined& out) const;
+    field::CarvedView before(const Sweep& sweep) const;
+    void find_contact(Sweep& sweep) const;
+    void find_collisions(std::size_t number, Sweep& sweep) const;
+    void share_removed(Machined& out) const;
 
     field::CarvedField& stock_;
     std::span<const Cutter> cutters_;
     std::vector<std::unique_ptr<field::CarvedField>> fixtures_;
     MachiningOptions options_;
-    std::vector<EngagementProbe> probes_;
+    ParallelFor parallel_;
+    std::vector<std::vector<EngagementProbe>> probes_;  // by share of the work, then by cutter
     std::vector<std::vector<Cylinder>> bodies_;
     Vec3 last_x_{1, 0, 0};  // stock +x until the tool has moved across its axis
+    // Of the run that is going on.
+    std::vector<Sweep> sweeps_;
+    std::vector<std::unique_ptr<const field::Shape>> shapes_;
+    std::vector<double> removed_;  // by shape
 };
 
 }  // namespace tribo::milling

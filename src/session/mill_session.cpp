@@ -11,9 +11,9 @@
 namespace tribo::session {
 namespace {
 
-// Rows per batch: enough to keep a second thread busy, few enough to stay in cache.
-constexpr std::size_t kBatchRows = 256;
-// Force models per batch, so that several threads may each use their own.
+// Moves that are offered to the cut at once; it takes as many of them as are worth looking at together.
+constexpr std::size_t kOfferedMoves = 64;
+// Force models, so that several threads may each use their own.
 constexpr std::size_t kShares = 8;
 
 constexpr double kDegPerRad = 180 / math::kPi;
@@ -51,7 +51,7 @@ class MillSession::Run {
           parallel_(std::move(parallel)),
           schedule_(*motion::schedule(setup_.moves, setup_.timing)),
           stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
-          machining_(stock_, setup_.cutters, fixture_fields(setup_.fixtures, setup_.cell_mm)) {
+          machining_(stock_, setup_.cutters, fixture_fields(setup_.fixtures, setup_.cell_mm), {}, parallel_) {
         for (auto& share : models_) {
             for (const milling::Cutter& cutter : setup_.cutters)
                 share.emplace_back(cutter, setup_.coefficients);
@@ -60,17 +60,13 @@ class MillSession::Run {
         cutting_at_.assign(setup_.cutters.size(), 0);
     }
 
-    // The cut runs one batch ahead of the forces: both go on at once where there are threads.
     bool run(const MillSinks& sinks) {
-        Batch cut, evaluated;
-        fill(cut);
-        while (cut.count > 0 || !cut.last) {
-            std::swap(cut, evaluated);
-            parallel_(2, [&](std::size_t half) { half == 0 ? fill(cut) : evaluate(evaluated); });
-            for (std::size_t n = 0; n < evaluated.count; ++n) finish_row(evaluated.rows[n], sinks);
+        while (next_move_ < setup_.moves.size() && now_s_ < end_s_) {
+            cut();
+            evaluate();
+            for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], sinks);
             if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
                 return false;
-            if (evaluated.last) break;
         }
         finish();
         return true;
@@ -92,66 +88,69 @@ class MillSession::Run {
         contact::ForceSpectrum spectrum;
         milling::CutRow cut;
     };
-    struct Batch {
-        std::vector<Row> rows;
-        std::size_t count = 0;
-        bool last = false;
-    };
-
-    void fill(Batch& batch) {
-        batch.count = 0;
-        batch.last = false;
-        while (batch.count < kBatchRows) {
-            if (next_move_ == setup_.moves.size() || now_s_ >= end_s_) {
-                batch.last = true;
-                return;
+    // Offers the next moves to the cut, up to the end of time, and books what it took.
+    void cut() {
+        steps_.clear();
+        std::size_t n = next_move_;
+        for (; n < setup_.moves.size() && steps_.size() < kOfferedMoves; ++n) {
+            const motion::MoveTiming& timing = schedule_.moves[n];
+            if (n > next_move_ && timing.start_s >= end_s_) break;
+            const motion::Move* move = &setup_.moves[n];
+            if (timing.end_s > end_s_) {
+                const double length = motion::path_length_mm(*move);
+                last_share_ = timing.path_fraction(end_s_);
+                last_move_ =
+                    motion::first_part(*move, motion::parameter_at_length(*move, last_share_ * length));
+                move = &last_move_;
             }
-            run_move(batch, next_move_);
-            ++next_move_;
+            steps_.push_back({move, setup_.cutter_of_move[n]});
         }
+        const std::size_t count = machining_.run(steps_, machined_);
+        for (const milling::Collision& c : machined_.collisions) {
+            const std::size_t index = next_move_ + c.step;
+            const double start = schedule_.moves[index].start_s;
+            const double end = std::min(schedule_.moves[index].end_s, end_s_);
+            add_collision({c.kind, setup_.moves[index].line, start + c.at * (end - start), c.tip_mm});
+        }
+        row_count_ = 0;
+        std::size_t row = 0;
+        for (std::size_t step = 0; step < count; ++step) {
+            const std::size_t first = row;
+            while (row < machined_.row_count && machined_.rows[row].step == step) ++row;
+            finish_move(next_move_ + step, steps_[step], machined_.removed_mm3[step], first, row);
+        }
+        next_move_ += count;
     }
 
-    void run_move(Batch& batch, std::size_t index) {
-        motion::Move move = setup_.moves[index];
+    // The rows of one move, first to last - 1 of those machined, in time.
+    void finish_move(std::size_t index, const milling::Step& step, double removed, std::size_t first,
+                     std::size_t last) {
         const motion::MoveTiming& timing = schedule_.moves[index];
-        const double start = timing.start_s, end = timing.end_s;
-        double share = 1;
-        if (end > end_s_) {
-            share = timing.path_fraction(end_s_);
-            move = motion::first_part(
-                move, motion::parameter_at_length(move, share * motion::path_length_mm(move)));
-        }
-        const double rpm = setup_.rpm_of_move[index];
-        const std::size_t cutter = setup_.cutter_of_move[index];
-        const double before = stock_.removed_mm3();
-        collisions_.clear();
-        const std::size_t count = machining_.run(move, cutter, cuts_, 0, collisions_);
-        const double length = motion::path_length_mm(move);
-        if (move.kind == motion::MoveKind::feed) {
+        const double start = timing.start_s, end = std::min(timing.end_s, end_s_);
+        const double share = step.move == &last_move_ ? last_share_ : 1;
+        const double rpm = setup_.rpm_of_move[index], length = motion::path_length_mm(*step.move);
+        if (step.move->kind == motion::MoveKind::feed) {
             totals_.path_mm += length;
-            totals_.fed_mm3 += stock_.removed_mm3() - before;
-        }
-        for (const milling::Collision& c : collisions_) {
-            add_collision({c.kind, move.line, start + c.at * (std::min(end, end_s_) - start), c.tip_mm});
+            totals_.fed_mm3 += removed;
         }
         double travelled = 0, row_start = start;
-        for (std::size_t n = 0; n < count; ++n) {
-            milling::CutRow& cut = cuts_[n];
+        for (std::size_t n = first; n < last; ++n) {
+            milling::CutRow& cut = machined_.rows[n];
             travelled += cut.length_mm;
             const double row_end = length > 0 ? timing.time_at_s(share * std::min(1.0, travelled / length))
-                                              : start + (std::min(end, end_s_) - start) * cut.to;
-            if (!cut.engagement.empty()) add_row(batch, index, cutter, cut, row_start, row_end, rpm, start);
+                                              : start + (end - start) * cut.to;
+            if (!cut.engagement.empty()) add_row(index, step.cutter, cut, row_start, row_end, rpm, start);
             row_start = row_end;
         }
-        angle_rad_ += rpm / 60 * math::kTwoPi * (std::min(end, end_s_) - start);
+        angle_rad_ += rpm / 60 * math::kTwoPi * (end - start);
         angle_rad_ -= math::kTwoPi * std::floor(angle_rad_ / math::kTwoPi);
-        now_s_ = std::min(end, end_s_);
+        now_s_ = end;
     }
 
-    void add_row(Batch& batch, std::size_t move, std::size_t cutter, milling::CutRow& cut, double start,
-                 double end, double rpm, double move_start) {
-        if (batch.rows.size() == batch.count) batch.rows.emplace_back();
-        Row& row = batch.rows[batch.count++];
+    void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,
+                 double rpm, double move_start) {
+        if (rows_.size() == row_count_) rows_.emplace_back();
+        Row& row = rows_[row_count_++];
         row.move = move;
         row.cutter = cutter;
         row.start_s = start;
@@ -168,11 +167,11 @@ class MillSession::Run {
         }
     }
 
-    void evaluate(Batch& batch) {
+    void evaluate() {
         parallel_(kShares, [&](std::size_t share) {
-            const std::size_t from = batch.count * share / kShares, to = batch.count * (share + 1) / kShares;
+            const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
             for (std::size_t n = from; n < to; ++n) {
-                Row& row = batch.rows[n];
+                Row& row = rows_[n];
                 milling::ForceModel& model = models_[share][row.cutter];
                 model.engage(row.cut.engagement, row.feed);
                 model.spectrum(setup_.harmonics, row.spectrum);
@@ -240,8 +239,12 @@ class MillSession::Run {
 
     milling::Machining machining_;
     std::array<std::vector<milling::ForceModel>, kShares> models_;
-    std::vector<milling::CutRow> cuts_;
-    std::vector<milling::Collision> collisions_;
+    std::vector<milling::Step> steps_;
+    milling::Machined machined_;
+    std::vector<Row> rows_;  // of the moves just cut; the first row_count_ count
+    std::size_t row_count_ = 0;
+    motion::Move last_move_;          // cut short by the end of time
+    double last_share_ = 1;           // of its path
     std::vector<double> cutting_at_;  // seconds by cutter
     std::size_t next_move_ = 0;
     double now_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
