@@ -16,7 +16,7 @@ bool CarvedView::is_material(Vec3 p, double skin) const {
     if (!field_.is_material(p, skin)) return false;
     for (std::size_t n = pending_.size(); n-- > 0;) {
         const PendingShape& pending = pending_[n];
-        if (pending.bounds_mm.inflated(skin).contains(p) && pending.shape->distance_below(p, skin) <= skin)
+        if (pending.bounds_mm.inflated(skin).contains(p) && pending.shape->distance_below(p, skin) < skin)
             return false;
     }
     return true;
