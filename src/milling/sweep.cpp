@@ -119,10 +119,16 @@ class StraightSweep final : public field::Shape {
         return box;
     }
 
-    double distance_mm(Vec3 point) const override {
+    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
+
+    double distance_below(Vec3 point, double bound) const override {
         const Vec3 q = frame_.into(point - start_);
         const Profile<double> p(tool_);
         const Line<double> l(line_);
+        // No tool comes nearer than the cylinder around its path, nor than the lowest plane of its tip.
+        const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
+        if (std::min(line_.rise, 0.0) - q.z >= bound) return bound;
+        if (reach > 0 && off * off + q.y * q.y >= reach * reach) return bound;
         return by_kind(tool_.kind, [&]<CutterKind kind>() {
             return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
                                    : ramp_distance<kind>(p, l, q.x, q.y, q.z);
