@@ -53,13 +53,14 @@ double EngagementProbe::least_sine(const CutPose& pose, double z) const {
     return under > 0 ? -1 : 1;
 }
 
-EngagementProbe::Mask EngagementProbe::look(const field::CarvedView& stock, const CutPose& pose,
-                                            double z) const {
+EngagementProbe::Mask EngagementProbe::look(const field::CarvedView& stock, const CutPose& pose, double z,
+                                            Mask asked) const {
     const double r = cutter_.radius_at(z), least = least_sine(pose, z);
     const Vec3 centre = pose.tip_mm + z * pose.frame.z, x = r * pose.frame.x, y = r * pose.frame.y;
     Mask mask = 0;
     for (int n = 0; n < kAngles; ++n) {
-        if (sin_[n] > least && stock.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
+        if ((asked >> n & 1) != 0 && sin_[n] > least &&
+            stock.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
             mask |= Mask{1} << n;
     }
     return mask;
@@ -174,7 +175,7 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     out.bottom_fraction = bottom_fraction(stock, pose);
 
     levels_.clear();
-    const auto add_level = [&](double z) { levels_.push_back({z, look(stock, pose, z)}); };
+    const auto add_level = [&](double z) { levels_.push_back({z, look(stock, pose, z, ~Mask{0})}); };
     const double round_top = std::clamp(corner, low, high);
     if (round_top > low) {
         // Through the rounded part in equal steps of the surface's angle, where the radius changes fast.
@@ -193,16 +194,18 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     }
 
     // Between levels that differ by more than a few probes lies a step or a slope: look there until they
-    // agree or the step is as thin as heights are wanted.
+    // agree or the step is as thin as heights are wanted. What both say is taken for what is between.
     const double fine = std::max(0.002 * (high - low), 0.001);
     for (std::size_t n = 0; n + 1 < levels_.size();) {
         const Level below = levels_[n], above = levels_[n + 1];
-        if (std::popcount(below.mask ^ above.mask) <= kStepProbes || above.z - below.z <= fine) {
+        const Mask changed = below.mask ^ above.mask;
+        if (std::popcount(changed) <= kStepProbes || above.z - below.z <= fine) {
             ++n;
             continue;
         }
         const double z = 0.5 * (below.z + above.z);
-        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1, {z, look(stock, pose, z)});
+        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1,
+                       {z, (below.mask & ~changed) | look(stock, pose, z, changed)});
     }
     // Each level stands for the heights that are nearer to it than to its neighbours; alike ones on the
     // cylinder are one.

@@ -44,7 +44,8 @@ class EngagementProbe {
 
     // Where the envelope at height z moves into the material: at rotations with sin(phi) > least_sine.
     double least_sine(const CutPose& pose, double z) const;
-    Mask look(const field::CarvedView& stock, const CutPose& pose, double z) const;
+    // Of the probes asked for, those that stand in material.
+    Mask look(const field::CarvedView& stock, const CutPose& pose, double z, Mask asked) const;
     // The border between two rotations of which only `inside` stands in material.
     double refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
                   double inside) const;
