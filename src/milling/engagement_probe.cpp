@@ -66,6 +66,16 @@ EngagementProbe::Mask EngagementProbe::look(const field::CarvedView& stock, cons
     return mask;
 }
 
+EngagementProbe::Mask EngagementProbe::look_again(const field::CarvedView& stock, const CutPose& pose,
+                                                  double z, Mask like) const {
+    constexpr Mask kAll = (Mask{1} << kAngles) - 1, kEven = kAll / 3;
+    const Mask even = look(stock, pose, z, kEven);
+    if (even != (like & kEven)) return even | look(stock, pose, z, kAll & ~kEven);
+    const Mask starts = like ^ ((like << 1 | like >> (kAngles - 1)) & kAll);
+    const Mask beside = (starts | starts >> 1 | starts << (kAngles - 1)) & kAll & ~kEven;
+    return (like & ~beside) | look(stock, pose, z, beside);
+}
+
 double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
                                double inside) const {
     const auto depth = [&](double angle) {
@@ -175,7 +185,10 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     out.bottom_fraction = bottom_fraction(stock, pose);
 
     levels_.clear();
-    const auto add_level = [&](double z) { levels_.push_back({z, look(stock, pose, z, ~Mask{0})}); };
+    const auto add_level = [&](double z) {
+        levels_.push_back({z, levels_.empty() ? look(stock, pose, z, ~Mask{0})
+                                              : look_again(stock, pose, z, levels_.back().mask)});
+    };
     const double round_top = std::clamp(corner, low, high);
     if (round_top > low) {
         // Through the rounded part in equal steps of the surface's angle, where the radius changes fast.

@@ -46,6 +46,8 @@ class EngagementProbe {
     double least_sine(const CutPose& pose, double z) const;
     // Of the probes asked for, those that stand in material.
     Mask look(const field::CarvedView& stock, const CutPose& pose, double z, Mask asked) const;
+    // All probes, by half of them and those beside a border, if that is how it was at a height nearby.
+    Mask look_again(const field::CarvedView& stock, const CutPose& pose, double z, Mask like) const;
     // The border between two rotations of which only `inside` stands in material.
     double refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
                   double inside) const;
