@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "base/math.hpp"
@@ -186,9 +187,9 @@ class ExtrusionReader {
             return;  // refused where it is placed
         std::vector<std::uint32_t> order(p.size()), joined(p.size());
         std::iota(order.begin(), order.end(), 0);
-        const auto key = [&](std::uint32_t i) { return std::array{p[i].x, p[i].y, p[i].z}; };
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        const auto key = [&](std::uint32_t i) { return std::tuple{p[i].x, p[i].y, p[i].z, i}; };
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
         for (std::size_t i = 0; i < order.size(); ++i) {
             const bool same = i > 0 && p[order[i]] == p[order[i - 1]];
             joined[order[i]] = same ? joined[order[i - 1]] : order[i];
