@@ -11,10 +11,7 @@
 
 namespace tribo::formats {
 
-inline int check_model(const std::uint8_t* data, std::size_t size, ModelFormat format) {
-    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    detect_model_format(bytes, "");
-    const auto model = read_model(bytes, format, {.source_name = "fuzz"});
+inline int check_model(const Result<Model>& model) {
     if (!model) {
         if (model.error().cause.empty() || model.error().remedy.empty()) std::abort();
         return 0;
@@ -33,6 +30,12 @@ inline int check_model(const std::uint8_t* data, std::size_t size, ModelFormat f
     for (const ModelPart& part : model->parts) in_parts += part.triangles;
     if (mesh.triangles.empty() || (!model->parts.empty() && in_parts != mesh.triangles.size())) std::abort();
     return 0;
+}
+
+inline int check_model(const std::uint8_t* data, std::size_t size, ModelFormat format) {
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    detect_model_format(bytes, "");
+    return check_model(read_model(bytes, format, {.source_name = "fuzz"}));
 }
 
 }  // namespace tribo::formats

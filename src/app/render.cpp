@@ -254,7 +254,7 @@ class Outputs {
             summary.triangles = mesh.triangles.size();
         }
         if (call_.wants("mesh")) {
-            if (auto done = write_mesh(mesh); !done) return done;
+            if (auto done = write_mesh(mesh, session.stock().blank()); !done) return done;
         }
         if (loaded_.part) {
             if (auto done = compare(session, summary); !done) return done;
@@ -264,7 +264,7 @@ class Outputs {
     }
 
   private:
-    io::FileResult<void> write_mesh(const TriangleMesh& mesh) {
+    io::FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank) {
         auto stl = io::FileWriter::create(folder_.file("machined.stl"));
         if (!stl) return std::unexpected(stl.error());
         formats::write_stl(mesh, [&](std::string_view bytes) {
@@ -272,7 +272,13 @@ class Outputs {
             return true;
         });
         if (auto done = stl->finish(); !done) return done;
-        return io::write_glb(folder_.file("machined.glb"), mesh);
+        // A cut that is shallower than this looks like the blank's own face.
+        constexpr double kOnFaceMm = 1e-3;
+        return io::write_glb(folder_.file("machined.glb"), mesh, [&](const Triangle& t) {
+            return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+                return std::abs(blank.distance_mm(mesh.position(corner))) <= kOnFaceMm;
+            });
+        });
     }
 
     io::FileResult<void> compare(const session::MillSession& session, io::Summary& summary) {

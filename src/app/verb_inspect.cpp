@@ -87,7 +87,7 @@ io::FileResult<Found> inspect_program(std::string_view bytes, const Call& call, 
 }
 
 io::FileResult<Found> inspect_model(const std::string& file) {
-    io::FileResult<formats::Model> model = io::read_model_file({file, 1});
+    io::FileResult<formats::Model> model = io::read_model_file({file, std::nullopt});
     if (!model) return std::unexpected(model.error());
     io::Facts facts = io::describe(*model);
     return Found{std::move(facts), std::move(model->mesh), {}};

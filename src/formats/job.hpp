@@ -19,7 +19,7 @@ namespace tribo::formats {
 // A model file (VRML, STL, OBJ, PLY, glTF). The path is ready to open: already joined with the job's folder.
 struct ModelFile {
     std::string path;
-    double unit_mm = 1;  // millimetres per unit of the file, > 0
+    std::optional<double> unit_mm;  // millimetres per unit of the file, > 0; absent: as formats::ModelOptions
 };
 
 // Stock or fixture: a box, or the solid inside a model.

@@ -72,7 +72,7 @@ Result<Model> read_model(std::string_view bytes, const ModelOptions& options) {
 }
 
 Result<Model> read_model(std::string_view bytes, ModelFormat format, const ModelOptions& options) {
-    if (!(std::isfinite(options.unit_mm) && options.unit_mm > 0)) {
+    if (!(std::isfinite(options.unit()) && options.unit() > 0)) {
         return fail_at(options.source_name, 0, 0, "the unit must be a length above 0 mm",
                        "set unit_mm to it");
     }

@@ -35,9 +35,13 @@ using ModelNeighbours = std::function<Result<ModelNeighbour>(std::string_view ur
                                                              std::uint64_t limit_bytes)>;
 
 struct ModelOptions {
-    std::string source_name;          // stands in messages; its extension decides where the content does not
-    double unit_mm = 1;               // length of one unit of the file, mm; finite, > 0
+    std::string source_name;  // stands in messages; its extension decides where the content does not
+    // Length of one unit of the file, mm; finite, > 0. Absent: what the file says of itself (only a glTF of
+    // Tribo's does), else 1.
+    std::optional<double> unit_mm = std::nullopt;
     ModelNeighbours neighbours = {};  // none: a model that needs another file is refused
+
+    double unit() const { return unit_mm.value_or(1); }
 };
 
 // sRGB.

@@ -98,7 +98,7 @@ class ObjReader {
             }
             value = *number;
         }
-        const auto position = to_position(xyz[0], xyz[1], xyz[2], options_.unit_mm);
+        const auto position = to_position(xyz[0], xyz[1], xyz[2], options_.unit());
         if (!position) return fail_here("a vertex is not finite", "repair the model, or check its unit");
         model_.mesh.positions.push_back(*position);
         return {};

@@ -203,7 +203,7 @@ class PlyReader {
                 row_values[i] = *value;
             }
             const auto at = [&](int axis) { return row_values[static_cast<std::size_t>(axis)]; };
-            const auto position = to_position(at(axes[0]), at(axes[1]), at(axes[2]), options_.unit_mm);
+            const auto position = to_position(at(axes[0]), at(axes[1]), at(axes[2]), options_.unit());
             if (!position) return fail_in(element, row, "the position is not finite");
             model_.mesh.positions.push_back(*position);
         }

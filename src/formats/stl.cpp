@@ -115,7 +115,7 @@ class TextReader {
             if (!number) return expected("a number", word);
             value = *number;
         }
-        const auto position = to_position(xyz[0], xyz[1], xyz[2], options_.unit_mm);
+        const auto position = to_position(xyz[0], xyz[1], xyz[2], options_.unit());
         if (!position) {
             return fail_at(options_.source_name, cursor_.line(), 0, "a vertex is not finite",
                            "repair the model, or check its unit");
@@ -159,7 +159,7 @@ Result<Model> read_binary(std::string_view bytes, const ModelOptions& options) {
         for (std::size_t c = 0; c < 9; c += 3) {
             const auto position =
                 to_position(static_cast<double>(corners[c]), static_cast<double>(corners[c + 1]),
-                            static_cast<double>(corners[c + 2]), options.unit_mm);
+                            static_cast<double>(corners[c + 2]), options.unit());
             if (!position) {
                 return fail_at(options.source_name, 0, 0,
                                "a vertex of triangle " + std::to_string(i + 1) + " is not finite",

@@ -231,7 +231,7 @@ class SceneReader {
         const auto base = static_cast<std::uint32_t>(mesh.positions.size());
         for (const Vec3 p : surface.points) {
             const Vec3 q = to_world(p);
-            const auto position = to_position(q.x, q.y, q.z, options_.unit_mm);
+            const auto position = to_position(q.x, q.y, q.z, options_.unit());
             if (!position) {
                 return failed(tree_
                                   .refuse(node(id).place, "a point is not finite where it is placed",

@@ -34,8 +34,8 @@ constexpr double kLargestGainDb = 120;
 constexpr double kLargestUnitMm = 1e6;  // a kilometre; coordinates stay far from overflow
 constexpr double kLargestFriction = 10;
 
-double unit_mm(TomlSection& section) {
-    return section.number("unit_mm", {0, kLargestUnitMm, true}).value_or(1);
+std::optional<double> unit_mm(TomlSection& section) {
+    return section.number("unit_mm", {0, kLargestUnitMm, true});
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table) {
         const Result<motion::Machine> known = motion::named_machine(path.machine);
         if (!known) section.fail("machine", known.error().cause, known.error().remedy);
     }
-    path.unit_mm = unit_mm(section);
+    path.unit_mm = unit_mm(section).value_or(1);
     return path;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/job_folder.hpp"
 
-#include <limits>
 #include <sstream>
 
 namespace tribo::test {
@@ -27,13 +26,6 @@ ForceColumns JobFolder::forces() const {
         }
     }
     return columns;
-}
-
-double JobFolder::summary(const std::string& key) const {
-    const std::string text = get("summary.json"), name = "\"" + key + "\":";
-    const std::size_t at = text.find(name);
-    if (at == std::string::npos) return std::numeric_limits<double>::quiet_NaN();
-    return std::stod(text.substr(at + name.size()));
 }
 
 }  // namespace tribo::test

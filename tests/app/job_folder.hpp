@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,7 @@ class JobFolder {
     Outcome render(const std::vector<std::string>& more = {}) const;
     std::string get(const std::string& name) const { return scratch_.get("out/" + name); }
     ForceColumns forces() const;
-    // The number under a key of summary.json's first level; NaN where it is not there.
-    double summary(const std::string& key) const;
+    nlohmann::json summary() const { return nlohmann::json::parse(get("summary.json")); }
     const std::string& path() const { return scratch_.path(); }
 
   private:

@@ -54,7 +54,7 @@ Job job_of(const std::string& text) {
 TEST(JobFile, of_the_readme_says_what_it_says) {
     const Job job = job_of(kBowl);
     EXPECT_EQ(job.part.value().path, "jobs/bowl.wrl");
-    EXPECT_EQ(job.part->unit_mm, 1);
+    EXPECT_FALSE(job.part->unit_mm.has_value());
     EXPECT_EQ(job.stock.box_mm.min, (Vec3{-50, -50, -25}));
     EXPECT_EQ(job.stock.box_mm.max, (Vec3{50, 50, 0}));
     EXPECT_FALSE(job.stock.model);
