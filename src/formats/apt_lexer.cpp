@@ -8,7 +8,8 @@
 namespace tribo::formats::apt {
 namespace {
 
-constexpr std::array<std::string_view, 4> kTextWords{"PARTNO", "PPRINT", "REMARK", "INSERT"};
+constexpr std::array<std::string_view, 7> kTextWords{"PARTNO", "PPRINT", "REMARK", "INSERT",
+                                                     "TPRINT", "TITLES", "LETTER"};
 
 // The text word that the line starts with; such words may touch their text.
 std::string_view text_word(std::string_view line) {

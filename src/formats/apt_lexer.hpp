@@ -21,7 +21,7 @@ struct Item {
 struct Statement {
     Item word;                // GOTO; never empty
     std::vector<Item> items;  // after the slash; an item may be empty
-    bool is_text = false;     // PARTNO, PPRINT, REMARK, INSERT: free text follows, which is not split
+    bool is_text = false;     // PARTNO, PPRINT, REMARK, INSERT, ...: free text follows, which is not split
 };
 
 // Statements of one text, in order; blank lines and comments are left out. next() reuses its statement.

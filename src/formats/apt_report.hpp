@@ -11,7 +11,23 @@
 namespace tribo::formats::apt {
 
 // An assumption that is worth one warning per program, however often it is made.
-enum class Note { unit, feed, spindle_off, spindle_backwards, cutter_shape, inserted_text, count };
+enum class Note {
+    unit,
+    feed,
+    spindle_off,
+    spindle_backwards,
+    cutter_shape,
+    inserted_text,
+    second_frame,
+    local_frame,
+    translation,
+    origin,
+    home,
+    rapid_speed,
+    full_circle,
+    pecks,
+    count
+};
 
 class Report {
   public:

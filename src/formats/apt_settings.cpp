@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math.hpp"
 #include "formats/length_unit.hpp"
 
 namespace tribo::formats::apt {
@@ -20,7 +21,7 @@ constexpr double kCutterTolerance = 1e-3;
 
 Result<void> set_units(const Statement& statement, Settings& settings, Report& report) {
     const Item& item = statement.items.empty() ? statement.word : statement.items.front();
-    if (matches(item.text, "MM")) {
+    if (matches(item.text, "MM") || matches(item.text, "MILLIMETERS")) {
         settings.unit_mm = mm_per(LengthUnit::millimetre);
     } else if (matches(item.text, "INCHES") || matches(item.text, "INCH") || matches(item.text, "IN")) {
         settings.unit_mm = mm_per(LengthUnit::inch);
@@ -34,8 +35,10 @@ Result<void> set_units(const Statement& statement, Settings& settings, Report& r
 Result<void> set_feed(const Statement& statement, Settings& settings, Report& report) {
     std::optional<double> value;
     double scale = settings.unit_mm;
-    bool per_turn = false;
+    bool per_turn = false, inverse = false;
     for (const Item& item : statement.items) {
+        if (inverse && (matches(item.text, "AUTO") || matches(item.text, "ON") || matches(item.text, "OFF")))
+            continue;
         if (matches(item.text, "IPM") || matches(item.text, "IPR")) {
             scale = mm_per(LengthUnit::inch);
             per_turn = matches(item.text, "IPR");
@@ -44,6 +47,11 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
             per_turn = matches(item.text, "MMPR");
         } else if (matches(item.text, "PERREV")) {
             per_turn = true;
+        } else if (matches(item.text, "INVERS") || matches(item.text, "INVERSE")) {
+            inverse = true;
+        } else if (matches(item.text, "FPT")) {
+            return report.refuse(item, "a feed per tooth, and APT does not say how many teeth",
+                                 "write it per turn or per minute");
         } else if (!matches(item.text, "PERMIN")) {
             const auto speed = report.number(item, 0, kLargestFeed);
             if (!speed) return std::unexpected(speed.error());
@@ -51,6 +59,11 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
             value = *speed;
         }
     }
+    if (inverse && value) {
+        return report.refuse(statement.word, "a feed in inverse time is not read",
+                             "write FEDRAT with a speed; the post makes inverse time of it");
+    }
+    if (inverse) return {};
     if (!value) return report.refuse(statement.word, "FEDRAT without a number", "write FEDRAT/100,MMPM");
     if (*value == 0) return report.refuse(statement.word, "a feed rate of 0", "write one above 0");
     settings.feed = Feed{*value * scale, per_turn};
@@ -58,9 +71,19 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
 }
 
 Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report) {
-    for (const Item& item : statement.items) {
+    constexpr double mm_per_foot = 304.8, mm_per_metre = 1000;
+    double surface_mm = 0;  // one unit of the surface speed; 0: the speed is in turns
+    bool any = false;
+    for (std::size_t i = 0; i < statement.items.size(); ++i) {
+        const Item& item = statement.items[i];
         if (matches(item.text, "OFF")) {
             settings.spindle_stopped = true;
+        } else if (matches(item.text, "RANGE") || matches(item.text, "MAXRPM")) {
+            ++i;  // a gear or a limit: its value
+        } else if (matches(item.text, "SFM")) {
+            surface_mm = mm_per_foot;
+        } else if (matches(item.text, "SMM")) {
+            surface_mm = mm_per_metre;
         } else if (matches(item.text, "ON") || matches(item.text, "CLW")) {
             settings.spindle_stopped = false;
         } else if (matches(item.text, "CCLW")) {
@@ -71,10 +94,17 @@ Result<void> set_spindle(const Statement& statement, Settings& settings, Report&
         } else if (!matches(item.text, "RPM")) {
             const auto speed = report.number(item, 0, kLargestSpindleRpm);
             if (!speed) return std::unexpected(speed.error());
+            any = true;
             settings.spindle_rpm = *speed;
             settings.spindle_stopped = false;
         }
     }
+    if (surface_mm == 0 || !any) return {};
+    if (settings.diameter_mm == 0) {
+        return report.refuse(statement.word, "a surface speed with the cutter's diameter unknown",
+                             "add CUTTER before it, or write RPM");
+    }
+    settings.spindle_rpm *= surface_mm / (math::kPi * settings.diameter_mm);
     return {};
 }
 
@@ -127,7 +157,25 @@ Result<void> set_cutter(const Statement& statement, Settings& settings, Report& 
     }
     settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
                                            statement.word.line};
+    settings.diameter_mm = settings.cutter->diameter_mm;
     return {};
+}
+
+Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report) {
+    if (statement.items.size() < 2) {
+        return report.refuse(statement.word, "TLDATA without a kind and a diameter",
+                             "write TLDATA/MILL, diameter and corner radius");
+    }
+    const bool is_mill = matches(statement.items[0].text, "MILL");
+    Statement cutter;
+    cutter.word = statement.word;
+    cutter.items.push_back(statement.items[1]);
+    if (is_mill && statement.items.size() > 2) cutter.items.push_back(statement.items[2]);
+    if (!is_mill && report.first(Note::cutter_shape)) {
+        report.warn(statement.word.line,
+                    "TLDATA describes another tool than a mill: only its diameter is taken");
+    }
+    return set_cutter(cutter, settings, report);
 }
 
 }  // namespace tribo::formats::apt

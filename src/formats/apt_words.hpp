@@ -7,19 +7,35 @@
 namespace tribo::formats::apt {
 
 enum class Action {
-    go_to,         // GOTO
-    rapid,         // RAPID
-    feed,          // FEDRAT
-    from,          // FROM
-    spindle,       // SPINDL
-    load,          // LOADTL, LOAD
-    cutter,        // CUTTER
-    multi_axis,    // MULTAX
-    units,         // UNITS, UNIT
-    delay,         // DELAY
-    compensation,  // CUTCOM
-    end,           // FINI
-    nothing,       // moves no tool: MACHIN, COOLNT, ...
+    go_to,          // GOTO
+    go_by,          // GODLTA
+    go_home,        // GOHOME
+    rapid,          // RAPID
+    feed,           // FEDRAT
+    from,           // FROM
+    circle,         // CIRCLE, MOVARC
+    direction,      // INDIRV
+    circle_catia,   // TLON,GOFWD
+    cycle,          // CYCLE
+    clearance,      // CLEARP
+    retract,        // RETRCT
+    spindle,        // SPINDL
+    load,           // LOADTL, LOAD
+    cutter,         // CUTTER
+    tool_data,      // TLDATA
+    multi_axis,     // MULTAX
+    tool_axis,      // TLAXIS
+    units,          // UNITS, UNIT
+    machine_frame,  // MSYS
+    frame,          // CSYS
+    frame_type,     // TRNTYP
+    translation,    // TRANS
+    origin,         // ORIGIN
+    delay,          // DELAY
+    compensation,   // CUTCOM
+    machine_code,   // PREFUN, AUXFUN
+    end,            // FINI
+    nothing,        // moves no tool: MACHIN, COOLNT, ...
     unread,
 };
 

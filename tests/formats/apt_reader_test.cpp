@@ -178,7 +178,7 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"FEDRAT/-5\n", 1, 8, "out of range"},
         {"FEDRAT/5,6\n", 1, 10, "second feed rate"},
         {"FEDRAT/5,FURLONGS\n", 1, 10, "'FURLONGS' is not a number"},
-        {"SPINDL/100,SFM\n", 1, 12, "'SFM' is not a number"},
+        {"SPINDL/100,FPS\n", 1, 12, "'FPS' is not a number"},
         {"UNITS/CUBITS\n", 1, 7, "neither MM nor INCHES"},
         {"UNITS\n", 1, 1, "neither MM nor INCHES"},
         {"LOADTL/1.5\n", 1, 8, "not a whole number"},
@@ -188,13 +188,9 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"CUTTER/6,4\n", 1, 10, "does not fit"},
         {"CUTTER/1,2,3,4,5,6,7,8\n", 1, 1, "CUTTER with 8 numbers"},
         {"MULTAX/MAYBE\n", 1, 8, "neither ON nor OFF"},
-        {"RAPID/IPM\n", 1, 7, "conditions"},
-        {"DELAY/2,REV\n", 1, 1, "single number"},
+        {"RAPID/ALL\n", 1, 7, "conditions"},
+        {"DELAY/2,3\n", 1, 1, "single number"},
         {"CUTCOM/LEFT\n", 1, 1, "cutter radius compensation"},
-        {"CIRCLE/0,0,0,0,0,1,5\n", 1, 1, "'CIRCLE' (circular moves) is not read yet"},
-        {"CYCLE/DRILL,5\n", 1, 1, "'CYCLE' (canned cycles) is not read yet"},
-        {" GODLTA/0,0,1\n", 1, 2, "'GODLTA' (incremental moves) is not read yet"},
-        {"CSYS/0,1,0,0\n", 1, 1, "'CSYS' (coordinate systems) is not read yet"},
     };
     for (const Refusal& refusal : refusals) {
         AptOptions options;
@@ -257,13 +253,26 @@ TEST(AptReader, ReadsARealProgramToTheLengthOfAnIndependentScript) {
     EXPECT_FALSE(read_apt(*bytes).has_value());  // it states no feed
 }
 
-TEST(AptReader, RefusesARealProgramThatNeedsMoreThanItKnows) {
+// Likewise, by a script of its own: rapids end with the next FEDRAT or GOTO, each hole of the two cycles is
+// drilled to its depth (in pecks of 5 and 2 mm, back to 0.254 mm) and left to its RTRCTO.
+TEST(AptReader, ReadsARealProgramWithFramesAndCycles) {
     const auto bytes = real_file("aptpost-3x-tilt-support.apt");
     if (!bytes) GTEST_SKIP() << "no ../shared/data/gcode";
-    const auto program = read_apt(*bytes);
-    ASSERT_FALSE(program.has_value());
-    EXPECT_EQ(program.error().line, 6);
-    EXPECT_EQ(program.error().column, 1);
+    const Program program = program_of(*bytes);
+    const motion::ProgramSummary summary = motion::describe(program);
+    EXPECT_EQ(summary.tools, (std::vector<int>{4, 6, 16}));
+    EXPECT_EQ(program.tools.size(), 3U);
+    EXPECT_TRUE(summary.tilted);
+    EXPECT_NEAR(summary.path_mm, 2446.240468906, 1e-6);
+    EXPECT_NEAR(distance(summary.bounds_mm.min, {4.253899, -8.8, -16.102901687510304}), 0, 1e-6);
+    EXPECT_NEAR(distance(summary.bounds_mm.max, {38.868241, 48.8, 5.599297}), 0, 1e-6);
+    const Move& hole = program.moves[program.moves.size() - 3];
+    EXPECT_EQ(hole.kind, MoveKind::feed);
+    EXPECT_EQ(hole.line, 345);
+    EXPECT_NEAR(hole.feed_mm_per_min, 1097.28, 1e-9);
+    EXPECT_NEAR(
+        distance(hole.end.tip_mm, Vec3{15.756924, 30, -6.156343} + 10.1 * Vec3{0.173648, 0, -0.984808}), 0,
+        1e-5);
 }
 
 }  // namespace
