@@ -6,6 +6,7 @@
 
 #include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "motion/close_passes.hpp"
 #include "motion/keyframe_motion.hpp"
 #include "motion/moves.hpp"
 
@@ -53,6 +54,29 @@ void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& so
                                     " mm: fewer than four cells across; try a finer --resolution"});
         }
     }
+}
+
+// Scallops are right at any grid of up to half the sidestep; below that cusps merge.
+constexpr double kLeastCellsPerSidestep = 2;
+// Less of the path than this is a lead-in, a corner or the end of a raster.
+constexpr double kWorthAWarning = 0.1;
+
+void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+    constexpr double kRounding = 1e-6;  // of coordinates in text, relative
+    const double within = kLeastCellsPerSidestep * setup.cell_mm * (1 - kRounding);
+    const motion::ClosePasses close = motion::close_passes(setup.moves, within);
+    if (close.share < kWorthAWarning) return;
+    // Rounded down, so that the spacing asked for is fine enough.
+    const double sidestep = close.sidestep_mm * (1 + kRounding), finest = sidestep / kLeastCellsPerSidestep;
+    double digit = 1e-6;
+    while (finest >= 100 * digit) digit *= 10;
+    warnings.push_back({source, 0,
+                        "along " + format_decimal(std::floor(100 * close.share)) +
+                            " % of the feed path the next pass is only " +
+                            format_decimal(std::floor(1000 * sidestep) / 1000) +
+                            " mm aside, less than two cells of " + format_decimal(setup.cell_mm) +
+                            " mm: the ridges between are not resolved; try --resolution " +
+                            format_decimal(std::floor(finest / digit) * digit)});
 }
 
 }  // namespace
@@ -146,6 +170,7 @@ Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const
         return std::unexpected(error);
     }
     warn_where_the_grid_is_coarse(setup, job.file, warnings);
+    warn_of_passes_below_the_grid(setup, job.file, warnings);
     setup.blank = std::move(inputs.blank);
     setup.blank_volume_mm3 = inputs.blank_volume_mm3;
     setup.fixtures = std::move(inputs.fixtures);
