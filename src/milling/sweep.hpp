@@ -14,15 +14,12 @@ namespace tribo::milling {
 // tip up to `length_mm` (a flat cap, exact for moves across the axis). The surface of the sweep is exact, to
 // rounding, for
 //   - straight moves with one axis, in any direction to it (flat and ball in closed form; a ramping bull-nose
-//   cutter by
-//     iteration, to 0.01 um), and
+//     cutter by iteration, to 0.1 um), and
 //   - arcs of at most half a turn about a line parallel to the axis, without rise.
 // For pieces whose tip or axis runs along a quadratic, or whose axis turns, the nearest instant is found by
-// search: good to 0.1 um for pieces of up to 30 degrees of turn and about 5 mm of travel, which
-// motion::to_elementary's tolerances keep to wherever a path bends. On straight pieces of 50 mm and more
-// whose axis turns at the same time a point in some thousands may miss its nearest instant. The cap of a
-// curved sweep is the highest that the tool's top comes. Other moves are not elementary and must not come
-// here.
+// search: good to 0.1 um at the surface for pieces as motion::to_elementary cuts them, up to 30 degrees of
+// turn and 10 mm of travel. The cap of a curved sweep is the highest that the tool's top comes. Other moves
+// are not elementary and must not come here.
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
 
 }  // namespace tribo::milling

@@ -83,7 +83,7 @@ TRIBO_LANES T to_edge(const Valley<T>& v, T width, Mask<T> crosses) {
 
 // How far the least distance found may stand above the true one before the search goes on, mm.
 template <class T>
-constexpr double kSettled = std::is_same_v<T, double> ? 1e-6 : 1e-5;
+constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
 
 // Goes down one valley. Lanes that are settled stay as they are.
 template <bool kEdge, class T, class F>

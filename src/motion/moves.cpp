@@ -8,6 +8,7 @@
 #include "base/math.hpp"
 #include "motion/arc_frame.hpp"
 #include "motion/direction.hpp"
+#include "motion/path.hpp"
 #include "motion/quadratic_cut.hpp"
 
 namespace tribo::motion {
@@ -130,6 +131,7 @@ std::vector<Move> quarter_arcs(const Move& move) {
 int quadratics_needed(const Move& move, const PieceTolerance& tolerance, double axis_turn) {
     double count = axis_turn / kMaxPieceTurnRad;
     const auto need = [&](double n) { count = std::max(count, n); };
+    if (axis_turn > 0) need(path_length_mm(move) / kMaxTurningPieceMm);
     need(0.5 * axis_turn * math::pow(0.0041 / tolerance.axis_rad, 0.2));
     if (move.arc && move.arc->turn_rad != 0) {
         const ArcFrame frame(move);

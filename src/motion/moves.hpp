@@ -19,6 +19,8 @@ struct PieceTolerance {
 
 // No quadratic piece turns the axis by more than this, whatever the tolerance.
 inline constexpr double kMaxPieceTurnRad = 0.5235987755982988;
+// Nor is one longer than this while it turns: the nearest instant of a sweep is found for sure up to here.
+inline constexpr double kMaxTurningPieceMm = 10;
 
 // The whole motion as moves that join end to start, each with the words (kind, feed, line, ...) of `like`.
 // Pieces that run straight with one axis become plain straight moves, neighbours in one line merged; all else

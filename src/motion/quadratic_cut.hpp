@@ -62,7 +62,9 @@ class QuadraticCut {
   private:
     bool fits(const Move& piece, double a, double b, const ToolPose& middle) const {
         const double turn = angle_rad(piece.start.axis, middle.axis) + angle_rad(middle.axis, piece.end.axis);
-        if (turn > kMaxPieceTurnRad) return false;
+        const double way =
+            distance(piece.start.tip_mm, middle.tip_mm) + distance(middle.tip_mm, piece.end.tip_mm);
+        if (turn > kMaxPieceTurnRad || (turn > tolerance_.axis_rad && way > kMaxTurningPieceMm)) return false;
         return std::all_of(kChecked.begin(), kChecked.end(), [&](double t) {
             const ToolPose is = pose_at(piece, t), should = pose_of_(mix(a, b, t));
             return distance(is.tip_mm, should.tip_mm) <= kCheckedShare * tolerance_.tip_mm &&
