@@ -141,6 +141,19 @@ class BrickContour {
         return shape == 0 ? g : -g;
     }
 
+    // The plane that touches the face of a crossing beside `p`: a share `back` of the way to the crossing, so
+    // that it is still this face of its shape that answers and not the one that it meets at p.
+    struct Tangent {
+        Vec3 point, normal;
+    };
+    Tangent tangent_near(const Crossing& x, Vec3 p, double back) const {
+        const Vec3 beside = lerp(p - dot(p - x.point, x.normal) * x.normal, x.point, back);
+        const Vec3 n = normal(x.shape, beside);
+        constexpr double kSameFace = 0.8;  // cosine of the turn within a cell
+        if (dot(n, x.normal) < kSameFace) return {x.point, x.normal};
+        return {beside - distance(x.shape, beside) * n, n};
+    }
+
     bool is_plane(const ContourOptions& options) const {
         const Crossing& first = crossings_.front();
         return std::all_of(crossings_.begin(), crossings_.end(), [&](const Crossing& c) {
@@ -153,18 +166,16 @@ class BrickContour {
     void place_vertex(BrickSurface& s, int a, int b, int c) const {
         const int n = node_index(a, b, c);
         Quadric quadric;
-        std::array<ShapeId, 12> shapes;
-        std::size_t distinct = 0;
+        std::array<const Crossing*, 12> around;
+        std::size_t count = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const int u = kStep[(axis + 1) % 3], v = kStep[(axis + 2) % 3];
             for (const int edge : {n, n + u, n + v, n + u + v}) {
                 const std::uint16_t k =
                     crossing_of_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(edge)];
                 if (k == kNone) continue;
-                const Crossing& x = crossings_[k];
-                quadric.add(x.point, x.normal);
-                const auto end = shapes.begin() + static_cast<std::ptrdiff_t>(distinct);
-                if (std::find(shapes.begin(), end, x.shape) == end) shapes[distinct++] = x.shape;
+                around[count++] = &crossings_[k];
+                quadric.add(crossings_[k].point, crossings_[k].normal);
             }
         }
         if (quadric.count() == 0) return;
@@ -175,8 +186,7 @@ class BrickContour {
             return p;
         };
         // Planes through the crossings miss a curved surface by their sagitta; Newton steps take that away:
-        // onto the one surface where it is smooth, onto the intersection of all shapes of the cell where it
-        // is not.
+        // onto the one surface where it is smooth, onto the meeting of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
         Vec3 p;
         if (quadric.is_flat(kSmooth)) {
@@ -185,11 +195,11 @@ class BrickContour {
             if (std::abs(e.distance_mm) < 0.5 * field_.cell_mm()) p -= e.distance_mm * normal(e.shape, p);
         } else {
             p = into_cell(quadric.solve());
-            for (int step = 0; distinct > 1 && step < 2; ++step) {
+            for (const double back : {0.3, 0.03}) {
                 Quadric planes;
-                for (std::size_t k = 0; k < distinct; ++k) {
-                    const Vec3 normal_here = normal(shapes[k], p);
-                    planes.add(p - distance(shapes[k], p) * normal_here, normal_here);
+                for (std::size_t k = 0; k < count; ++k) {
+                    const Tangent t = tangent_near(*around[k], p, back);
+                    planes.add(t.point, t.normal);
                 }
                 p = into_cell(planes.solve());
             }
