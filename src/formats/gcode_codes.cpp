@@ -29,7 +29,24 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 10:
         case 20:
         case 30:
+        case 50:
+        case 51:
+        case 52:
+        case 53:
+        case 62:
+        case 730:
+        case 740:
+        case 760:
         case 800:
+        case 810:
+        case 820:
+        case 830:
+        case 840:
+        case 850:
+        case 860:
+        case 870:
+        case 880:
+        case 890:
             return GGroup::motion;
         case 170:
         case 180:
@@ -123,14 +140,9 @@ std::optional<MGroup> group_of_m(int tenths) {
 
 Unread unread_g(int tenths) {
     switch (tenths) {
-        case 50:
-        case 51:
-        case 52:
-        case 53:
         case 60:
         case 61:
-        case 62:
-            return {"splines", kPlainMoves};
+            return {"splines of this kind", kPlainMoves};
         case 70:
         case 80:
             return {"lathe diameters", "give a milling program"};
@@ -174,19 +186,6 @@ Unread unread_g(int tenths) {
         case 680:
         case 682:
             return {"tilted or turned planes", kApt};
-        case 730:
-        case 740:
-        case 760:
-        case 810:
-        case 820:
-        case 830:
-        case 840:
-        case 850:
-        case 860:
-        case 870:
-        case 880:
-        case 890:
-            return {"canned cycles", "let the CAM system write drilling as G0 and G1 moves"};
         case 960:
             return {"constant surface speed", "use G97 with S in turns per minute"};
         default:

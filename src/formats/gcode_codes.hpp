@@ -11,7 +11,7 @@ namespace tribo::formats::gcode {
 // At most one code of a group may stand in a block.
 enum class GGroup {
     non_modal,     // G4 G10 G28 G30 G53 G92 G92.1 G92.2 G92.3
-    motion,        // G0 G1 G2 G3 G80
+    motion,        // G0 G1 G2 G3 G5 to G5.3 G6.2 G73 G74 G76 G80 to G89
     plane,         // G17 G18 G19
     distance,      // G90 G91
     arc_distance,  // G90.1 G91.1

@@ -35,6 +35,8 @@ class Command {
     bool has_any(std::string_view letters) const;
     // The word, which from now on counts as used; null where the block has none.
     const Word* use(char letter);
+    // Leaves the word out of the block from now on.
+    void hide(char letter) { words_[index(letter)] = nullptr; }
     // The first word in the block that nothing has used; null where none is left.
     const Word* first_unused() const;
 

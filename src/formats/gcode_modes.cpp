@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/gcode_rotary.hpp"
+#include "formats/gcode_cycles.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -110,6 +111,7 @@ void set_work_system(const Command& command, State& state, Output& output) {
 void set_motion_mode(const Command& command, State& state) {
     const auto code = command.g(GGroup::motion);
     if (!code) return;
+    if (code->tenths != 50) state.spline_end_mm.reset();
     switch (code->tenths) {
         case 0:
             state.motion = MotionMode::rapid;
@@ -123,8 +125,24 @@ void set_motion_mode(const Command& command, State& state) {
         case 30:
             state.motion = MotionMode::arc_counter_clockwise;
             break;
-        default:
+        case 50:
+            state.motion = MotionMode::cubic_spline;
+            break;
+        case 51:
+            state.motion = MotionMode::quadratic_spline;
+            break;
+        case 52:
+            state.motion = MotionMode::nurbs;
+            break;
+        case 62:
+            state.motion = MotionMode::nurbs_with_knots;
+            break;
+        case 53:
+        case 800:
             state.motion = MotionMode::none;
+            break;
+        default:
+            begin_cycle(*code, state);
             break;
     }
 }
@@ -147,6 +165,10 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     }
     if (const auto code = command.g(GGroup::distance)) state.incremental = code->tenths == 910;
     if (const auto code = command.g(GGroup::arc_distance)) state.absolute_centres = code->tenths == 901;
+    if (const auto code = command.g(GGroup::return_level)) {
+        state.retract_to_r = code->tenths == 990;
+        state.return_level_stated = true;
+    }
     set_motion_mode(command, state);
     return switch_tip_control(command, state, output);
 }

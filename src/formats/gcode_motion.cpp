@@ -5,8 +5,10 @@
 
 #include "formats/decimal_text.hpp"
 #include "formats/gcode_arc.hpp"
+#include "formats/gcode_cycles.hpp"
 #include "formats/gcode_moves.hpp"
 #include "formats/gcode_rotary.hpp"
+#include "formats/gcode_splines.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -145,6 +147,19 @@ Result<void> apply_motion(Command& command, State& state, Output& output) {
     if (command.has_g(GGroup::non_modal, 530) && (command.has_any("XYZ") || !state.rotary.stated)) {
         return move_to_machine_position(command, state, output, command.g(GGroup::non_modal)->column);
     }
+    if (command.has_g(GGroup::motion, 53)) {
+        if (state.nurbs.runs) return finish_nurbs(state, output);
+        return output.refuse(command.line(), command.g(GGroup::motion)->column,
+                             "G5.3 ends a B-spline that nothing has begun", "begin it with G5.2");
+    }
+    if (state.motion == MotionMode::nurbs || state.motion == MotionMode::nurbs_with_knots) {
+        const bool adds = command.g(GGroup::motion) || command.has_any("XYZPRKL");
+        return adds ? add_to_nurbs(command, state, output) : Result<void>{};
+    }
+    if (moves && (state.motion == MotionMode::cubic_spline || state.motion == MotionMode::quadratic_spline)) {
+        return run_bezier(command, state, output);
+    }
+    if (repeats_cycle(command, state)) return run_cycle(command, state, output);
     if (!moves) return {};
     if (state.motion == MotionMode::none) {
         return output.refuse(command.line(), column_of_any(command, "XYZABC"),

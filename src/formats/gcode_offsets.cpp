@@ -12,17 +12,22 @@ namespace {
 
 constexpr double kLongestDwellS = 86'400;
 
+// G4: P in seconds; on a Fanuc control P in milliseconds or X in seconds.
 Result<void> apply_dwell(Command& command, State& state, Output& output, int column) {
-    const Word* seconds = command.use('P');
-    if (seconds == nullptr) {
-        return output.refuse(command.line(), column, "a dwell (G4) without P", "write its seconds as P");
+    const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
+    const Word* length = command.use('P');
+    const bool in_milliseconds = is_fanuc && length != nullptr;
+    if (length == nullptr && is_fanuc) length = command.use('X');
+    const char* const remedy =
+        is_fanuc ? "write its milliseconds as P or its seconds as X" : "write its seconds as P";
+    if (length == nullptr) return output.refuse(command.line(), column, "a dwell (G4) without P", remedy);
+    const double seconds = in_milliseconds ? length->value / 1000 : length->value;
+    if (!(seconds >= 0) || seconds > kLongestDwellS) {
+        return output.refuse(command.line(), length->column,
+                             seconds < 0 ? "a dwell of negative length" : "a dwell of more than a day",
+                             remedy);
     }
-    if (!(seconds->value >= 0) || seconds->value > kLongestDwellS) {
-        return output.refuse(command.line(), seconds->column,
-                             seconds->value < 0 ? "a dwell of negative length" : "a dwell of more than a day",
-                             "give P in seconds");
-    }
-    return dwell(seconds->value, command, state, output);
+    return dwell(seconds, command, state, output);
 }
 
 // G10 L2: where a work system lies.

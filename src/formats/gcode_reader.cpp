@@ -14,6 +14,7 @@
 #include "formats/gcode_offsets.hpp"
 #include "formats/gcode_parameters.hpp"
 #include "formats/gcode_rotary.hpp"
+#include "formats/gcode_splines.hpp"
 #include "formats/gcode_state.hpp"
 #include "formats/gcode_tool_comment.hpp"
 
@@ -29,6 +30,7 @@ class Reader {
           lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
           flow_(bytes, options, lexer_, parameters_) {
         state_.unit_mm = mm_per(options.default_unit);
+        state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
     }
 
     Result<motion::Program> read() {
@@ -112,6 +114,9 @@ class Reader {
     }
 
     Result<bool> execute(Command& command) {
+        if (auto done = close_nurbs_before(command, state_, output_); !done) {
+            return std::unexpected(done.error());
+        }
         if (auto done = apply_modes(command, state_, output_); !done) return std::unexpected(done.error());
         if (auto done = read_rotary_words(command, state_, output_); !done) {
             return std::unexpected(done.error());
@@ -193,6 +198,12 @@ class Reader {
 
     Result<motion::Program> finish(int last_line) {
         motion::Program& program = output_.program;
+        if (state_.nurbs.runs && !state_.nurbs.has_knots) {
+            return output_.refuse(state_.nurbs.line, state_.nurbs.column,
+                                  "the B-spline that begins here is never ended",
+                                  "write G5.3 after its last point");
+        }
+        if (auto done = finish_nurbs(state_, output_); !done) return std::unexpected(done.error());
         if (!has_words_) {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
         }

@@ -11,6 +11,7 @@
 #include "base/vec3.hpp"
 #include "formats/gcode_reader.hpp"
 #include "formats/machine_run.hpp"
+#include "motion/bezier_motion.hpp"
 
 namespace tribo::formats::gcode {
 
@@ -52,7 +53,19 @@ struct Cycle {
     int line = 0;                                // where its code stood
     std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
     std::optional<double> peck_mm, dwell_s;
-    double initial_mm = 0;  // where the cycle axis stood at its start, to which G98 returns
+    std::optional<double> initial_mm;  // where the cycle axis stood at its start, to which G98 returns
+};
+
+// A B-spline whose blocks are being read (G5.2, G6.2).
+struct Nurbs {
+    bool runs = false;
+    bool has_knots = false;    // G6.2
+    int line = 0, column = 0;  // where it began
+    std::size_t order = 3;
+    std::vector<motion::HomogeneousPoint> control;  // weight times point, in the frame of the tip
+    std::vector<double> knots;
+    Vec3 last_mm;       // the last control point
+    motion::Move like;  // with the feed and the words of its moves
 };
 
 // Rotary axes and tool tip control (gcode_rotary.hpp).
@@ -77,7 +90,10 @@ struct State {
     bool absolute_centres = false;  // G90.1
     MotionMode motion = MotionMode::none;
     Cycle cycle;
-    bool retract_to_r = false;  // G99
+    Nurbs nurbs;
+    std::optional<Vec3> spline_end_mm;  // from the end of the last G5 to its second control point
+    bool retract_to_r = true;           // G99
+    bool return_level_stated = false;
 
     FeedMode feed_mode = FeedMode::per_minute;
     std::optional<double> feed;  // mm/min, 1/min or mm per turn
@@ -130,6 +146,9 @@ enum class Note {
     machine_position,
     tool_without_change,
     unassigned_parameter,
+    return_level,
+    bore_shift,
+    bore_by_hand,
     default_feed,
     preset_as_origin,
     deletable_blocks,
