@@ -5,8 +5,6 @@ namespace tribo::formats::gcode {
 namespace {
 
 constexpr std::string_view kPlainMoves = "let the CAM system write it as plain G0 to G3 moves";
-constexpr std::string_view kCompensated =
-    "let the CAM system compensate and write the path of the tool centre";
 constexpr std::string_view kApt =
     "give the machine-independent path instead: APT CLDATA or keyframes with tool axes";
 constexpr std::string_view kDelete = "delete it where it does not move the tool";
@@ -19,6 +17,7 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 100:
         case 280:
         case 300:
+        case 520:
         case 530:
         case 920:
         case 921:
@@ -66,8 +65,14 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 210:
             return GGroup::units;
         case 400:
+        case 410:
+        case 411:
+        case 420:
+        case 421:
             return GGroup::cutter_side;
         case 430:
+        case 431:
+        case 432:
         case 434:
         case 435:
         case 490:
@@ -167,19 +172,9 @@ Unread unread_g(int tenths) {
         case 384:
         case 385:
             return {"probing", "delete the probing cycle; it does not cut"};
-        case 410:
-        case 420:
-        case 411:
-        case 421:
-            return {"cutter radius compensation", kCompensated};
-        case 431:
-        case 432:
-            return {"tool length offsets out of the program", "use G43 H"};
         case 500:
         case 510:
             return {"scaling", kPlainMoves};
-        case 520:
-            return {"local coordinate systems", "use G10 L2 with G54 to G59"};
         case 541:
             return {"additional work offsets", "use G54 to G59"};
         case 531:

@@ -17,7 +17,7 @@ enum class GGroup {
     arc_distance,  // G90.1 G91.1
     feed_mode,     // G93 G94 G95
     units,         // G20 G21
-    cutter_side,   // G40
+    cutter_side,   // G40 G41 G41.1 G42 G42.1
     tool_length,   // G43 G49, and with tool tip control G43.4 G43.5 G168 G169 G234
     return_level,  // G98 G99
     work_offset,   // G54 to G59.3

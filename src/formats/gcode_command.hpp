@@ -37,6 +37,9 @@ class Command {
     const Word* use(char letter);
     // Leaves the word out of the block from now on.
     void hide(char letter) { words_[index(letter)] = nullptr; }
+    void hide_axes() {
+        for (const char letter : {'X', 'Y', 'Z'}) hide(letter);
+    }
     // The first word in the block that nothing has used; null where none is left.
     const Word* first_unused() const;
 

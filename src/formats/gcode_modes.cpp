@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "formats/gcode_rotary.hpp"
+#include "formats/gcode_compensation.hpp"
 #include "formats/gcode_cycles.hpp"
+#include "formats/gcode_rotary.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -81,6 +82,15 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
 Result<void> set_tool_length(Command& command, Output& output) {
     const auto code = command.g(GGroup::tool_length);
     if (!code || code->tenths == 490 || code->tenths == 1680) return {};
+    if (code->tenths == 431) {
+        if (command.g(GGroup::motion) || command.has_any("XY")) {
+            return output.refuse(command.line(), code->column,
+                                 "G43.1 with a motion, or with an offset across the tool, is not read",
+                                 "write the length as Z in a block of its own");
+        }
+        command.use('Z');
+        command.hide_axes();
+    }
     const Word* offset = command.use('H');
     if (offset != nullptr && offset->value < 0) {
         return output.refuse(command.line(), offset->column, "the tool length number is negative",
@@ -98,7 +108,9 @@ void set_work_system(const Command& command, State& state, Output& output) {
     const auto code = command.g(GGroup::work_offset);
     if (!code) return;
     const int tenths = code->tenths;
+    const double before_deg = state.active().turn_deg;
     state.active_work = tenths <= 590 ? (tenths - 540) / 10 : 5 + tenths - 590;
+    state.reframe(before_deg);
     const bool unset = state.active_work != 0 && !state.work[static_cast<std::size_t>(state.active_work)].set;
     if (unset && output.first(Note::work_system)) {
         output.warn(command.line(),
@@ -108,9 +120,14 @@ void set_work_system(const Command& command, State& state, Output& output) {
     }
 }
 
-void set_motion_mode(const Command& command, State& state) {
+void set_motion_mode(Command& command, State& state, const Output& output) {
     const auto code = command.g(GGroup::motion);
     if (!code) return;
+    if (output.options.dialect == GcodeDialect::fanuc && (code->tenths == 50 || code->tenths == 51)) {
+        for (const char letter : {'P', 'Q', 'R', 'X', 'Y', 'Z'}) command.use(letter);
+        command.hide_axes();  // look-ahead and smoothing, as exact as the control likes
+        return;
+    }
     if (code->tenths != 50) state.spline_end_mm.reset();
     switch (code->tenths) {
         case 0:
@@ -159,6 +176,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     }
     if (auto done = set_tool_length(command, output); !done) return done;
     set_work_system(command, state, output);
+    if (auto done = begin_compensation(command, state, output); !done) return done;
     if (const auto code = command.g(GGroup::path_control); code && code->tenths == 640) {
         command.use('P');  // how far the control may round corners: it is not followed
         command.use('Q');
@@ -169,7 +187,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
         state.retract_to_r = code->tenths == 990;
         state.return_level_stated = true;
     }
-    set_motion_mode(command, state);
+    set_motion_mode(command, state, output);
     return switch_tip_control(command, state, output);
 }
 

@@ -95,7 +95,8 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     if (auto fed = set_feed(move, command, state, output); !fed) return fed;
     set_turning_time(move, state);
     note_spindle(command, state, output);
-    const bool stays = !move.arc && move.start.tip_mm == move.end.tip_mm && !state.rotary.turns();
+    const bool stays =
+        !move.arc && move.start.tip_mm == move.end.tip_mm && !state.rotary.turns() && !state.left_at_mm;
     state.tip_mm = target->tip_mm;
     return stays ? Result<void>{} : append(move, state, output);
 }
@@ -136,7 +137,7 @@ Result<void> move_rapidly(Command& command, State& state, Output& output) {
     state.known = target->known;
     move.end.tip_mm = state.tip_mm;
     if (!known || !state.knows_tip()) return {};
-    if (move.start.tip_mm == move.end.tip_mm && !state.rotary.turns()) return {};
+    if (move.start.tip_mm == move.end.tip_mm && !state.rotary.turns() && !state.left_at_mm) return {};
     return append(move, state, output);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/decimal_text.hpp"
+#include "formats/gcode_compensation.hpp"
 #include "formats/gcode_rotary.hpp"
 
 namespace tribo::formats::gcode {
@@ -37,6 +38,11 @@ motion::Move new_move(motion::MoveKind kind, const Command& command, const State
 }
 
 Result<void> append(const motion::Move& move, State& state, Output& output) {
+    if (state.compensation.is_on) return compensate(move, state, output);
+    return state.left_at_mm ? leave_compensation(move, state, output) : hand_out(move, state, output);
+}
+
+Result<void> hand_out(const motion::Move& move, State& state, Output& output) {
     if (output.machine) return append_on_machine(move, state, output);
     const double turn_deg = state.active().turn_deg;
     return turn_deg == 0 ? output.append(move) : output.append(turned(move, turn_deg));
@@ -46,7 +52,7 @@ Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command
                              Output& output) {
     motion::Move move = new_move(kind, command, state);
     move.end.tip_mm = to_mm;
-    if (move.start.tip_mm == to_mm) return {};
+    if (move.start.tip_mm == to_mm && !state.left_at_mm) return {};
     if (kind == motion::MoveKind::feed) {
         if (auto fed = set_feed(move, command, state, output); !fed) return fed;
         note_spindle(command, state, output);

@@ -36,7 +36,10 @@ Result<void> set_feed(motion::Move& move, Command& command, const State& state, 
 // Warnings that a feed move may be worth.
 void note_spindle(const Command& command, const State& state, Output& output);
 
-// Hands out a move in the frame of the program's axes.
+// Hands out a move in the frame of the program's axes, as it is.
+Result<void> hand_out(const motion::Move& move, State& state, Output& output);
+
+// Hands out a move in the frame of the program's axes, cutter compensation applied.
 Result<void> append(const motion::Move& move, State& state, Output& output);
 
 // A straight move of the tip, known, to a place in the same frame; none where it is there.

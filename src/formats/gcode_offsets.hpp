@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The codes that act in their own block only: dwell (G4), offsets (G10 L2, G92 and its kin), home (G28, G30).
+// The codes that act in their own block only: dwell (G4), offsets (G10, G52, G92 and its kin), home (G28,
+// G30).
 #pragma once
 
 #include "formats/gcode_command.hpp"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/gcode_command.hpp"
+#include "formats/gcode_compensation.hpp"
 #include "formats/gcode_flow.hpp"
 #include "formats/gcode_lexer.hpp"
 #include "formats/gcode_modes.hpp"
@@ -117,6 +118,9 @@ class Reader {
         if (auto done = close_nurbs_before(command, state_, output_); !done) {
             return std::unexpected(done.error());
         }
+        if (auto done = check_compensation(command, state_, output_); !done) {
+            return std::unexpected(done.error());
+        }
         if (auto done = apply_modes(command, state_, output_); !done) return std::unexpected(done.error());
         if (auto done = read_rotary_words(command, state_, output_); !done) {
             return std::unexpected(done.error());
@@ -204,6 +208,7 @@ class Reader {
                                   "write G5.3 after its last point");
         }
         if (auto done = finish_nurbs(state_, output_); !done) return std::unexpected(done.error());
+        if (auto done = end_compensation(state_, output_); !done) return std::unexpected(done.error());
         if (!has_words_) {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
         }

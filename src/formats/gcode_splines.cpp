@@ -98,6 +98,15 @@ motion::BSpline<HomogeneousPoint> bezier(std::initializer_list<Vec3> points) {
     return curve;
 }
 
+Result<double> weight_word(Command& command, char letter, const Output& output) {
+    const Word* word = command.use(letter);
+    if (word == nullptr) return 1.0;
+    if (word->value >= 1 / kLargestWeight && word->value <= kLargestWeight) return word->value;
+    return output.refuse(command.line(), word->column,
+                         "the weight of a control point is not a number from a millionth to a million",
+                         std::string("correct ") + letter);
+}
+
 Result<void> begin_nurbs(Command& command, State& state, Output& output) {
     if (auto known = require_start(command, state, output); !known) return known;
     Nurbs& nurbs = state.nurbs;
@@ -112,7 +121,9 @@ Result<void> begin_nurbs(Command& command, State& state, Output& output) {
     if (nurbs.has_knots) return {};
     double weight = 1;
     if (!command.has_any("XY")) {
-        if (const Word* word = command.use('P')) weight = word->value;
+        const auto read = weight_word(command, 'P', output);
+        if (!read) return std::unexpected(read.error());
+        weight = *read;
     }
     nurbs.control.push_back({weight * state.tip_mm, weight});
     return {};
@@ -134,12 +145,9 @@ Result<void> read_order(Command& command, char letter, State& state, const Outpu
 
 Result<void> add_control_point(Command& command, char weight_letter, State& state, Output& output) {
     Nurbs& nurbs = state.nurbs;
-    const Word* word = command.use(weight_letter);
-    const double weight = word == nullptr ? 1 : word->value;
-    if (!(weight > 0) || weight > kLargestWeight) {
-        return output.refuse(command.line(), word->column, "the weight of a control point is not above 0",
-                             std::string("correct ") + weight_letter);
-    }
+    const auto read = weight_word(command, weight_letter, output);
+    if (!read) return std::unexpected(read.error());
+    const double weight = *read;
     Vec3 point = nurbs.last_mm;
     for (int axis = 0; axis < 3; ++axis) {
         const auto coordinate = coordinate_mm(command, axis, state, output);

@@ -9,6 +9,7 @@
 
 #include "base/result.hpp"
 #include "base/vec3.hpp"
+#include "formats/gcode_contour.hpp"
 #include "formats/gcode_reader.hpp"
 #include "formats/machine_run.hpp"
 #include "motion/bezier_motion.hpp"
@@ -68,6 +69,21 @@ struct Nurbs {
     motion::Move like;  // with the feed and the words of its moves
 };
 
+// Cutter radius compensation (gcode_compensation.hpp); in the plane's coordinates.
+struct Compensation {
+    bool is_on = false;
+    bool has_begun = false;  // a move in the plane has led to the offset contour
+    int code = 400;          // in tenths
+    int line = 0;            // of that code
+    Plane plane = Plane::xy;
+    double left_mm = 0;                 // the cutter's radius; below 0 to the right
+    Point at;                           // where the tool was at its start
+    Point direction;                    // of the contour at the end of its last move
+    double curvature_per_mm = 0;        // likewise
+    Element last;                       // the last move, offset; its end may still be cut off
+    std::vector<motion::Move> waiting;  // that move, and those along the tool that followed it
+};
+
 // Rotary axes and tool tip control (gcode_rotary.hpp).
 struct RotaryState {
     Vec3 now_rad;                 // A B C of the machine, offsets applied
@@ -91,6 +107,9 @@ struct State {
     MotionMode motion = MotionMode::none;
     Cycle cycle;
     Nurbs nurbs;
+    Compensation compensation;
+    // Where compensation has left the tool; the next move starts there and not at tip_mm.
+    std::optional<Vec3> left_at_mm;
     std::optional<Vec3> spline_end_mm;  // from the end of the last G5 to its second control point
     bool retract_to_r = true;           // G99
     bool return_level_stated = false;
@@ -124,11 +143,16 @@ struct State {
         const Vec3 origin = turned(active().origin_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
+    // Counts the tip in the axes of the work system in force; they were turned by so much before.
+    void reframe(double before_deg) {
+        const double after_deg = active().turn_deg;
+        if (before_deg != after_deg) tip_mm = turned(turned(tip_mm, before_deg), -after_deg);
+    }
     bool knows_tip() const {
         return known[0] == Known::yes && known[1] == Known::yes && known[2] == Known::yes;
     }
     // G40, G41, ... in tenths.
-    double compensation_code() const { return 400; }
+    double compensation_code() const { return compensation.code; }
     // The tool that cuts: before the first M6 the one that T names, as nothing else can be in the spindle.
     int tool() const { return has_changed_tool ? loaded_tool : selected_tool; }
 };
