@@ -44,6 +44,11 @@ TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, co
     F8 floor = select(valley, floor_of<kEdge>(v, valley), ends);
     floor = select(is_parted(v.a, v.b), min(floor, ends - speed * width), floor);
     store(out.floor, min(floor, ends) - splat(kRounding));
+    store(out.distance, v.a.distance);
+    store(out.slope, v.a.slope);
+    store(out.drho, v.a.drho);
+    store(out.dz, v.a.dz);
+    store(out.gap, v.a.gap);
     out.lowest = z[0];
     for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = z[k] < out.lowest ? z[k] : out.lowest;
 }
@@ -62,24 +67,49 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     };
     constexpr int kStretches = CurvedInstants::kCount - 1;
     Least<double> least{bound, 0};
-    float order[kStretches];
-    for (int k = 0; k < kStretches; ++k) order[k] = floors.floor[k];
+    unsigned open = (1u << kStretches) - 1;  // a bit per stretch that was not looked at yet
     while (true) {
-        int k = 0;
-        for (int n = 1; n < kStretches; ++n) k = order[n] < order[k] ? n : k;
-        if (static_cast<double>(order[k]) >= least.distance - kSettled<double>) return least;
-        order[k] = static_cast<float>(kNever);
-        Valley<double> v;
-        v.lo = static_cast<double>(k) / kStretches;
-        v.hi = static_cast<double>(k + 1) / kStretches;
-        v.a = at(v.lo);
-        v.b = at(v.hi);
-        over_sides<kEdge>(v, at, [&](const Valley<double>& side) {
-            take(least, side.a.distance, side.lo);
-            take(least, side.b.distance, side.hi);
-            const bool valley = is_valley(side.a, side.b);
-            descend<kEdge>(side, valley ? floor_of<kEdge>(side, valley) : kNever, valley, least, at);
-        });
+        int k = -1;
+        auto deepest = static_cast<float>(least.distance - kSettled<double>);
+        for (int n = 0; n < kStretches; ++n) {
+            if ((open >> n & 1) != 0 && floors.floor[n] < deepest) {
+                deepest = floors.floor[n];
+                k = n;
+            }
+        }
+        if (k < 0) return least;
+        open &= ~(1u << k);
+        const auto seen = [&](int n) {
+            return Instant<double>{floors.distance[n], floors.slope[n], floors.drho[n], floors.dz[n],
+                                   floors.gap[n]};
+        };
+        Valley<double> v{static_cast<double>(k) / kStretches, static_cast<double>(k + 1) / kStretches,
+                         seen(k), seen(k + 1)};
+        if (is_parted(v.a, v.b)) {
+            v.a = at(v.lo);
+            v.b = at(v.hi);
+            over_sides<kEdge>(v, at, [&](const Valley<double>& side) {
+                take(least, side.a.distance, side.lo);
+                take(least, side.b.distance, side.hi);
+                const bool valley = is_valley(side.a, side.b);
+                descend<kEdge>(side, valley ? floor_of<kEdge>(side, valley) : kNever, valley, least, at);
+            });
+        } else if (!is_valley(v.a, v.b)) {
+            const double end = v.a.distance < v.b.distance ? v.lo : v.hi;
+            take(least, at(end).distance, end);
+        } else {
+            // Single precision tells well enough where to look first and which end is of no more use.
+            const double t = next_look<kEdge>(v, true, 0);
+            const Instant<double> c = at(t);
+            take(least, c.distance, t);
+            if (c.slope < 0) {
+                v = {t, v.hi, c, at(v.hi)};
+            } else {
+                v = {v.lo, t, at(v.lo), c};
+            }
+            const bool valley = is_valley(v.a, v.b);
+            descend<kEdge>(v, valley ? floor_of<kEdge>(v, valley) : kNever, valley, least, at);
+        }
     }
 }
 

@@ -9,10 +9,14 @@
 
 namespace tribo::milling {
 
-// Lower bounds of the distance between neighbouring instants of a curved travel (the last entry is of no
-// use), less what single precision may be off, and the least height above the tip at the instants, mm.
+// A curved travel as one point sees it. Lower bounds of the distance between neighbouring instants (the last
+// entry is of no use), less what single precision may be off; at the instants themselves the distance with
+// its derivative and what else sweep_search.inl's Instant holds; the least height above the tip among them,
+// mm.
 struct Floors {
     float floor[CurvedInstants::kCount];
+    float distance[CurvedInstants::kCount], slope[CurvedInstants::kCount];
+    float drho[CurvedInstants::kCount], dz[CurvedInstants::kCount], gap[CurvedInstants::kCount];
     float lowest;
 };
 

@@ -81,6 +81,21 @@ TRIBO_LANES T to_edge(const Valley<T>& v, T width, Mask<T> crosses) {
     return u * width;
 }
 
+// Where to look next in a valley: its bottom after the cubic, the edge where it crosses one. A cubic that
+// follows the distance badly leaves one end where it is, so every third step is a tangents' meeting.
+template <bool kEdge, class T>
+TRIBO_LANES T next_look(const Valley<T>& v, Mask<T> active, int step) {
+    const T one = broadcast<T>(1), width = select(active, v.hi - v.lo, one);
+    const T steepness = select(active, v.b.slope - v.a.slope, one);
+    T wanted = step % 3 == 2 ? (v.a.distance - v.b.distance + v.b.slope * width) / steepness
+                             : to_bottom(v, width, steepness);
+    if constexpr (kEdge) {
+        const auto crosses = both(active, v.a.gap * v.b.gap < broadcast<T>(0));
+        if (any(crosses)) wanted = select(crosses, to_edge(v, width, crosses), wanted);
+    }
+    return v.lo + min(max(wanted, broadcast<T>(0.02) * width), broadcast<T>(0.98) * width);
+}
+
 // How far the least distance found may stand above the true one before the search goes on, mm.
 template <class T>
 constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
@@ -88,21 +103,11 @@ constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
 // Goes down one valley. Lanes that are settled stay as they are.
 template <bool kEdge, class T, class F>
 TRIBO_LANES void descend(Valley<T> v, T floor, Mask<T> valley, Least<T>& least, const F& at) {
-    const T zero = broadcast<T>(0), one = broadcast<T>(1), settled = broadcast<T>(kSettled<T>);
+    const T zero = broadcast<T>(0), settled = broadcast<T>(kSettled<T>);
     auto active = both(valley, floor < least.distance - settled);
     constexpr int kMostSteps = std::is_same_v<T, double> ? 40 : 12;
     for (int step = 0; step < kMostSteps && any(active); ++step) {
-        const T width = select(active, v.hi - v.lo, one),
-                steepness = select(active, v.b.slope - v.a.slope, one);
-        // A cubic that follows the distance badly leaves one end where it is: every third step is a tangents'
-        // meeting.
-        T wanted = step % 3 == 2 ? (v.a.distance - v.b.distance + v.b.slope * width) / steepness
-                                 : to_bottom(v, width, steepness);
-        if constexpr (kEdge) {
-            const auto crosses = both(active, v.a.gap * v.b.gap < zero);
-            if (any(crosses)) wanted = select(crosses, to_edge(v, width, crosses), wanted);
-        }
-        const T t = v.lo + min(max(wanted, broadcast<T>(0.02) * width), broadcast<T>(0.98) * width);
+        const T t = next_look<kEdge>(v, active, step);
         const Instant<T> c = at(t);
         const auto better = both(active, c.distance < least.distance);
         least.distance = select(better, c.distance, least.distance);
