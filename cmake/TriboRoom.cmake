@@ -2,18 +2,17 @@
 
 add_library(tribo_options INTERFACE)
 # The core gives the same bits on every compiler: no fused multiply-add, no reordering (CONTRIBUTING.md, "Same bits").
-target_compile_options(tribo_options INTERFACE -Wall -Wextra -Wconversion -ffp-contract=off -fno-math-errno -Wno-psabi)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(tribo_options INTERFACE -Wno-restrict) # false alarms on std::string, GCC bug 105651
-endif()
+target_compile_options(tribo_options INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion> -ffp-contract=off -fno-math-errno
+                                               $<BUILD_INTERFACE:-Wno-psabi>)
 target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # `"literal" + std::string` warns falsely in g++ 12 (GCC bug 105651).
-  target_compile_options(tribo_options INTERFACE -Wno-restrict)
+  target_compile_options(tribo_options INTERFACE $<BUILD_INTERFACE:-Wno-restrict>)
 endif()
 if(TRIBO_WARNINGS_AS_ERRORS)
-  target_compile_options(tribo_options INTERFACE -Werror)
+  target_compile_options(tribo_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
+target_compile_features(tribo_options INTERFACE cxx_std_23)
 target_include_directories(tribo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tribo>)
 

@@ -1,0 +1,30 @@
+# Installs a finished build under a staging root, links a project of its own to the package there, runs that and the
+# installed program. BUILD, SOURCE, WORK, CXX, CXX_FLAGS come from the command line.
+cmake_minimum_required(VERSION 3.25)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ended with ${code}:\n${said}")
+  endif()
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+# DESTDIR as packagers use it: files lie under it, and nothing remembers it.
+set(ENV{DESTDIR} ${WORK}/stage)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix /opt/tribo)
+unset(ENV{DESTDIR})
+set(prefix ${WORK}/moved)
+file(RENAME ${WORK}/stage/opt/tribo ${prefix})
+
+run(${prefix}/bin/tribo --version)
+if(NOT said MATCHES "^tribo ${VERSION}")
+  message(FATAL_ERROR "tribo --version says: ${said}")
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX}
+    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/stranger)
+message(STATUS "a stranger computes ${said}")
+file(REMOVE_RECURSE ${WORK})
