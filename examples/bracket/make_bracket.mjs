@@ -15,10 +15,10 @@ G21 G90 G17 G94 G40 G49 G80
 G10 L2 P1 X0 Y0 Z0
 G10 L2 P2 X60 Y0 Z0
 
-(clears a pocket about X30 Y25: width, height, depth, step down, half the tool)
+(clears a pocket about X30 Y25, 1.1 mm left: width, height, depth, step down, half the tool)
 o<pocket> sub
-  #<half_x> = [#1 / 2 - #5 - 0.3]
-  #<half_y> = [#2 / 2 - #5 - 0.3]
+  #<half_x> = [#1 / 2 - #5 - 1.1]
+  #<half_y> = [#2 / 2 - #5 - 1.1]
   #<z> = 0
   G0 X30 Y25
   G0 Z1
