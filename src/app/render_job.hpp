@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// What `tribo render` works on: a job with everything it names read and checked, and whether it fits into
+// memory.
+#pragma once
+
+#include <optional>
+
+#include "app/render.hpp"
+#include "formats/job.hpp"
+#include "formats/model.hpp"
+#include "io/files.hpp"
+#include "milling/materials.hpp"
+#include "session/mill_setup.hpp"
+
+namespace tribo::app {
+
+struct LoadedJob {
+    formats::Job job;
+    milling::Material material;
+    session::MillSetup setup;
+    std::optional<formats::Model> part;
+    Warnings warnings;
+};
+
+io::FileResult<LoadedJob> load_job(const RenderCall& call);
+
+// Refuses what would not fit, naming the finest spacing of the grid that would.
+Result<void> check_memory(const RenderCall& call, const LoadedJob& loaded);
+
+}  // namespace tribo::app

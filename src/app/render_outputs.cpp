@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "app/render_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "field/contour.hpp"
+#include "formats/stl.hpp"
+#include "io/gltf.hpp"
+#include "io/picture.hpp"
+#include "surface/deviation.hpp"
+
+namespace tribo::app {
+namespace {
+
+Vec3 listener(const formats::Job& job, const Box3& blank) {
+    if (job.sound.listener_mm) return *job.sound.listener_mm;
+    const Vec3 c = blank.centre();
+    return {c.x, c.y, blank.max.z};
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded) {
+    const milling::Material& m = loaded.material;
+    char k[200], band[200];
+    const milling::CuttingCoefficients& c = m.coefficients;
+    std::snprintf(k, sizeof k, "Ktc %.4g, Krc %.4g, Kac %.4g N/mm2; Kte %.4g, Kre %.4g, Kae %.4g N/mm", c.ktc,
+                  c.krc, c.kac, c.kte, c.kre, c.kae);
+    std::snprintf(band, sizeof band, "forces may really be %.2g to %.2g times what stands here", m.spread_low,
+                  m.spread_high);
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Material", std::string(m.name) + ": " + std::string(m.what)},
+        {"Source", std::string(m.source)},
+        {"Coefficients", k},
+        {"Band", band},
+    };
+    if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
+    facts.emplace_back("Not modelled", "chatter, deflection of tool and part, heat, wear");
+    return facts;
+}
+
+}  // namespace
+
+io::FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
+    if (call_.wants("forces")) {
+        auto file = ForceFile::create(folder_.file("forces.csv"));
+        if (!file) return std::unexpected(file.error());
+        forces_.emplace(std::move(*file));
+        if (call_.as_published) {
+            auto published = PublishedForceFile::create(folder_.file("published_forces.csv"));
+            if (!published) return std::unexpected(published.error());
+            published_.emplace(std::move(*published));
+        }
+    }
+    if (call_.wants("sound")) {
+        const formats::JobSound& s = loaded_.job.sound;
+        SoundFileOptions options;
+        options.format.sample_rate_hz = options.track.sample_rate_hz = call_.sample_rate_hz;
+        options.format.bits = s.bits;
+        options.track.gain_db = s.gain_db;
+        options.track.listener_mm = listener(loaded_.job, blank);
+        options.track.distance_factor = s.distance_factor;
+        options.track.as_published = call_.as_published;
+        auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
+        if (!file) return std::unexpected(file.error());
+        sound_.emplace(std::move(*file));
+    }
+    return {};
+}
+
+void RenderOutputs::add(const session::MillRow& row, const session::MillSetup& setup) {
+    if (forces_) forces_->add(row);
+    if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
+    if (sound_) sound_->add(row);
+    if (call_.wants("report")) report_.add(row);
+}
+
+io::FileResult<void> RenderOutputs::finish(const session::MillSession& session, io::Summary& summary) {
+    if (forces_) {
+        if (auto done = forces_->finish(); !done) return done;
+    }
+    if (published_) {
+        if (auto done = published_->finish(); !done) return done;
+    }
+    if (sound_) {
+        if (auto done = sound_->finish(session.totals().duration_s); !done) return done;
+    }
+    TriangleMesh mesh;
+    if (call_.wants("mesh") || call_.wants("report")) {
+        mesh = field::contour(session.stock(), parallel_);
+        summary.triangles = mesh.triangles.size();
+    }
+    if (call_.wants("mesh")) {
+        if (auto done = write_mesh(mesh, session.stock().blank()); !done) return done;
+    }
+    if (loaded_.part) {
+        if (auto done = compare(session, summary); !done) return done;
+    }
+    if (call_.wants("report")) return write_report(session, summary, std::move(mesh));
+    return {};
+}
+
+io::FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const field::Shape& blank) {
+    auto stl = io::FileWriter::create(folder_.file("machined.stl"));
+    if (!stl) return std::unexpected(stl.error());
+    formats::write_stl(mesh, [&](std::string_view bytes) {
+        stl->write(bytes);
+        return true;
+    });
+    if (auto done = stl->finish(); !done) return done;
+    // A cut that is shallower than this looks like the blank's own face.
+    constexpr double kOnFaceMm = 1e-3;
+    return io::write_glb(folder_.file("machined.glb"), mesh, [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+            return std::abs(blank.distance_mm(mesh.position(corner))) <= kOnFaceMm;
+        });
+    });
+}
+
+io::FileResult<void> RenderOutputs::compare(const session::MillSession& session, io::Summary& summary) {
+    auto designed = surface::DesignedSurface::make(std::move(loaded_.part->mesh));
+    if (!designed) {
+        Error error = designed.error();
+        error.file = loaded_.job.part->path;
+        return std::unexpected(io::Failure(error));
+    }
+    surface::DeviationOptions options;
+    options.pass_width_mm = 0;
+    for (const milling::Cutter& c : session.setup().cutters) {
+        options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
+    }
+    options.blank = &session.stock().blank();
+    // Cusps are sharpened from the samples: a cell apart is enough to find them.
+    options.spacing_mm = std::max(
+        session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
+    const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
+    summary.gouge_max_mm = d.gouge.mm;
+    summary.rest_max_mm = d.rest.mm;
+    summary.scallop_max_mm = d.scallop.mm;
+    return {};
+}
+
+io::FileResult<void> RenderOutputs::write_report(const session::MillSession& session,
+                                                 const io::Summary& summary, TriangleMesh mesh) {
+    io::ReportData data;
+    data.title = call_.job;
+    data.subtitle = std::string(loaded_.material.name) + ", " +
+                    std::to_string(session.setup().cutters.size()) +
+                    (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
+    data.summary = summary;
+    data.picture_png = io::png_bytes(io::draw_part(mesh));
+    mesh = {};
+    data.rows = io::thin_rows(report_.rows, 4000);
+    data.turn = report_.turn(session.setup());
+    if (sound_) {
+        data.sound = sound_->for_report();
+        data.sound->waves = report_.waves(session.setup(), sound_->options());
+    }
+    data.facts = facts_of(loaded_);
+    return io::write_file(folder_.file("report.html"), io::report_html(data));
+}
+
+}  // namespace tribo::app

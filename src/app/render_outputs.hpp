@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The files of one render, in the order in which they are made.
+#pragma once
+
+#include <optional>
+
+#include "app/render_job.hpp"
+#include "app/render_sinks.hpp"
+#include "base/parallel.hpp"
+#include "io/output_folder.hpp"
+#include "io/summary_json.hpp"
+
+namespace tribo::app {
+
+class RenderOutputs {
+  public:
+    // All of them outlive this object.
+    RenderOutputs(const RenderCall& call, LoadedJob& loaded, io::OutputFolder& folder,
+                  const ParallelFor& parallel)
+        : call_(call), loaded_(loaded), folder_(folder), parallel_(parallel) {}
+
+    // Before the session runs.
+    io::FileResult<void> open(double duration_s, const Box3& blank);
+    bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
+    void add(const session::MillRow& row, const session::MillSetup& setup);
+    // After it; `summary` gains what comes out here. Takes the designed part's mesh.
+    io::FileResult<void> finish(const session::MillSession& session, io::Summary& summary);
+
+  private:
+    io::FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
+    io::FileResult<void> compare(const session::MillSession& session, io::Summary& summary);
+    io::FileResult<void> write_report(const session::MillSession& session, const io::Summary& summary,
+                                      TriangleMesh mesh);
+
+    const RenderCall& call_;
+    LoadedJob& loaded_;
+    io::OutputFolder& folder_;
+    const ParallelFor& parallel_;
+    std::optional<ForceFile> forces_;
+    std::optional<PublishedForceFile> published_;
+    std::optional<SoundFile> sound_;
+    ReportRows report_;
+};
+
+}  // namespace tribo::app
