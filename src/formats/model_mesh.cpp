@@ -62,6 +62,14 @@ std::optional<Point3f> to_position(double x, double y, double z, double unit_mm)
     return p;
 }
 
+void warn_of_crossing_faces(Model& model, const ModelOptions& options, std::uint64_t faces) {
+    if (faces == 0) return;
+    model.warnings.push_back({options.source_name, 0,
+                              faces == 1
+                                  ? "a face crosses itself or has no area"
+                                  : std::to_string(faces) + " faces cross themselves or have no area"});
+}
+
 Result<Model> finish_model(Model model, const ModelOptions& options, Weld weld) {
     if (weld == Weld::exact) weld_exactly(model.mesh);
     const std::size_t dropped = drop_degenerate(model);

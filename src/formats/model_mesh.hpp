@@ -14,6 +14,9 @@ enum class Weld { no, exact };
 // The point in mm; none when it is not finite or beyond single precision.
 std::optional<Point3f> to_position(double x, double y, double z, double unit_mm);
 
+// Warns where faces cross themselves or have no area.
+void warn_of_crossing_faces(Model& model, const ModelOptions& options, std::uint64_t faces);
+
 // The model of the triangles read: welds, drops triangles that use a vertex twice (counted in a warning; a
 // triangle without area but with three different corners may be what closes a mesh, and stays), drops unused
 // positions. A model without triangles is an error.

@@ -44,11 +44,7 @@ class ObjReader {
                 {options_.source_name, first_line_,
                  std::to_string(lines_) + " statements of points or lines have no surface and were skipped"});
         }
-        if (triangulator_.crossing_faces() > 0) {
-            model_.warnings.push_back(
-                {options_.source_name, 0,
-                 std::to_string(triangulator_.crossing_faces()) + " faces cross themselves or have no area"});
-        }
+        warn_of_crossing_faces(model_, options_, triangulator_.crossing_faces());
         return finish_model(std::move(model_), options_, Weld::no);
     }
 

@@ -109,11 +109,7 @@ class PlyReader {
                            "the PLY file has no faces: a point cloud is no surface",
                            "export the model as a mesh");
         }
-        if (triangulator_.crossing_faces() > 0) {
-            model_.warnings.push_back(
-                {options_.source_name, 0,
-                 std::to_string(triangulator_.crossing_faces()) + " faces cross themselves or have no area"});
-        }
+        warn_of_crossing_faces(model_, options_, triangulator_.crossing_faces());
         return finish_model(std::move(model_), options_, Weld::no);
     }
 

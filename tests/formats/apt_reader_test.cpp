@@ -11,6 +11,7 @@
 #include "motion/summary.hpp"
 #include "program_checks.hpp"
 #include "real_files.hpp"
+#include "refusals.hpp"
 
 namespace tribo::formats {
 namespace {
@@ -143,12 +144,6 @@ TEST(AptReader, WarnsOfASpindleThatDoesNotCut) {
     EXPECT_EQ(program.moves.size(), 2U);
 }
 
-struct Refusal {
-    std::string text;
-    int line, column;
-    const char* cause;
-};
-
 TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
     const std::string ready = "UNITS/MM\nGOTO/0,0,0\n";  // two lines
     const Refusal refusals[] = {
@@ -192,18 +187,11 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"DELAY/2,3\n", 1, 1, "single number"},
         {"CUTCOM/LEFT\n", 1, 1, "cutter radius compensation"},
     };
-    for (const Refusal& refusal : refusals) {
+    expect_refused(refusals, [](const std::string& text, const char* name) {
         AptOptions options;
-        options.source_name = "part.cl";
-        const auto program = read_apt(refusal.text, options);
-        ASSERT_FALSE(program.has_value()) << refusal.text;
-        const Error& error = program.error();
-        EXPECT_EQ(error.file, "part.cl");
-        EXPECT_EQ(error.line, refusal.line) << refusal.text << error.text();
-        EXPECT_EQ(error.column, refusal.column) << refusal.text << error.text();
-        EXPECT_NE(error.cause.find(refusal.cause), std::string::npos) << refusal.text << error.text();
-        EXPECT_FALSE(error.remedy.empty()) << error.text();
-    }
+        options.source_name = name;
+        return read_apt(text, options);
+    });
     AptOptions few;
     few.max_moves = 1;
     EXPECT_FALSE(read_apt("FEDRAT/1\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\n", few).has_value());

@@ -4,15 +4,10 @@
 #include <string>
 
 #include "formats/apt_reader.hpp"
+#include "refusals.hpp"
 
 namespace tribo::formats {
 namespace {
-
-struct Refusal {
-    std::string text;
-    int line, column;
-    const char* cause;
-};
 
 TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
     const std::string at = "UNITS/MM\nFEDRAT/100\nFROM/10,0,0\n";  // three lines
@@ -89,18 +84,11 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {"COPY/1,SAME,2\n", 1, 1, "'COPY' (loops, macros and copies) is not read"},
         {"GOFWD/L1\n", 1, 1, "'GOFWD' (moves that an APT processor computes) is not read"},
     };
-    for (const Refusal& refusal : refusals) {
+    expect_refused(refusals, [](const std::string& text, const char* name) {
         AptOptions options;
-        options.source_name = "part.cl";
-        const auto program = read_apt(refusal.text, options);
-        ASSERT_FALSE(program.has_value()) << refusal.text;
-        const Error& error = program.error();
-        EXPECT_EQ(error.file, "part.cl");
-        EXPECT_EQ(error.line, refusal.line) << refusal.text << error.text();
-        EXPECT_EQ(error.column, refusal.column) << refusal.text << error.text();
-        EXPECT_NE(error.cause.find(refusal.cause), std::string::npos) << refusal.text << error.text();
-        EXPECT_FALSE(error.remedy.empty()) << error.text();
-    }
+        options.source_name = name;
+        return read_apt(text, options);
+    });
 }
 
 }  // namespace

@@ -3,15 +3,10 @@
 #include <string>
 
 #include "formats/gcode_reader.hpp"
+#include "refusals.hpp"
 
 namespace tribo::formats {
 namespace {
-
-struct Refusal {
-    std::string text;
-    int line, column;
-    const char* cause;
-};
 
 TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
     const std::string ready = "G21 M3 F100\nG0 X10 Y0 Z0\n";  // two lines
@@ -189,18 +184,11 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G41.1 D4\nT1 M6\n", 4, 4, "M6 does not go"},
         {ready + "G41.1 D4\nG1 X20\nG40 G2 X30 I5\n", 5, 1, "a curve cannot lead out"},
     };
-    for (const Refusal& refusal : refusals) {
+    expect_refused(refusals, [](const std::string& text, const char* name) {
         GcodeOptions options;
-        options.source_name = "part.nc";
-        const auto program = read_gcode(refusal.text, options);
-        ASSERT_FALSE(program.has_value()) << refusal.text;
-        const Error& error = program.error();
-        EXPECT_EQ(error.file, "part.nc") << refusal.text;
-        EXPECT_EQ(error.line, refusal.line) << refusal.text << error.text();
-        EXPECT_EQ(error.column, refusal.column) << refusal.text << error.text();
-        EXPECT_NE(error.cause.find(refusal.cause), std::string::npos) << refusal.text << error.text();
-        EXPECT_FALSE(error.remedy.empty()) << error.text();
-    }
+        options.source_name = name;
+        return read_gcode(text, options);
+    });
 }
 
 TEST(GcodeReader, RefusesLoopsWithoutEndAndNamesALineOfThem) {

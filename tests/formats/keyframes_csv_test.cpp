@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "refusals.hpp"
+
 namespace tribo::formats {
 namespace {
 
@@ -43,12 +45,6 @@ TEST(KeyframesCsv, ScalesPlacesByTheUnit) {
     EXPECT_EQ(read->back().pose.axis, (Vec3{0, 0, 1}));
 }
 
-struct Refusal {
-    std::string text;
-    int line, column;
-    const char* cause;
-};
-
 TEST(KeyframesCsv, RefusesWhatIsNoMotionWithItsPlace) {
     const std::string header = "x,y,z,i,j,k,weight\n", row = "0,0,0,0,0,1,1\n";
     const Refusal refusals[] = {
@@ -77,17 +73,11 @@ TEST(KeyframesCsv, RefusesWhatIsNoMotionWithItsPlace) {
         {"x,y,z,i,j,k,feed_mm_per_min\n1,0,0,0,0,1,-5\n", 2, 13, "out of range"},
         {header + row + "1,0,0,0,0,1,1\xE4\n", 3, 13, "not a number"},
     };
-    for (const Refusal& refusal : refusals) {
+    expect_refused(refusals, [](const std::string& text, const char* name) {
         KeyframeOptions options;
-        options.source_name = "path.csv";
-        const auto read = read_keyframes(refusal.text, options);
-        ASSERT_FALSE(read.has_value()) << refusal.text;
-        EXPECT_EQ(read.error().file, "path.csv");
-        EXPECT_EQ(read.error().line, refusal.line) << refusal.text << read.error().text();
-        EXPECT_EQ(read.error().column, refusal.column) << refusal.text << read.error().text();
-        EXPECT_NE(read.error().cause.find(refusal.cause), std::string::npos) << read.error().text();
-        EXPECT_FALSE(read.error().remedy.empty());
-    }
+        options.source_name = name;
+        return read_keyframes(text, options);
+    });
     KeyframeOptions few;
     few.max_keyframes = 2;
     EXPECT_FALSE(read_keyframes("x,y,z,i,j,k\n1,0,0,0,0,1\n2,0,0,0,0,1\n3,0,0,0,0,1\n", few).has_value());

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/files.hpp"
 
-#include <csignal>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 
+#include "io/file_size_limit.hpp"
 #include "io/scratch.hpp"
 
 namespace tribo::io {
@@ -110,15 +109,10 @@ TEST(FileWriter, reports_a_full_disk_as_the_systems_fault) {
 
 TEST(FileWriter, removes_a_file_that_grew_beyond_what_the_system_allows) {
     const Scratch scratch;
-    struct rlimit before = {};
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-    struct rlimit small = before;
-    small.rlim_cur = 100'000;
-    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-    const FileResult<void> result = write_file(scratch / "out", std::string(200'000, 'x'));
-    ::setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, old_handler);
+    const FileResult<void> result = [&] {
+        const test::FileSizeLimit limit(100'000);
+        return write_file(scratch / "out", std::string(200'000, 'x'));
+    }();
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().fault, Fault::system);
     EXPECT_NE(result.error().text().find("ulimit"), std::string::npos) << result.error().text();

@@ -2,12 +2,11 @@
 #include "io/wav.hpp"
 
 #include <cmath>
-#include <csignal>
 #include <gtest/gtest.h>
 #include <limits>
-#include <sys/resource.h>
 #include <vector>
 
+#include "io/file_size_limit.hpp"
 #include "io/riff.hpp"
 #include "io/scratch.hpp"
 
@@ -161,13 +160,8 @@ TEST(WavWriter, that_is_not_finished_leaves_no_file) {
 
 TEST(WavWriter, tells_what_the_file_system_refused) {
     const Scratch scratch;
-    struct rlimit before = {};
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-    struct rlimit small = before;
-    small.rlim_cur = 100'000;
-    const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
     {
+        const test::FileSizeLimit limit(100'000);
         FileResult<WavWriter> wav = WavWriter::create(scratch / "s.wav");
         if (wav) {
             wav->write(two_tones(50000));
@@ -180,8 +174,6 @@ TEST(WavWriter, tells_what_the_file_system_refused) {
         }
         EXPECT_TRUE(wav);
     }
-    ::setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, old_handler);
     EXPECT_EQ(scratch.entries(), 0u);
     const FileResult<WavWriter> nowhere = WavWriter::create(scratch / "no/s.wav");
     ASSERT_FALSE(nowhere);

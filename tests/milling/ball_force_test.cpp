@@ -13,6 +13,7 @@ using contact::ForceSpectrum;
 using contact::ToolForce;
 using reference::Cut;
 using reference::difference;
+using reference::engaged;
 using reference::kPi;
 using reference::rad;
 
@@ -22,12 +23,6 @@ Cut ball_cut() {
     c.cutter.diameter_mm = 10;
     c.engagement.bands = {{0, 1.2, rad(0), rad(180)}};
     return c;
-}
-
-EngagedEdges engaged(const Cut& c) {
-    EngagedEdges edges(c.cutter, c.k);
-    edges.engage(c.engagement, c.feed);
-    return edges;
 }
 
 // 4,000 slices of equal kappa, each cut at the rotation of its middle.

@@ -34,6 +34,13 @@ struct Cut {
     milling::FeedPerTooth feed;
 };
 
+// The engine's pieces of that cut.
+inline milling::EngagedEdges engaged(const Cut& c) {
+    milling::EngagedEdges edges(c.cutter, c.k);
+    edges.engage(c.engagement, c.feed);
+    return edges;
+}
+
 // Chip thickness along the outward normal for a rotation, an angle kappa and a tooth at a lag.
 inline double plain_chip(const Cut& c, double phi, double kappa, int, double) {
     const Vec3 normal{std::sin(kappa) * std::sin(phi), std::sin(kappa) * std::cos(phi), -std::cos(kappa)};

@@ -13,14 +13,9 @@ using contact::ToolForce;
 using reference::Case;
 using reference::Cut;
 using reference::difference;
+using reference::engaged;
 using reference::kPi;
 using reference::rad;
-
-EngagedEdges engaged(const Cut& c) {
-    EngagedEdges edges(c.cutter, c.k);
-    edges.engage(c.engagement, c.feed);
-    return edges;
-}
 
 constexpr double kPublishedSlackN = 0.5;  // of the published extremes, which are those of 1,440 samples
 

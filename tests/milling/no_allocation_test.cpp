@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What is marked real-time safe never allocates: this program's operator new counts.
-#include <atomic>
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
 
+#include "base/counted_allocations.hpp"
 #include "milling/force.hpp"
 #include "reference_cases.hpp"
 
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* counted(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-    std::abort();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size);
-}
-void* operator new[](std::size_t size) {
-    return counted(size);
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept {
-    std::free(p);
-}
-
 namespace tribo::milling {
 namespace {
+
+using tribo::test::allocations;
 
 TEST(NoAllocation, in_a_force_model_that_has_seen_its_pieces) {
     for (const CutterKind kind : {CutterKind::flat, CutterKind::ball}) {

@@ -14,14 +14,9 @@ using contact::ForceSpectrum;
 using contact::ToolForce;
 using reference::Cut;
 using reference::difference;
+using reference::engaged;
 using reference::kPi;
 using reference::rad;
-
-EngagedEdges engaged(const Cut& c) {
-    EngagedEdges edges(c.cutter, c.k);
-    edges.engage(c.engagement, c.feed);
-    return edges;
-}
 
 Cut random_uneven(CutterKind kind) {
     Cut c = reference::cases()[1].cut;

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The audio thread never allocates: this program's operator new counts.
-#include <atomic>
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
 
+#include "base/counted_allocations.hpp"
 #include "sound/cuts.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-    std::abort();
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace tribo::sound {
 namespace {
+
+using tribo::test::allocations;
 
 TEST(SoundOfTheAudioThread, never_allocates) {
     const contact::ForceSpectrum two = test::falling_spectrum(2, 64), four = test::falling_spectrum(4, 16);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Counts what a test program allocates. Defines operator new: one source of a program includes it.
+#pragma once
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace tribo::test {
+
+inline std::atomic<long> allocations{0};
+
+inline void* counted(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+    std::abort();
+}
+
+}  // namespace tribo::test
+
+void* operator new(std::size_t size) {
+    return tribo::test::counted(size);
+}
+void* operator new[](std::size_t size) {
+    return tribo::test::counted(size);
+}
+void operator delete(void* p) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+    std::free(p);
+}
