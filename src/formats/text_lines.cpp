@@ -15,9 +15,10 @@ TextLines::TextLines(std::string_view text) : rest_(text) {
 std::optional<std::string_view> TextLines::next() {
     if (rest_.empty()) return std::nullopt;
     ++number_;
-    const std::size_t end = rest_.find_first_of("\r\n");
+    std::size_t end = 0;
+    while (end < rest_.size() && rest_[end] != '\n' && rest_[end] != '\r') ++end;
     const std::string_view line = rest_.substr(0, end);
-    if (end == std::string_view::npos) {
+    if (end == rest_.size()) {
         rest_ = {};
     } else {
         const bool both = rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
