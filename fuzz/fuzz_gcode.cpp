@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Any bytes give moves with finite ends or an error with a remedy; both readings of '/' are tried.
+// Any bytes give moves with finite ends or an error with a remedy; both readings of '/' and both dialects are
+// tried.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,6 +16,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         formats::GcodeOptions options;
         options.source_name = "fuzz.nc";
         options.skip_deletable_blocks = skip;
+        options.dialect = skip ? formats::GcodeDialect::linuxcnc : formats::GcodeDialect::fanuc;
+        options.tools = {{1, 6}};
+        options.max_steps = 2'000;  // loops are no place to spend a fuzzer's time
+        options.max_moves = 100'000;
         options.default_feed_mm_per_min = skip ? 100 : 0;
         const auto program = formats::read_gcode({reinterpret_cast<const char*>(data), size}, options);
         if (!program) {

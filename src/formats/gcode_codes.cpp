@@ -128,7 +128,20 @@ std::optional<MGroup> group_of_m(int tenths) {
             return MGroup::coolant;
         case 480:
         case 490:
+        case 500:
+        case 510:
+        case 520:
+        case 530:
             return MGroup::overrides;
+        case 190:
+            return MGroup::orientation;
+        case 620:
+        case 630:
+        case 640:
+        case 650:
+        case 670:
+        case 680:
+            return MGroup::outputs;
         case 980:
         case 990:
             return MGroup::subprogram;
@@ -195,11 +208,8 @@ Unread unread_m(int tenths) {
         case 100:
         case 110:
             return {"clamps", kDelete};
-        case 190:
-            return {"spindle orientation", kDelete};
         case 660:
-        case 670:
-            return {"analogue outputs", kDelete};
+            return {"reading inputs", kDelete};
         default:
             return {"", kDelete};
     }

@@ -29,13 +29,15 @@ enum class GGroup {
 };
 
 enum class MGroup {
-    stop,        // M0 M1 M2 M30 M60
-    tool,        // M6
-    spindle,     // M3 M4 M5
-    coolant,     // M7 M8 M9
-    overrides,   // M48 M49
-    subprogram,  // M98 M99
-    tool_tip,    // tool tip control: M128 M129, LinuxCNC's M428 M429 M430
+    stop,         // M0 M1 M2 M30 M60
+    tool,         // M6
+    spindle,      // M3 M4 M5
+    coolant,      // M7 M8 M9
+    overrides,    // M48 to M53
+    orientation,  // M19
+    outputs,      // M62 to M65, M67, M68
+    subprogram,   // M98 M99
+    tool_tip,     // tool tip control: M128 M129, LinuxCNC's M428 M429 M430
     count
 };
 

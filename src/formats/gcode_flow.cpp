@@ -81,6 +81,10 @@ Result<bool> Flow::run(Block& block) {
     }
     if (auto known = require_labels(); !known) return std::unexpected(known.error());
     const int index = labels_->on_line(block.line);
+    if (index < 0 && word->keyword != Keyword::call) {
+        return cursor.refuse(start, "an O-word does not stand at the start of its line",
+                             "move what is before it to the line above");
+    }
     const auto done = [&]() -> Result<void> {
         switch (word->keyword) {
             case Keyword::sub: {

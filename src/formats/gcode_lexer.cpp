@@ -62,7 +62,7 @@ Result<bool> Lexer::next(Block& block) {
     for (;;) {
         const char c = cursor_.peek_after_blanks();
         if (cursor_.at >= cursor_.line.size() || c == ';') break;
-        if ((c == 'O' || c == 'o') && block.words.empty()) {
+        if ((c == 'O' || c == 'o') && block.words.empty() && block.assignments.empty()) {
             block.kind = BlockKind::o_word;
             block.column = static_cast<int>(cursor_.at) + 1;
             return true;

@@ -181,6 +181,10 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
         command.use('P');  // how far the control may round corners: it is not followed
         command.use('Q');
     }
+    if (command.m(MGroup::outputs) || command.m(MGroup::overrides) || command.m(MGroup::orientation)) {
+        for (const char letter : {'P', 'Q', 'E'}) command.use(letter);
+        if (command.m(MGroup::orientation) && !command.g(GGroup::motion)) command.use('R');
+    }
     if (const auto code = command.g(GGroup::distance)) state.incremental = code->tenths == 910;
     if (const auto code = command.g(GGroup::arc_distance)) state.absolute_centres = code->tenths == 901;
     if (const auto code = command.g(GGroup::return_level)) {

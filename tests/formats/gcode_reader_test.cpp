@@ -276,7 +276,8 @@ TEST(GcodeReader, CollectsToolsFromComments) {
 TEST(GcodeReader, AcceptsModesThatDoNotMoveTheTool) {
     const Program program = program_of(
         "G21 G90 G94 G17 G40 G49 G80 G54 G64 P0.01 Q0.01 G97 G98 G91.1 G15 G69\n"
-        "M8 M7\nM48\nG61\nM3 S100\nG0 X0 Y0 Z0\nG1 X1 F10 M9\nM0\nM1\nM5\nM30\n");
+        "M8 M7\nM48\nM50 P0\nM19 R90\nM64 P1\nM67 E0 Q1\nG61\nM3 S100\nG0 X0 Y0 Z0\nG1 X1 F10 "
+        "M9\nM0\nM1\nM5\nM30\n");
     EXPECT_EQ(program.moves.size(), 1U);
     EXPECT_TRUE(program.warnings.empty());
 }
