@@ -37,6 +37,7 @@ struct Found {
     io::Facts facts;
     TriangleMesh mesh;
     std::vector<io::PictureLine> lines;
+    std::vector<formats::Rgb8> colours = {};  // of the triangles, or none
 };
 
 io::PictureLine feed_line(const motion::Program& program) {
@@ -90,7 +91,7 @@ io::FileResult<Found> inspect_model(const std::string& file) {
     io::FileResult<formats::Model> model = io::read_model_file({file, std::nullopt});
     if (!model) return std::unexpected(model.error());
     io::Facts facts = io::describe(*model);
-    return Found{std::move(facts), std::move(model->mesh), {}};
+    return Found{std::move(facts), std::move(model->mesh), {}, std::move(model->colours)};
 }
 
 io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
@@ -130,7 +131,9 @@ int inspect(const Call& call) {
     const io::FileResult<Found> found = inspect_file(call);
     if (!found) return report(found.error());
     if (!call.picture.empty()) {
-        const io::Image image = io::draw_part(found->mesh, found->lines);
+        io::PictureOptions options;
+        options.triangle_colours = found->colours;
+        const io::Image image = io::draw_part(found->mesh, found->lines, options);
         if (const auto written = io::write_png(call.picture, image); !written) return report(written.error());
     }
     if (call.json) {

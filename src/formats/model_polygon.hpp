@@ -14,9 +14,9 @@ namespace tribo::formats {
 // One object per file; allocates only while its longest face grows.
 class PolygonTriangulator {
   public:
-    // Corner-in-triangle tests for all concave faces of a file, about two seconds: files made to be slow end
+    // Corner-in-triangle tests for all concave faces of a file, one to two seconds: files made to be slow end
     // here.
-    static constexpr std::uint64_t kMaxTests = 100'000'000;
+    static constexpr std::uint64_t kMaxTests = 40'000'000;
 
     // Appends the triangles of the face whose corner i is number corners[i] at points[i]. A fan from the
     // first corner where that is right, else ear clipping (Meisters 1975) in the plane along which the face

@@ -138,7 +138,14 @@ class SceneReader {
         for (VrmlNodeId id = 0; id < tree_.nodes.size(); ++id) {
             if (!(*reached)[id]) continue;
             Summary& s = summary_[id];
-            if (is_surface(role(id))) s.triangles = count_triangles(tree_, id);
+            if (is_surface(role(id))) {
+                s.triangles = count_triangles(tree_, id);
+                // The walk passes by what shows nothing; where that is a slip it must not go unseen.
+                if (s.triangles == 0) {
+                    if (auto empty = read_vrml_surface(tree_, id, triangulator_); !empty)
+                        return std::unexpected(empty.error());
+                }
+            }
             if (role(id) == VrmlRole::inline_file && node(id).number > 0) s.refused = id;
             const auto children = seen(id);
             for (const VrmlNodeId child : *children) add(s, summary_[child]);

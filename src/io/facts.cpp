@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/mesh_edges.hpp"
 #include "formats/gcode_reader.hpp"
 #include "io/json.hpp"
 #include "motion/summary.hpp"
@@ -147,6 +148,49 @@ void add_inner(Builder& b, const char* name, const Facts& inner) {
     b.facts.warnings.insert(b.facts.warnings.end(), inner.warnings.begin(), inner.warnings.end());
 }
 
+// Parts smaller or larger than this across are rarely milled: their unit is another, mm.
+constexpr double kSmallestPartMm = 3, kLargestPartMm = 5000;
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// Equal corners count as one, however often the file writes them.
+void add_edges(Builder& b, TriangleMesh mesh, bool closed) {
+    weld_exactly(mesh);
+    const MeshEdges e = describe_edges(mesh);
+    b.json["pieces"] = e.pieces;
+    b.json["open_edges"] = e.open;
+    b.json["holes"] = e.holes;
+    b.json["crowded_edges"] = e.crowded;
+    b.json["turned_edges"] = e.turned;
+    b.line("pieces", std::to_string(e.pieces));
+    std::string text = closed || e.open + e.crowded + e.turned == 0 ? "yes" : "no: ";
+    if (e.open > 0) text += counted(e.holes, "hole", "holes") + " of " + counted(e.open, "edge", "edges");
+    if (e.crowded > 0) {
+        text +=
+            (e.open > 0 ? ", " : "") + counted(e.crowded, "edge", "edges") + " of more than two triangles";
+    }
+    if (e.turned > 0) {
+        text += (e.open + e.crowded > 0 ? ", " : "") + counted(e.turned, "edge", "edges") +
+                " where one side is inside out";
+    }
+    b.line("closed", text);
+}
+
+void add_unit_warning(Builder& b, const Box3& box, const formats::Model& model) {
+    if (box.empty()) return;
+    const double across = length(box.size());
+    if (across >= kSmallestPartMm && across <= kLargestPartMm) return;
+    const bool is_small = across < kSmallestPartMm;
+    std::string text = "the model is only " + number(across) + " mm across";
+    if (!is_small) text = "the model is " + number(across / 1000) + " m across";
+    text += ": if its unit is not the millimetre, set unit_mm";
+    if (is_small) text += ", 1000 for metres or 25.4 for inches";
+    if (model.format == formats::ModelFormat::vrml && is_small) text += "; VRML means metres";
+    b.facts.warnings.push_back({"", 0, text});
+}
+
 }  // namespace
 
 Facts describe(const motion::Program& program, formats::PathKind format, double rapid_mm_per_min) {
@@ -211,16 +255,24 @@ Facts describe(const formats::Model& model) {
         b.json["bounds_mm"] = box_json(box);
         b.line("bounds", box_text(box));
     }
+    if (!model.parts.empty()) {
+        b.json["parts"] = model.parts.size();
+        b.line("parts", std::to_string(model.parts.size()));
+    }
     const bool closed = is_closed(mesh);
     b.json["closed"] = closed;
     if (closed) {
         const double volume = volume_mm3(mesh);
         b.json["volume_mm3"] = volume;
         b.line("volume", number(volume) + " mm3");
-    } else {
-        b.line("closed", "no: a surface, not a solid");
     }
+    add_edges(b, mesh, closed);
     b.facts.warnings = model.warnings;
+    add_unit_warning(b, box, model);
+    if (closed && volume_mm3(mesh) < 0) {
+        b.facts.warnings.push_back(
+            {"", 0, "the model is inside out: its triangles run clockwise seen from outside"});
+    }
     return b.finish();
 }
 

@@ -20,7 +20,7 @@ struct Facts {
 
 // {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
 Facts describe(const motion::Program& program, formats::PathKind format, double rapid_mm_per_min = 10000);
-// {kind: "model", triangles, area_mm2, bounds_mm, warnings, ...}
+// {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}
 Facts describe(const formats::Model& model);
 // {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".
 Facts describe(const formats::Job& job, const Facts* program, const Facts* part);

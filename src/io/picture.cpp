@@ -224,6 +224,12 @@ Vec3 normal_at(const TriangleMesh& mesh, const Triangle& t, const Camera& camera
     return flip ? -normal : normal;
 }
 
+Colour linear(const std::array<std::uint8_t, 3>& srgb) {
+    Colour out{};
+    for (std::size_t k = 0; k < 3; ++k) out[k] = to_linear(static_cast<float>(srgb[k]) / 255);
+    return out;
+}
+
 // Light and opacity of one pixel, premultiplied.
 struct Pixel {
     float r = 0, g = 0, b = 0, a = 0;
@@ -241,15 +247,17 @@ std::vector<Pixel> shade(const TriangleMesh& mesh, const Camera& camera, const s
         for (int x = 0; x < buffer.width; ++x) {
             const std::uint32_t index = buffer.triangle[buffer.at(x, y)];
             if (index == kNothing) continue;
+            const Colour own =
+                options.triangle_colours.empty() ? base : linear(options.triangle_colours[index]);
             const Lights::Light light =
                 lights.on(normal_at(mesh, mesh.triangles[index], camera, seen, x + 0.5, y + 0.5));
             Pixel& pixel =
                 pixels[static_cast<std::size_t>(y / kSamples) * static_cast<std::size_t>(options.width) +
                        static_cast<std::size_t>(x / kSamples)];
             // Clipped before the mean, or the edge of a highlight would show steps.
-            pixel.r += kShare * std::min(1.0F, base[0] * light.diffuse + light.shine);
-            pixel.g += kShare * std::min(1.0F, base[1] * light.diffuse + light.shine);
-            pixel.b += kShare * std::min(1.0F, base[2] * light.diffuse + light.shine);
+            pixel.r += kShare * std::min(1.0F, own[0] * light.diffuse + light.shine);
+            pixel.g += kShare * std::min(1.0F, own[1] * light.diffuse + light.shine);
+            pixel.b += kShare * std::min(1.0F, own[2] * light.diffuse + light.shine);
             pixel.a += kShare;
         }
     }

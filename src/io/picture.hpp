@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/mesh.hpp"
@@ -28,6 +30,8 @@ struct PictureOptions {
     Vec3 towards_viewer{0.55, -1.0, 0.9};  // from the part; any length above 0
     Colour colour{0.70F, 0.73F, 0.77F};
     double margin = 0.04;  // of the shorter side, kept free around the part
+    // One for each triangle, in the place of `colour`; sRGB. Empty: all are of that one.
+    std::span<const std::array<std::uint8_t, 3>> triangle_colours = {};
 };
 
 // The image behind the part is transparent, so that it stands on any page. The same mesh gives the same

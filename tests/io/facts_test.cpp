@@ -62,11 +62,36 @@ TEST(Facts, of_a_model_have_the_promised_keys) {
     EXPECT_EQ(json["bounds_mm"], Json::parse("[[0.0,0.0,0.0],[2.0,2.0,2.0]]"));
     EXPECT_EQ(json["closed"], true);
     EXPECT_EQ(json["volume_mm3"], 8.0);
-    EXPECT_EQ(json["warnings"][0], "c.stl: warning: odd");
+    EXPECT_EQ(json["pieces"], 1);
+    EXPECT_EQ(json["warnings"], Json::parse("[\"c.stl: warning: odd\"]"));
+    for (Triangle& t : cube.mesh.triangles) std::swap(t[1], t[2]);
+    EXPECT_NE(describe(cube).json.find("inside out"), std::string::npos);
     cube.mesh.triangles.pop_back();
-    const Json open = Json::parse(describe(cube).json);
-    EXPECT_EQ(open["closed"], false);
-    EXPECT_FALSE(open.contains("volume_mm3"));
+    const Facts open = describe(cube);
+    const Json json_open = Json::parse(open.json);
+    EXPECT_EQ(json_open["closed"], false);
+    EXPECT_EQ(json_open["holes"], 1);
+    EXPECT_EQ(json_open["open_edges"], 3);
+    EXPECT_FALSE(json_open.contains("volume_mm3"));
+    EXPECT_NE(aligned(open.lines).find("closed     no: 1 hole of 3 edges"), std::string::npos);
+}
+
+TEST(Facts, of_a_model_guess_at_a_wrong_unit) {
+    formats::Model model;
+    const auto warning_at = [&](float size) {
+        model.mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+        model.mesh.triangles = {{0, 1, 2}};
+        const Warnings warnings = describe(model).warnings;
+        return warnings.empty() ? std::string() : warnings[0].text;
+    };
+    model.format = formats::ModelFormat::vrml;
+    EXPECT_EQ(warning_at(100), "");
+    EXPECT_EQ(
+        warning_at(1),
+        "the model is only 1.414 mm across: if its unit is not the millimetre, set unit_mm, 1000 for metres "
+        "or 25.4 for inches; VRML means metres");
+    EXPECT_EQ(warning_at(1e4F),
+              "the model is 14.142 m across: if its unit is not the millimetre, set unit_mm");
 }
 
 TEST(Facts, of_a_job_hold_those_of_its_files) {
