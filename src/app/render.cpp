@@ -36,6 +36,13 @@ io::Summary summary_of(const RenderCall& call, const LoadedJob& loaded, const se
     s.resolution_mm = session.setup().cell_mm;
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
+    if (t.removed_mm3 == 0) {
+        s.warnings.push_back(
+            {call.job, 0,
+             "nothing was cut: the tool never meets the stock; check the path's units and zero, "
+             "and the stock's place"});
+        report(Warnings{s.warnings.back()});
+    }
     for (const session::MillCollision& c : t.collisions) {
         s.collisions.push_back({c.line, c.t_s, milling::name(c.kind), c.tip_mm});
     }

@@ -80,7 +80,8 @@ void TomlSection::missing(std::string_view key) {
 }
 
 void TomlSection::wrong_type(std::string_view key, const toml::node& node, const char* wanted) {
-    file_.fail(node.source(), in_quotes(key) + " must be " + wanted + ", not " + type_name(node), "");
+    file_.fail(node.source(), in_quotes(key) + " must be " + wanted + ", not " + type_name(node),
+               node.is_string() ? "take the quotes away" : std::string("write ") + wanted);
 }
 
 std::optional<double> TomlSection::number_of(std::string_view key, const toml::node& node, Range range) {
@@ -116,7 +117,8 @@ std::optional<int> TomlSection::integer(std::string_view key, int min, int max) 
         number(key, Range{static_cast<double>(min), static_cast<double>(max)});
     if (!value) return {};
     if (*value != std::floor(*value)) {
-        fail(key, in_quotes(key) + " must be a whole number, not " + shown(*value));
+        fail(key, in_quotes(key) + " must be a whole number, not " + shown(*value),
+             "try " + shown(std::floor(*value)));
         return {};
     }
     return static_cast<int>(*value);
@@ -161,7 +163,8 @@ std::optional<std::string> TomlSection::path(std::string_view key) {
 std::optional<Vec3> TomlSection::point_of(std::string_view key, const toml::node& node, const char* wanted) {
     const toml::array* array = node.as_array();
     if (!array || array->size() != 3) {
-        file_.fail(node.source(), in_quotes(key) + " must be " + wanted, "");
+        file_.fail(node.source(), in_quotes(key) + " must be " + wanted,
+                   "write them in brackets, with commas");
         return {};
     }
     Vec3 point;
@@ -185,7 +188,7 @@ std::optional<Box3> TomlSection::box(std::string_view key) {
     if (!node) return {};
     const toml::array* array = node->as_array();
     if (!array || array->size() != 2) {
-        fail(key, in_quotes(key) + " must be " + kWanted);
+        fail(key, in_quotes(key) + " must be " + kWanted, "write them in brackets, with commas");
         return {};
     }
     Box3 box;
@@ -259,9 +262,11 @@ Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
     toml::parse_result parsed = toml::parse(text, file);
     if (parsed) return std::move(parsed).table();
     const toml::parse_error& error = parsed.error();
+    const bool bytes = error.description().find("utf-8") != std::string_view::npos;
     return fail_at(file, static_cast<int>(error.source().begin.line),
                    static_cast<int>(error.source().begin.column),
-                   "not valid TOML: " + std::string(error.description()), "");
+                   "not valid TOML: " + std::string(error.description()),
+                   bytes ? "save the file as UTF-8" : "write key = value, text in quotes, lists in brackets");
 }
 
 }  // namespace tribo::io
