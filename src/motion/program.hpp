@@ -60,10 +60,18 @@ struct DeclaredTool {
     int line = 0;
 };
 
+// The stock that a program declares about itself (BLK FORM).
+struct DeclaredStock {
+    Box3 box_mm;
+    int line = 0;
+};
+
 struct Program {
-    std::string source;  // name of the file it came from
+    std::string source;   // name of the file it came from
+    std::string dialect;  // of the control it was read for; empty: none
     std::vector<Move> moves;
     std::vector<DeclaredTool> tools;
+    std::optional<DeclaredStock> stock;
     bool has_rotary_words = false;  // axis words A B C: meaningless without a machine
     std::string machine;            // that its rotary words were read with; empty: none
     int first_rotary_line = 0;
