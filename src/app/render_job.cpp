@@ -13,6 +13,7 @@
 #include "io/model_file.hpp"
 #include "io/program_file.hpp"
 #include "motion/path.hpp"
+#include "session/job_completion.hpp"
 
 namespace tribo::app {
 namespace {
@@ -66,6 +67,9 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call) {
     auto program = io::read_program(loaded.job);
     if (!program) return std::unexpected(program.error());
     loaded.warnings = program->warnings;
+    if (auto done = session::complete_job(loaded.job, *program, loaded.warnings); !done) {
+        return std::unexpected(io::Failure(done.error()));
+    }
     session::MillInputs inputs;
     inputs.program = std::move(*program);
     auto blank = read_solid(loaded.job.stock);

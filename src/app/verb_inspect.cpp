@@ -16,6 +16,7 @@
 #include "io/model_file.hpp"
 #include "io/picture.hpp"
 #include "io/program_file.hpp"
+#include "session/job_completion.hpp"
 
 namespace tribo::app {
 namespace {
@@ -95,10 +96,13 @@ io::FileResult<Found> inspect_model(const std::string& file) {
 }
 
 io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
-    const io::FileResult<formats::Job> job = io::parse_job(bytes, file);
+    io::FileResult<formats::Job> job = io::parse_job(bytes, file);
     if (!job) return std::unexpected(job.error());
-    const io::FileResult<motion::Program> program = io::read_program(*job);
+    io::FileResult<motion::Program> program = io::read_program(*job);
     if (!program) return std::unexpected(program.error());
+    if (auto done = session::complete_job(*job, *program, program->warnings); !done) {
+        return std::unexpected(io::Failure(done.error()));
+    }
     Found found = found_program(*program, job->path.kind, job->machine.rapid_mm_per_min);
     std::optional<io::Facts> part;
     if (job->part) {

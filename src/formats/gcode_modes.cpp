@@ -76,6 +76,9 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
         state.loaded_tool = state.selected_tool;
         state.has_changed_tool = true;
     }
+    if (output.machine && (command.m(MGroup::tool) || command.has('T'))) {
+        output.machine->set_tool_length(output.tool_length_mm(state.tool()));
+    }
     return {};
 }
 

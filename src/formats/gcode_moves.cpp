@@ -45,6 +45,9 @@ Result<void> append(const motion::Move& move, State& state, Output& output) {
 Result<void> hand_out(const motion::Move& move, State& state, Output& output) {
     if (output.machine) return append_on_machine(move, state, output);
     const double turn_deg = state.active().turn_deg;
+    if (state.rotary.vectors || state.rotary.now_axis != Vec3{0, 0, 1}) {
+        return output.append(turned(with_vectors(move, state), turn_deg));
+    }
     return turn_deg == 0 ? output.append(move) : output.append(turned(move, turn_deg));
 }
 

@@ -132,7 +132,7 @@ class Reader {
                 return std::unexpected(done.error());
             }
         }
-        state_.rotary.now_rad = state_.rotary.target_rad;
+        state_.rotary.arrive();
         const bool calls = command.m(MGroup::subprogram).has_value();
         if (calls) {
             command.use('P');

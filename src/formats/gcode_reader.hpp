@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,10 +28,11 @@ constexpr std::string_view name_of(GcodeDialect dialect) {
     return dialect == GcodeDialect::fanuc ? "Fanuc" : "LinuxCNC";
 }
 
-// What cutter compensation needs to know of a tool.
+// What cutter compensation and machines that turn their heads need to know of a tool.
 struct GcodeTool {
     int number = 0;
     double diameter_mm = 0;
+    std::optional<double> length_mm{};  // from the spindle nose to the tip
 };
 
 struct GcodeOptions {

@@ -5,6 +5,7 @@
 
 #include "base/math.hpp"
 #include "formats/decimal_text.hpp"
+#include "motion/direction.hpp"
 
 namespace tribo::formats::gcode {
 namespace {
@@ -74,6 +75,11 @@ Result<void> read_vector(Command& command, State& state, Output& output) {
         return output.refuse(command.line(), first->column, "the tool's axis I J K has no direction",
                              "write the direction from the tip to the shank");
     }
+    if (!output.machine) {
+        state.rotary.target_axis = normalized(axis);
+        state.rotary.stated = true;
+        return {};
+    }
     const auto reached =
         output.machine->kinematics().joints({{}, normalized(axis)}, {{}, state.rotary.now_rad});
     if (!reached) {
@@ -118,6 +124,14 @@ Result<void> set_rotary_origin(Command& command, State& state, const Output& out
 Result<void> switch_tip_control(const Command& command, State& state, Output& output) {
     const auto to = switch_in(command, state);
     if (!to) return {};
+    if (!output.machine && to->vectors) {
+        state.rotary.vectors = state.rotary.by_length_code = true;
+        return {};
+    }
+    if (!output.machine && state.rotary.vectors) {
+        state.rotary.vectors = state.rotary.by_length_code = false;
+        return {};
+    }
     if (!output.machine) {
         note_machine_needed(command, output);
         if (output.first(Note::tool_tip_switch)) {
@@ -163,6 +177,9 @@ Result<void> switch_tip_control(const Command& command, State& state, Output& ou
 Result<void> read_rotary_words(Command& command, State& state, Output& output) {
     RotaryState& rotary = state.rotary;
     rotary.stated = false;
+    if (rotary.vectors && (state.motion == MotionMode::line || state.motion == MotionMode::rapid)) {
+        if (auto done = read_vector(command, state, output); !done) return done;
+    }
     if (!output.machine) {
         if (!command.has_any("ABC")) return {};
         for (const char letter : {'A', 'B', 'C'}) command.use(letter);
@@ -172,9 +189,6 @@ Result<void> read_rotary_words(Command& command, State& state, Output& output) {
                         "rotary words (A B C) mean nothing without a machine: their motion is left out");
         }
         return {};
-    }
-    if (rotary.vectors && (state.motion == MotionMode::line || state.motion == MotionMode::rapid)) {
-        if (auto done = read_vector(command, state, output); !done) return done;
     }
     const auto code = command.g(GGroup::non_modal);
     if (code && (code->tenths == 280 || code->tenths == 300)) {
@@ -203,12 +217,23 @@ Result<void> read_rotary_words(Command& command, State& state, Output& output) {
     return {};
 }
 
+motion::Move with_vectors(const motion::Move& move, State& state) {
+    motion::Move leaning = move;
+    leaning.start.axis = state.rotary.now_axis;
+    leaning.end.axis = state.rotary.target_axis;
+    state.rotary.now_axis = state.rotary.target_axis;
+    return leaning;
+}
+
 void set_turning_time(motion::Move& move, const State& state) {
     if (!state.rotary.turns() || move.kind != motion::MoveKind::feed || move.duration_s > 0) return;
     const double length = motion::path_length_mm(move);
     // With tool tip control the tip runs at the feed by itself, unless it stands.
-    if (state.rotary.tip_control && length > 0) return;
-    const double turn_deg = tribo::length(state.rotary.target_rad - state.rotary.now_rad) * math::kDegPerRad;
+    if ((state.rotary.tip_control || state.rotary.vectors) && length > 0) return;
+    const RotaryState& rotary = state.rotary;
+    const double turn_deg = (tribo::length(rotary.target_rad - rotary.now_rad) +
+                             motion::angle_rad(rotary.now_axis, rotary.target_axis)) *
+                            math::kDegPerRad;
     move.duration_s = 60 * (length > 0 ? length : turn_deg) / move.feed_mm_per_min;
 }
 

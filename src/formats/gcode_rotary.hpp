@@ -15,6 +15,9 @@ Result<void> switch_tip_control(const Command& command, State& state, Output& ou
 // they are noted only.
 Result<void> read_rotary_words(Command& command, State& state, Output& output);
 
+// The move with the tool's axis from where it is to where the block's vector has it, which it then is.
+motion::Move with_vectors(const motion::Move& move, State& state);
+
 // The time of a feed move that turns rotary axes, from the feed that it has: along X Y Z the feed is the
 // path's, on the spot it counts degrees (RS274/NGC 2.1.2.5). Moves that keep their axes are left alone.
 void set_turning_time(motion::Move& move, const State& state);

@@ -55,6 +55,13 @@ std::optional<double> Output::tool_diameter_mm(int number) const {
     return std::nullopt;
 }
 
+std::optional<double> Output::tool_length_mm(int number) const {
+    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
+        if (tool->number == number && tool->length_mm) return tool->length_mm;
+    }
+    return std::nullopt;
+}
+
 bool Output::first(Note note) {
     return !std::exchange(noted_[static_cast<std::size_t>(note)], true);
 }

@@ -94,7 +94,15 @@ struct RotaryState {
     bool vectors = false;         // I J K of a line are the tool's axis (G43.5)
     std::array<Vec3, kWorkSystems> origin_rad{};
 
-    bool turns() const { return now_rad != target_rad; }
+    // The tool's axis where its vectors are read without a machine.
+    Vec3 now_axis{0, 0, 1}, target_axis{0, 0, 1};
+
+    bool turns() const { return now_rad != target_rad || now_axis != target_axis; }
+    // The block is done: what it asked for is where the axes are.
+    void arrive() {
+        now_rad = target_rad;
+        now_axis = target_axis;
+    }
 };
 
 struct State {
@@ -186,6 +194,7 @@ class Output {
     // Moves go to the sink, or into the program where there is none.
     Output(const GcodeOptions& options, MoveSink* sink) : options(options), sink_(sink) {
         program.source = options.source_name;
+        program.dialect = name_of(options.dialect);
         if (options.machine != nullptr) {
             machine.emplace(*options.machine);
             program.machine = options.machine->name;
@@ -201,6 +210,7 @@ class Output {
     Result<void> append(const motion::Move& move);
     // Where the options and the program name it.
     std::optional<double> tool_diameter_mm(int number) const;
+    std::optional<double> tool_length_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_.push_back(tool); }
 
     // True the first time it is asked of a note.

@@ -201,7 +201,9 @@ Result<void> Interpreter::define_tool(LineReader& in) {
             tool.number = static_cast<int>(std::clamp(*item.value, 0.0, 999'999.0));
         } else if (item.name == "R" && item.value) {
             tool.diameter_mm = 2 * *item.value * unit_mm_;
-        } else if (item.name != "L" && !item.name.starts_with('"')) {
+        } else if (item.name == "L" && item.value) {
+            if (*item.value > 0) tool.length_mm = *item.value * unit_mm_;
+        } else if (!item.name.starts_with('"')) {
             return in.refuse(item.column, item.name + " does not belong into TOOL DEF", "write L and R");
         }
     }
@@ -225,6 +227,7 @@ Result<void> Interpreter::call_tool(LineReader& in) {
                 return in.refuse(item.column, "the tool number is out of range", "correct it");
             }
             path_.tool = static_cast<int>(*item.value);
+            path_.measure_tool();
         } else if ((item.name == "X" || item.name == "Y") && !item.value) {
             return in.refuse(item.column, "a tool along " + item.name + " is not read",
                              "write TOOL CALL ... Z");

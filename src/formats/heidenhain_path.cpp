@@ -139,6 +139,18 @@ Result<void> Path::dwell(double seconds, Place place) {
     return append(move);
 }
 
+void Path::measure_tool() {
+    if (!machine) return;
+    std::optional<double> length_mm;
+    for (const motion::DeclaredTool& known : program.tools) {
+        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
+    }
+    for (const GcodeTool& known : options.tools) {
+        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
+    }
+    machine->set_tool_length(length_mm);
+}
+
 void Path::switch_tip_control(bool on, int line) {
     if (on == tip_control) return;
     const bool was_in_stock = in_stock();

@@ -63,6 +63,9 @@ class Path {
     void aim(Vec3 axis) { aim_ = axis; }
     Vec3 axis() const { return aim_; }
 
+    // Takes the length of the tool in the spindle from the options, else from the program's TOOL DEF.
+    void measure_tool();
+
     // Coordinates become the tip's in the stock, or the machine's again; the tool stays where it is.
     void switch_tip_control(bool on, int line);
     // Puts the tool upright in a plane and counts coordinates there. The tip stays where `keep_tip` says so;

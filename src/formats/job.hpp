@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "formats/dialect.hpp"
 #include "milling/coefficients.hpp"
 #include "milling/cutter.hpp"
 #include "motion/keyframe_motion.hpp"
@@ -44,7 +45,9 @@ struct JobPath {
     motion::Interpolation interpolation =
         motion::Interpolation::spline;  // of keyframes; programs say it themselves
     std::string machine;  // of G-code: a machine's name, or the file that describes it; may be empty
-    double unit_mm = 1;   // of keyframes only
+    std::string tools;               // a tool table; may be empty
+    std::optional<Dialect> dialect;  // of G-code; absent: as its text says
+    double unit_mm = 1;              // of keyframes only
 };
 
 // What the process is where the program does not say; 0: the program must.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/math.hpp"
 #include "base/mesh_edges.hpp"
-#include "formats/gcode_reader.hpp"
 #include "io/json.hpp"
 #include "motion/summary.hpp"
 
@@ -198,9 +198,9 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
     Builder b("program");
     b.json["format"] = path_name(format);
     b.line("format", std::string(path_name(format)));
-    if (format == formats::PathKind::gcode) {
-        b.json["dialect"] = formats::name_of(formats::GcodeDialect::linuxcnc);
-        b.line("dialect", std::string(formats::name_of(formats::GcodeDialect::linuxcnc)));
+    if (!program.dialect.empty()) {
+        b.json["dialect"] = program.dialect;
+        b.line("dialect", program.dialect);
     }
     b.json["moves"] = s.moves;
     b.json["feed_moves"] = s.feed_moves;
@@ -221,7 +221,16 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
         b.json["machine"] = program.machine;
         b.line("machine", program.machine);
     }
-    if (s.tilted) b.line("axis", "leaves +z");
+    if (s.tilted) {
+        const double tilt_deg = s.tilt_rad * math::kDegPerRad;
+        b.json["tilt_deg"] = tilt_deg;
+        b.line("axis", "leaves +z, by up to " + number(tilt_deg) + " deg");
+    }
+    if (program.stock) {
+        b.json["stock"]["box_mm"] = box_json(program.stock->box_mm);
+        b.line("stock",
+               box_text(program.stock->box_mm) + " (line " + std::to_string(program.stock->line) + ")");
+    }
     if (s.feed_mm_per_min.most > 0) {
         b.json["feed_mm_per_min"] = {s.feed_mm_per_min.least, s.feed_mm_per_min.most};
         b.line("feed", range(s.feed_mm_per_min.least, s.feed_mm_per_min.most, "mm/min"));

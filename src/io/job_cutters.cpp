@@ -84,7 +84,6 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
 
 std::vector<milling::Cutter> read_cutters(TomlSection& job) {
     const std::vector<const toml::table*> tables = job.tables("cutter");
-    if (tables.empty()) job.missing("cutter");
     const std::string label = tables.size() > 1 ? "[[cutter]]" : "[cutter]";
     std::vector<milling::Cutter> cutters;
     for (const toml::table* table : tables) {

@@ -19,8 +19,9 @@ constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_p
                                    "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
 constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
 constexpr std::array kPathKinds{"keyframes"sv, "gcode"sv, "apt"sv};
-constexpr std::array kPathKeys{"keyframes"sv,     "gcode"sv,   "apt"sv,
-                               "interpolation"sv, "machine"sv, "unit_mm"sv};
+constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
+                               "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
+constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv, "distance_factor"sv, "gain_db"sv, "bits"sv, "hrtf"sv,
@@ -136,6 +137,17 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table) {
     if (path.kind != formats::PathKind::gcode && section.has("machine")) {
         section.fail("machine", "'machine' belongs to G-code: other paths hold the tool's axis already",
                      "remove it");
+    }
+    if (path.kind == formats::PathKind::keyframes && section.has("tools")) {
+        section.fail("tools", "'tools' belongs to a program: keyframes call no tool",
+                     "describe it as [cutter]");
+    }
+    path.tools = section.path("tools").value_or("");
+    if (path.kind != formats::PathKind::gcode && section.has("dialect")) {
+        section.fail("dialect", "'dialect' belongs to G-code", "remove it");
+    }
+    if (const auto dialect = section.word("dialect", kDialectWords)) {
+        path.dialect = static_cast<formats::Dialect>(*dialect);
     }
     path.interpolation =
         static_cast<motion::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));

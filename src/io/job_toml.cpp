@@ -19,8 +19,6 @@ void read_all(TomlSection& root, formats::Job& job) {
     if (const auto* table = root.only_table("part")) job.part = read_part(root.file(), *table);
     if (const auto* table = root.only_table("stock")) {
         job.stock = read_solid(root.file(), *table, "[stock]");
-    } else {
-        root.missing("stock");
     }
     job.cutters = read_cutters(root);
     if (const auto* table = root.only_table("material")) {
@@ -32,6 +30,11 @@ void read_all(TomlSection& root, formats::Job& job) {
         job.path = read_path(root.file(), *table);
     } else {
         root.missing("path");
+    }
+    // A program may bring stock and tools itself; keyframes hold neither.
+    if (job.path.kind == formats::PathKind::keyframes) {
+        if (!root.has("stock")) root.missing("stock");
+        if (!root.has("cutter")) root.missing("cutter");
     }
     if (const auto* table = root.only_table("process")) job.process = read_process(root.file(), *table);
     if (const auto* table = root.only_table("engagement")) {

@@ -8,7 +8,10 @@
 
 #include "formats/apt_reader.hpp"
 #include "formats/gcode_reader.hpp"
+#include "formats/heidenhain_reader.hpp"
 #include "formats/keyframes_csv.hpp"
+#include "formats/siemens_text.hpp"
+#include "formats/tool_table.hpp"
 
 namespace tribo::io {
 namespace {
@@ -26,10 +29,11 @@ constexpr std::array kExtensions{
     Extension{".gcode", PathKind::gcode},   Extension{".gc", PathKind::gcode},
     Extension{".tap", PathKind::gcode},     Extension{".cnc", PathKind::gcode},
     Extension{".mpf", PathKind::gcode},     Extension{".eia", PathKind::gcode},
-    Extension{".min", PathKind::gcode},     Extension{".apt", PathKind::apt},
-    Extension{".cls", PathKind::apt},       Extension{".cldata", PathKind::apt},
-    Extension{".cl", PathKind::apt},        Extension{".aptsource", PathKind::apt},
-    Extension{".csv", PathKind::keyframes},
+    Extension{".min", PathKind::gcode},     Extension{".h", PathKind::gcode},
+    Extension{".spf", PathKind::gcode},     Extension{".hnc", PathKind::gcode},
+    Extension{".apt", PathKind::apt},       Extension{".cls", PathKind::apt},
+    Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
+    Extension{".aptsource", PathKind::apt}, Extension{".csv", PathKind::keyframes},
 };
 
 std::string lower(std::string_view text) {
@@ -63,7 +67,7 @@ std::optional<PathKind> detect_by_content(std::string_view bytes) {
         if (line.starts_with("x,y,z,i,j,k")) return PathKind::keyframes;
         if (line.starts_with("goto") || line.starts_with("partno") || line.starts_with("multax"))
             return PathKind::apt;
-        if (begins_like_gcode(line)) return PathKind::gcode;
+        if (begins_like_gcode(line) || line.find("begin pgm") < 8) return PathKind::gcode;
         at = end + 1;
     }
     return {};
@@ -115,18 +119,53 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
     gcode.source_name = path;
     gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
     gcode.machine = options.machine;
-    return formats::read_gcode(bytes, gcode);
+    // The last of a number wins there, the first of it here.
+    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
+        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
+    }
+    const std::optional<formats::Dialect> told =
+        options.dialect ? options.dialect : formats::detect_dialect(bytes);
+    const formats::Dialect dialect = told.value_or(formats::Dialect::linuxcnc);
+    if (dialect == formats::Dialect::heidenhain) return formats::read_heidenhain(bytes, gcode);
+    if (dialect == formats::Dialect::siemens) return formats::read_siemens(bytes, gcode);
+    if (dialect == formats::Dialect::fanuc) gcode.dialect = formats::GcodeDialect::fanuc;
+    auto program = formats::read_gcode(bytes, gcode);
+    if (program) program->dialect = formats::name_of(dialect);
+    return program;
 }
 
 FileResult<motion::Program> read_program(const formats::Job& job) {
     const FileResult<std::string> bytes = read_file(job.path.file);
     if (!bytes) return std::unexpected(bytes.error());
-    auto program = parse_program(*bytes, job.path.file, job.path.kind,
-                                 {.default_feed_mm_per_min = job.process.feed_mm_per_min,
-                                  .unit_mm = job.path.unit_mm,
-                                  .interpolation = job.path.interpolation,
-                                  .machine = job.machine.kinematics ? &*job.machine.kinematics : nullptr});
+    ProgramFileOptions options;
+    options.default_feed_mm_per_min = job.process.feed_mm_per_min;
+    options.unit_mm = job.path.unit_mm;
+    options.interpolation = job.path.interpolation;
+    options.dialect = job.path.dialect;
+    if (job.machine.kinematics) options.machine = &*job.machine.kinematics;
+    formats::ToolTable table;
+    if (!job.path.tools.empty()) {
+        const FileResult<std::string> text = read_file(job.path.tools);
+        if (!text) return std::unexpected(text.error());
+        auto read = formats::read_tool_table(*text, {.source_name = job.path.tools});
+        if (!read) return std::unexpected(Failure(read.error()));
+        table = *std::move(read);
+    }
+    // The job's diameters before the table's.
+    for (const milling::Cutter& cutter : job.cutters) {
+        motion::DeclaredTool tool;
+        tool.number = cutter.number;
+        tool.diameter_mm = cutter.diameter_mm;
+        for (const motion::DeclaredTool& other : table.tools) {
+            if (other.number == tool.number) tool.length_mm = other.length_mm;
+        }
+        options.tools.push_back(tool);
+    }
+    options.tools.insert(options.tools.end(), table.tools.begin(), table.tools.end());
+    auto program = parse_program(*bytes, job.path.file, job.path.kind, options);
     if (!program) return std::unexpected(Failure(program.error()));
+    program->tools.insert(program->tools.begin(), table.tools.begin(), table.tools.end());
+    program->warnings.insert(program->warnings.end(), table.warnings.begin(), table.warnings.end());
     return *std::move(program);
 }
 

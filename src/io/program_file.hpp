@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "formats/job.hpp"
 #include "io/files.hpp"
@@ -17,6 +18,8 @@ struct ProgramFileOptions {
     double default_feed_mm_per_min = 0;  // where the program says none; 0: G-code and APT are then refused
     double unit_mm = 1;                  // of keyframes
     motion::Interpolation interpolation = motion::Interpolation::spline;  // of keyframes
+    std::optional<formats::Dialect> dialect;   // of G-code; absent: as its text says, else LinuxCNC's
+    std::vector<motion::DeclaredTool> tools;   // of a table or the job; they win over the program's own
     const motion::Machine* machine = nullptr;  // for the rotary words of G-code; motion::check accepts it
 };
 
@@ -27,7 +30,8 @@ std::optional<formats::PathKind> detect_program(std::string_view bytes, const st
 Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, formats::PathKind kind,
                                       const ProgramFileOptions& options = {});
 
-// The program that a job names, with the job's feed where the program says none.
+// The program that a job names, with the job's feed where the program says none; the tools of the job's tool
+// table stand before the program's own in Program::tools.
 FileResult<motion::Program> read_program(const formats::Job& job);
 
 }  // namespace tribo::io

@@ -52,12 +52,15 @@ struct Move {
     int line = 0;                // of the source, from 1
 };
 
-// The tool that a program declares about itself (CUTTER/, a tool comment); mm.
+// The tool that a program declares about itself (CUTTER/, a tool comment) or that a tool table holds.
 struct DeclaredTool {
     int number = 0;
     double diameter_mm = 0;
     double corner_mm = 0;
     int line = 0;
+    int flutes = 0;                     // 0: not said
+    std::optional<double> length_mm{};  // from the spindle nose to the tip
+    std::string table{};                // name of the table; empty: the program's own
 };
 
 // The stock that a program declares about itself (BLK FORM).

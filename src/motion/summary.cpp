@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "motion/direction.hpp"
+
 namespace tribo::motion {
 namespace {
 
@@ -21,6 +23,9 @@ void add_feed_move(ProgramSummary& summary, const Move& move) {
     summary.path_mm += length;
     summary.bounds_mm.include(tip_bounds(move));
     summary.tilted = summary.tilted || move.start.axis != kUpright || move.end.axis != kUpright;
+    for (const ToolPose& pose : {move.start, move.end})
+        if (pose.axis != kUpright)
+            summary.tilt_rad = std::max(summary.tilt_rad, angle_rad(kUpright, pose.axis));
     include(summary.feed_mm_per_min, move.feed_mm_per_min);
     include(summary.spindle_rpm, move.spindle_rpm);
     if (move.duration_s > 0) {

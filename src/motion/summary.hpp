@@ -23,6 +23,7 @@ struct ProgramSummary {
     std::vector<int> tools;  // numbers that moves use, ascending, each once; without 0
     bool rotary = false;     // axis words A B C, which need a machine
     bool tilted = false;     // the tool axis leaves +z in a feed move
+    double tilt_rad = 0;     // the most that it does, at starts and ends of feed moves
     Range feed_mm_per_min;   // of feed moves
     Range spindle_rpm;       // of feed moves whose program states it
     double feed_s = 0, rapid_s = 0, dwell_s = 0;  // at the programmed speeds, without acceleration

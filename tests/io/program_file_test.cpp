@@ -24,6 +24,8 @@ TEST(ProgramFormat, is_told_by_the_extension_and_else_by_the_content) {
         {"c.csv", "", PathKind::keyframes},
         {"a.txt", "%\n(comment)\nN10 G21 G90\n", PathKind::gcode},
         {"a.txt", "; made by\r\ng0x1y2\r\n", PathKind::gcode},
+        {"p.h", "", PathKind::gcode},
+        {"p", "0 BEGIN PGM X MM\n", PathKind::gcode},
         {"O1234", "O1234\nM3 S100\n", PathKind::gcode},
         {"b", "PARTNO / BLADE\nGOTO/1,2,3\n", PathKind::apt},
         {"b", "$$ comment\nGOTO  / 1,2,3\n", PathKind::apt},
@@ -33,6 +35,19 @@ TEST(ProgramFormat, is_told_by_the_extension_and_else_by_the_content) {
         {"d", "good morning\nmidday\n", std::nullopt},
     };
     for (const auto& c : cases) EXPECT_EQ(detect_program(c.text, c.path), c.kind) << c.path << ": " << c.text;
+}
+
+TEST(ProgramFile, is_read_as_its_control_has_it) {
+    const auto dialect_of = [](const char* text, const ProgramFileOptions& options = {}) {
+        const auto program = parse_program(text, "p", PathKind::gcode, options);
+        return program ? program->dialect : program.error().text();
+    };
+    EXPECT_EQ(dialect_of("G21 G0 X0 Y0 Z0\n"), "LinuxCNC");
+    EXPECT_EQ(dialect_of("%\nO1000 (PART)\nG21 G0 X0 Y0 Z0\n%\n"), "Fanuc");
+    EXPECT_EQ(dialect_of("0 BEGIN PGM A MM\n1 L X+1 Y+0 Z+0 FMAX\n2 END PGM A MM\n"), "Heidenhain");
+    EXPECT_EQ(dialect_of("G21 G0 X0 Y0 Z0\n", {.dialect = formats::Dialect::fanuc}), "Fanuc");
+    EXPECT_NE(dialect_of("G21 G0 X0 Y0 Z0\n", {.dialect = formats::Dialect::heidenhain}).find("is not known"),
+              std::string::npos);
 }
 
 TEST(ProgramFile, of_every_format_gives_the_same_moves) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/summary.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -64,6 +65,7 @@ TEST(ProgramSummary, SaysWhenTheToolTiltsAndWhenAMachineIsNeeded) {
     program.moves[0].end.axis = {0, 0.6, 0.8};
     program.has_rotary_words = true;
     EXPECT_TRUE(describe(program).tilted);
+    EXPECT_NEAR(describe(program).tilt_rad, std::acos(0.8), 1e-12);
     EXPECT_TRUE(describe(program).rotary);
 }
 
