@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "formats/text_lines.hpp"
 
@@ -255,7 +256,7 @@ class Rewriter {
         }
         const std::string_view value = line_.substr(value_at, end - value_at);
         std::string target;
-        std::string extra;
+        std::string_view extra;
         if (name.size() == 1) {
             target = dwells_ && name == "F" ? "P" : name;
         } else if (name == "CR") {
@@ -269,6 +270,7 @@ class Rewriter {
             extra = "1+";
         } else if (name[0] == 'R' && std::all_of(name.begin() + 1, name.end(), is_digit)) {
             target = "#" + name.substr(1) + "=";
+            set_here_.push_back(name);
         } else if (name == "ADIS" || name == "ADISPOS" || name == "STOLF" || name == "OTOL" ||
                    name == "CTOL") {
             put("", end);
@@ -277,11 +279,11 @@ class Rewriter {
             return refuse(at_, name.substr(0, 20) + "= is not known",
                           "delete it where it does not move the tool");
         }
-        const auto converted = expression(value, value_at);
+        const auto converted = expression(value, value_at, name);
         if (!converted) return std::unexpected(converted.error());
         const bool plain = number_of(value).has_value() && extra.empty();
         const std::string text =
-            plain ? target + std::string(value) : target + "[" + extra + *converted + "]";
+            plain ? target + std::string(value) : target + "[" + std::string(extra) + *converted + "]";
         const std::size_t width = end - at_;
         if (text.size() < width) out_.append(width - text.size(), ' ');
         out_ += text;
@@ -290,7 +292,7 @@ class Rewriter {
     }
 
     // R1 to #1, parentheses to brackets.
-    Result<std::string> expression(std::string_view value, std::size_t at) const {
+    Result<std::string> expression(std::string_view value, std::size_t at, const std::string& setting) const {
         if (value.empty()) return refuse(at, "a value is missing behind '='", "write a number");
         std::string text;
         for (std::size_t i = 0; i < value.size();) {
@@ -307,6 +309,11 @@ class Rewriter {
             std::size_t end = i;
             while (end < value.size() && is_name(value[end])) name += to_upper(value[end++]);
             if (name[0] == 'R' && name.size() > 1 && std::all_of(name.begin() + 1, name.end(), is_digit)) {
+                // Whether the old or the new value is meant the G-code reader would not ask.
+                if (std::find(set_here_.begin(), set_here_.end(), name) != set_here_.end() &&
+                    name != setting) {
+                    return refuse(at + i, name + " is used in the block that sets it", "put it on two lines");
+                }
                 text += "#" + name.substr(1);
             } else if (name == "SIN" || name == "COS" || name == "TAN" || name == "SQRT" || name == "ABS" ||
                        name == "ASIN" || name == "ACOS" || name == "ROUND") {
@@ -329,6 +336,7 @@ class Rewriter {
     std::string& out_;
     std::size_t at_ = 0;
     bool dwells_ = false;
+    std::vector<std::string> set_here_;  // R parameters that the line has set so far
 };
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace tribo::formats {
 
 struct ToolTableOptions {
-    std::string source_name;                   // stands in messages
+    std::string source_name{};                 // stands in messages
     LengthUnit unit = LengthUnit::millimetre;  // of tool.tbl, which does not say; CSV is in mm
 };
 

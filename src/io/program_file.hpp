@@ -18,9 +18,9 @@ struct ProgramFileOptions {
     double default_feed_mm_per_min = 0;  // where the program says none; 0: G-code and APT are then refused
     double unit_mm = 1;                  // of keyframes
     motion::Interpolation interpolation = motion::Interpolation::spline;  // of keyframes
-    std::optional<formats::Dialect> dialect;   // of G-code; absent: as its text says, else LinuxCNC's
-    std::vector<motion::DeclaredTool> tools;   // of a table or the job; they win over the program's own
-    const motion::Machine* machine = nullptr;  // for the rotary words of G-code; motion::check accepts it
+    std::optional<formats::Dialect> dialect{};  // of G-code; absent: as its text says, else LinuxCNC's
+    std::vector<motion::DeclaredTool> tools{};  // of a table or the job; they win over the program's own
+    const motion::Machine* machine = nullptr;   // for the rotary words of G-code; motion::check accepts it
 };
 
 // By extension (.ngc .nc .gcode .tap ..., .apt .cls .cldata ..., .csv), and by content where that says
