@@ -39,7 +39,8 @@ install_packages "${missing[@]}"
 if [[ " $* " == *" test "* ]] && ! node_is_new_enough; then
     command -v npm >/dev/null || install_packages npm
     say "installing Node.js 20 under build/node"
-    npm install --silent --no-audit --no-fund --prefix "$LOCAL_NODE" node@20
+    npm install --loglevel=error --no-audit --no-fund --prefix "$LOCAL_NODE" node@20 >/dev/null ||
+        fail "npm could not fetch Node.js 20; install one by hand, at least 20.19, and run this again"
     PATH=$LOCAL_NODE/node_modules/.bin:$PATH
     node_is_new_enough || fail "Node.js 20.19 or newer is needed and npm did not give one"
 fi
