@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a job file (TOML; README "The job file") and checks all that can be checked without opening the files
+// Reads a job file (TOML; docs/job.md) and checks all that can be checked without opening the files
 // that it names.
 #pragma once
 

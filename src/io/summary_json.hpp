@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// summary.json: what a render came to, in the keys that outsiders rely on (README, "summary.json").
+// summary.json: what a render came to, in the keys that outsiders rely on (docs/results.md).
 #pragma once
 
 #include <cstdint>

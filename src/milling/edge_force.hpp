@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The force of one piece of cutting edge in closed form, without a singularity at helix 0.
 //
-// Frame and signs (README, "Force acts on the tool"): x along the feed, y to its left, z to the shank; the
+// Frame and signs (docs/results.md): x along the feed, y to its left, z to the shank; the
 // rotation phi runs clockwise seen from the shank, from the y axis. At phi an edge moves along (cos, -sin)
 // and points outward along (sin, cos). Torque is what the spindle must give, positive against a cut.
 //
