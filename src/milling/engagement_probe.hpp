@@ -12,7 +12,7 @@
 
 namespace tribo::milling {
 
-// The tool's frame (README, "Force acts on the tool"): x along the feed, y to its left, z to the shank.
+// The tool's frame (README of this room, "Frame"): x along the feed, y to its left, z to the shank.
 struct ToolFrame {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };

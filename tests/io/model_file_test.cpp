@@ -94,7 +94,7 @@ TEST_F(ModelFolder, FilesOfTheFolderAndBelowAreRead) {
 
 TEST_F(ModelFolder, NothingElseIs) {
     for (const std::string& url : {scratch_ / "model/beside.wrl", std::string("http://x.org/beside.wrl"),
-                                  std::string("file:beside.wrl"), std::string("")}) {
+                                   std::string("file:beside.wrl"), std::string("")}) {
         EXPECT_NE(cause(url).find("not a file in the model's folder"), std::string::npos) << cause(url);
     }
     EXPECT_NE(cause("../outside.wrl").find("'..'"), std::string::npos);
