@@ -45,7 +45,7 @@ struct JobPath {
     motion::Interpolation interpolation =
         motion::Interpolation::spline;  // of keyframes; programs say it themselves
     std::string machine;  // of G-code: a machine's name, or the file that describes it; may be empty
-    std::string tools;               // a tool table; may be empty
+    std::string tools;    // a tool table; may be empty
     std::optional<Dialect> dialect;  // of G-code; absent: as its text says
     double unit_mm = 1;              // of keyframes only
 };
