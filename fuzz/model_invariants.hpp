@@ -26,6 +26,7 @@ inline int check_model(const Result<Model>& model) {
         const Point3f& p = mesh.positions[i];
         if (!used[i] || !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) std::abort();
     }
+    if (!model->colours.empty() && model->colours.size() != mesh.triangles.size()) std::abort();
     std::size_t in_parts = 0;
     for (const ModelPart& part : model->parts) in_parts += part.triangles;
     if (mesh.triangles.empty() || (!model->parts.empty() && in_parts != mesh.triangles.size())) std::abort();
