@@ -26,13 +26,17 @@ constexpr std::size_t kPruneEvery = 8;
 // half the diagonal of a cell.
 constexpr double kClearCells = 0.8661;
 
-BrickCoord grid_size(const Box3& blank, double cell) {
+// Along each axis, whole numbers: a cell may be asked for that is finer than any grid could be.
+Vec3 bricks_along(const Box3& blank, double cell) {
     const double brick = kBrickCells * cell;
-    const auto bricks = [&](double extent) {
-        return static_cast<int>(std::ceil((extent + 2 * kMarginCells * cell) / brick));
-    };
+    const auto bricks = [&](double extent) { return std::ceil((extent + 2 * kMarginCells * cell) / brick); };
     const Vec3 s = blank.size();
     return {bricks(s.x), bricks(s.y), bricks(s.z)};
+}
+
+BrickCoord grid_size(const Box3& blank, double cell) {
+    const Vec3 n = bricks_along(blank, cell);
+    return {static_cast<int>(n.x), static_cast<int>(n.y), static_cast<int>(n.z)};
 }
 
 }  // namespace
@@ -294,8 +298,8 @@ bool CarvedField::is_material(Vec3 p, double skin_mm) const {
 }
 
 double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2) {
-    const BrickCoord n = grid_size(blank_mm, cell_mm);
-    const double bricks = static_cast<double>(n.i) * n.j * n.k;
+    const Vec3 n = bricks_along(blank_mm, cell_mm);
+    const double bricks = n.x * n.y * n.z;
     const double brick_edge = kBrickCells * cell_mm;
     // A surface passes through about two bricks per brick face of its area: it is seldom centred in a layer.
     const double touched = std::min(bricks, 2 * surface_mm2 / (brick_edge * brick_edge));
