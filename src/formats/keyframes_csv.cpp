@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/decimal.hpp"
+#include "formats/csv_fields.hpp"
 #include "formats/length_unit.hpp"
 #include "formats/text_lines.hpp"
 
@@ -20,31 +21,6 @@ constexpr double kLargestFeed = 1e6;    // mm/min
 constexpr double kLargestWeight = 1e9;  // and the smallest is one over it: beyond, sums of weights lose poses
 // Shorter axes than this have no direction that could be meant.
 constexpr double kShortestAxis = 1e-9, kLongestAxis = 1e9;
-
-struct Field {
-    std::string_view text;  // without blanks around it
-    int column = 1;
-};
-
-// The fields of a line. Reuses the vector.
-void split(std::string_view line, std::vector<Field>& fields) {
-    fields.clear();
-    std::size_t start = 0;
-    for (;;) {
-        const std::size_t comma = line.find(',', start);
-        const std::string_view raw =
-            line.substr(start, comma == std::string_view::npos ? comma : comma - start);
-        std::size_t blanks = 0;
-        while (blanks < raw.size() && is_blank(raw[blanks])) ++blanks;
-        fields.push_back({trimmed(raw), static_cast<int>(start + blanks) + 1});
-        if (comma == std::string_view::npos) return;
-        start = comma + 1;
-    }
-}
-
-bool is_column(std::string_view text, std::string_view name) {
-    return std::ranges::equal(text, name, {}, to_upper, to_upper);
-}
 
 // A vector that is a unit one but for rounding stays as it is, so that tables survive being written and read.
 Vec3 to_unit(Vec3 axis) {
@@ -60,7 +36,7 @@ class Reader {
     Result<std::vector<motion::Keyframe>> read() {
         if (auto header = read_header(); !header) return std::unexpected(header.error());
         while (const auto line = next_line()) {
-            split(*line, fields_);
+            split_csv_line(*line, fields_);
             const auto keyframe = read_row();
             if (!keyframe) return std::unexpected(keyframe.error());
             if (!keyframes_.empty() && keyframes_.back().pose == keyframe->pose) {
@@ -98,21 +74,21 @@ class Reader {
     Result<void> read_header() {
         const auto line = next_line();
         if (!line) return refuse(0, "the file holds no keyframes", kHeaderRemedy);
-        split(*line, fields_);
+        split_csv_line(*line, fields_);
         if (fields_.size() == 1 && line->find(';') != std::string_view::npos) {
             return refuse(1, "the columns are separated by semicolons", "separate them by commas");
         }
         for (std::size_t i = 0; i < fields_.size(); ++i) {
-            const Field& field = fields_[i];
+            const CsvField& field = fields_[i];
             if (i < kPoseColumns.size()) {
-                if (is_column(field.text, kPoseColumns[i])) continue;
+                if (is_csv_column(field.text, kPoseColumns[i])) continue;
                 return refuse(field.column,
                               "column " + std::to_string(i + 1) + " is not " + std::string(kPoseColumns[i]),
                               kHeaderRemedy);
             }
-            const bool weight = is_column(field.text, kWeightColumn);
+            const bool weight = is_csv_column(field.text, kWeightColumn);
             auto& place = weight ? weight_ : feed_;
-            if ((!weight && !is_column(field.text, kFeedColumn)) || place) {
+            if ((!weight && !is_csv_column(field.text, kFeedColumn)) || place) {
                 return refuse(field.column,
                               "column " + std::to_string(i + 1) + " is neither weight nor feed_mm_per_min",
                               kHeaderRemedy);
@@ -127,7 +103,7 @@ class Reader {
     }
 
     Result<double> number(std::size_t i, double least, double most) const {
-        const Field& field = fields_[i];
+        const CsvField& field = fields_[i];
         const auto value = number_of(field.text);
         if (!value) {
             return refuse(field.column, field.text.empty() ? "a number is missing" : "this is not a number",
@@ -177,7 +153,7 @@ class Reader {
 
     TextLines lines_;
     const KeyframeOptions& options_;
-    std::vector<Field> fields_;
+    std::vector<CsvField> fields_;
     std::vector<motion::Keyframe> keyframes_;
     std::size_t columns_ = 0;
     std::optional<std::size_t> weight_, feed_;
