@@ -35,6 +35,8 @@ class Shape {
     // distance_mm where that is below `bound_mm`, else something from the bound up: cheaper where the
     // distance takes a search that the bound cuts short.
     virtual double distance_below(Vec3 point_mm, double /*bound_mm*/) const { return distance_mm(point_mm); }
+    // Whether a distance takes a search: rather microseconds than tens of nanoseconds.
+    virtual bool is_searched() const { return false; }
     // Unit direction in which distance_mm grows fastest.
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
     // distance_mm at all nodes in single precision, out[a + 8 b + 64 c], the same bits whatever the machine.

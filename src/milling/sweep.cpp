@@ -279,6 +279,8 @@ class CurvedSweep final : public field::Shape {
                         static_cast<double>(floors.lowest) - tool_.length_mm);
     }
 
+    bool is_searched() const override { return true; }
+
     Vec3 gradient(Vec3 point) const override {
         const Vec3 d = point - start_;
         Floors floors;
