@@ -3,9 +3,19 @@
 // pad.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+
 #include "base/vec3.hpp"
 
 namespace tribo::contact {
+
+// Distance and direction in one answer.
+struct SurfaceSample {
+    double distance_mm = 0;   // negative in material
+    Vec3 normal{0, 0, 1};     // unit, out of the material
+    std::uint32_t piece = 0;  // which smooth part of the surface answered, where the field knows
+};
 
 // Distances in mm, negative inside material. Implementations answer in bounded time without allocation or
 // locks, from any number of threads while nobody changes the field.
@@ -17,6 +27,25 @@ class DistanceField {
     virtual double distance_mm(Vec3 point_mm) const = 0;
     // Unit direction of steepest increase (out of the material), at or near the surface.
     virtual Vec3 normal(Vec3 point_mm) const = 0;
+
+    // Both of them.
+    virtual SurfaceSample sample(Vec3 point_mm) const { return {distance_mm(point_mm), normal(point_mm), 0}; }
+
+    // Radius of a ball around the point that holds no material, up to `enough_mm` (more may be given): what a
+    // probe may travel without looking. Far from the surface too; 0 or less in material.
+    virtual double clearance_mm(Vec3 point_mm, double /*enough_mm*/) const { return distance_mm(point_mm); }
+
+    // From a point in air the true distance to the material, cusps included, where that is below `within_mm`
+    // (else anything from there up), and the direction from the nearest surface point; `hint_mm` is a guess
+    // at that point. Here by search from the hint (nearest_from), for fields that measure well as far as a
+    // probe's radius.
+    virtual SurfaceSample nearest(Vec3 point_mm, double within_mm, Vec3 hint_mm) const;
 };
+
+// The surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting planes: the
+// material near it is the intersection of half-spaces, one for each piece met, each renewed where the last
+// answer lay. Exact on edges and corners. Real-time safe, at most 16 samples of the field; where that is not
+// enough, a lower bound of the distance.
+SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm);
 
 }  // namespace tribo::contact

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/field_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace tribo::haptics {
+namespace {
+
+// A proxy within this of the surface is on it, mm.
+constexpr double kSkin = 1e-6;
+// The proxy has settled when its way along the surface is below this share of the penetration: the share of
+// the force's direction that is still wrong.
+constexpr double kSettled = 2e-4;
+// Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
+constexpr double kOneSide = 0.95;
+// A step that ends this share of its length above the surface has gone over an edge.
+constexpr double kOverEdge = 0.5;
+// In flight, contact is made where the free ball is smaller than this share of the way to go.
+constexpr double kNear = 0.02;
+// The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
+constexpr double kTouches = 0.01;
+constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
+constexpr int kMostSlides = 8;
+constexpr int kMostClimbs = 24;
+
+contact::HalfSpace side_of(Vec3 normal) {
+    return {-normal, 0, 0};
+}
+
+Vec3 limited(Vec3 v, double most) {
+    const double l = length(v);
+    return l > most ? (most / l) * v : v;
+}
+
+}  // namespace
+
+FieldContact::FieldContact(const contact::DistanceField& field, const ContactOptions& options)
+    : field_(&field) {
+    set_options(options);
+    gap_.set_balls(std::array{Vec3{}});
+}
+
+void FieldContact::set_options(const ContactOptions& o) {
+    assert(o.stiffness_n_per_mm > 0 && o.probe_radius_mm >= 0 && o.tick_s > 0);
+    assert(o.friction_kinetic >= 0 && o.friction_static >= o.friction_kinetic);
+    options_ = o;
+    if (o.probe_radius_mm != gap_.radius_mm()) reset();
+    gap_.set_radius(o.probe_radius_mm);
+}
+
+void FieldContact::reset() {
+    phase_ = Phase::begin;
+    gap_.forget();
+}
+
+Contact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
+    gap_.set_balls(balls_mm);
+    return update(probe);
+}
+
+Contact FieldContact::update(Vec3 probe) noexcept {
+    first_query_ = gap_.queries();
+    if (!is_finite(probe)) return {};
+    last_proxy_ = at_.proxy;
+    if (phase_ == Phase::begin) {
+        last_proxy_ = at_.proxy = probe;
+        sticking_ = true;
+        phase_ = Phase::climb;
+    }
+    switch (phase_) {
+        case Phase::begin:
+        case Phase::climb:
+            climb(probe);
+            break;
+        case Phase::free:
+            fly(probe);
+            break;
+        case Phase::touching:
+            slide(probe);
+            break;
+    }
+    return answer(probe);
+}
+
+// Out of the material along its normals, until there is air.
+void FieldContact::climb(Vec3 probe) {
+    for (int n = 0; n < kMostClimbs && budget(4); ++n) {
+        const ProbeGap::Gap g = gap_.measure(*field_, at_.proxy);
+        if (g.gap_mm > kSkin) {
+            last_proxy_ = at_.proxy;
+            anchor_ = {at_.proxy, g.gap_mm};
+            fly(probe);
+            return;
+        }
+        // A little more than the distance, so that the proxy comes to stand in air.
+        at_.proxy += (2 * kSkin - g.gap_mm) * g.normal;
+    }
+    at_.settled = false;
+}
+
+// From the anchor straight to the probe, through balls that hold no material.
+void FieldContact::fly(Vec3 probe) {
+    phase_ = Phase::free;
+    Anchor a = anchor_;
+    for (;;) {
+        const double way = distance(probe, a.at);
+        if (way <= a.radius) {
+            anchor_ = {probe, a.radius - way};
+            at_.proxy = probe;
+            at_.settled = true;
+            return;
+        }
+        if (a.radius < std::max(kSkin, kNear * way)) break;
+        anchor_ = a;
+        if (!budget(1)) {
+            at_.proxy = a.at;
+            at_.settled = false;
+            return;
+        }
+        a.at += (a.radius / way) * (probe - a.at);
+        a.radius = gap_.clearance_mm(*field_, a.at, distance(probe, a.at));
+    }
+    // At the surface; the last ball, or what is left of it, reaches there.
+    const ProbeGap::Gap g = gap_.measure(*field_, a.at);
+    at_ = {};
+    at_.proxy = a.at - g.gap_mm * g.normal;
+    at_.normal = g.normal;
+    at_.ball = g.ball;
+    at_.sides.put(side_of(g.normal), kOneSide);
+    anchor_ = {a.at, std::max(a.radius, 0.0)};
+    phase_ = Phase::touching;
+    sticking_ = true;
+    ease_ = 1;
+    lift(std::clamp(distance(probe, at_.proxy), kLowest, kHighest));
+    if (budget(kMostSlides)) slide(probe);
+}
+
+// The part of a way that the surface at the proxy allows.
+Vec3 FieldContact::along(const Slide& s, Vec3 way) const {
+    return s.sides.nearest(way);
+}
+
+FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_step) {
+    Slide s = at_;
+    s.settled = s.lost = false;
+    const Vec3 from = s.proxy;
+    Vec3 last_rest, last_step;
+    double last_length = 0;
+    bool moved = false;
+    for (int n = 0; n < kMostSlides && budget(6); ++n) {
+        const Vec3 way = probe - s.proxy;
+        s.rest = along(s, way);
+        s.press_mm = distance(way, s.rest);
+        const double rest = length(s.rest);
+        const double hold = (moved ? options_.friction_kinetic : this->hold()) * s.press_mm;
+        if (rest <= hold + kSettled * s.press_mm + kSkin) {
+            s.settled = true;
+            if (moved) return s;
+            // Held: is there still a surface?
+            const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
+            s.lost = g.gap_mm > 2 * kSkin;
+            s.ball = g.ball;
+            if (g.gap_mm < -2 * kSkin) {  // a probe that turns
+                s.proxy -= g.gap_mm * g.normal;
+                s.normal = g.normal;
+                s.sides = {};
+                s.sides.put(side_of(g.normal), kOneSide);
+                moved = true;
+                continue;
+            }
+            return s;
+        }
+        if (s.press_mm <= 0) return s;  // the surface does not hold the probe
+        // The step that would settle it, were the surface to bend on as it did over the last step.
+        if (last_length > 0) {
+            const Vec3 change = s.rest - last_rest;
+            const double up = -dot(last_step, change), down = squared_length(change);
+            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : 1;
+        }
+        const double goal = std::max(0.0, 1 - options_.friction_kinetic * s.press_mm / rest);
+        Vec3 step = limited((s.sides.count == 1 ? ease_ * goal : goal) * s.rest, longest_step);
+        if (distance(s.proxy + step, from) > longest_step) return s;
+        last_rest = s.rest;
+        const Vec3 trial = s.proxy + step;
+        const ProbeGap::Gap g = gap_.measure(*field_, trial);
+        const double size = length(step);
+        moved = true;
+        if (g.gap_mm > kOverEdge * size + kSkin) {
+            s.proxy = trial;
+            s.lost = true;
+            return s;
+        }
+        const Vec3 landed = trial - g.gap_mm * g.normal;
+        const bool bends = dot(g.normal, s.normal) > kOneSide;
+        Vec3 next = landed;
+        if (s.sides.count == 1 && (bends || g.gap_mm >= -kSkin)) {
+            s.sides = {};
+            s.sides.put(side_of(g.normal), kOneSide);
+        } else if (g.gap_mm < -kSkin) {
+            // Another side is in the way: the proxy stands where all of them meet.
+            contact::HalfSpaces corner = s.sides;
+            for (int i = 0; i < corner.count; ++i) {
+                contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+                h.offset = dot(h.normal, s.proxy);
+            }
+            corner.put({-g.normal, -dot(g.normal, landed), 0}, kOneSide);
+            next = corner.nearest(trial);
+            s.sides.put(side_of(g.normal), kOneSide);
+        } else {
+            // Along a corner: the sides that the step has not left are still there.
+            contact::HalfSpaces kept;
+            for (int i = 0; i < s.sides.count; ++i) {
+                const contact::HalfSpace& h = s.sides.side[static_cast<std::size_t>(i)];
+                if (dot(h.normal, step) > -1e-3 * size) kept.put(h, kOneSide);
+            }
+            kept.put(side_of(g.normal), kOneSide);
+            s.sides = kept;
+        }
+        s.normal = g.normal;
+        s.ball = g.ball;
+        last_step = next - s.proxy;
+        last_length = bends && s.sides.count == 1 ? length(last_step) : 0;
+        if (last_length == 0) ease_ = 1;
+        s.proxy = next;
+    }
+    return s;
+}
+
+// Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
+bool FieldContact::chain(const Anchor& to) {
+    Anchor a = anchor_;
+    for (;;) {
+        const double way = distance(to.at, a.at);
+        if (way <= a.radius + to.radius) {
+            anchor_ = to;
+            return true;
+        }
+        if (a.radius < kSkin || !budget(1)) return false;
+        a.at += (a.radius / way) * (to.at - a.at);
+        a.radius = gap_.clearance_mm(*field_, a.at, distance(to.at, a.at));
+    }
+}
+
+// Finds an anchor over the slide's end that the present anchor leads to.
+bool FieldContact::tie(const Slide& s) {
+    Vec3 up;
+    for (int n = 0; n < s.sides.count; ++n) up -= s.sides.side[static_cast<std::size_t>(n)].normal;
+    up = normalized(up, s.normal);
+    double height =
+        std::clamp(std::max(0.75 * distance(s.proxy, at_.proxy), 0.5 * height_), kLowest, kHighest);
+    for (int tries = 0; tries < 3 && budget(1); ++tries) {
+        const Vec3 at = s.proxy + height * up;
+        const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
+        bool down = a.radius >= (1 - kTouches) * height;
+        // Between walls the ball does not reach down to the proxy, but a row of smaller ones does.
+        Anchor low = a;
+        while (!down && low.radius > 0.1 * distance(low.at, s.proxy) && budget(2)) {
+            const double left = distance(low.at, s.proxy);
+            low.at += (low.radius / left) * (s.proxy - low.at);
+            low.radius = gap_.clearance_mm(*field_, low.at, left);
+            down = distance(low.at, s.proxy) <= low.radius + kTouches * height;
+        }
+        if (down && chain(a)) {
+            height_ = height;
+            return true;
+        }
+        height = std::max(kLowest, 0.25 * height);
+    }
+    return false;
+}
+
+void FieldContact::lift(double height) {
+    const Vec3 at = at_.proxy + height * at_.normal;
+    const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
+    if (a.radius > 0) chain(a);
+    height_ = height;
+}
+
+void FieldContact::slide(Vec3 probe) {
+    double longest = 1e30;
+    bool settled = false;
+    while (!settled && budget(8)) {
+        const Slide s = slide_from_proxy(probe, longest);
+        if (s.lost) {
+            // Over an edge, or the material is gone: through the air from here.
+            const double room = gap_.clearance_mm(*field_, s.proxy, distance(probe, s.proxy));
+            if (chain({s.proxy, room})) {
+                at_.proxy = s.proxy;
+                fly(probe);
+                return;
+            }
+        } else if (s.press_mm <= 0 || (s.settled && s.press_mm <= kSkin)) {
+            fly(probe);
+            return;
+        } else if (s.proxy == at_.proxy || tie(s)) {
+            at_ = s;
+            settled = s.settled;
+            if (longest > 1e29) break;
+            continue;
+        }
+        // No way there was proved: in smaller steps.
+        longest = longest > 1e29 ? 0.5 * std::max(anchor_.radius, kLowest) : 0.25 * longest;
+        if (longest < 0.01 * kLowest) break;
+    }
+    at_.settled = settled;
+    if (at_.proxy == last_proxy_) {
+        sticking_ = true;
+    } else {
+        sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
+    }
+}
+
+Contact FieldContact::answer(Vec3 probe) const {
+    Contact c;
+    c.proxy_mm = at_.proxy;
+    c.settled = at_.settled;
+    c.normal = at_.normal;
+    c.slip_mm_per_s = (at_.proxy - last_proxy_) / options_.tick_s;
+    if (phase_ != Phase::touching) return c;
+    const Vec3 way = probe - at_.proxy, rest = along(at_, way), press = way - rest;
+    c.penetration_mm = length(press);
+    if (!(c.penetration_mm > 0)) return c;
+    c.in_contact = true;
+    c.sliding = !sticking_;
+    if (at_.sides.count > 1) c.normal = -1 / c.penetration_mm * press;
+    // What friction does not hold is the way that the proxy has still to go.
+    const double drag = options_.friction_static * c.penetration_mm, left = length(rest);
+    const Vec3 held = left > drag ? (drag / left) * rest : rest;
+    c.force_n = -options_.stiffness_n_per_mm * (press + held);
+    c.lever_mm = gap_.offset_mm(at_.ball) - gap_.radius_mm() * at_.normal;
+    return c;
+}
+
+}  // namespace tribo::haptics

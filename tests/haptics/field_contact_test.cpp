@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/field_contact.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "groove_field.hpp"
+
+namespace tribo::haptics {
+namespace {
+
+using namespace test;
+
+ContactOptions options(double stiffness, double radius = 0) {
+    ContactOptions o;
+    o.stiffness_n_per_mm = stiffness;
+    o.probe_radius_mm = radius;
+    return o;
+}
+
+TEST(FieldContact, a_flat_floor_pushes_back_by_stiffness_times_depth) {
+    const Floor floor;
+    for (const double radius : {0.0, 0.5, 2.0}) {
+        FieldContact contact(floor, options(0.8, radius));
+        EXPECT_FALSE(contact.update({0, 0, 3}).in_contact);
+        for (int n = 0; n < 50; ++n) {
+            const Vec3 probe{0.02 * n, 0.01 * n, radius - 0.3};
+            const Contact c = contact.update(probe);
+            ASSERT_TRUE(c.in_contact);
+            EXPECT_NEAR(c.force_n.z, 0.8 * 0.3, 1e-6);
+            EXPECT_NEAR(c.force_n.x, 0, 1e-4);
+            EXPECT_NEAR(c.proxy_mm.z, radius, 1e-5);
+        }
+        EXPECT_FALSE(contact.update({1, 0.5, radius + 0.1}).in_contact);
+    }
+}
+
+TEST(FieldContact, a_probe_that_begins_in_the_material_is_brought_to_the_surface) {
+    const Floor floor;
+    FieldContact contact(floor, options(1));
+    EXPECT_NEAR(contact.update({0, 0, -0.4}).force_n.z, 0.4, 1e-4);
+}
+
+TEST(FieldContact, a_corner_holds_the_proxy_by_both_its_sides) {
+    const Corner corner;
+    FieldContact contact(corner, options(1));
+    contact.update({0.5, 0, 0.5});
+    Contact c;
+    for (int n = 0; n < 100; ++n) c = contact.update({0.5 - 0.01 * n, 0.002 * n, 0.5 - 0.008 * n});
+    EXPECT_NEAR(c.proxy_mm.x, 0, 1e-5);
+    EXPECT_NEAR(c.proxy_mm.z, 0, 1e-5);
+    EXPECT_NEAR(c.proxy_mm.y, 0.198, 1e-3);
+    EXPECT_NEAR(c.force_n.x, 0.49, 1e-3);
+    EXPECT_NEAR(c.force_n.z, 0.292, 1e-3);
+}
+
+// In the hollow of a groove the nearest surface point lies on the line from the axis through the probe.
+TEST(FieldContact, in_a_groove_the_force_is_that_of_the_nearest_surface_point) {
+    const Grooves grooves(1, 0.025);
+    FieldContact contact(grooves, options(1));
+    contact.update({-0.2, 0, 0.5});
+    for (int n = 0; n <= 400; ++n) {
+        const Vec3 probe{-0.2 + 0.001 * n, 0.001 * n, -0.3};
+        const Contact c = contact.update(probe);
+        const Vec3 axis{0, probe.y, grooves.radius_mm()};
+        EXPECT_NEAR(length(c.force_n), distance(probe, axis) - grooves.radius_mm(), 1e-4) << n;
+        EXPECT_NEAR(grooves.distance_mm(c.proxy_mm), 0, 1e-5);
+    }
+}
+
+}  // namespace
+}  // namespace tribo::haptics
