@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "noise/friction_voice.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "base/noise_hash.hpp"
+#include "noise/noise_kernels.hpp"
+
+namespace tribo::noise {
+namespace {
+
+constexpr double kQuantumS = 64.0 / 48000;
+constexpr double kSmoothingS = 0.001;
+// A finger slower than this stands still: the level is 40 dB under that at 100 mm/s at least.
+constexpr double kStandstillMmPerS = 0.01;
+constexpr double kNoForceN = 1e-4;
+
+int quantum_of(const FrictionOptions& options) {
+    if (options.quantum_frames > 0) return options.quantum_frames;
+    int frames = kNoiseBlock;
+    while (frames > 1 && frames > 1.5 * kQuantumS * options.sample_rate_hz) frames /= 2;
+    return frames;
+}
+
+double finite_size(double value) {
+    return std::isfinite(value) ? std::max(value, 0.0) : 0;
+}
+
+}  // namespace
+
+FrictionVoice::FrictionVoice(const MaterialVoices& voices, const FrictionOptions& options)
+    : options_(options), map_(voices), quantum_(quantum_of(options)) {
+    assert(quantum_ >= 1 && kNoiseBlock % quantum_ == 0);
+    for (std::size_t n = 0; n < voices.models.size(); ++n) {
+        double power = 1;
+        const ArModel model = at_rate(voices.models[n].spectrum, options.sample_rate_hz, &power);
+        noises_.emplace_back(model, CounterNoise(options.seed).bits(n));
+        band_.push_back(static_cast<float>(std::sqrt(power)));
+    }
+    gain_.resize(noises_.size());
+    next_gain_.resize(noises_.size());
+    smoothing_ = 1 - math::exp(-quantum_ / (kSmoothingS * options.sample_rate_hz));
+}
+
+void FrictionVoice::set_target(double speed_mm_per_s, double force_n) {
+    target_speed_ = finite_size(speed_mm_per_s);
+    target_force_ = finite_size(force_n);
+}
+
+double FrictionVoice::target_gain() const {
+    if (options_.as_published) return target_force_ > 0 ? map_.as_published(target_speed_).gain : 0;
+    return map_.at(target_speed_, target_force_).gain;
+}
+
+void FrictionVoice::smooth_targets() {
+    // A touch begins at its own force and speed, not on a way from zero: the gain's ramp is smooth enough.
+    if (force_ == 0) force_ = target_force_;
+    if (options_.as_published) {
+        speed_ = target_speed_;
+        force_ = target_force_;
+        return;
+    }
+    speed_ += smoothing_ * (target_speed_ - speed_);
+    force_ += smoothing_ * (target_force_ - force_);
+    if (target_speed_ == 0 && speed_ < kStandstillMmPerS) speed_ = 0;
+    if (target_force_ == 0 && force_ < kNoForceN) force_ = 0;
+}
+
+void FrictionVoice::next_quantum() {
+    smooth_targets();
+    std::fill(next_gain_.begin(), next_gain_.end(), 0.0F);
+    const VoicePlace place = !options_.as_published ? map_.at(speed_, force_)
+                             : force_ > 0           ? map_.as_published(speed_)
+                                                    : VoicePlace{};
+    for (int n = 0; n < place.count; ++n) {
+        const auto model = static_cast<std::size_t>(place.model[static_cast<std::size_t>(n)]);
+        const double share = place.share[static_cast<std::size_t>(n)];
+        const double amplitude = options_.as_published ? share : std::sqrt(share);
+        next_gain_[model] = static_cast<float>(place.gain * amplitude) * band_[model];
+    }
+    ready_.fill(0);
+    const std::uint64_t block = frame_ / kNoiseBlock;
+    const auto at = static_cast<std::size_t>(frame_ % kNoiseBlock);
+    for (std::size_t n = 0; n < noises_.size(); ++n) {
+        const bool silent = gain_[n] == 0 && next_gain_[n] == 0;
+        if (silent && !(options_.as_published && place.count > 0)) continue;
+        const float* y = noises_[n].block(block).data() + at;
+        if (quantum_ >= 8) {
+            noise_kernels().mix(y, gain_[n], next_gain_[n], ready_.data(), quantum_);
+        } else {
+            const float step = (next_gain_[n] - gain_[n]) / static_cast<float>(quantum_);
+            for (int i = 0; i < quantum_; ++i) {
+                ready_[static_cast<std::size_t>(i)] += y[i] * (gain_[n] + step * static_cast<float>(i + 1));
+            }
+        }
+    }
+    for (float& x : ready_) x = std::clamp(x, -1.0F, 1.0F);
+    std::swap(gain_, next_gain_);
+}
+
+void FrictionVoice::render(std::span<float> out) {
+    const auto quantum = static_cast<std::size_t>(quantum_);
+    for (std::size_t done = 0; done < out.size();) {
+        const auto at = static_cast<std::size_t>(frame_ % quantum);
+        if (at == 0) next_quantum();
+        const std::size_t count = std::min(out.size() - done, quantum - at);
+        std::copy_n(ready_.begin() + static_cast<std::ptrdiff_t>(at), count,
+                    out.begin() + static_cast<std::ptrdiff_t>(done));
+        done += count;
+        frame_ += count;
+    }
+}
+
+void FrictionVoice::seek(std::uint64_t frame) {
+    frame_ = frame / static_cast<std::uint64_t>(quantum_) * static_cast<std::uint64_t>(quantum_);
+    for (ModelNoise& noise : noises_) noise.seek(frame_ / kNoiseBlock);
+    std::fill(gain_.begin(), gain_.end(), 0.0F);
+    speed_ = force_ = target_speed_ = target_force_ = 0;
+}
+
+}  // namespace tribo::noise

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "noise/model_noise.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/noise_hash.hpp"
+#include "noise/noise_kernels.hpp"
+
+namespace tribo::noise {
+namespace {
+
+// Blocks that run unheard before the first one: 21 ms at 48 kHz, longer than friction rings.
+constexpr std::uint64_t kRunUp = 16;
+
+}  // namespace
+
+ModelNoise::ModelNoise(const ArModel& model, std::uint64_t seed)
+    : kernels_(&noise_kernels()),
+      key_(CounterNoise(seed).bits(0)),
+      order_(static_cast<int>(model.reflection.size())) {
+    assert(order_ <= kLargestOrder);
+    const std::vector<double> predictor = predictor_of(model.reflection);
+    gain_ = static_cast<float>(std::sqrt(innovation_power(model.reflection)));
+    std::transform(predictor.begin(), predictor.end(), predictor_.begin(),
+                   [](double a) { return static_cast<float>(a); });
+    std::array<double, 16> h{1};
+    for (std::size_t n = 1; n < h.size(); ++n) {
+        for (std::size_t k = 1; k <= std::min(n, predictor.size()); ++k) h[n] -= predictor[k - 1] * h[n - k];
+    }
+    for (std::size_t n = 0; n < h.size(); ++n) response_[15 + n] = static_cast<float>(h[n]);
+    seek(0);
+}
+
+void ModelNoise::make(std::uint64_t index) {
+    std::array<float, kNoiseBlock> white;
+    // Samples are numbered by 32 bits inside a stream of its own for each 2^26 blocks (a day at 48 kHz).
+    constexpr std::uint64_t kBlocksPerKey = std::uint64_t{1} << 26;
+    const auto key = static_cast<std::uint32_t>(CounterNoise(key_).bits(index / kBlocksPerKey) >> 32);
+    const auto first = static_cast<std::uint32_t>(index % kBlocksPerKey * kNoiseBlock);
+    kernels_->gaussian(key, first, white.data(), kNoiseBlock);
+    std::copy_n(y_.begin() + kNoiseBlock, kLargestOrder, y_.begin());
+    kernels_->all_pole(predictor_.data(), order_, response_.data(), gain_, white.data(),
+                       y_.data() + kLargestOrder, kNoiseBlock);
+    made_ = index;
+}
+
+void ModelNoise::seek(std::uint64_t index) {
+    y_.fill(0);
+    for (std::uint64_t n = index - std::min(index, kRunUp); n < index; ++n) make(n);
+    // Where nothing lies before the start, the far end of the stream does.
+    if (index < kRunUp) {
+        for (std::uint64_t n = index; n < kRunUp; ++n) make(n - kRunUp);
+    }
+    made_ = index - 1;
+}
+
+std::span<const float, kNoiseBlock> ModelNoise::block(std::uint64_t index) {
+    if (made_ != index) make(index);
+    return std::span<const float, kNoiseBlock>(y_.data() + kLargestOrder, kNoiseBlock);
+}
+
+void ModelNoise::render(std::uint64_t first, std::span<double> out) {
+    for (std::size_t done = 0; done < out.size();) {
+        const std::uint64_t index = first / kNoiseBlock;
+        const auto at = static_cast<std::size_t>(first % kNoiseBlock);
+        const auto samples = block(index);
+        const std::size_t count = std::min(out.size() - done, kNoiseBlock - at);
+        for (std::size_t n = 0; n < count; ++n) out[done + n] = samples[at + n];
+        done += count;
+        first += count;
+    }
+}
+
+}  // namespace tribo::noise

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The hot loops of a learned voice: white noise, the all-pole filter, the gain ramp. The same source is
+// compiled for SSE2 and for x86-64-v3; noise_kernels() chooses once, by the processor. All builds give the
+// same bits, WebAssembly's too. Real-time safe.
+#pragma once
+
+#include <cstdint>
+
+namespace tribo::noise {
+
+// Samples that the filter works out at once. Every count of samples below is a multiple of it.
+inline constexpr int kFilterBlock = 16;
+
+struct NoiseKernels {
+    // Near-Gaussian samples `first` ... `first + count - 1` of the stream `key`: mean 0, variance 1, kurtosis
+    // 3, never beyond 4.1. A sample depends on its key and number alone.
+    void (*gaussian)(std::uint32_t key, std::uint32_t first, float* out, int count);
+
+    // y[n] = gain x[n] - a_1 y[n-1] - ... - a_p y[n-p] for a block of 16 at a time, in two steps: what past
+    // blocks still ring, then the block's own recursion as a product with the impulse response.
+    //   predictor  a_1 ... a_order, order <= kLargestOrder
+    //   response   31 numbers: 15 zeros, then the first 16 samples of 1 / A
+    //   past       the `order` samples before y, oldest first, directly before `y` in memory; y has room for
+    //              count + 16 and needs no content
+    void (*all_pole)(const float* predictor, int order, const float* response, float gain, const float* x,
+                     float* y, int count);
+
+    // out += gain * y, the gain going from `from` to `to` in equal steps over the samples.
+    void (*mix)(const float* y, float from, float to, float* out, int count);
+};
+
+const NoiseKernels& noise_kernels();
+
+// The two builds by name, for tests and benchmarks; v3 is null where processor or target lack it.
+const NoiseKernels* noise_kernels_sse2();
+const NoiseKernels* noise_kernels_v3();
+
+}  // namespace tribo::noise
