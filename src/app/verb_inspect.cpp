@@ -41,19 +41,28 @@ struct Found {
     std::vector<formats::Rgb8> colours = {};  // of the triangles, or none
 };
 
-io::PictureLine feed_line(const motion::Program& program) {
-    io::PictureLine line;
-    line.colours = {{0.12F, 0.44F, 0.55F}};
-    for (const motion::Move& move : program.moves) {
-        if (move.kind != motion::MoveKind::feed) continue;
+// Looks at moves as they go by: a long program is never held whole.
+class PathWatcher final : public formats::MoveSink {
+  public:
+    explicit PathWatcher(bool draws) : draws_(draws) { line_.colours = {{0.12F, 0.44F, 0.55F}}; }
+
+    void take(const motion::Move& move) override {
+        meter.add(move);
+        if (!draws_ || move.kind != motion::MoveKind::feed) return;
         const int points = move.arc || move.quadratic ? kPicturePoints : 1;
-        if (line.points_mm.empty()) line.points_mm.push_back(move.start.tip_mm);
+        if (line_.points_mm.empty()) line_.points_mm.push_back(move.start.tip_mm);
         for (int i = 1; i <= points; ++i) {
-            line.points_mm.push_back(motion::pose_at(move, static_cast<double>(i) / points).tip_mm);
+            line_.points_mm.push_back(motion::pose_at(move, static_cast<double>(i) / points).tip_mm);
         }
     }
-    return line;
-}
+    io::PictureLine take_line() { return std::move(line_); }
+
+    motion::ProgramMeter meter;
+
+  private:
+    bool draws_;
+    io::PictureLine line_;
+};
 
 // Points without triangles: the picture leaves room for the lines that run through them.
 void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
@@ -62,8 +71,9 @@ void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
     }
 }
 
-Found found_program(const motion::Program& program, formats::PathKind kind, double rapid_mm_per_min) {
-    Found found{io::describe(program, kind, rapid_mm_per_min), {}, {feed_line(program)}};
+Found found_program(const motion::Program& program, PathWatcher& path, formats::PathKind kind,
+                    double rapid_mm_per_min) {
+    Found found{io::describe(program, path.meter, kind, rapid_mm_per_min), {}, {path.take_line()}};
     make_room(found.mesh, found.lines[0].points_mm);
     return found;
 }
@@ -77,15 +87,16 @@ io::FileResult<Found> inspect_program(std::string_view bytes, const Call& call, 
     }
     io::ProgramFileOptions options;
     if (machine.kinematics) options.machine = &*machine.kinematics;
-    Result<motion::Program> program = io::parse_program(bytes, call.file, kind, options);
-    if (!program) {
-        // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
-        const Error first = program.error();
-        options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
-        program = io::parse_program(bytes, call.file, kind, options);
-        if (!program) return std::unexpected(io::Failure(first));
-    }
-    return found_program(*program, kind, machine.rapid_mm_per_min);
+    const bool draws = !call.picture.empty();
+    PathWatcher path(draws);
+    const Result<motion::Program> program = io::parse_program(bytes, call.file, kind, options, path);
+    if (program) return found_program(*program, path, kind, machine.rapid_mm_per_min);
+    // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
+    options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
+    PathWatcher again(draws);
+    const Result<motion::Program> with_feed = io::parse_program(bytes, call.file, kind, options, again);
+    if (!with_feed) return std::unexpected(io::Failure(program.error()));
+    return found_program(*with_feed, again, kind, machine.rapid_mm_per_min);
 }
 
 io::FileResult<Found> inspect_model(const std::string& file) {
@@ -103,7 +114,9 @@ io::FileResult<Found> inspect_job(std::string_view bytes, const std::string& fil
     if (auto done = session::complete_job(*job, *program, program->warnings); !done) {
         return std::unexpected(io::Failure(done.error()));
     }
-    Found found = found_program(*program, job->path.kind, job->machine.rapid_mm_per_min);
+    PathWatcher path(true);
+    for (const motion::Move& move : program->moves) path.take(move);
+    Found found = found_program(*program, path, job->path.kind, job->machine.rapid_mm_per_min);
     std::optional<io::Facts> part;
     if (job->part) {
         io::FileResult<formats::Model> model = io::read_model_file(*job->part);

@@ -354,12 +354,24 @@ Result<std::string> siemens_to_gcode(std::string_view bytes, const std::string& 
     return out;
 }
 
-Result<motion::Program> read_siemens(std::string_view bytes, const GcodeOptions& options) {
+namespace {
+
+Result<motion::Program> read_rewritten(std::string_view bytes, const GcodeOptions& options, MoveSink* sink) {
     const auto text = siemens_to_gcode(bytes, options.source_name);
     if (!text) return std::unexpected(text.error());
-    auto program = read_gcode(*text, options);
+    auto program = sink != nullptr ? read_gcode(*text, options, *sink) : read_gcode(*text, options);
     if (program) program->dialect = "Siemens";
     return program;
+}
+
+}  // namespace
+
+Result<motion::Program> read_siemens(std::string_view bytes, const GcodeOptions& options) {
+    return read_rewritten(bytes, options, nullptr);
+}
+
+Result<motion::Program> read_siemens(std::string_view bytes, const GcodeOptions& options, MoveSink& sink) {
+    return read_rewritten(bytes, options, &sink);
 }
 
 }  // namespace tribo::formats

@@ -18,5 +18,7 @@ Result<std::string> siemens_to_gcode(std::string_view bytes, const std::string& 
 
 // The rewritten text read as G-code.
 Result<motion::Program> read_siemens(std::string_view bytes, const GcodeOptions& options = {});
+// The same, with the moves going to the sink and not into the program.
+Result<motion::Program> read_siemens(std::string_view bytes, const GcodeOptions& options, MoveSink& sink);
 
 }  // namespace tribo::formats

@@ -9,7 +9,6 @@
 #include "base/math.hpp"
 #include "base/mesh_edges.hpp"
 #include "io/json.hpp"
-#include "motion/summary.hpp"
 
 namespace tribo::io {
 namespace {
@@ -194,7 +193,14 @@ void add_unit_warning(Builder& b, const Box3& box, const formats::Model& model) 
 }  // namespace
 
 Facts describe(const motion::Program& program, formats::PathKind format, double rapid_mm_per_min) {
-    const motion::ProgramSummary s = motion::describe(program, rapid_mm_per_min);
+    motion::ProgramMeter meter;
+    for (const motion::Move& move : program.moves) meter.add(move);
+    return describe(program, meter, format, rapid_mm_per_min);
+}
+
+Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, formats::PathKind format,
+               double rapid_mm_per_min) {
+    const motion::ProgramSummary s = meter.summary(rapid_mm_per_min);
     Builder b("program");
     b.json["format"] = path_name(format);
     b.line("format", std::string(path_name(format)));
@@ -215,7 +221,7 @@ Facts describe(const motion::Program& program, formats::PathKind format, double 
     b.json["tools"] = s.tools;
     if (!s.tools.empty()) b.line("tools", tools_text(s.tools));
     if (!program.tools.empty()) b.json["declared_tools"] = declared_tools(program);
-    b.json["rotary"] = s.rotary;
+    b.json["rotary"] = program.has_rotary_words;
     b.json["tilted"] = s.tilted;
     if (!program.machine.empty()) {
         b.json["machine"] = program.machine;

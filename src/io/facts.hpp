@@ -9,6 +9,7 @@
 #include "formats/job.hpp"
 #include "formats/model.hpp"
 #include "motion/program.hpp"
+#include "motion/summary.hpp"
 
 namespace tribo::io {
 
@@ -20,6 +21,9 @@ struct Facts {
 
 // {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
 Facts describe(const motion::Program& program, formats::PathKind format, double rapid_mm_per_min = 10000);
+// The same of a program whose moves went by: the meter saw them.
+Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, formats::PathKind format,
+               double rapid_mm_per_min = 10000);
 // {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}
 Facts describe(const formats::Model& model);
 // {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".

@@ -91,6 +91,43 @@ Result<motion::Program> parse_keyframes(std::string_view bytes, const std::strin
     return program;
 }
 
+Result<motion::Program> parse_apt(std::string_view bytes, const std::string& path,
+                                  const ProgramFileOptions& options) {
+    formats::AptOptions apt;
+    apt.source_name = path;
+    apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    return formats::read_apt(bytes, apt);
+}
+
+// Moves go to the sink, or into the program where there is none.
+Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& path,
+                                    const ProgramFileOptions& options, formats::MoveSink* sink) {
+    formats::GcodeOptions gcode;
+    gcode.source_name = path;
+    gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    gcode.machine = options.machine;
+    // The last of a number wins there, the first of it here.
+    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
+        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
+    }
+    const std::optional<formats::Dialect> told =
+        options.dialect ? options.dialect : formats::detect_dialect(bytes);
+    const formats::Dialect dialect = told.value_or(formats::Dialect::linuxcnc);
+    if (dialect == formats::Dialect::heidenhain) {
+        return sink != nullptr ? formats::read_heidenhain(bytes, gcode, *sink)
+                               : formats::read_heidenhain(bytes, gcode);
+    }
+    if (dialect == formats::Dialect::siemens) {
+        return sink != nullptr ? formats::read_siemens(bytes, gcode, *sink)
+                               : formats::read_siemens(bytes, gcode);
+    }
+    if (dialect == formats::Dialect::fanuc) gcode.dialect = formats::GcodeDialect::fanuc;
+    auto program =
+        sink != nullptr ? formats::read_gcode(bytes, gcode, *sink) : formats::read_gcode(bytes, gcode);
+    if (program) program->dialect = formats::name_of(dialect);
+    return program;
+}
+
 }  // namespace
 
 std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path) {
@@ -106,31 +143,21 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
     switch (kind) {
         case PathKind::keyframes:
             return parse_keyframes(bytes, path, options);
-        case PathKind::apt: {
-            formats::AptOptions apt;
-            apt.source_name = path;
-            apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
-            return formats::read_apt(bytes, apt);
-        }
+        case PathKind::apt:
+            return parse_apt(bytes, path, options);
         case PathKind::gcode:
             break;
     }
-    formats::GcodeOptions gcode;
-    gcode.source_name = path;
-    gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
-    gcode.machine = options.machine;
-    // The last of a number wins there, the first of it here.
-    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
-        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
-    }
-    const std::optional<formats::Dialect> told =
-        options.dialect ? options.dialect : formats::detect_dialect(bytes);
-    const formats::Dialect dialect = told.value_or(formats::Dialect::linuxcnc);
-    if (dialect == formats::Dialect::heidenhain) return formats::read_heidenhain(bytes, gcode);
-    if (dialect == formats::Dialect::siemens) return formats::read_siemens(bytes, gcode);
-    if (dialect == formats::Dialect::fanuc) gcode.dialect = formats::GcodeDialect::fanuc;
-    auto program = formats::read_gcode(bytes, gcode);
-    if (program) program->dialect = formats::name_of(dialect);
+    return parse_gcode(bytes, path, options, nullptr);
+}
+
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
+                                      const ProgramFileOptions& options, formats::MoveSink& sink) {
+    if (kind == PathKind::gcode) return parse_gcode(bytes, path, options, &sink);
+    auto program = parse_program(bytes, path, kind, options);
+    if (!program) return program;
+    for (const motion::Move& move : program->moves) sink.take(move);
+    program->moves.clear();
     return program;
 }
 

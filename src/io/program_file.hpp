@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/gcode_reader.hpp"
 #include "formats/job.hpp"
 #include "io/files.hpp"
 #include "motion/keyframe_motion.hpp"
@@ -29,6 +30,9 @@ std::optional<formats::PathKind> detect_program(std::string_view bytes, const st
 
 Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, formats::PathKind kind,
                                       const ProgramFileOptions& options = {});
+// The same, with the moves going to the sink and not into the program. Of G-code, never all of them are held.
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, formats::PathKind kind,
+                                      const ProgramFileOptions& options, formats::MoveSink& sink);
 
 // The program that a job names, with the job's feed where the program says none; the tools of the job's tool
 // table stand before the program's own in Program::tools.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program at a glance: how far, where, how fast and with which tools. Any thread; allocates the tool list.
+// A program at a glance: how far, where, how fast and with which tools. Move by move, so that nobody has to
+// hold them all. Any thread; allocates the tool list.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,20 @@ struct ProgramSummary {
     double feed_s = 0, rapid_s = 0, dwell_s = 0;  // at the programmed speeds, without acceleration
 };
 
-// Rapids run at `rapid_mm_per_min` > 0.
+class ProgramMeter {
+  public:
+    void add(const Move& move);  // in the program's order
+    // Of the moves so far; rapids run at `rapid_mm_per_min` > 0. `rotary` is the program's to say.
+    ProgramSummary summary(double rapid_mm_per_min = 10'000) const;
+
+  private:
+    void add_feed(const Move& move);
+
+    ProgramSummary so_far_;
+    int last_tool_ = 0;
+};
+
+// The same of a program's moves.
 ProgramSummary describe(const Program& program, double rapid_mm_per_min = 10'000);
 
 }  // namespace tribo::motion

@@ -68,6 +68,38 @@ TEST(ProgramFile, of_every_format_gives_the_same_moves) {
     }
 }
 
+TEST(ProgramFile, sends_the_same_moves_to_a_sink) {
+    class Collected final : public formats::MoveSink {
+      public:
+        void take(const motion::Move& move) override { moves.push_back(move); }
+        std::vector<motion::Move> moves;
+    };
+    const std::pair<PathKind, const char*> programs[] = {
+        {PathKind::gcode, "G21 G90\nG0 X0 Y0 Z5\nM3 S100\nG1 X10 F600\nG2 X20 R5\n"},
+        {PathKind::gcode, "0 BEGIN PGM A MM\n1 L X+1 Y+0 Z+0 FMAX\n2 L X+9 F500\n3 END PGM A MM\n"},
+        {PathKind::gcode, "; SINUMERIK 840D\nG90 G71\nG0 X=0 Y0 Z5\nG1 X=3 F500\nG2 X5 Y0 CR=1\n"},
+        {PathKind::apt, "UNITS/MM\nFEDRAT/600,MMPM\nGOTO/0,0,5\nGOTO/10,0,5\n"},
+        {PathKind::keyframes,
+         "x,y,z,i,j,k,feed_mm_per_min\n0,0,5,0,0,1,\n10,0,5,0,0,1,600\n10,20,9,0,0,1,600\n"},
+    };
+    for (const auto& [kind, text] : programs) {
+        const auto held = parse_program(text, "p", kind);
+        ASSERT_TRUE(held) << held.error().text();
+        Collected sink;
+        const auto streamed = parse_program(text, "p", kind, {}, sink);
+        ASSERT_TRUE(streamed) << streamed.error().text();
+        EXPECT_TRUE(streamed->moves.empty());
+        EXPECT_EQ(streamed->dialect, held->dialect);
+        ASSERT_EQ(sink.moves.size(), held->moves.size());
+        ASSERT_GT(sink.moves.size(), 0u);
+        for (std::size_t n = 0; n < sink.moves.size(); ++n) {
+            EXPECT_EQ(sink.moves[n].end, held->moves[n].end);
+            EXPECT_EQ(sink.moves[n].line, held->moves[n].line);
+            EXPECT_EQ(sink.moves[n].arc.has_value(), held->moves[n].arc.has_value());
+        }
+    }
+}
+
 TEST(ProgramFile, takes_the_jobs_feed_where_it_has_none) {
     const Scratch scratch;
     scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
