@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "io/material_json.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/math.hpp"
+#include "io/json_section.hpp"
+
+namespace tribo::io {
+namespace {
+
+using formats::Material;
+using formats::RecordingSource;
+using noise::VoiceModel;
+
+constexpr std::array<std::string_view, 11> kMaterialKeys{
+    "schema", "name",   "note",        "stiffness_n_per_mm", "viscosity_n_s_per_mm", "width_mm", "image",
+    "voices", "method", "highpass_hz", "level_law"};
+constexpr std::array<std::string_view, 3> kLawKeys{"level_db", "db_per_decade_speed", "db_per_decade_force"};
+constexpr std::array<std::string_view, 7> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
+                                                     "sample_rate_hz", "reflection", "line_spectrum_hz",
+                                                     "recordings"};
+constexpr std::array<std::string_view, 8> kSourceKeys{"file", "seconds", "sample_rate_hz", "channels",
+                                                      "bits", "peak_db", "silent_share",   "clipped_share"};
+
+constexpr std::size_t kMostVoices = 64;
+constexpr std::size_t kMostSources = 256;
+constexpr JsonRange kSpeeds{0, 1e6, true};
+constexpr JsonRange kForces{0, 1e4, true};
+constexpr JsonRange kLevels{-200, 60};
+constexpr JsonRange kSlopes{-200, 200};
+constexpr JsonRange kRates{1000, 384000};
+constexpr JsonRange kShares{0, 1};
+
+// One reading of a file: what it holds, and the first thing wrong.
+class Reader {
+  public:
+    explicit Reader(const std::string& file) : file_(file) {}
+
+    Result<Material> read(const Json& json) {
+        JsonSection top(json, "", kMaterialKeys, error_, file_);
+        const std::string schema = top.text("schema");
+        if (!error_ && schema != kMaterialSchema) {
+            top.fail("schema", "is '" + schema.substr(0, 80) + "'",
+                     std::string("give a material of schema '") + kMaterialSchema + "'");
+        }
+        Material m;
+        m.name = top.text("name", "");
+        m.note = top.text("note", "");
+        m.stiffness_n_per_mm = top.number("stiffness_n_per_mm", {0, 1e6, true});
+        m.viscosity_n_s_per_mm = top.number("viscosity_n_s_per_mm", {0, 1e6});
+        m.width_mm = top.number("width_mm", {0, 1e5}, 0);
+        m.image = top.text("image", "");
+        m.method = top.text("method", "");
+        m.highpass_hz = top.number("highpass_hz", {0, 1e5}, 0);
+        read_voices(top, m);
+        if (const Json* law = top.object("level_law")) {
+            JsonSection section(*law, "level_law", kLawKeys, error_, file_);
+            m.voices.law.level_db = section.number("level_db", kLevels);
+            m.voices.law.db_per_decade_speed = section.number("db_per_decade_speed", kSlopes);
+            m.voices.law.db_per_decade_force = section.number("db_per_decade_force", kSlopes);
+        } else {
+            m.voices.law = noise::fit_level_law(m.voices.models);
+        }
+        if (error_) return std::unexpected(*error_);
+        return m;
+    }
+
+  private:
+    void read_voices(JsonSection& top, Material& m) {
+        const std::vector<const Json*> voices = top.objects("voices", kMostVoices);
+        for (std::size_t n = 0; n < voices.size() && !error_; ++n) {
+            const std::string path = "voices[" + std::to_string(n) + "]";
+            JsonSection section(*voices[n], path, kVoiceKeys, error_, file_);
+            VoiceModel v;
+            v.speed_mm_per_s = section.number("speed_mm_per_s", kSpeeds);
+            v.force_n = section.number("force_n", kForces, 1);
+            v.level_db = section.number("level_db", kLevels);
+            v.spectrum.sample_rate_hz = section.number("sample_rate_hz", kRates);
+            v.spectrum.reflection = section.numbers(
+                "reflection", {-noise::kLargestReflection, noise::kLargestReflection}, noise::kLargestOrder);
+            check_line_spectrum(section, v);
+            if (!error_ && !m.voices.models.empty()) check_order(section, m.voices.models.back(), v);
+            m.voices.models.push_back(std::move(v));
+            m.sources.push_back(read_sources(section, path));
+        }
+    }
+
+    // The reflection coefficients count; the line spectrum is there for readers that would rather have it.
+    void check_line_spectrum(JsonSection& section, const VoiceModel& v) {
+        if (!section.has("line_spectrum_hz")) return;
+        const std::vector<double> hz =
+            section.numbers("line_spectrum_hz", {0, 0.5 * v.spectrum.sample_rate_hz}, noise::kLargestOrder);
+        if (hz.size() != v.spectrum.reflection.size() || !std::ranges::is_sorted(hz)) {
+            section.fail("line_spectrum_hz", "is not one rising frequency for each reflection coefficient",
+                         "leave it out");
+        }
+    }
+
+    void check_order(JsonSection& section, const VoiceModel& before, const VoiceModel& v) {
+        const bool rises = v.force_n > before.force_n ||
+                           (v.force_n == before.force_n && v.speed_mm_per_s > before.speed_mm_per_s);
+        if (!rises) {
+            section.fail("speed_mm_per_s", "does not rise",
+                         "sort the voices by force, then speed, each pair once");
+        }
+    }
+
+    std::vector<RecordingSource> read_sources(JsonSection& voice, const std::string& path) {
+        std::vector<RecordingSource> sources;
+        const std::vector<const Json*> items = voice.objects("recordings", kMostSources);
+        for (std::size_t n = 0; n < items.size() && !error_; ++n) {
+            JsonSection section(*items[n], path + ".recordings[" + std::to_string(n) + "]", kSourceKeys,
+                                error_, file_);
+            RecordingSource s;
+            s.file = section.text("file", "");
+            s.seconds = section.number("seconds", {0, 1e6}, 0);
+            s.sample_rate_hz = section.number("sample_rate_hz", {1, 1e7});
+            s.channels = static_cast<int>(section.number("channels", {1, 1024}, 1));
+            s.bits = static_cast<int>(section.number("bits", {0, 64}, 0));
+            s.peak_db = section.number("peak_db", {-400, 100}, 0);
+            s.silent_share = section.number("silent_share", kShares, 0);
+            s.clipped_share = section.number("clipped_share", kShares, 0);
+            sources.push_back(std::move(s));
+        }
+        return sources;
+    }
+
+    const std::string& file_;
+    std::optional<Error> error_;
+};
+
+Json source_json(const RecordingSource& s) {
+    Json json = Json::object();
+    json["file"] = s.file;
+    json["seconds"] = s.seconds;
+    json["sample_rate_hz"] = s.sample_rate_hz;
+    json["channels"] = s.channels;
+    if (s.bits > 0) json["bits"] = s.bits;
+    json["peak_db"] = s.peak_db;
+    json["silent_share"] = s.silent_share;
+    json["clipped_share"] = s.clipped_share;
+    return json;
+}
+
+Json voice_json(const VoiceModel& v, const std::vector<RecordingSource>& sources) {
+    Json json = Json::object();
+    json["speed_mm_per_s"] = v.speed_mm_per_s;
+    json["force_n"] = v.force_n;
+    json["level_db"] = v.level_db;
+    json["sample_rate_hz"] = v.spectrum.sample_rate_hz;
+    json["reflection"] = v.spectrum.reflection;
+    Json lines = Json::array();
+    for (const double angle : noise::line_spectrum_of(v.spectrum.reflection)) {
+        lines.push_back(std::round(100 * angle / math::kTwoPi * v.spectrum.sample_rate_hz) / 100);
+    }
+    json["line_spectrum_hz"] = std::move(lines);
+    Json recordings = Json::array();
+    for (const RecordingSource& s : sources) recordings.push_back(source_json(s));
+    json["recordings"] = std::move(recordings);
+    return json;
+}
+
+}  // namespace
+
+Result<Material> parse_material(std::string_view text, const std::string& source_name) {
+    if (text.size() > kLargestMaterialBytes) {
+        return fail_at(source_name, 0, 0, "is too large for a material",
+                       "give a file that tribo learn wrote");
+    }
+    const Result<Json> json = parse_json(text, source_name);
+    if (!json) return std::unexpected(json.error());
+    return Reader(source_name).read(*json);
+}
+
+FileResult<Material> read_material(const std::string& path) {
+    const FileResult<std::string> bytes = read_file(path, kLargestMaterialBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    Result<Material> material = parse_material(*bytes, path);
+    if (!material) return std::unexpected(Failure(material.error()));
+    return *std::move(material);
+}
+
+std::string material_json(const Material& m) {
+    Json json = Json::object();
+    json["schema"] = kMaterialSchema;
+    if (!m.name.empty()) json["name"] = m.name;
+    if (!m.note.empty()) json["note"] = m.note;
+    json["stiffness_n_per_mm"] = m.stiffness_n_per_mm;
+    json["viscosity_n_s_per_mm"] = m.viscosity_n_s_per_mm;
+    if (m.width_mm > 0) json["width_mm"] = m.width_mm;
+    if (!m.image.empty()) json["image"] = m.image;
+    if (!m.voices.models.empty()) {
+        if (!m.method.empty()) json["method"] = m.method;
+        if (m.highpass_hz > 0) json["highpass_hz"] = m.highpass_hz;
+        json["level_law"]["level_db"] = m.voices.law.level_db;
+        json["level_law"]["db_per_decade_speed"] = m.voices.law.db_per_decade_speed;
+        json["level_law"]["db_per_decade_force"] = m.voices.law.db_per_decade_force;
+        json["voices"] = Json::array();
+        for (std::size_t n = 0; n < m.voices.models.size(); ++n) {
+            json["voices"].push_back(voice_json(
+                m.voices.models[n], n < m.sources.size() ? m.sources[n] : std::vector<RecordingSource>{}));
+        }
+    }
+    return pretty(json);
+}
+
+bool looks_like_material(std::string_view text) {
+    return text.substr(0, 4096).find("tribo.material") != std::string_view::npos;
+}
+
+}  // namespace tribo::io
