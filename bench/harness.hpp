@@ -69,5 +69,6 @@ void measure_rows(Report& report);
 void measure_carving(Report& report, int repeats);
 void measure_many_moves(Report& report, int repeats);
 void measure_sessions(Report& report, int repeats);
+void measure_elastic(Report& report);
 
 }  // namespace tribo::bench

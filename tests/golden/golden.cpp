@@ -10,6 +10,7 @@ std::span<const Golden> goldens() {
                                           {"motion", motion},
                                           {"field", field},
                                           {"force", force},
+                                          {"elastic", elastic},
                                           {"formats", formats},
                                           {"mill_three_axes", mill_three_axes},
                                           {"mill_five_axes", mill_five_axes}};

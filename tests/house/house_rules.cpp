@@ -61,8 +61,8 @@ constexpr int kMostLines = 600;
 }  // namespace
 
 const std::vector<Room>& rooms() {
-    const Names core{"base",    "contact", "motion",  "field", "surface",
-                     "milling", "noise",   "haptics", "sound", "formats"};
+    const Names core{"base",  "contact", "motion",  "field", "surface", "milling",
+                     "noise", "elastic", "haptics", "sound", "formats"};
     const auto with = [](Names names, const Names& more) {
         names.insert(more.begin(), more.end());
         return names;
@@ -75,6 +75,7 @@ const std::vector<Room>& rooms() {
         {"surface", "base contact field", {"base", "contact", "field"}, true},
         {"milling", "base contact motion field", {"base", "contact", "motion", "field"}, true},
         {"noise", "base", {"base"}, true},
+        {"elastic", "base contact", {"base", "contact"}, true},
         {"haptics", "base contact noise", {"base", "contact", "noise"}, true},
         {"sound", "base contact noise", {"base", "contact", "noise"}, true},
         {"formats",
