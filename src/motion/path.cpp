@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "motion/path.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/math.hpp"
 #include "motion/arc_frame.hpp"
@@ -148,6 +151,31 @@ Move first_part(const Move& move, double t) {
         part.quadratic->axis_control = part.quadratic->axis_control / std::sqrt(tribo::length(end));
     }
     return part;
+}
+
+Move last_part(const Move& move, double t) {
+    if (t <= 0) return move;
+    const auto reversed = [](Move m) {
+        std::swap(m.start, m.end);
+        if (m.arc) m.arc->normal = -1.0 * m.arc->normal;
+        return m;
+    };
+    return reversed(first_part(reversed(move), 1 - t));
+}
+
+std::vector<Move> in_pieces(const Move& move, double longest_mm) {
+    const double length = path_length_mm(move);
+    std::vector<Move> pieces;
+    Move rest = move;
+    for (int left = std::max(1, static_cast<int>(std::ceil(length / longest_mm))); left > 1; --left) {
+        const double t = parameter_at_length(rest, path_length_mm(rest) / left);
+        if (!(t > 0 && t < 1)) break;
+        pieces.push_back(first_part(rest, t));
+        rest = last_part(rest, t);
+        rest.start = pieces.back().end;
+    }
+    pieces.push_back(rest);
+    return pieces;
 }
 
 }  // namespace tribo::motion

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The tip path of one move as a curve: direction, arc length, curvature. A move's parameter t runs from 0 to
-// 1, as in pose_at. No allocation; any thread.
+// 1, as in pose_at. No allocation but for pieces; any thread.
 #pragma once
+
+#include <vector>
 
 #include "motion/program.hpp"
 
@@ -25,5 +27,10 @@ double axis_turn_rad(const Move& move);
 
 // The move from its start to t, 0 < t <= 1: the same path, cut off, with its share of the duration.
 Move first_part(const Move& move, double t);
+// The move from t, 0 <= t < 1, to its end.
+Move last_part(const Move& move, double t);
+
+// The move in pieces of about equal length, none longer than `longest_mm` > 0, that join end to start.
+std::vector<Move> in_pieces(const Move& move, double longest_mm);
 
 }  // namespace tribo::motion
