@@ -217,18 +217,18 @@ class BrickContour {
     std::vector<Crossing> crossings_;
 };
 
-// All bricks that the surface may pass through, in the order of their coordinates.
-std::vector<BrickCoord> candidate_bricks(const CarvedField& field) {
-    const BrickCoord n = field.size();
+// All bricks from `first` on up to `last` that the surface may pass through, in the order of their
+// coordinates.
+std::vector<BrickCoord> candidate_bricks(const CarvedField& field, BrickCoord first, BrickCoord last) {
     const double brick = kBrickCells * field.cell_mm();
     const auto blank_distance = [&](BrickCoord b, int bricks) {
         const double half = 0.5 * bricks * brick;
         return std::abs(field.blank().distance_mm(field.lattice(b).node(0, 0, 0) + Vec3{half, half, half}));
     };
     std::vector<BrickCoord> found;
-    for (int k = 0; k < n.k; ++k) {
-        for (int j = 0; j < n.j; ++j) {
-            for (int i = 0; i < n.i; ++i) {
+    for (int k = first.k; k < last.k; ++k) {
+        for (int j = first.j; j < last.j; ++j) {
+            for (int i = first.i; i < last.i; ++i) {
                 const BrickRef ref = field.ref({i, j, k});
                 if (ref == kAir) continue;
                 if (ref == kUntouched && blank_distance({i, j, k}, 1) > 0.87 * brick) continue;
@@ -242,10 +242,11 @@ std::vector<BrickCoord> candidate_bricks(const CarvedField& field) {
 // Where the surface of each brick stands in the list, by coordinate.
 class SurfaceTable {
   public:
-    SurfaceTable(const std::vector<BrickSurface>& surfaces, BrickCoord size)
-        : surfaces_(surfaces), index_(size) {
+    // Of surfaces in bricks from `first` on up to `last`.
+    SurfaceTable(const std::vector<BrickSurface>& surfaces, BrickCoord first, BrickCoord last)
+        : surfaces_(surfaces), first_(first), index_(from_first(last)) {
         for (std::size_t n = 0; n < surfaces.size(); ++n) {
-            index_.set(surfaces[n].coord, static_cast<BrickRef>(n) + kFirstBrick);
+            index_.set(from_first(surfaces[n].coord), static_cast<BrickRef>(n) + kFirstBrick);
         }
     }
 
@@ -255,12 +256,15 @@ class SurfaceTable {
         if (a < 0) --b.i, a += kBrickCells;
         if (bb < 0) --b.j, bb += kBrickCells;
         if (c < 0) --b.k, c += kBrickCells;
-        const BrickSurface& s = surfaces_[index_.get(b) - kFirstBrick];
+        const BrickSurface& s = surfaces_[index_.get(from_first(b)) - kFirstBrick];
         return s.first_vertex + (s.flat ? 0 : s.cell[static_cast<std::size_t>(cell_index(a, bb, c))]);
     }
 
   private:
+    BrickCoord from_first(BrickCoord b) const { return {b.i - first_.i, b.j - first_.j, b.k - first_.k}; }
+
     const std::vector<BrickSurface>& surfaces_;
+    BrickCoord first_;
     BrickIndex index_;
 };
 
@@ -302,30 +306,74 @@ std::vector<Triangle> triangles_of(const CarvedField& field, const SurfaceTable&
     return out;
 }
 
-}  // namespace
-
-TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel, const ContourOptions& options) {
-    const std::vector<BrickCoord> bricks = candidate_bricks(field);
+// The surfaces of the bricks from `first` on up to `last`; their vertices, in order, become the mesh's.
+std::vector<BrickSurface> find_surfaces(const CarvedField& field, BrickCoord first, BrickCoord last,
+                                        const ParallelFor& parallel, const ContourOptions& options,
+                                        TriangleMesh& mesh) {
+    const std::vector<BrickCoord> bricks = candidate_bricks(field, first, last);
     std::vector<BrickSurface> found(bricks.size());
     parallel(bricks.size(), [&](std::size_t n) {
         BrickContour brick(field, bricks[n]);
         if (brick.has_surface()) found[n] = brick.surface(options);
     });
     std::erase_if(found, [](const BrickSurface& s) { return s.vertices.empty(); });
-
-    TriangleMesh mesh;
     for (BrickSurface& s : found) {
         s.first_vertex = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), s.vertices.begin(), s.vertices.end());
         s.vertices = {};
     }
-    const SurfaceTable table(found, field.size());
+    return found;
+}
+
+// Drops the vertices that no triangle uses.
+void drop_unused(TriangleMesh& mesh) {
+    constexpr std::uint32_t kUnused = 0xffffffff;
+    std::vector<std::uint32_t> renamed(mesh.positions.size(), kUnused);
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) renamed[v] = 0;
+    }
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < renamed.size(); ++v) {
+        if (renamed[v] == kUnused) continue;
+        renamed[v] = kept;
+        mesh.positions[kept++] = mesh.positions[v];
+    }
+    mesh.positions.resize(kept);
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& v : t) v = renamed[v];
+    }
+}
+
+}  // namespace
+
+TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel, const ContourOptions& options) {
+    TriangleMesh mesh;
+    const std::vector<BrickSurface> found = find_surfaces(field, {}, field.size(), parallel, options, mesh);
+    const SurfaceTable table(found, {}, field.size());
     std::vector<std::vector<Triangle>> parts(found.size());
     parallel(found.size(), [&](std::size_t n) { parts[n] = triangles_of(field, table, found[n]); });
     for (std::vector<Triangle>& part : parts) {
         mesh.triangles.insert(mesh.triangles.end(), part.begin(), part.end());
         part = {};
     }
+    return mesh;
+}
+
+TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord last,
+                          const ContourOptions& options) {
+    const BrickCoord size = field.size();
+    last = {std::min(last.i, size.i), std::min(last.j, size.j), std::min(last.k, size.k)};
+    // A brick's triangles reach for vertices one brick back.
+    const BrickCoord back{std::max(first.i - 1, 0), std::max(first.j - 1, 0), std::max(first.k - 1, 0)};
+    TriangleMesh mesh;
+    const std::vector<BrickSurface> found = find_surfaces(field, back, last, serial_for, options, mesh);
+    const SurfaceTable table(found, back, last);
+    for (const BrickSurface& s : found) {
+        if (s.coord.i < first.i || s.coord.j < first.j || s.coord.k < first.k) continue;
+        const std::vector<Triangle> part = triangles_of(field, table, s);
+        mesh.triangles.insert(mesh.triangles.end(), part.begin(), part.end());
+    }
+    drop_unused(mesh);
     return mesh;
 }
 

@@ -22,4 +22,10 @@ struct ContourOptions {
 TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel = serial_for,
                      const ContourOptions& options = {});
 
+// The part of that surface that belongs to the bricks from `first` on up to `last`, which is left out, in
+// each coordinate: parts that share no brick and leave out none are the whole, with the vertices on their
+// borders in both. For a picture that follows the cut, part by part.
+TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord last,
+                          const ContourOptions& options = {});
+
 }  // namespace tribo::field

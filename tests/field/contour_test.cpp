@@ -44,6 +44,33 @@ TEST(Contour, of_grooves_is_closed_and_has_their_volume) {
     EXPECT_NEAR(volume_mm3(mesh) / (40 * 30 * 10 - removed), 1, 2e-3);
 }
 
+TEST(Contour, in_parts_is_the_whole) {
+    auto f = block(0.4);
+    for (double y = 5; y < 26; y += 2)
+        f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
+    constexpr int kEdge = 4;
+    TriangleMesh sum;
+    const BrickCoord size = f.size();
+    for (int k = 0; k < size.k; k += kEdge) {
+        for (int j = 0; j < size.j; j += kEdge) {
+            for (int i = 0; i < size.i; i += kEdge) {
+                const TriangleMesh part = contour_part(f, {i, j, k}, {i + kEdge, j + kEdge, k + kEdge});
+                const auto first = static_cast<std::uint32_t>(sum.positions.size());
+                sum.positions.insert(sum.positions.end(), part.positions.begin(), part.positions.end());
+                for (Triangle t : part.triangles) {
+                    for (std::uint32_t& v : t) v += first;
+                    sum.triangles.push_back(t);
+                }
+            }
+        }
+    }
+    const TriangleMesh whole = contour(f);
+    EXPECT_EQ(sum.triangles.size(), whole.triangles.size());
+    EXPECT_NEAR(volume_mm3(sum) / volume_mm3(whole), 1, 1e-12);
+    weld_exactly(sum);
+    EXPECT_TRUE(is_closed(sum));
+}
+
 TEST(Contour, vertices_lie_on_the_exact_surface) {
     auto f = block(0.3);
     for (double y = 5; y < 26; y += 2)
