@@ -60,8 +60,9 @@ class MillSession::Run {
         cutting_at_.assign(setup_.cutters.size(), 0);
     }
 
-    bool run(const MillSinks& sinks) {
-        while (next_move_ < setup_.moves.size() && now_s_ < end_s_) {
+    bool run_to(double to_s, const MillSinks& sinks) {
+        limit_s_ = std::min(to_s, end_s_);
+        while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
             evaluate();
             for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], sinks);
@@ -77,7 +78,7 @@ class MillSession::Run {
     motion::Schedule schedule_;
     field::CarvedField stock_;
     MillTotals totals_;
-    double end_s_ = 0;
+    double end_s_ = 0, now_s_ = 0;
 
   private:
     struct Row {
@@ -94,7 +95,7 @@ class MillSession::Run {
         std::size_t n = next_move_;
         for (; n < setup_.moves.size() && steps_.size() < kOfferedMoves; ++n) {
             const motion::MoveTiming& timing = schedule_.moves[n];
-            if (n > next_move_ && timing.start_s >= end_s_) break;
+            if (n > next_move_ && timing.start_s >= limit_s_) break;
             const motion::Move* move = &setup_.moves[n];
             if (timing.end_s > end_s_) {
                 const double length = motion::path_length_mm(*move);
@@ -247,7 +248,7 @@ class MillSession::Run {
     double last_share_ = 1;           // of its path
     std::vector<double> cutting_at_;  // seconds by cutter
     std::size_t next_move_ = 0;
-    double now_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
+    double limit_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
 };
 
 MillSession::MillSession(MillSetup setup, ParallelFor parallel)
@@ -255,10 +256,19 @@ MillSession::MillSession(MillSetup setup, ParallelFor parallel)
 MillSession::~MillSession() = default;
 
 bool MillSession::run(const MillSinks& sinks) {
-    return run_->run(sinks);
+    return run_->run_to(run_->end_s_, sinks);
+}
+bool MillSession::run_to(double t_s, const MillSinks& sinks) {
+    return run_->run_to(t_s, sinks);
+}
+double MillSession::milled_s() const {
+    return run_->now_s_;
 }
 double MillSession::duration_s() const {
     return run_->end_s_;
+}
+const motion::Schedule& MillSession::schedule() const {
+    return run_->schedule_;
 }
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;

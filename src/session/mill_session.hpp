@@ -89,11 +89,17 @@ class MillSession {
     MillSession(MillSetup setup, ParallelFor parallel);
     ~MillSession();
 
-    // Mills from start to end. False: stopped by `progress`; the stock is then somewhere in between.
+    // Mills on to the end. False: stopped by `progress`; the stock is then somewhere in between.
     bool run(const MillSinks& sinks);
+    // Mills on through the moves that begin before `t_s`: what follows the session as it goes on.
+    bool run_to(double t_s, const MillSinks& sinks);
+    // Up to here it has milled.
+    double milled_s() const;
 
     // Of the program, or until_s where that is sooner.
     double duration_s() const;
+    // When each of setup().moves is where.
+    const motion::Schedule& schedule() const;
     const field::CarvedField& stock() const;
     const MillTotals& totals() const;
     const MillSetup& setup() const;

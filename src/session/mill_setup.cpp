@@ -9,6 +9,7 @@
 #include "motion/close_passes.hpp"
 #include "motion/keyframe_motion.hpp"
 #include "motion/moves.hpp"
+#include "motion/path.hpp"
 
 namespace tribo::session {
 namespace {
@@ -158,10 +159,18 @@ Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const
             return fail_at(program.source, move.line, 0, "the spindle has no speed here",
                            "add an S word to the program or spindle_rpm to [process]");
         }
-        for (motion::Move& piece : motion::to_elementary(move)) {
+        const auto add = [&](motion::Move piece) {
             setup.moves.push_back(std::move(piece));
             setup.cutter_of_move.push_back(*cutter);
             setup.rpm_of_move.push_back(rpm);
+        };
+        for (motion::Move& piece : motion::to_elementary(move)) {
+            if (!options.longest_piece_mm) {
+                add(std::move(piece));
+                continue;
+            }
+            for (motion::Move& part : motion::in_pieces(piece, *options.longest_piece_mm))
+                add(std::move(part));
         }
     }
     if (auto times = motion::schedule(setup.moves, setup.timing); !times) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "session/live_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+
+namespace tribo::session {
+namespace {
+
+// Appends little-endian values to a frame that begins with the header: kind, version, two zeros, four zeros,
+// time.
+class Frame {
+  public:
+    Frame(LiveFrame kind, double t_s, std::vector<std::uint8_t>& out) : out_(out) {
+        out_.clear();
+        out_.push_back(static_cast<std::uint8_t>(kind));
+        out_.push_back(kLiveFrameVersion);
+        bits(0, 6);
+        bits(std::bit_cast<std::uint64_t>(t_s), 8);
+    }
+
+    void u16(std::uint32_t v) { bits(v, 2); }
+    void u32(std::uint32_t v) { bits(v, 4); }
+    void i32(std::int32_t v) { bits(static_cast<std::uint32_t>(v), 4); }
+    void f32(double v) { bits(std::bit_cast<std::uint32_t>(static_cast<float>(v)), 4); }
+    void f64(double v) { bits(std::bit_cast<std::uint64_t>(v), 8); }
+    void vec3(Vec3 v) {
+        f32(v.x);
+        f32(v.y);
+        f32(v.z);
+    }
+    // To a multiple of four bytes.
+    void pad() {
+        while (out_.size() % 4 != 0) out_.push_back(0);
+    }
+    void reserve(std::size_t bytes) { out_.reserve(out_.size() + bytes); }
+
+  private:
+    void bits(std::uint64_t v, int bytes) {
+        for (int n = 0; n < bytes; ++n) out_.push_back(static_cast<std::uint8_t>(v >> (8 * n)));
+    }
+
+    std::vector<std::uint8_t>& out_;
+};
+
+std::uint32_t count(std::size_t n) {
+    return static_cast<std::uint32_t>(n);
+}
+
+}  // namespace
+
+void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::job, 0, out);
+    f.f64(job.duration_s);
+    f.f32(job.cell_mm);
+    f.vec3(job.blank_mm.min);
+    f.vec3(job.blank_mm.max);
+    f.u32(count(job.cutters.size()));
+    for (const milling::Cutter& c : job.cutters) {
+        f.i32(c.number);
+        f.u32(static_cast<std::uint32_t>(c.flutes));
+        f.f32(c.radius_mm());
+        f.f32(c.corner_radius_mm());
+        f.f32(c.length_mm);
+        f.u32(count(c.holder.size()));
+        for (const milling::HolderStep& step : c.holder) {
+            f.f32(0.5 * step.diameter_mm);
+            f.f32(step.length_mm);
+        }
+    }
+    f.u32(count(job.path.size()));
+    f.reserve(20 * job.path.size());
+    for (const LivePathPoint& p : job.path) {
+        f.f32(p.t_s);
+        f.vec3(p.tip_mm);
+        f.u32(p.rapid ? 1 : 0);
+    }
+}
+
+void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
+                       std::vector<std::uint8_t>& out) {
+    assert(mesh.positions.size() <= 65536);
+    const Box3 box = bounds(mesh);
+    const Vec3 size = mesh.positions.empty() ? Vec3{} : box.size();
+    const Vec3 origin = mesh.positions.empty() ? Vec3{} : box.min;
+    const double longest = std::max({size.x, size.y, size.z});
+    const double step = longest > 0 ? longest / 65535 : 1;
+    Frame f(LiveFrame::chunk, t_s, out);
+    for (const std::int32_t c : chunk) f.i32(c);
+    f.u32(count(mesh.positions.size()));
+    f.u32(count(mesh.triangles.size()));
+    f.vec3(origin);
+    f.f32(step);
+    f.reserve(6 * mesh.positions.size() + 6 * mesh.triangles.size() + 8);
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        const Vec3 p = (mesh.position(static_cast<std::uint32_t>(n)) - origin) / step;
+        for (int axis = 0; axis < 3; ++axis)
+            f.u16(static_cast<std::uint32_t>(std::clamp(p[axis] + 0.5, 0.0, 65535.0)));
+    }
+    f.pad();
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) f.u16(v);
+    }
+    f.pad();
+}
+
+void write_state_frame(const LiveState& s, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::state, s.t_s, out);
+    f.vec3(s.tool.tip_mm);
+    f.vec3(s.tool.axis);
+    f.vec3(s.force_n);
+    f.f32(s.peak_force_n);
+    f.f32(s.mean_torque_nm);
+    f.f32(s.spindle_rpm);
+    f.f32(s.feed_mm_per_min);
+    f.f32(s.spindle_angle_rad);
+    f.f32(s.removed_mm3);
+    f.f32(s.milled_s);
+    f.f32(s.speed);
+    f.u32(s.line);
+    f.u32(s.cutter);
+    f.u32((s.cutting ? 1U : 0U) | (s.playing ? 2U : 0U) | (s.rapid ? 4U : 0U));
+}
+
+void write_rows_frame(std::span<const LiveRow> rows, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::rows, rows.empty() ? 0 : rows.front().t_s, out);
+    f.u32(count(rows.size()));
+    f.reserve(56 * rows.size());
+    for (const LiveRow& r : rows) {
+        f.f64(r.t_s);
+        f.f32(r.end_s - r.t_s);
+        f.vec3(r.tip_mm);
+        f.f32(r.mean_force_n);
+        f.f32(r.peak_force_n);
+        f.f32(r.mean_torque_nm);
+        f.f32(r.entry_rad);
+        f.f32(r.exit_rad);
+        f.f32(r.axial_depth_mm);
+        f.f32(r.feed_per_tooth_mm);
+        f.u32(r.line);
+    }
+}
+
+void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::collision, t_s, out);
+    f.i32(kind);
+    f.i32(line);
+    f.vec3(tip_mm);
+}
+
+}  // namespace tribo::session

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Binary frames of the live view (docs/live-protocol.md): what a viewer draws, from a server or from the
+// module in its own page, or out of a recording. All little-endian; angles in rad, lengths in mm.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/mesh.hpp"
+#include "milling/cutter.hpp"
+#include "motion/program.hpp"
+
+namespace tribo::session {
+
+// The number that a viewer must know; changes with the layout of any frame.
+inline constexpr std::uint8_t kLiveFrameVersion = 1;
+
+enum class LiveFrame : std::uint8_t { job = 1, chunk = 2, state = 3, rows = 4, collision = 5 };
+
+// Takes one whole frame; the bytes are valid during the call only.
+using FrameSink = std::function<void(std::span<const std::uint8_t>)>;
+
+// What the tool does at one moment of the program.
+struct LiveState {
+    double t_s = 0;
+    motion::ToolPose tool;
+    Vec3 force_n;  // on the tool, mean over a turn, stock frame
+    double peak_force_n = 0, mean_torque_nm = 0;
+    double spindle_rpm = 0, feed_mm_per_min = 0, spindle_angle_rad = 0;
+    double removed_mm3 = 0;  // since the program began
+    double milled_s = 0;     // the part is milled up to here
+    double speed = 1;        // seconds of the program per second
+    std::uint32_t line = 0, cutter = 0;
+    bool cutting = false, playing = false, rapid = false;
+};
+
+// One row of the plots and of the coloured path.
+struct LiveRow {
+    double t_s = 0, end_s = 0;
+    Vec3 tip_mm;
+    double mean_force_n = 0, peak_force_n = 0, mean_torque_nm = 0;
+    double entry_rad = 0, exit_rad = 0, axial_depth_mm = 0;
+    double feed_per_tooth_mm = 0;
+    std::uint32_t line = 0;
+};
+
+// A point of the tool path in time.
+struct LivePathPoint {
+    double t_s = 0;
+    Vec3 tip_mm;
+    bool rapid = false;  // of the way that ends here
+};
+
+struct LiveJob {
+    double duration_s = 0, cell_mm = 0;
+    Box3 blank_mm;
+    std::span<const milling::Cutter> cutters;
+    std::span<const LivePathPoint> path;
+};
+
+// Each replaces the contents of `out` by one frame.
+void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out);
+// Vertices are rounded to 1/65535 of the longest edge of the mesh's box. At most 65,536 of them.
+void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
+                       std::vector<std::uint8_t>& out);
+void write_state_frame(const LiveState& state, std::vector<std::uint8_t>& out);
+void write_rows_frame(std::span<const LiveRow> rows, std::vector<std::uint8_t>& out);
+// `kind` as in milling::CollisionKind.
+void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out);
+
+}  // namespace tribo::session

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "session/live_mill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Points along a curved move of the drawn path.
+constexpr int kCurvePoints = 4;
+// Rows in one frame: what a viewer takes in without a stutter.
+constexpr std::size_t kRowsPerFrame = 4096;
+
+std::vector<LivePathPoint> path_points(const MillSession& session) {
+    std::vector<LivePathPoint> points;
+    const auto& moves = session.setup().moves;
+    for (std::size_t n = 0; n < moves.size(); ++n) {
+        const motion::Move& move = moves[n];
+        if (move.kind == motion::MoveKind::dwell) continue;
+        const motion::MoveTiming& timing = session.schedule().moves[n];
+        const bool rapid = move.kind == motion::MoveKind::rapid;
+        if (points.empty()) points.push_back({timing.start_s, move.start.tip_mm, rapid});
+        const int count = move.arc || move.quadratic ? kCurvePoints : 1;
+        for (int k = 1; k <= count; ++k) {
+            const double t = static_cast<double>(k) / count;
+            points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid});
+        }
+    }
+    return points;
+}
+
+// Where the tool, standing up to its shank, was between two times.
+Box3 swept_box(const MillSession& session, double from_s, double to_s) {
+    Box3 box;
+    const MillSetup& setup = session.setup();
+    const motion::Schedule& schedule = session.schedule();
+    for (std::size_t n = schedule.move_at(from_s); n < setup.moves.size(); ++n) {
+        if (schedule.moves[n].start_s >= to_s && n > schedule.move_at(from_s)) break;
+        const motion::Move& move = setup.moves[n];
+        const milling::Cutter& cutter = setup.cutters[setup.cutter_of_move[n]];
+        Box3 path = motion::tip_bounds(move);
+        for (const motion::ToolPose& pose : {move.start, move.end})
+            path.include(pose.tip_mm + cutter.length_mm * pose.axis);
+        box.include(path.inflated(cutter.radius_mm()));
+    }
+    return box;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel) {
+    std::unique_ptr<LiveMill> live(new LiveMill(std::move(make_setup), std::move(parallel)));
+    if (auto begun = live->begin(); !begun) return std::unexpected(begun.error());
+    return live;
+}
+
+Result<void> LiveMill::begin() {
+    auto setup = make_setup_();
+    if (!setup) return std::unexpected(setup.error());
+    session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
+    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
+    path_ = path_points(*session_);
+    rows_.clear();
+    felt_.clear();
+    rows_told_ = collisions_told_ = 0;
+    shown_s_ = 0;
+    begun_anew_ = true;
+    set_back_ = false;
+    return {};
+}
+
+void LiveMill::play(bool on) {
+    if (on && clock_s_ >= duration_s()) set_clock(0);
+    playing_ = on;
+}
+
+void LiveMill::set_speed(double seconds_per_second) {
+    if (seconds_per_second > 0 && seconds_per_second <= kFastest) speed_ = seconds_per_second;
+}
+
+void LiveMill::set_clock(double t_s) {
+    if (std::isnan(t_s)) return;
+    clock_s_ = std::clamp(t_s, 0.0, duration_s());
+    // Metal does not grow again.
+    set_back_ = clock_s_ < session_->milled_s();
+}
+
+void LiveMill::add_row(const MillRow& row) {
+    const milling::ForceRow& v = row.values;
+    const milling::ToolFrame& f = row.frame;
+    rows_.push_back({v.t_s, row.end_s, v.tip_mm, length(v.mean_n), row.peaks.peak_force_n, v.mean_torque_nm,
+                     v.entry_deg * math::kRadPerDeg, v.exit_deg * math::kRadPerDeg, v.axial_depth_mm,
+                     row.feed.feed_per_tooth_mm, static_cast<std::uint32_t>(v.line)});
+    const double before = felt_.empty() ? 0 : felt_.back().removed_mm3;
+    felt_.push_back({v.mean_n.x * f.x + v.mean_n.y * f.y + v.mean_n.z * f.z, row.spindle_angle_rad,
+                     v.spindle_rpm / 60 * math::kTwoPi, before + v.removed_mm3});
+}
+
+Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on, const FrameSink& frames) {
+    if (set_back_) {
+        if (auto begun = begin(); !begun) return begun;
+    }
+    // The clock runs on from where the part is.
+    const double target = playing_ ? std::min(clock_s_ + speed_ * dt_s, duration_s()) : clock_s_;
+    MillSinks sinks;
+    sinks.row = [this](const MillRow& row) { add_row(row); };
+    sinks.progress = [&](double) { return may_go_on(); };
+    session_->run_to(target, sinks);
+    clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
+    if (clock_s_ >= duration_s()) playing_ = false;
+    show_changes(frames);
+    return {};
+}
+
+void LiveMill::show_chunk(ChunkCoord c, const TriangleMesh& mesh, const FrameSink& frames) {
+    write_chunk_frame(session_->milled_s(), {c.i, c.j, c.k}, mesh, frame_);
+    frames(frame_);
+}
+
+void LiveMill::show_job(const FrameSink& frames) {
+    const MillSetup& setup = session_->setup();
+    write_job_frame(
+        {duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters, path_}, frame_);
+    frames(frame_);
+}
+
+void LiveMill::show_changes(const FrameSink& frames) {
+    if (begun_anew_) {
+        show_all(frames);
+        return;
+    }
+    const double milled = session_->milled_s();
+    if (milled > shown_s_) {
+        picture_->update(
+            swept_box(*session_, shown_s_, milled),
+            [&](ChunkCoord chunk, const TriangleMesh& mesh) { show_chunk(chunk, mesh, frames); });
+        shown_s_ = milled;
+    }
+    for (; rows_told_ < rows_.size(); rows_told_ += std::min(kRowsPerFrame, rows_.size() - rows_told_)) {
+        const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
+        write_rows_frame({rows_.data() + rows_told_, now}, frame_);
+        frames(frame_);
+    }
+    const auto& collisions = session_->totals().collisions;
+    for (; collisions_told_ < collisions.size(); ++collisions_told_) {
+        const MillCollision& c = collisions[collisions_told_];
+        write_collision_frame(c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm, frame_);
+        frames(frame_);
+    }
+    write_state_frame(state(), frame_);
+    frames(frame_);
+}
+
+void LiveMill::show_all(const FrameSink& frames) {
+    begun_anew_ = false;
+    show_job(frames);
+    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
+    picture_->update(picture_->all(),
+                     [&](ChunkCoord chunk, const TriangleMesh& mesh) { show_chunk(chunk, mesh, frames); });
+    shown_s_ = session_->milled_s();
+    rows_told_ = collisions_told_ = 0;
+    show_changes(frames);
+}
+
+LiveState LiveMill::state() const {
+    const MillSetup& setup = session_->setup();
+    const motion::Schedule& schedule = session_->schedule();
+    LiveState s;
+    s.t_s = std::min(clock_s_, std::max(session_->milled_s(), 0.0));
+    const std::size_t n = schedule.move_at(s.t_s);
+    s.tool = motion::pose_at_time(setup.moves, schedule, s.t_s);
+    s.line = static_cast<std::uint32_t>(setup.moves[n].line);
+    s.cutter = static_cast<std::uint32_t>(setup.cutter_of_move[n]);
+    s.rapid = setup.moves[n].kind == motion::MoveKind::rapid;
+    s.spindle_rpm = setup.rpm_of_move[n];
+    s.feed_mm_per_min = 60 * schedule.moves[n].speed_mm_per_s(s.t_s);
+    s.milled_s = session_->milled_s();
+    s.speed = speed_;
+    s.playing = playing_;
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), s.t_s,
+                                        [](double t, const LiveRow& row) { return t < row.t_s; });
+    if (after == rows_.begin()) return s;
+    const auto row = static_cast<std::size_t>(after - rows_.begin()) - 1;
+    const Felt& felt = felt_[row];
+    s.removed_mm3 = felt.removed_mm3;
+    if (s.t_s > rows_[row].end_s) return s;
+    s.cutting = true;
+    s.force_n = felt.force_n;
+    s.peak_force_n = rows_[row].peak_force_n;
+    s.mean_torque_nm = rows_[row].mean_torque_nm;
+    s.spindle_angle_rad = felt.spindle_angle_rad + felt.spindle_rad_per_s * (s.t_s - rows_[row].t_s);
+    return s;
+}
+
+}  // namespace tribo::session

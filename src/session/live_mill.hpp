@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A milling job as a film that is made while it is watched: a clock that plays, pauses, runs faster and is
+// set, the part milled up to it, and frames of what has changed. No threads and no clocks of its own: the
+// caller says how much time has passed and when to stop for now.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "base/result.hpp"
+#include "session/live_frame.hpp"
+#include "session/mill_session.hpp"
+#include "session/part_picture.hpp"
+
+namespace tribo::session {
+
+class LiveMill {
+  public:
+    // Makes the same setup each time: the clock was set back, and the part begins again. Its moves should be
+    // short (MillOptions::longest_piece_mm), as the part is seen between moves only.
+    using MakeSetup = std::function<Result<MillSetup>()>;
+    static constexpr double kPieceMm = 2;
+    static constexpr double kFastest = 1000;  // seconds of the program per second
+
+    static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel);
+
+    double duration_s() const { return session_->duration_s(); }
+    double clock_s() const { return clock_s_; }
+    bool playing() const { return playing_; }
+    const MillSession& session() const { return *session_; }
+
+    // At the end, play begins anew.
+    void play(bool on);
+    void set_speed(double seconds_per_second);  // > 0, at most kFastest; else nothing changes
+    void set_clock(double t_s);                 // clamped to the program; not a number: nothing changes
+
+    // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `may_go_on` says so (asked
+    // every few moves), then tells what is new. The clock waits for the part.
+    Result<void> tick(double dt_s, const std::function<bool()>& may_go_on, const FrameSink& frames);
+    // All of it, for a viewer that has just come: job, part, rows so far, collisions.
+    void show_all(const FrameSink& frames);
+
+  private:
+    LiveMill(MakeSetup make_setup, ParallelFor parallel)
+        : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)) {}
+    Result<void> begin();
+    void add_row(const MillRow& row);
+    void show_changes(const FrameSink& frames);
+    LiveState state() const;
+    void show_job(const FrameSink& frames);
+    void show_chunk(ChunkCoord chunk, const TriangleMesh& mesh, const FrameSink& frames);
+
+    MakeSetup make_setup_;
+    ParallelFor parallel_;
+    std::unique_ptr<MillSession> session_;
+    std::unique_ptr<PartPicture> picture_;
+    std::vector<LivePathPoint> path_;
+    std::vector<LiveRow> rows_;
+    struct Felt {
+        Vec3 force_n;  // stock frame
+        double spindle_angle_rad = 0, spindle_rad_per_s = 0;
+        double removed_mm3 = 0;  // up to and with this row
+    };
+    std::vector<Felt> felt_;  // one per row
+    std::size_t rows_told_ = 0, collisions_told_ = 0;
+    double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
+    bool playing_ = false, set_back_ = false, begun_anew_ = false;
+    std::vector<std::uint8_t> frame_;
+};
+
+}  // namespace tribo::session
