@@ -20,6 +20,8 @@ int run(int argc, char** argv) {
     program.get_formatter()->column_width(34);
     add_render(program, exit_code);
     add_inspect(program, exit_code);
+    add_learn(program, exit_code);
+    add_rub(program, exit_code);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -34,12 +34,27 @@ double finite_size(double value) {
 FrictionVoice::FrictionVoice(const MaterialVoices& voices, const FrictionOptions& options)
     : options_(options), map_(voices), quantum_(quantum_of(options)) {
     assert(quantum_ >= 1 && kNoiseBlock % quantum_ == 0);
-    for (std::size_t n = 0; n < voices.models.size(); ++n) {
+    std::vector<ArModel> models;
+    std::size_t order = 0;
+    for (const VoiceModel& v : voices.models) {
         double power = 1;
-        const ArModel model = at_rate(voices.models[n].spectrum, options.sample_rate_hz, &power);
-        noises_.emplace_back(model, CounterNoise(options.seed).bits(n));
+        models.push_back(at_rate(v.spectrum, options.sample_rate_hz, &power));
         band_.push_back(static_cast<float>(std::sqrt(power)));
+        order = std::max(order, v.spectrum.reflection.size());
     }
+    const CounterNoise seeds(options.seed);
+    if (options.interpolation == Interpolation::line_spectrum && !options.as_published) {
+        for (ArModel& model : models) {
+            model.reflection.resize(order);
+            lines_.push_back(line_spectrum_of(model.reflection));
+        }
+        line_.resize(order);
+        predictor_.resize(order);
+        reflection_.resize(order);
+        line_work_.resize(2 * (order + 2));
+        models.resize(1);
+    }
+    for (std::size_t n = 0; n < models.size(); ++n) noises_.emplace_back(models[n], seeds.bits(n));
     gain_.resize(noises_.size());
     next_gain_.resize(noises_.size());
     smoothing_ = 1 - math::exp(-quantum_ / (kSmoothingS * options.sample_rate_hz));
@@ -69,33 +84,59 @@ void FrictionVoice::smooth_targets() {
     if (target_force_ == 0 && force_ < kNoForceN) force_ = 0;
 }
 
+void FrictionVoice::add(ModelNoise& noise, float from, float to) {
+    const float* y = noise.block(frame_ / kNoiseBlock).data() + frame_ % kNoiseBlock;
+    if (quantum_ % 8 == 0) return noise_kernels().mix(y, from, to, ready_.data(), quantum_);
+    const float step = (to - from) / static_cast<float>(quantum_);
+    for (int n = 0; n < quantum_; ++n) {
+        ready_[static_cast<std::size_t>(n)] += y[n] * (from + step * static_cast<float>(n + 1));
+    }
+}
+
+void FrictionVoice::mix_models(const VoicePlace& place) {
+    std::fill(next_gain_.begin(), next_gain_.end(), 0.0F);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(place.count); ++n) {
+        const auto model = static_cast<std::size_t>(place.model[n]);
+        const double amplitude = options_.as_published ? place.share[n] : std::sqrt(place.share[n]);
+        next_gain_[model] = static_cast<float>(place.gain * amplitude) * band_[model];
+    }
+    for (std::size_t n = 0; n < noises_.size(); ++n) {
+        const bool silent = gain_[n] == 0 && next_gain_[n] == 0;
+        if (!silent || (options_.as_published && place.count > 0)) add(noises_[n], gain_[n], next_gain_[n]);
+    }
+}
+
+void FrictionVoice::move_lines(const VoicePlace& place) {
+    next_gain_[0] = 0;
+    if (place.gain > 0) {
+        std::fill(line_.begin(), line_.end(), 0.0);
+        double power = 0;
+        for (std::size_t n = 0; n < static_cast<std::size_t>(place.count); ++n) {
+            const auto model = static_cast<std::size_t>(place.model[n]);
+            power += place.share[n] * band_[model] * band_[model];
+            for (std::size_t k = 0; k < line_.size(); ++k) line_[k] += place.share[n] * lines_[model][k];
+        }
+        if (frame_ % kNoiseBlock == 0) {
+            predictor_from_line_spectrum(line_, predictor_, line_work_);
+            std::copy(predictor_.begin(), predictor_.end(), line_work_.begin());
+            reflection_of(std::span(line_work_).first(predictor_.size()), reflection_);
+            noises_[0].retune(predictor_, std::sqrt(std::max(innovation_power(reflection_), 0.0)));
+        }
+        next_gain_[0] = static_cast<float>(place.gain * std::sqrt(power));
+    }
+    if (gain_[0] != 0 || next_gain_[0] != 0) add(noises_[0], gain_[0], next_gain_[0]);
+}
+
 void FrictionVoice::next_quantum() {
     smooth_targets();
-    std::fill(next_gain_.begin(), next_gain_.end(), 0.0F);
+    ready_.fill(0);
     const VoicePlace place = !options_.as_published ? map_.at(speed_, force_)
                              : force_ > 0           ? map_.as_published(speed_)
                                                     : VoicePlace{};
-    for (int n = 0; n < place.count; ++n) {
-        const auto model = static_cast<std::size_t>(place.model[static_cast<std::size_t>(n)]);
-        const double share = place.share[static_cast<std::size_t>(n)];
-        const double amplitude = options_.as_published ? share : std::sqrt(share);
-        next_gain_[model] = static_cast<float>(place.gain * amplitude) * band_[model];
-    }
-    ready_.fill(0);
-    const std::uint64_t block = frame_ / kNoiseBlock;
-    const auto at = static_cast<std::size_t>(frame_ % kNoiseBlock);
-    for (std::size_t n = 0; n < noises_.size(); ++n) {
-        const bool silent = gain_[n] == 0 && next_gain_[n] == 0;
-        if (silent && !(options_.as_published && place.count > 0)) continue;
-        const float* y = noises_[n].block(block).data() + at;
-        if (quantum_ >= 8) {
-            noise_kernels().mix(y, gain_[n], next_gain_[n], ready_.data(), quantum_);
-        } else {
-            const float step = (next_gain_[n] - gain_[n]) / static_cast<float>(quantum_);
-            for (int i = 0; i < quantum_; ++i) {
-                ready_[static_cast<std::size_t>(i)] += y[i] * (gain_[n] + step * static_cast<float>(i + 1));
-            }
-        }
+    if (lines_.empty()) {
+        mix_models(place);
+    } else {
+        move_lines(place);
     }
     for (float& x : ready_) x = std::clamp(x, -1.0F, 1.0F);
     std::swap(gain_, next_gain_);

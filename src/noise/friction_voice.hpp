@@ -22,9 +22,16 @@
 
 namespace tribo::noise {
 
+// Between two recordings.
+enum class Interpolation {
+    mix,           // both models sound, with equal power
+    line_spectrum  // one model, its line spectral frequencies between those of the two: peaks move
+};
+
 struct FrictionOptions {
     double sample_rate_hz = 48000;  // 1000 ... 192000: a servo's rate gives vibration in place of sound
     std::uint64_t seed = 1;
+    Interpolation interpolation = Interpolation::mix;
     // Frames between two looks at the targets: 1, 2, 4 ... 64; 0: what is nearest to 1.33 ms.
     int quantum_frames = 0;
     // The paper's generation step as printed: all models always run, amplitudes are mixed linearly (3 dB too
@@ -55,12 +62,18 @@ class FrictionVoice {
   private:
     void next_quantum();
     void smooth_targets();
+    void mix_models(const VoicePlace& place);
+    void move_lines(const VoicePlace& place);
+    void add(ModelNoise& noise, float from, float to);
 
     FrictionOptions options_;
     VoiceMap map_;
     std::vector<ModelNoise> noises_;
     std::vector<float> gain_, next_gain_;  // of each model, now and at the end of the quantum
-    std::vector<float> band_;              // what share of a model's amplitude the sample rate carries
+    // For Interpolation::line_spectrum: the one model that sounds, at the end of noises_, and its angles.
+    std::vector<std::vector<double>> lines_;
+    std::vector<double> line_, predictor_, reflection_, line_work_;
+    std::vector<float> band_;  // what share of a model's amplitude the sample rate carries
     double target_speed_ = 0, target_force_ = 0;
     double speed_ = 0, force_ = 0, smoothing_ = 1;
     std::uint64_t frame_ = 0;  // of the next sample handed out

@@ -21,16 +21,22 @@ ModelNoise::ModelNoise(const ArModel& model, std::uint64_t seed)
       key_(CounterNoise(seed).bits(0)),
       order_(static_cast<int>(model.reflection.size())) {
     assert(order_ <= kLargestOrder);
-    const std::vector<double> predictor = predictor_of(model.reflection);
-    gain_ = static_cast<float>(std::sqrt(innovation_power(model.reflection)));
+    retune(predictor_of(model.reflection), std::sqrt(innovation_power(model.reflection)));
+    seek(0);
+}
+
+void ModelNoise::retune(std::span<const double> predictor, double gain) {
+    assert(static_cast<int>(predictor.size()) == order_);
+    gain_ = static_cast<float>(gain);
     std::transform(predictor.begin(), predictor.end(), predictor_.begin(),
                    [](double a) { return static_cast<float>(a); });
-    std::array<double, 16> h{1};
+    std::array<double, kFilterBlock> h{1};
     for (std::size_t n = 1; n < h.size(); ++n) {
         for (std::size_t k = 1; k <= std::min(n, predictor.size()); ++k) h[n] -= predictor[k - 1] * h[n - k];
     }
-    for (std::size_t n = 0; n < h.size(); ++n) response_[15 + n] = static_cast<float>(h[n]);
-    seek(0);
+    for (std::size_t n = 0; n < h.size(); ++n) {
+        response_[kFilterBlock - 1 + n] = static_cast<float>(h[n]);
+    }
 }
 
 void ModelNoise::make(std::uint64_t index) {

@@ -31,6 +31,10 @@ class ModelNoise {
     // whatever was played before.
     void seek(std::uint64_t index);
 
+    // From the next block on, another filter of the same order: its predictor, and the gain that makes its
+    // mean square 1. Small steps from block to block do not click, as the past samples stay.
+    void retune(std::span<const double> predictor, double gain);
+
     // Samples `first` ... of the stream, as BandNoise gives them; follows on or starts anew.
     void render(std::uint64_t first, std::span<double> out);
 

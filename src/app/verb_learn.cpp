@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// `tribo learn --recording MM_PER_S:FILE ... --out M.json`: recordings of friction to a material.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/exit.hpp"
+#include "app/options.hpp"
+#include "app/verbs.hpp"
+#include "base/decimal.hpp"
+#include "io/material_json.hpp"
+#include "io/sound_file.hpp"
+#include "noise/learning.hpp"
+
+namespace tribo::app {
+namespace {
+
+struct Call {
+    std::vector<std::string> recordings;
+    std::string out, image, name, note, method = "yule-walker";
+    double width_mm = 0, stiffness = 4, viscosity = 0.3;
+    double highpass_hz = noise::LearningOptions{}.highpass_hz;
+    int order = 0;
+};
+
+struct Source {
+    double speed_mm_per_s = 0, force_n = 1;
+    std::string file;
+};
+
+// SPEED[@FORCE]:FILE
+Result<Source> parse_source(const std::string& text) {
+    const auto refuse = [&](std::string cause) {
+        return fail("--recording '" + text + "': " + std::move(cause),
+                    "write SPEED:FILE or SPEED@FORCE:FILE, such as 120:slow.wav or 120@0.5:light.wav");
+    };
+    Source source;
+    std::string_view rest = text;
+    const auto number = [&](double& value) {
+        const std::size_t length = parse_decimal(rest, value);
+        rest.remove_prefix(length);
+        return length > 0 && value > 0 && std::isfinite(value);
+    };
+    if (!number(source.speed_mm_per_s)) return refuse("the speed is not a number of mm/s above 0");
+    if (rest.starts_with('@')) {
+        rest.remove_prefix(1);
+        if (!number(source.force_n)) return refuse("the force is not a number of newtons above 0");
+    }
+    if (!rest.starts_with(':') || rest.size() < 2) return refuse("no file is named");
+    source.file = rest.substr(1);
+    return source;
+}
+
+struct Sounds {
+    std::vector<noise::Recording> recordings;
+    std::vector<formats::RecordingSource> sources;
+    Warnings warnings;
+};
+
+io::FileResult<Sounds> read_sounds(const Call& call) {
+    Sounds sounds;
+    for (const std::string& text : call.recordings) {
+        const Result<Source> source = parse_source(text);
+        if (!source) return std::unexpected(io::Failure(source.error()));
+        io::FileResult<io::SoundFile> file = io::read_sound(source->file);
+        if (!file) return std::unexpected(file.error());
+        sounds.warnings.insert(sounds.warnings.end(), file->warnings.begin(), file->warnings.end());
+        formats::RecordingSource from;
+        from.file = std::filesystem::path(source->file).filename().string();
+        from.sample_rate_hz = file->sample_rate_hz;
+        from.channels = file->channels;
+        from.bits = file->bits;
+        sounds.sources.push_back(std::move(from));
+        sounds.recordings.push_back({source->file, source->speed_mm_per_s, source->force_n,
+                                     file->sample_rate_hz, std::move(file->samples)});
+    }
+    return sounds;
+}
+
+// `image` as seen from the material file.
+std::string image_beside(const std::string& image, const std::string& out) {
+    std::error_code error;
+    const auto folder = std::filesystem::absolute(out, error).parent_path();
+    const auto relative = std::filesystem::relative(std::filesystem::absolute(image, error), folder, error);
+    return relative.empty() ? image : relative.generic_string();
+}
+
+double rounded(double value, double step) {
+    return std::round(value / step) * step;
+}
+
+formats::Material material_of(const Call& call, const noise::Learned& learned, const Sounds& sounds) {
+    formats::Material m;
+    m.name = call.name.empty() ? std::filesystem::path(call.out).stem().string() : call.name;
+    m.note = call.note;
+    m.stiffness_n_per_mm = call.stiffness;
+    m.viscosity_n_s_per_mm = call.viscosity;
+    m.width_mm = call.width_mm;
+    if (!call.image.empty()) m.image = image_beside(call.image, call.out);
+    m.method = call.method;
+    m.highpass_hz = call.highpass_hz;
+    m.voices = learned.voices;
+    m.sources.resize(m.voices.models.size());
+    for (std::size_t n = 0; n < sounds.sources.size(); ++n) {
+        const noise::LearnedRecording& r = learned.recordings[n];
+        formats::RecordingSource source = sounds.sources[n];
+        source.seconds = rounded(r.seconds, 1e-3);
+        source.peak_db = rounded(r.peak_db, 0.01);
+        source.silent_share = rounded(r.silent_share, 1e-4);
+        source.clipped_share = r.clipped_share;
+        m.sources[static_cast<std::size_t>(r.model)].push_back(std::move(source));
+    }
+    return m;
+}
+
+void print(const formats::Material& m, const noise::Learned& learned) {
+    std::printf("%s: %zu voice%s of order %d\n", m.name.c_str(), m.voices.models.size(),
+                m.voices.models.size() == 1 ? "" : "s", learned.order);
+    for (const noise::VoiceModel& v : m.voices.models) {
+        std::printf("  %8.4g mm/s  %5.3g N  %6.1f dB\n", v.speed_mm_per_s, v.force_n, v.level_db);
+    }
+    std::printf("  level law %.1f dB at 100 mm/s and 1 N, %+.1f dB per decade of speed, %+.1f of force\n",
+                m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
+}
+
+int learn(const Call& call) {
+    io::FileResult<Sounds> sounds = read_sounds(call);
+    if (!sounds) return report(sounds.error());
+    if (!call.image.empty() && !std::filesystem::is_regular_file(call.image)) {
+        return report(Error{call.image, 0, 0, "is no file", "give the image of the material"});
+    }
+    noise::LearningOptions options;
+    options.method = call.method == "burg" ? noise::Method::burg : noise::Method::yule_walker;
+    options.highpass_hz = call.highpass_hz;
+    if (call.order > 0) options.order = call.order;
+    const Result<noise::Learned> learned = noise::learn(sounds->recordings, options);
+    if (!learned) return report(learned.error());
+    report(sounds->warnings);
+    report(learned->warnings);
+    const formats::Material material = material_of(call, *learned, *sounds);
+    if (const auto written = io::write_file(call.out, io::material_json(material)); !written) {
+        return report(written.error());
+    }
+    print(material, *learned);
+    return kDone;
+}
+
+}  // namespace
+
+void add_learn(CLI::App& program, int& exit_code) {
+    const auto call = std::make_shared<Call>();
+    CLI::App* verb = program.add_subcommand("learn", "Learn a material from recordings of friction");
+    verb->add_option("--recording", call->recordings,
+                     "Speed of the finger in mm/s, force in N (1 if absent), WAV or FLAC file; once for each")
+        ->required()
+        ->type_name("SPEED[@FORCE]:FILE");
+    verb->add_option("--out", call->out, "Material file")->required()->type_name("M.json");
+    verb->add_option("--image", call->image, "Picture of the material")->type_name("F");
+    verb->add_option("--width-mm", call->width_mm, "Width of the image as the finger feels it")
+        ->check(finite_number(0, 1e5))
+        ->type_name("W");
+    verb->add_option("--stiffness", call->stiffness, "K in N/mm: 4 if absent")
+        ->check(finite_number(0, 1e6))
+        ->type_name("K");
+    verb->add_option("--viscosity", call->viscosity, "nu in N s/mm: 0.3 if absent")
+        ->check(CLI::Range(0.0, 1e6))
+        ->type_name("NU");
+    verb->add_option("--method", call->method, "How the models are fitted: yule-walker or burg")
+        ->check(one_of({"yule-walker", "burg"}))
+        ->type_name("HOW");
+    verb->add_option("--order", call->order, "Poles of a model; chosen by held-out sound if absent")
+        ->check(CLI::Range(1, noise::kLargestOrder))
+        ->type_name("N");
+    verb->add_option("--highpass", call->highpass_hz,
+                     "Remove sound below: 50 Hz if absent, 0 for the mean alone")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->type_name("HZ");
+    verb->add_option("--name", call->name, "The file's name if absent")->type_name("TEXT");
+    verb->add_option("--note", call->note, "Anything that readers of the file should know")
+        ->type_name("TEXT");
+    verb->callback([call, &exit_code] { exit_code = learn(*call); });
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "noise/learning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/decimal.hpp"
+#include "base/math.hpp"
+#include "noise/levinson.hpp"
+
+namespace tribo::noise {
+namespace {
+
+constexpr double kWhite = 1e-9;          // added to r_0: the top of a band-limited recording is empty
+constexpr double kHeldOutBlockS = 0.25;  // alternate blocks learn and test
+constexpr double kSame = 1e-9;           // relative difference of equal speeds and forces
+
+using Pieces = std::vector<std::span<const double>>;
+
+// Recordings at one speed and force.
+struct Group {
+    double speed = 0, force = 0;
+    std::vector<std::size_t> members;  // indices of the prepared recordings
+};
+
+bool same(double a, double b) {
+    return std::abs(a - b) <= kSame * std::max(a, b);
+}
+
+std::vector<Group> grouped(std::span<const Recording> recordings) {
+    std::vector<Group> groups;
+    for (std::size_t n = 0; n < recordings.size(); ++n) {
+        const Recording& r = recordings[n];
+        const auto found = std::ranges::find_if(groups, [&](const Group& g) {
+            return same(g.speed, r.speed_mm_per_s) && same(g.force, r.force_n);
+        });
+        if (found != groups.end()) {
+            found->members.push_back(n);
+        } else {
+            groups.push_back({r.speed_mm_per_s, r.force_n, {n}});
+        }
+    }
+    std::ranges::sort(groups, [](const Group& a, const Group& b) {
+        return same(a.force, b.force) ? a.speed < b.speed : a.force < b.force;
+    });
+    return groups;
+}
+
+// Every other block of the pieces.
+Pieces alternate(const Pieces& pieces, std::size_t block, std::size_t which) {
+    Pieces half;
+    std::size_t n = 0;
+    for (const std::span<const double> piece : pieces) {
+        for (std::size_t at = 0; at < piece.size(); at += block, ++n) {
+            if (n % 2 == which) half.push_back(piece.subspan(at, std::min(block, piece.size() - at)));
+        }
+    }
+    return half;
+}
+
+// a^T R a over r_0: prediction error of a predictor on sound of this autocorrelation, relative to its power.
+double prediction_error(std::span<const double> predictor, std::span<const double> r) {
+    double sum = 0;
+    const auto a = [&](std::size_t n) { return n == 0 ? 1.0 : predictor[n - 1]; };
+    for (std::size_t i = 0; i <= predictor.size(); ++i) {
+        sum += a(i) * a(i) * r[0];
+        for (std::size_t j = 0; j < i; ++j) sum += 2 * a(i) * a(j) * r[i - j];
+    }
+    return std::max(sum / r[0], 1e-12);
+}
+
+// Mean log prediction error on held-out sound at orders 1 ... most: two folds.
+std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, int most) {
+    const auto block = static_cast<std::size_t>(kHeldOutBlockS * rate_hz);
+    const std::vector<double> r[2] = {windowed_autocorrelation(alternate(pieces, block, 0), most),
+                                      windowed_autocorrelation(alternate(pieces, block, 1), most)};
+    std::vector<double> errors(static_cast<std::size_t>(most));
+    if (!(r[0][0] > 0) || !(r[1][0] > 0)) return errors;
+    for (std::size_t fold = 0; fold < 2; ++fold) {
+        const std::vector<double> k = levinson(r[fold], kWhite);
+        for (std::size_t p = 1; p <= errors.size(); ++p) {
+            const std::vector<double> a = predictor_of(std::span(k).first(p));
+            errors[p - 1] += 0.5 * math::log(prediction_error(a, r[1 - fold]));
+        }
+    }
+    return errors;
+}
+
+// The smallest order that predicts held-out sound as well as the best one does.
+int chosen_order(std::span<const double> errors) {
+    const double best = *std::ranges::min_element(errors);
+    std::size_t order = 1;
+    while (errors[order - 1] > best + kOrderTolerance) ++order;
+    return static_cast<int>(order);
+}
+
+// The autocorrelation, scaled to r_0 = 1, of all members of a group at the rate of the first.
+std::vector<double> group_autocorrelation(const Group& group, std::span<const PreparedRecording> prepared,
+                                          int order) {
+    std::vector<double> sum(static_cast<std::size_t>(order) + 1);
+    const double rate_hz = prepared[group.members[0]].sample_rate_hz;
+    for (const std::size_t n : group.members) {
+        std::vector<double> r = windowed_autocorrelation(prepared[n].pieces(), order);
+        if (prepared[n].sample_rate_hz != rate_hz) {
+            const ArModel model{prepared[n].sample_rate_hz, levinson(r, kWhite)};
+            r = autocorrelation_of(at_rate(model, rate_hz).reflection, order);
+        }
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += r[k] / r[0];
+    }
+    return sum;
+}
+
+std::vector<double> group_reflection(const Group& group, std::span<const PreparedRecording> prepared,
+                                     const LearningOptions& options, int order) {
+    const double rate_hz = prepared[group.members[0]].sample_rate_hz;
+    const bool one_rate = std::ranges::all_of(
+        group.members, [&](std::size_t n) { return prepared[n].sample_rate_hz == rate_hz; });
+    if (options.method == Method::burg && one_rate) {
+        Pieces pieces;
+        for (const std::size_t n : group.members) {
+            const Pieces own = prepared[n].pieces();
+            pieces.insert(pieces.end(), own.begin(), own.end());
+        }
+        return burg(pieces, order);
+    }
+    return levinson(group_autocorrelation(group, prepared, order), kWhite);
+}
+
+VoiceModel group_model(const Group& group, std::span<const PreparedRecording> prepared,
+                       const LearningOptions& options, int order) {
+    VoiceModel model;
+    model.speed_mm_per_s = group.speed;
+    model.force_n = group.force;
+    double power = 0;
+    for (const std::size_t n : group.members) power += math::pow(10, 0.1 * prepared[n].level_db);
+    model.level_db = 10 * math::log10(power / static_cast<double>(group.members.size()));
+    model.spectrum = {prepared[group.members[0]].sample_rate_hz,
+                      group_reflection(group, prepared, options, order)};
+    return model;
+}
+
+Result<std::vector<PreparedRecording>> prepared_all(std::span<const Recording> recordings,
+                                                    const LearningOptions& options, Learned& learned) {
+    if (recordings.empty()) return fail("no recording was given", "give at least one");
+    std::vector<PreparedRecording> prepared;
+    for (const Recording& r : recordings) {
+        if (!(r.speed_mm_per_s > 0) || !(r.force_n > 0) || !std::isfinite(r.speed_mm_per_s * r.force_n)) {
+            return fail_at(r.name, 0, 0, "has a speed or force that is not above 0",
+                           "give the speed in mm/s at which the finger moved");
+        }
+        Result<PreparedRecording> one = prepare(r, options.highpass_hz);
+        if (!one) return std::unexpected(one.error());
+        learned.warnings.insert(learned.warnings.end(), one->warnings.begin(), one->warnings.end());
+        prepared.push_back(*std::move(one));
+    }
+    return prepared;
+}
+
+}  // namespace
+
+std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces, int lags) {
+    std::vector<double> r(static_cast<std::size_t>(lags) + 1), frame;
+    double weight = 0;
+    for (const std::span<const double> piece : pieces) {
+        const std::size_t length = std::min(piece.size(), kAutocorrelationFrame);
+        if (length < 2 * r.size()) continue;  // shorter ones would be mostly window
+        for (std::size_t at = 0; at + length <= piece.size(); at += length / 2) {
+            frame.resize(length);
+            for (std::size_t n = 0; n < length; ++n) {
+                const double phase =
+                    math::kTwoPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length);
+                const double hann = 0.5 - 0.5 * math::cos(phase);
+                frame[n] = hann * piece[at + n];
+                weight += hann * hann;
+            }
+            for (std::size_t k = 0; k < r.size(); ++k) {
+                double sum = 0;
+                for (std::size_t n = k; n < length; ++n) sum += frame[n] * frame[n - k];
+                r[k] += sum;
+            }
+        }
+    }
+    for (double& v : r) v /= std::max(weight, 1e-300);
+    return r;
+}
+
+Result<Learned> learn(std::span<const Recording> recordings, const LearningOptions& options) {
+    Learned learned;
+    const Result<std::vector<PreparedRecording>> prepared = prepared_all(recordings, options, learned);
+    if (!prepared) return std::unexpected(prepared.error());
+    const std::vector<Group> groups = grouped(recordings);
+    if (options.order) {
+        learned.order = *options.order;
+    } else {
+        std::vector<double> errors(kMostLearnedOrder);
+        for (const PreparedRecording& p : *prepared) {
+            const std::vector<double> own = held_out_errors(p.pieces(), p.sample_rate_hz, kMostLearnedOrder);
+            for (std::size_t n = 0; n < errors.size(); ++n) {
+                errors[n] += own[n] / static_cast<double>(prepared->size());
+            }
+        }
+        learned.order = chosen_order(errors);
+        for (const double e : errors) learned.held_out_db.push_back(10 / math::log(10) * e);
+    }
+    learned.recordings.resize(recordings.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        learned.voices.models.push_back(group_model(groups[g], *prepared, options, learned.order));
+        for (const std::size_t n : groups[g].members) {
+            const PreparedRecording& p = (*prepared)[n];
+            learned.recordings[n] = {recordings[n].name,
+                                     static_cast<int>(g),
+                                     static_cast<double>(p.sound.size()) / p.sample_rate_hz,
+                                     p.level_db,
+                                     p.peak_db,
+                                     p.silent_share,
+                                     p.clipped_share};
+        }
+    }
+    learned.voices.law = fit_level_law(learned.voices.models);
+    return learned;
+}
+
+}  // namespace tribo::noise

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// From recordings of friction to the voices of a material.
+//
+// Each recording: high-pass, silence out, autocorrelation under Hann windows of 4096 samples, Yule-Walker
+// equations by Levinson and Durbin (or Burg's method), RMS level. Recordings at one speed and force are
+// learned from together. One order serves all models of a material: the smallest whose prediction error on
+// held-out sound is within kOrderTolerance of the best.
+// Paper: the touch paper, 3.1, with RMS in place of mean power. Allocates; any thread.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.hpp"
+#include "noise/material_voices.hpp"
+#include "noise/recording.hpp"
+
+namespace tribo::noise {
+
+enum class Method { yule_walker, burg };
+
+struct LearningOptions {
+    Method method = Method::yule_walker;
+    std::optional<int> order;  // 1 ... kLargestOrder; absent: by held-out sound
+    double highpass_hz = 50;   // 0: only the mean is removed
+};
+
+inline constexpr int kMostLearnedOrder = 100;
+inline constexpr double kOrderTolerance = 0.002;  // nepers of prediction error: 0.017 dB
+inline constexpr std::size_t kAutocorrelationFrame = 4096;
+
+// What was learned from one recording.
+struct LearnedRecording {
+    std::string name;
+    int model = 0;  // index into voices.models
+    double seconds = 0;
+    double level_db = 0, peak_db = 0, silent_share = 0, clipped_share = 0;
+};
+
+struct Learned {
+    MaterialVoices voices;
+    int order = 0;
+    // Held-out prediction error at each order 1, 2, ... in dB of the sound's power, mean over the models;
+    // empty where the order was given.
+    std::vector<double> held_out_db;
+    std::vector<LearnedRecording> recordings;  // as they came
+    Warnings warnings;
+};
+
+// Any number of recordings in any order. Refused: none, speeds or forces that are not above 0, what
+// prepare() refuses.
+Result<Learned> learn(std::span<const Recording> recordings, const LearningOptions& options = {});
+
+// Autocorrelation r_0 ... r_lags over Hann frames of all pieces, r_0 = mean square. Pieces shorter than a
+// frame are taken under a window of their own length.
+std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces, int lags);
+
+}  // namespace tribo::noise
