@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// HTTP and WebSocket on one port, for a page of our own (RFC 9112, RFC 6455). One thread inside; every
+// function may be called from any thread but a real-time one, none waits for a client.
+//
+// Who is let in: a request must name this server in Host (against DNS rebinding), a WebSocket must come from
+// a page of this server's (Origin), ask for the subprotocol and, where one is set, bring the token as
+// ?token=.... Others get 403 and a line that says why.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+
+namespace tribo::net {
+
+using ClientId = std::uint64_t;
+using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+struct Page {
+    std::string content_type;
+    std::string_view body;      // stays valid as long as the server runs
+    std::string_view encoding;  // "gzip" where the body is compressed; else empty
+};
+
+struct ServerOptions {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 0;  // 0: any that is free
+    std::string subprotocol;
+    std::string token;                // empty: none is asked for
+    std::vector<std::string> hosts;   // further names (without port) that this server goes by
+    std::size_t queue_bytes = 32e6;   // of data that waits for one client; beyond it the oldest is dropped
+    std::size_t message_bytes = 1e6;  // a client that sends longer messages is cut off
+    int messages_per_s = 500;         // and so is one that sends more of them than this for two seconds
+};
+
+// Called on the server's thread; they must not wait.
+struct ServerHandlers {
+    std::function<std::optional<Page>(std::string_view path, bool takes_gzip)> page;  // GET; none: 404
+    std::function<void(ClientId)> came;
+    std::function<void(ClientId, std::string_view text)> message;
+    std::function<void(ClientId)> went;
+    // Data that this client did not take in time was dropped: it needs all of it anew.
+    std::function<void(ClientId)> lost;
+};
+
+class Server {
+  public:
+    // Listens. Refuses an address or port that the system does not give, saying which.
+    static Result<std::unique_ptr<Server>> start(const ServerOptions& options, ServerHandlers handlers);
+    ~Server();  // closes all connections
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    std::uint16_t port() const;
+    // Control: never dropped. A client that lets a thousand of them wait is cut off.
+    void send_text(ClientId to, std::string text);
+    // Data: to one client or to all, dropped oldest first where a client does not keep up.
+    void send(ClientId to, Bytes data);
+    void send_all(const Bytes& data);
+    std::size_t clients() const;
+
+  private:
+    struct Parts;
+    explicit Server(std::unique_ptr<Parts> parts);
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tribo::net
