@@ -20,6 +20,9 @@ struct BrickCoord {
     constexpr bool operator==(const BrickCoord&) const = default;
 };
 
+// Counts the states of a field that were shown to a reader (field_reader.hpp); 0: to none.
+using Version = std::uint64_t;
+
 // Index of a shape in its field: 0 is the blank, all others are carved away.
 using ShapeId = std::uint32_t;
 
@@ -27,6 +30,7 @@ struct Brick {
     static constexpr std::uint16_t kUnlisted = 0xffff;
 
     BrickCoord coord;
+    Version version = 0;                           // of the field when it was made
     double volume_mm3 = 0;                         // of the material in it
     std::array<float, kLatticeNodes> distance_mm;  // at the nodes, negative in material, at least -near
     // Index into `shapes` of the shape that gives the distance, where that is within near of the surface;

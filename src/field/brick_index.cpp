@@ -3,28 +3,36 @@
 
 namespace tribo::field {
 
-BrickIndex::BrickIndex(BrickCoord size) : size_(size) {
+BrickIndex::BrickIndex(BrickCoord size) {
     const auto chunks = [](int bricks) {
         return static_cast<std::size_t>((bricks + kChunkEdge - 1) / kChunkEdge);
     };
-    chunks_i_ = chunks(size.i);
-    chunks_j_ = chunks(size.j);
-    chunks_.resize(chunks_i_ * chunks_j_ * chunks(size.k));
+    chunks_.resize(chunks(size.i) * chunks(size.j) * chunks(size.k));
+    table_ = {size, chunks(size.i), chunks(size.j), chunks_.data()};
 }
 
-void BrickIndex::set(BrickCoord b, BrickRef ref) {
-    std::unique_ptr<Chunk>& chunk = chunks_[chunk_number(b)];
-    if (!chunk) {
-        chunk = std::make_unique<Chunk>();
+BrickIndex::~BrickIndex() {
+    for (BrickChunk* chunk : chunks_) delete chunk;
+}
+
+std::unique_ptr<BrickChunk> BrickIndex::set(BrickCoord b, BrickRef ref, Version version) {
+    BrickChunk*& chunk = chunks_[table_.chunk_number(b)];
+    std::unique_ptr<BrickChunk> old;
+    if (chunk == nullptr) {
+        chunk = std::make_unique<BrickChunk>().release();
         ++touched_;
+    } else if (chunk->version < version) {
+        old.reset(chunk);
+        chunk = std::make_unique<BrickChunk>(*old).release();
     }
-    chunk->refs[place(b)] = ref;
+    chunk->version = version;
+    chunk->refs[BrickTable::place(b)] = ref;
+    return old;
 }
 
 BrickRef BrickPool::take(BrickCoord coord) {
     if (free_.empty()) {
-        const auto first = static_cast<BrickRef>(pages_.size() * kPage) + kFirstBrick;
-        pages_.push_back(std::make_unique_for_overwrite<Brick[]>(kPage));
+        const auto first = static_cast<BrickRef>(bricks_.grow(kPage)) + kFirstBrick;
         for (std::size_t n = kPage; n-- > 0;) free_.push_back(first + static_cast<BrickRef>(n));
     }
     const BrickRef ref = free_.back();

@@ -23,9 +23,6 @@ static_assert(CarvedField::kMostAtOnce == std::size_t{1} << (kBrickShift - 1));
 // A brick's list is pruned when it has grown by this many shapes. To prune takes about as long as to carve a
 // brick with a shape that is not searched for, and little beside one that is.
 constexpr std::size_t kPruneEvery = 8, kPruneEverySearched = 1;
-// A brick whose nodes are all further than this from material (in cells) holds none between them either:
-// half the diagonal of a cell.
-constexpr double kClearCells = 0.8661;
 
 // Along each axis, whole numbers: a cell may be asked for that is finer than any grid could be.
 Vec3 bricks_along(const Box3& blank, double cell) {
@@ -44,28 +41,23 @@ BrickCoord grid_size(const Box3& blank, double cell) {
 
 CarvedField::CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel)
     : cell_(cell_mm),
-      per_cell_(1 / cell_mm),
       near_(kNearCells * cell_mm),
       brick_radius_(0.5 * std::sqrt(3.0) * kBrickCells * cell_mm),
       parallel_(std::move(parallel)),
-      index_(grid_size(blank->bounds_mm(), cell_mm)) {
+      tables_(std::make_unique<FieldTables>(grid_size(blank->bounds_mm(), cell_mm))) {
     assert(cell_mm > 0);
     const Vec3 corner = blank->bounds_mm().min;
     const double margin = kMarginCells * cell_mm;
-    origin_ = {corner.x - margin, corner.y - margin, corner.z - margin};
-    shapes_.push_back(std::move(blank));
+    tables_->shapes.push_back(std::move(blank));
+    tables_->query.origin_mm = {corner.x - margin, corner.y - margin, corner.z - margin};
+    tables_->query.cell_mm = cell_mm;
+    tables_->query.per_cell = 1 / cell_mm;
+    tables_->query.near_mm = near_;
 }
 
 Vec3 CarvedField::centre(BrickCoord b) const {
     const double half = 0.5 * kBrickCells * cell_;
     return lattice(b).node(0, 0, 0) + Vec3{half, half, half};
-}
-
-BrickCoord CarvedField::brick_at(Vec3 p) const {
-    const Vec3 q = (p - origin_) * (per_cell_ / kBrickCells);
-    // Far points are clamped before the conversion, which would overflow.
-    const auto whole = [](double v) { return static_cast<int>(std::floor(std::clamp(v, -1e9, 1e9))); };
-    return {whole(q.x), whole(q.y), whole(q.z)};
 }
 
 double CarvedField::volume_mm3(const float* distance_mm) const {
@@ -101,17 +93,17 @@ void CarvedField::fill_from_blank(Brick& brick) const {
 
 void CarvedField::gather_brick(const Shape& shape, std::size_t number, BrickCoord b,
                                std::vector<Cut>& cuts) const {
-    if (index_.get(b) == kAir) return;
+    if (tables_->index.get(b) == kAir) return;
     const double d = shape.distance_mm(centre(b));
     if (d >= brick_radius_ + near_) return;
     const Cut holds_all = d <= -brick_radius_ - cell_ ? 1 : 0;
-    cuts.push_back(index_.number(b) << kBrickShift | static_cast<Cut>(number) << 1 | holds_all);
+    cuts.push_back(tables_->index.number(b) << kBrickShift | static_cast<Cut>(number) << 1 | holds_all);
 }
 
 void CarvedField::gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const {
     cuts.clear();
     const Box3 reach = shape.bounds_mm().inflated(near_);
-    const BrickCoord n = index_.size();
+    const BrickCoord n = tables_->index.size();
     const BrickCoord lo = brick_at(reach.min), hi = brick_at(reach.max);
     const int i0 = std::max(lo.i, 0), j0 = std::max(lo.j, 0), k0 = std::max(lo.k, 0);
     const int i1 = std::min(hi.i, n.i - 1), j1 = std::min(hi.j, n.j - 1), k1 = std::min(hi.k, n.k - 1);
@@ -149,14 +141,18 @@ void CarvedField::plan_updates(std::size_t shapes) {
         u.first = n;
         while (n < cuts_.size() && cuts_[n] >> kBrickShift == cuts_[u.first] >> kBrickShift) ++n;
         u.last = n;
-        u.coord = index_.coord(cuts_[u.first] >> kBrickShift);
-        u.ref = index_.get(u.coord);
+        u.coord = tables_->index.coord(cuts_[u.first] >> kBrickShift);
+        u.ref = tables_->index.get(u.coord);
         if (u.ref == kUntouched) {
             u.air = blank().distance_mm(centre(u.coord)) > brick_radius_;
             if (!u.air && (cuts_[u.first] & 1) == 0) {
-                u.ref = pool_.take(u.coord);
+                u.ref = take_brick(u.coord);
                 u.drop = true;  // unless it turns out to be cut
             }
+        } else if (is_shown(u.ref) && (cuts_[u.first] & 1) == 0) {
+            u.shown = u.ref;
+            u.ref = take_brick(u.coord);
+            u.drop = true;
         }
         updates_.push_back(u);
     }
@@ -164,15 +160,22 @@ void CarvedField::plan_updates(std::size_t shapes) {
 
 void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>> shapes) {
     if (u.air) return;
-    if (u.drop) fill_from_blank(pool_[u.ref]);
+    if (u.shown != kUntouched) {
+        const Version version = tables_->pool[u.ref].version;
+        tables_->pool[u.ref] = tables_->pool[u.shown];
+        tables_->pool[u.ref].version = version;
+    } else if (u.drop) {
+        fill_from_blank(tables_->pool[u.ref]);
+    }
     std::array<float, kLatticeNodes> carved;
     for (std::size_t n = u.first; n < u.last; ++n) {
         if ((cuts_[n] & 1) != 0) {
-            removed_by_cut_[n] = u.ref == kUntouched ? blank_brick_volume(u.coord) : pool_[u.ref].volume_mm3;
+            removed_by_cut_[n] =
+                u.ref == kUntouched ? blank_brick_volume(u.coord) : tables_->pool[u.ref].volume_mm3;
             u.air = true;
             return;
         }
-        Brick& brick = pool_[u.ref];
+        Brick& brick = tables_->pool[u.ref];
         const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
         shapes[number]->sample(lattice(u.coord), carved.data());
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
@@ -181,7 +184,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
                                   static_cast<float>(near_), static_cast<float>(cell_));
         if (!result.changed) continue;
         u.drop = false;
-        if (result.least_mm > kClearCells * cell_) {
+        if (result.least_mm > FieldQuery::kClearCells * cell_) {
             removed_by_cut_[n] = brick.volume_mm3;
             u.air = true;
             return;
@@ -189,7 +192,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         removed_by_cut_[n] = result.removed_cells * cell_ * cell_ * cell_;
         brick.volume_mm3 -= removed_by_cut_[n];
         if (!result.won) continue;
-        brick.shapes.push_back(static_cast<ShapeId>(shapes_.size() + number));
+        brick.shapes.push_back(static_cast<ShapeId>(tables_->shapes.size() + number));
         const std::size_t every = shapes[number]->is_searched() ? kPruneEverySearched : kPruneEvery;
         if (brick.shapes.size() % every == 0) prune_shapes(brick, static_cast<float>(near_));
     }
@@ -206,11 +209,11 @@ void CarvedField::carve(std::span<std::unique_ptr<const Shape>> shapes, std::spa
     plan_updates(shapes.size());
     over(updates_.size(), kParallelBricks, [&](std::size_t n) { update(updates_[n], shapes); });
     for (const Update& u : updates_) {
-        if (u.air || u.drop) {
-            if (u.ref >= kFirstBrick) pool_.give_back(u.ref);
-            if (u.air) index_.set(u.coord, kAir);
-        } else {
-            index_.set(u.coord, u.ref);
+        if (u.air || u.drop) release(u.ref);
+        if (u.air || !u.drop) {
+            release(u.shown);
+            const BrickRef now = u.air ? kAir : u.ref;
+            if (now != tables_->index.get(u.coord)) point_to(u.coord, now);
         }
     }
     std::fill(removed_mm3.begin(), removed_mm3.end(), 0.0);
@@ -219,8 +222,9 @@ void CarvedField::carve(std::span<std::unique_ptr<const Shape>> shapes, std::spa
     }
     for (std::size_t n = 0; n < shapes.size(); ++n) {
         removed_ += removed_mm3[n];
-        shapes_.push_back(std::move(shapes[n]));
+        tables_->shapes.push_back(std::move(shapes[n]));
     }
+    if (showing_) show_->show(tables_->query, tables_->index.chunks(), tables_->pool);
 }
 
 double CarvedField::carve(std::unique_ptr<const Shape> shape) {
@@ -229,74 +233,37 @@ double CarvedField::carve(std::unique_ptr<const Shape> shape) {
     return removed;
 }
 
-CarvedField::NearNode CarvedField::nearest_node(BrickCoord b, Vec3 p) const {
-    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell_;
-    const auto nearest = [](double v) {
-        return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
-    };
-    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
-    return {node_index(i, j, k),
-            q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+FieldShow& CarvedField::begin_show() {
+    assert(!showing_);
+    if (!show_) show_ = std::make_unique<FieldShow>();
+    showing_ = true;
+    show_->show(tables_->query, tables_->index.chunks(), tables_->pool);
+    return *show_;
 }
 
-CarvedField::Exact CarvedField::exact(BrickRef ref, Vec3 p) const {
-    if (ref == kUntouched) return {blank().distance_mm(p), 0};
-    if (ref == kAir) return {kClearCells * cell_, 0};
-    const Brick& brick = pool_[ref];
-    Exact best{-near_, 0};
-    const auto measure = [&](ShapeId id) {
-        const double d =
-            id == 0 ? shapes_[0]->distance_mm(p) : -shapes_[id]->distance_below(p, -best.distance_mm);
-        if (d > best.distance_mm) best = {d, id};
-    };
-    // The shape that gives the distance at the nearest node most likely gives it here; the others need only
-    // show that they do not.
-    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
-    if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
-    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
-        if (n != likely) measure(brick.shapes[n]);
+void CarvedField::end_show() {
+    show_->close(tables_->pool);
+    showing_ = false;
+}
+
+BrickRef CarvedField::take_brick(BrickCoord coord) {
+    const BrickRef ref = tables_->pool.take(coord);
+    tables_->pool[ref].version = version();
+    return ref;
+}
+
+void CarvedField::release(BrickRef ref) {
+    if (ref < kFirstBrick) return;
+    if (is_shown(ref)) {
+        show_->retire(ref);
+    } else {
+        tables_->pool.give_back(ref);
     }
-    return best;
 }
 
-double CarvedField::distance_mm(Vec3 p) const {
-    const BrickCoord b = brick_at(p);
-    if (!index_.contains(b)) return std::max(blank().distance_mm(p), kClearCells * cell_);
-    return exact(index_.get(b), p).distance_mm;
-}
-
-Vec3 CarvedField::normal(Vec3 p) const {
-    const BrickCoord b = brick_at(p);
-    if (!index_.contains(b)) return blank().gradient(p);
-    const Exact e = exact(index_.get(b), p);
-    return e.shape == 0 ? blank().gradient(p) : -shapes_[e.shape]->gradient(p);
-}
-
-bool CarvedField::is_material(Vec3 p, double skin_mm) const {
-    const BrickCoord b = brick_at(p);
-    if (!index_.contains(b)) return false;
-    const BrickRef ref = index_.get(b);
-    if (ref == kAir) return false;
-    if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
-    const Brick& brick = pool_[ref];
-    const NearNode near = nearest_node(b, p);
-    const auto node = static_cast<std::size_t>(near.index);
-    const double way = cell_ * length(near.off_cells);
-    // What the node says holds as far around it as its distance, less rounding.
-    const double d = static_cast<double>(brick.distance_mm[node]);
-    constexpr double kRounding = 1e-3;
-    if (d > way + kRounding * cell_) return false;
-    if (d < -way - kRounding * cell_ - skin_mm) return true;
-    const auto in_material = [&](ShapeId id) {
-        return id == 0 ? shapes_[0]->distance_mm(p) < -skin_mm
-                       : shapes_[id]->distance_below(p, skin_mm) >= skin_mm;
-    };
-    const std::uint16_t likely = brick.winner[node];
-    if (likely != Brick::kUnlisted && !in_material(brick.shapes[likely])) return false;
-    for (std::size_t n = brick.shapes.size(); n-- > 0;) {
-        if (n != likely && !in_material(brick.shapes[n])) return false;
-    }
-    return true;
+void CarvedField::point_to(BrickCoord coord, BrickRef ref) {
+    std::unique_ptr<BrickChunk> old = tables_->index.set(coord, ref, version());
+    if (old) show_->retire(std::move(old));
 }
 
 double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2) {

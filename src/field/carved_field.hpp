@@ -10,12 +10,12 @@
 
 #include "base/parallel.hpp"
 #include "contact/distance_field.hpp"
-#include "field/brick_index.hpp"
+#include "field/field_show.hpp"
 
 namespace tribo::field {
 
 // Reading is safe from any number of threads while nobody carves; carving is for one thread, which may use
-// others through `parallel`.
+// others through `parallel`. A thread that reads while another carves does so through a FieldReader.
 class CarvedField final : public contact::DistanceField {
   public:
     // Nodes within this many cells of the surface decide which shapes a brick keeps.
@@ -35,39 +35,40 @@ class CarvedField final : public contact::DistanceField {
     double carve(std::unique_ptr<const Shape> shape);
 
     // Exact at the surface; clamped to about one cell away from it. Bounded time, no allocation.
-    double distance_mm(Vec3 point_mm) const override;
-    Vec3 normal(Vec3 point_mm) const override;
+    double distance_mm(Vec3 p) const override { return tables_->query.distance_mm(p); }
+    Vec3 normal(Vec3 p) const override { return tables_->query.sample(p).normal; }
+    contact::SurfaceSample sample(Vec3 p) const override { return tables_->query.sample(p); }
+    // Looks as far as three bricks (21 cells).
+    double clearance_mm(Vec3 p, double enough_mm) const override {
+        return tables_->query.clearance_mm(p, enough_mm);
+    }
+    contact::SurfaceSample nearest(Vec3 p, double within_mm, Vec3 hint_mm) const override {
+        return tables_->query.nearest(p, within_mm, hint_mm);
+    }
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.
-    bool is_material(Vec3 point_mm, double skin_mm = 0) const;
+    bool is_material(Vec3 p, double skin_mm = 0) const { return tables_->query.is_material(p, skin_mm); }
     double cell_mm() const { return cell_; }
     double near_mm() const { return near_; }
-    const Shape& blank() const { return *shapes_[0]; }
-    const Shape& shape(ShapeId id) const { return *shapes_[id]; }
+    const Shape& blank() const { return tables_->query.blank(); }
+    const Shape& shape(ShapeId id) const { return tables_->query.shape(id); }
     double removed_mm3() const { return removed_; }
-    Lattice lattice(BrickCoord b) const {
-        return {origin_, cell_, kBrickCells * b.i, kBrickCells * b.j, kBrickCells * b.k};
-    }
-    BrickCoord size() const { return index_.size(); }
+    Lattice lattice(BrickCoord b) const { return tables_->query.lattice(b); }
+    BrickCoord size() const { return tables_->index.size(); }
     Vec3 centre(BrickCoord b) const;
     // From a brick's centre to its corners.
     double brick_radius_mm() const { return brick_radius_; }
-    BrickRef ref(BrickCoord b) const { return index_.get(b); }
-    const Brick& brick(BrickRef ref) const { return pool_[ref]; }
-    std::size_t bricks_in_use() const { return pool_.in_use(); }
-    std::size_t shapes_carved() const { return shapes_.size() - 1; }
-    std::size_t bytes() const { return pool_.bytes() + index_.bytes(); }
+    BrickRef ref(BrickCoord b) const { return tables_->index.get(b); }
+    const Brick& brick(BrickRef ref) const { return tables_->pool[ref]; }
+    std::size_t bricks_in_use() const { return tables_->pool.in_use(); }
+    std::size_t shapes_carved() const { return tables_->shapes.size() - 1; }
+    std::size_t bytes() const { return tables_->pool.bytes() + tables_->index.bytes(); }
 
-    // Where the exact surface stands, when `point_mm` is in brick `ref`: the distance and the shape that
-    // gives it.
-    struct Exact {
-        double distance_mm;
-        ShapeId shape;
-    };
-    Exact exact(BrickRef ref, Vec3 point_mm) const;
-    // The brick that contains the point; out of the grid: the coordinates are not contained in index().
-    BrickCoord brick_at(Vec3 point_mm) const;
-    bool contains(BrickCoord b) const { return index_.contains(b); }
+    using Exact = FieldQuery::Exact;
+    Exact exact(BrickRef ref, Vec3 point_mm) const { return tables_->query.exact(ref, point_mm); }
+    // The brick that contains the point; out of the grid: one that contains() is false for.
+    BrickCoord brick_at(Vec3 point_mm) const { return tables_->query.brick_at(point_mm); }
+    bool contains(BrickCoord b) const { return tables_->index.contains(b); }
 
     // Memory that a field over this blank takes when `surface_mm2` of it have been cut (bricks and chunk
     // tables), bytes.
@@ -82,6 +83,7 @@ class CarvedField final : public contact::DistanceField {
         std::size_t first = 0, last = 0;  // in cuts_
         BrickCoord coord;
         BrickRef ref = kUntouched;
+        BrickRef shown = kUntouched;  // what ref is a copy of, where a reader may see that
         bool drop = false, air = false;
     };
     void gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const;
@@ -91,19 +93,22 @@ class CarvedField final : public contact::DistanceField {
     void fill_from_blank(Brick& brick) const;
     double volume_mm3(const float* distance_mm) const;
     double blank_brick_volume(BrickCoord b) const;
-    // The node of a brick that is nearest to a point, and where the point lies from it.
-    struct NearNode {
-        int index;
-        Vec3 off_cells;
-    };
-    NearNode nearest_node(BrickCoord b, Vec3 point_mm) const;
+    // For FieldReader: shows the field as it is and from now on after each carve, or no more.
+    friend class FieldReader;
+    FieldShow& begin_show();
+    void end_show();
+    // The version of what is made now, and whether a brick must be left as it is; 0 and false without reader.
+    Version version() const { return showing_ ? show_->shown() + 1 : 0; }
+    bool is_shown(BrickRef ref) const { return showing_ && tables_->pool[ref].version <= show_->shown(); }
+    BrickRef take_brick(BrickCoord coord);
+    void release(BrickRef ref);
+    void point_to(BrickCoord coord, BrickRef ref);
 
-    double cell_, per_cell_, near_, brick_radius_;
-    Vec3 origin_;
+    double cell_, near_, brick_radius_;
     ParallelFor parallel_;
-    std::vector<std::unique_ptr<const Shape>> shapes_;  // [0] is the blank
-    BrickIndex index_;
-    BrickPool pool_;
+    std::unique_ptr<FieldTables> tables_;
+    std::unique_ptr<FieldShow> show_;
+    bool showing_ = false;
     double removed_ = 0;
     // Of the carve that is going on.
     std::vector<std::vector<Cut>> cuts_of_;  // by shape

@@ -141,11 +141,13 @@ std::vector<std::string> same_bits_complaints(const std::string& path, std::stri
     std::vector<std::string> complaints;
     const Room* room = room_of(path);
     if (room == nullptr || !room->same_bits) return complaints;
+    // The one place where two threads meet, for what a servo or a sound card takes over.
+    const bool is_hand_over = path == "src/base/hand_over.hpp";
     for (const Line& line : lines_of(text)) {
         const std::string code = code_of(line.text);
         std::smatch match;
         for (const Ban& ban : bans)
-            if (std::regex_search(code, match, ban.pattern))
+            if (!is_hand_over && std::regex_search(code, match, ban.pattern))
                 complaints.push_back(complaint(path, line.number, match.str() + ": " + ban.reason));
     }
     return complaints;

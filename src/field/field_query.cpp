@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "field/field_query.hpp"
+
+#include <algorithm>
+
+namespace tribo::field {
+namespace {
+
+// Distances at nodes are floats: off by less than this share of a cell.
+constexpr double kRounding = 1e-3;
+// A surface point found is one if the field is this close to zero there, mm.
+constexpr double kOnSurface = 1e-5;
+// Bricks on each side that a search for the nearest surface looks at.
+constexpr int kMostRings = 3;
+
+double distance_to(const Box3& box, Vec3 p) {
+    return length({std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
+                   std::max({box.min.y - p.y, p.y - box.max.y, 0.0}),
+                   std::max({box.min.z - p.z, p.z - box.max.z, 0.0})});
+}
+
+Vec3 clamped(const Box3& box, Vec3 p) {
+    return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
+            std::clamp(p.z, box.min.z, box.max.z)};
+}
+
+// The material as one brick's shapes make it, everywhere.
+class OneBrick final : public contact::DistanceField {
+  public:
+    OneBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
+    double distance_mm(Vec3 p) const override { return field_.exact(ref_, p).distance_mm; }
+    Vec3 normal(Vec3 p) const override { return sample(p).normal; }
+    contact::SurfaceSample sample(Vec3 p) const override {
+        const FieldQuery::Exact e = field_.exact(ref_, p);
+        return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
+                e.shape};
+    }
+
+  private:
+    const FieldQuery& field_;
+    BrickRef ref_;
+};
+
+}  // namespace
+
+FieldQuery::NearNode FieldQuery::nearest_node(BrickCoord b, Vec3 p) const {
+    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
+    const auto nearest = [](double v) {
+        return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
+    };
+    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+    return {node_index(i, j, k),
+            q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+}
+
+FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p) const {
+    if (ref == kUntouched) return {blank().distance_mm(p), 0};
+    if (ref == kAir) return {kClearCells * cell_mm, 0};
+    const Brick& brick = (*pool)[ref];
+    Exact best{-near_mm, 0};
+    const auto measure = [&](ShapeId id) {
+        const double d = id == 0 ? blank().distance_mm(p) : -shape(id).distance_below(p, -best.distance_mm);
+        if (d > best.distance_mm) best = {d, id};
+    };
+    // The shape that gives the distance at the nearest node most likely gives it here; the others need only
+    // show that they do not.
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely) measure(brick.shapes[n]);
+    }
+    return best;
+}
+
+double FieldQuery::distance_mm(Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return std::max(blank().distance_mm(p), kClearCells * cell_mm);
+    return exact(bricks.get(b), p).distance_mm;
+}
+
+contact::SurfaceSample FieldQuery::sample(Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b))
+        return {std::max(blank().distance_mm(p), kClearCells * cell_mm), blank().gradient(p), 0};
+    const Exact e = exact(bricks.get(b), p);
+    return {e.distance_mm, outward(e.shape, p), e.shape};
+}
+
+double FieldQuery::clear_of_nodes(const Brick& brick, Vec3 p) const {
+    const NearNode near = nearest_node(brick.coord, p);
+    return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]) -
+           cell_mm * (length(near.off_cells) + kRounding);
+}
+
+// In a brick of air: how far it is to the nearest brick that may hold material, or to the nearest node's
+// ball.
+double FieldQuery::clear_in_air(BrickCoord b, Vec3 p, double enough_mm) const {
+    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
+    const auto to_face = [](double v) { return std::min(v, kBrickCells - v); };
+    double clear = cell_mm * std::max(kClearCells - length(nearest_node(b, p).off_cells),
+                                      std::min({to_face(q.x), to_face(q.y), to_face(q.z)}));
+    const double brick_mm = kBrickCells * cell_mm;
+    for (int ring = 1; ring <= kMostRings && clear < enough_mm; ++ring) {
+        for (int k = b.k - ring; k <= b.k + ring; ++k) {
+            for (int j = b.j - ring; j <= b.j + ring; ++j) {
+                const bool edge = k == b.k - ring || k == b.k + ring || j == b.j - ring || j == b.j + ring;
+                for (int i = b.i - ring; i <= b.i + ring; i += edge ? 1 : 2 * ring) {
+                    // Beyond the grid there is no material.
+                    if (bricks.contains({i, j, k}) && bricks.get({i, j, k}) != kAir) return clear;
+                }
+            }
+        }
+        clear =
+            std::max(clear, std::min({to_face(q.x), to_face(q.y), to_face(q.z)}) * cell_mm + ring * brick_mm);
+    }
+    return clear;
+}
+
+double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return blank().distance_mm(p);
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return clear_in_air(b, p, enough_mm);
+    if (ref == kUntouched) return blank().distance_mm(p);
+    const double nodes = clear_of_nodes((*pool)[ref], p);
+    if (nodes >= enough_mm) return nodes;
+    return std::max(nodes, exact(ref, p).distance_mm);
+}
+
+// Whether one shape of the brick alone shows that nothing of its material is within the radius.
+bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
+    if (ref == kUntouched) return blank().distance_mm(p) >= radius_mm;
+    const Brick& brick = (*pool)[ref];
+    const auto clears = [&](ShapeId id) {
+        return id == 0 ? blank().distance_mm(p) >= radius_mm
+                       : shape(id).distance_below(p, -radius_mm) <= -radius_mm;
+    };
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted && clears(brick.shapes[likely])) return true;
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely && clears(brick.shapes[n])) return true;
+    }
+    return false;
+}
+
+contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_mm) const {
+    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
+    const auto try_from = [&](BrickRef ref, Vec3 start) {
+        const contact::SurfaceSample found = contact::nearest_from(OneBrick(*this, ref), p, start);
+        if (found.distance_mm >= best.distance_mm) return;
+        // What one brick's shapes leave may be air by another's.
+        const Vec3 at = p - found.distance_mm * found.normal;
+        if (std::abs(distance_mm(at)) <= kOnSurface) best = found;
+    };
+    const BrickCoord here = brick_at(p);
+    if (bricks.contains(here) && bricks.get(here) != kAir) {
+        const contact::SurfaceSample s = sample(p);
+        if (s.distance_mm <= 0) return s;
+        try_from(bricks.get(here), p - s.distance_mm * s.normal);
+    }
+    const BrickCoord there = brick_at(hint_mm);
+    if (bricks.contains(there) && bricks.get(there) != kAir) try_from(bricks.get(there), hint_mm);
+    // Bricks that may hold something nearer: those that cannot show that they do not are searched.
+    const auto reach = [&](double from, double at) {
+        return std::clamp(static_cast<int>(std::floor((at - from) * per_cell / kBrickCells)), -kMostRings,
+                          kMostRings);
+    };
+    const Vec3 corner = lattice(here).node(0, 0, 0);
+    const double r = best.distance_mm;
+    for (int k = reach(corner.z, p.z - r); k <= reach(corner.z, p.z + r); ++k) {
+        for (int j = reach(corner.y, p.y - r); j <= reach(corner.y, p.y + r); ++j) {
+            for (int i = reach(corner.x, p.x - r); i <= reach(corner.x, p.x + r); ++i) {
+                const BrickCoord b{here.i + i, here.j + j, here.k + k};
+                if (!bricks.contains(b)) continue;
+                const BrickRef ref = bricks.get(b);
+                if (ref == kAir) continue;
+                const Box3 space = box(b);
+                const double least = distance_to(space, p);
+                if (least >= best.distance_mm - kOnSurface || is_clear(ref, p, best.distance_mm - kOnSurface))
+                    continue;
+                try_from(ref, clamped(space, p));
+            }
+        }
+    }
+    return best;
+}
+
+bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return false;
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return false;
+    if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
+    const Brick& brick = (*pool)[ref];
+    const NearNode near = nearest_node(b, p);
+    const auto node = static_cast<std::size_t>(near.index);
+    const double way = cell_mm * length(near.off_cells);
+    // What the node says holds as far around it as its distance, less rounding.
+    const double d = static_cast<double>(brick.distance_mm[node]);
+    if (d > way + kRounding * cell_mm) return false;
+    if (d < -way - kRounding * cell_mm - skin_mm) return true;
+    const auto in_material = [&](ShapeId id) {
+        return id == 0 ? blank().distance_mm(p) < -skin_mm : shape(id).distance_below(p, skin_mm) >= skin_mm;
+    };
+    const std::uint16_t likely = brick.winner[node];
+    if (likely != Brick::kUnlisted && !in_material(brick.shapes[likely])) return false;
+    for (std::size_t n = brick.shapes.size(); n-- > 0;) {
+        if (n != likely && !in_material(brick.shapes[n])) return false;
+    }
+    return true;
+}
+
+}  // namespace tribo::field
