@@ -65,6 +65,7 @@ class Report {
 void measure_processes(Report& report, int repeats);  // first: see the function
 void measure_forces(Report& report, int repeats);
 void measure_queries(Report& report);
+void measure_contact(Report& report);
 void measure_rows(Report& report);
 void measure_carving(Report& report, int repeats);
 void measure_many_moves(Report& report, int repeats);

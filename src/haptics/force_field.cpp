@@ -68,8 +68,9 @@ FieldForce ForceField::render(const FieldMoment& m) noexcept {
         }
     }
     if (inspect > 0 && touch_.in_contact) {
-        const contact::TextureRecord* record =
-            textures_ != nullptr && options_.texture_gain_inspect > 0 ? textures_->nearest(touch_.proxy_mm) : nullptr;
+        const contact::TextureRecord* record = textures_ != nullptr && options_.texture_gain_inspect > 0
+                                                   ? textures_->nearest(touch_.proxy_mm)
+                                                   : nullptr;
         if (record != nullptr) {
             const TextureTouch touch{touch_.proxy_mm, touch_.slip_mm_per_s, touch_.penetration_mm};
             // Comes in over the first tenth of a millimetre: a record may stand higher than the hand presses.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The force that a hand meets near a cutter ("Haptic and aural rendering of a virtual milling process", 3.2 and
-// 4.1: FEMForceField): inside a volume about the cutter the cutting force and the texture of the grooves; when
-// cutting is switched off, the machined surface itself.
+// The force that a hand meets near a cutter ("Haptic and aural rendering of a virtual milling process", 3.2
+// and 4.1: FEMForceField): inside a volume about the cutter the cutting force and the texture of the grooves;
+// when cutting is switched off, the machined surface itself.
 //
 //   cut:      F = F_fem + F_tex,       faded by the distance between the finger's and the cutter's cylinder
 //   inspect:  F = F_reaction + F_tex,  F_reaction = k N_sur: contact with the surface, at any place
@@ -36,13 +36,14 @@ class CuttingForce {
 enum class FeelMode { cut, inspect };
 
 struct ForceFieldOptions {
-    // The cutting force is felt in full up to `near_mm` between finger and cutter, not at all from `far_mm` on,
-    // smoothly less between: far_mm is the field's bounding volume.
+    // The cutting force is felt in full up to `near_mm` between finger and cutter, not at all from `far_mm`
+    // on, smoothly less between: far_mm is the field's bounding volume.
     double near_mm = 2, far_mm = 10;  // 0 <= near < far
     double switch_s = 0.1;            // that turning cutting on or off, or changing mode, takes; > 0
     double texture_stiffness_n_per_mm = 0.5;
     double texture_press_mm = 0.2;  // in cut mode, where nothing says how hard the hand presses
-    // In inspect mode the contact is with the real grooves; the texture adds to them: 0 leaves them as they are.
+    // In inspect mode the contact is with the real grooves; the texture adds to them: 0 leaves them as they
+    // are.
     double texture_gain_cut = 1, texture_gain_inspect = 0;
     double tick_s = 1e-3;
 };
@@ -56,9 +57,9 @@ struct FieldMoment {
 };
 
 struct FieldForce {
-    Vec3 cutting_n;  // F_fem, faded and switched
-    Vec3 surface_n;  // F_reaction with friction, switched
-    Vec3 texture_n;  // F_tex and the vibration that rides on it
+    Vec3 cutting_n;       // F_fem, faded and switched
+    Vec3 surface_n;       // F_reaction with friction, switched
+    Vec3 texture_n;       // F_tex and the vibration that rides on it
     double nearness = 0;  // of finger and cutter: 0 ... 1
     bool in_contact = false;
     Vec3 total_n() const { return cutting_n + surface_n + texture_n; }

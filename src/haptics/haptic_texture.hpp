@@ -15,7 +15,8 @@ namespace tribo::haptics {
 // loop's rate, nothing from four tenths on, a raised cosine between.
 double carried_share(double speed_mm_per_s, double wavelength_mm, double rate_hz);
 
-// Records of a path by place and in the path's order. Built once; asking is real-time safe and for any thread.
+// Records of a path by place and in the path's order. Built once; asking is real-time safe and for any
+// thread.
 class TextureMap {
   public:
     TextureMap() = default;
@@ -48,7 +49,7 @@ struct TextureTouch {
 };
 
 // F_tex = k N_tex. Real-time safe. `gain` 1: as high as the grooves are.
-Vec3 texture_force(const contact::TextureRecord& record, const TextureTouch& touch,
-                   double stiffness_n_per_mm, double rate_hz, double gain = 1);
+Vec3 texture_force(const contact::TextureRecord& record, const TextureTouch& touch, double stiffness_n_per_mm,
+                   double rate_hz, double gain = 1);
 
 }  // namespace tribo::haptics

@@ -13,8 +13,8 @@ namespace tribo::haptics {
 class Vibration {
   public:
     virtual ~Vibration() = default;
-    // The next tick's force along the normal, N, while the probe rubs at this speed (>= 0) and is pressed with
-    // this force (>= 0); about 0 at rest or without contact.
+    // The next tick's force along the normal, N, while the probe rubs at this speed (>= 0) and is pressed
+    // with this force (>= 0); about 0 at rest or without contact.
     virtual double next(double speed_mm_per_s, double press_n) noexcept = 0;
 };
 
@@ -23,9 +23,9 @@ class Vibration {
 class BandVibration final : public Vibration {
   public:
     struct Options {
-        double share = 0.02;                 // RMS of the vibration over the force pressed
-        double full_speed_mm_per_s = 100;    // > 0
-        noise::Band band{40, 400};           // the band of fingertips; below half the rate
+        double share = 0.02;               // RMS of the vibration over the force pressed
+        double full_speed_mm_per_s = 100;  // > 0
+        noise::Band band{40, 400};         // the band of fingertips; below half the rate
         std::uint64_t seed = 1;
     };
     BandVibration(double rate_hz, const Options& options);

@@ -22,15 +22,16 @@ struct TextureOptions {
     double reach_mm = 6;  // how far to each side is looked for grooves; > 0
 };
 
-// The eight triangles at a place: half a pitch to each side, heights over the mean plane of one pitch each way.
-// None where there is no surface within reach. Some hundred queries of the field; allocates.
+// The eight triangles at a place: half a pitch to each side, heights over the mean plane of one pitch each
+// way. None where there is no surface within reach. Some hundred queries of the field; allocates.
 std::optional<contact::TextureRecord> textured_triangles(const contact::DistanceField& machined,
                                                          const CutterPlace& place,
                                                          const TextureOptions& options = {});
 
-// Pitch and height of the grooves across and along the feed, from profiles through the place: the pitch is where
-// the profile, less its form (a parabola), is most like itself shifted (autocorrelation above one half); the
-// height is the mean range of a pitch. A pitch that is given is kept, its height measured. Nothing regular: 0.
+// Pitch and height of the grooves across and along the feed, from profiles through the place: the pitch is
+// where the profile, less its form (a parabola), is most like itself shifted (autocorrelation above one
+// half); the height is the mean range of a pitch. A pitch that is given is kept, its height measured. Nothing
+// regular: 0.
 contact::GrooveGeometry measure_grooves(const contact::DistanceField& machined, const CutterPlace& place,
                                         const TextureOptions& options = {});
 
