@@ -85,7 +85,8 @@ const std::vector<Room>& rooms() {
         {"session", "all above", core, true},
         {"wasm", "session formats and below", with(core, {"session"}), true},
         {"io", "all above but session and wasm", core, false},
-        {"app", "all above but wasm", with(core, {"session", "io"}), false},
+        {"devices", "base contact haptics", {"base", "contact", "haptics"}, false},
+        {"app", "all above but wasm", with(core, {"session", "io", "devices"}), false},
     };
     return table;
 }

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "app/feel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/render_job.hpp"
+#include "app/threads.hpp"
+#include "devices/servo_thread.hpp"
+#include "formats/feel_trace_csv.hpp"
+#include "formats/stroke_csv.hpp"
+#include "haptics/simulated_hand.hpp"
+#include "io/feel_stats_json.hpp"
+#include "session/feel_session.hpp"
+
+namespace tribo::app {
+namespace {
+
+// A row of the trace and its share of the text, bytes: what a run may hold.
+constexpr double kMostTicks = 20e6;
+
+io::FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
+    const auto bytes = io::read_file(call.stroke);
+    if (!bytes) return std::unexpected(bytes.error());
+    const auto points = formats::read_probe_stroke(*bytes, {call.stroke});
+    if (!points) return std::unexpected(io::Failure(points.error()));
+    const double seconds = points->back().t_s - points->front().t_s;
+    if (seconds * call.rate_hz > kMostTicks) {
+        return std::unexpected(io::Failure(
+            {call.stroke, 0, 0, "the stroke is too long for this rate", "lower --rate or split the stroke"}));
+    }
+    std::vector<haptics::StrokePoint> stroke;
+    for (const formats::ProbePoint& p : *points) stroke.push_back({p.t_s, p.position_mm});
+    return haptics::Stroke(std::move(stroke));
+}
+
+double stiffness(const FeelCall& call, const formats::Job& job, const haptics::DeviceLimits& limits,
+                 Warnings& warnings) {
+    const double wanted = call.stiffness_n_per_mm.value_or(job.haptics.stiffness_n_per_mm.value_or(0.5));
+    if (wanted <= limits.max_stiffness_n_per_mm) return wanted;
+    char text[160];
+    std::snprintf(text, sizeof text, "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in",
+                  wanted, static_cast<int>(limits.name.size()), limits.name.data(),
+                  limits.max_stiffness_n_per_mm);
+    // Only what was asked for is worth a word.
+    if (call.stiffness_n_per_mm || job.haptics.stiffness_n_per_mm) warnings.push_back({call.job, 0, text});
+    return limits.max_stiffness_n_per_mm;
+}
+
+// The servo over a whole stroke, and what is known of it afterwards.
+class Run {
+  public:
+    Run(haptics::Device& device, haptics::ForceSource& source, const haptics::SafetyLimits& limits,
+        double start_s, double end_s, double rate_hz)
+        : servo_(device, source, limits),
+          start_s_(start_s),
+          rate_hz_(rate_hz),
+          count_(static_cast<std::size_t>(std::floor((end_s - start_s) * rate_hz + 1e-6)) + 1) {
+        trace_.resize(count_);
+    }
+
+    // Tick by tick as fast as it goes; time is counted, not measured.
+    bool count_through(io::FeelStats& stats) {
+        devices::TickClock clock;
+        Progress progress;
+        while (done_ < count_) {
+            clock.begin();
+            const haptics::ServoTick tick = servo_.tick(static_cast<double>(done_) / rate_hz_);
+            clock.end();
+            keep(tick);
+            constexpr std::size_t look = 4096;
+            if (done_ % look != 0) continue;
+            if (interrupted()) return false;
+            progress.update("feeling", static_cast<double>(done_) / static_cast<double>(count_));
+        }
+        const auto period_ns = static_cast<std::uint64_t>(1e9 / rate_hz_);
+        stats.late = clock.wall().count_above(period_ns);
+        take(clock, stats);
+        return true;
+    }
+
+    // By the clock, on a thread of its own.
+    bool run_in_time(io::FeelStats& stats) {
+        devices::ServoThread thread({rate_hz_}, [this](double now_s) {
+            keep(servo_.tick(now_s));
+            return done_ < count_ && servo_.device_there() && !interrupted();
+        });
+        thread.join();
+        stats.late = thread.late();
+        stats.lateness = io::figures_of(thread.lateness());
+        for (const std::string& note : {thread.granted().real_time, thread.granted().memory}) {
+            if (!note.empty()) stats.notes.push_back(note);
+        }
+        take(thread.clock(), stats);
+        trace_.resize(done_);
+        return !interrupted();
+    }
+
+    const std::vector<formats::FeelTraceRow>& trace() const { return trace_; }
+
+  private:
+    void keep(const haptics::ServoTick& tick) noexcept {
+        trace_[done_++] = {start_s_ + tick.now_s, tick.position_mm, tick.force_n, tick.touching};
+    }
+    void take(const devices::TickClock& clock, io::FeelStats& stats) const {
+        stats.ticks = servo_.ticks();
+        stats.rate_hz = rate_hz_;
+        stats.cpu = io::figures_of(clock.cpu());
+        stats.wall = io::figures_of(clock.wall());
+        stats.empty_cpu = io::figures_of(clock.empty_cpu());
+        stats.empty_wall = io::figures_of(clock.empty_wall());
+        stats.max_force_n = servo_.max_force_n();
+        stats.lowest_energy_nmm = servo_.passivity().lowest_energy_nmm();
+        for (int n = 1; n < haptics::kFaultKinds; ++n) {
+            const auto fault = static_cast<haptics::Fault>(n);
+            const std::uint32_t count = servo_.safety().count(fault);
+            if (count > 0) stats.faults.push_back({haptics::name(fault), count});
+        }
+    }
+
+    haptics::Servo servo_;
+    double start_s_, rate_hz_;
+    std::size_t count_, done_ = 0;
+    std::vector<formats::FeelTraceRow> trace_;
+};
+
+io::FileResult<void> write_trace(const std::string& path, const std::vector<formats::FeelTraceRow>& trace) {
+    auto file = io::FileWriter::create(path);
+    if (!file) return std::unexpected(file.error());
+    std::string text(formats::feel_trace_header);
+    for (const formats::FeelTraceRow& row : trace) {
+        formats::append_feel_trace_row(text, row);
+        constexpr std::size_t chunk = 1 << 16;
+        if (text.size() < chunk) continue;
+        file->write(text);
+        text.clear();
+    }
+    file->write(text);
+    return file->finish();
+}
+
+void print(const io::FeelStats& s, const std::vector<formats::FeelTraceRow>& trace, const std::string& out) {
+    std::size_t touching = 0;
+    for (const formats::FeelTraceRow& row : trace) touching += row.contact ? 1 : 0;
+    std::printf("%-16s %llu at %g Hz, %zu in contact\n", "ticks", static_cast<unsigned long long>(s.ticks),
+                s.rate_hz, touching);
+    std::printf("%-16s at most %.3f N\n", "force", s.max_force_n);
+    std::printf("%-16s median %.2f us, 99.9 %% within %.2f us, %llu late\n", "tick", s.cpu.p50_us,
+                s.cpu.p999_us, static_cast<unsigned long long>(s.late));
+    for (const io::FeelStats::FaultCount& f : s.faults)
+        std::printf("%-16s %s, %u times\n", "fault", f.name.c_str(), f.count);
+    for (const std::string& note : s.notes) std::printf("%-16s %s\n", "note", note.c_str());
+    std::printf("%-16s %s\n", "trace", out.c_str());
+}
+
+}  // namespace
+
+int feel(const FeelCall& call) {
+    if (call.mode == "cut") {
+        return report(fail("feeling the cut itself is not there yet", "try --mode inspect").error());
+    }
+    auto stroke = read_stroke(call);
+    if (!stroke) return report(stroke.error());
+    const double start_s = stroke->start_s(), end_s = stroke->end_s();
+    std::unique_ptr<haptics::Device> device;
+    if (call.device == "playback") {
+        device = std::make_unique<haptics::PlaybackHand>(std::move(*stroke), 1 / call.rate_hz);
+    } else if (call.device == "simulated") {
+        device = std::make_unique<haptics::SimulatedHand>(std::move(*stroke), 1 / call.rate_hz);
+    } else {
+        report(fail("there is no device '" + call.device + "'", "try simulated or playback").error());
+        return kRefused;
+    }
+    RenderCall render;
+    render.job = call.job;
+    render.resolution_mm = call.resolution_mm;
+    render.until_s = call.until_s;
+    auto loaded = load_job(render);
+    if (!loaded) return report(loaded.error());
+    if (auto fits = check_memory(render, *loaded); !fits) return report(fits.error());
+    haptics::ContactOptions contact;
+    contact.stiffness_n_per_mm = stiffness(call, loaded->job, device->limits(), loaded->warnings);
+    contact.probe_radius_mm = call.probe_mm;
+    contact.friction_static = loaded->job.haptics.friction_static.value_or(0);
+    contact.friction_kinetic = loaded->job.haptics.friction_kinetic.value_or(contact.friction_static);
+    contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
+    contact.tick_s = 1 / call.rate_hz;
+    report(loaded->warnings);
+
+    const int threads = call.threads > 0 ? call.threads : available_threads();
+    session::MillSession milled(std::move(loaded->setup), parallel_for_over(threads));
+    {
+        Progress progress;
+        session::MillSinks sinks;
+        sinks.progress = [&](double fraction) {
+            progress.update("milling", fraction);
+            return !interrupted();
+        };
+        if (!milled.run(sinks)) return interrupted_exit_code();
+    }
+    session::InspectSource source(milled.stock(), contact);
+    io::FeelStats stats;
+    stats.version = TRIBO_VERSION;
+    stats.device = call.device;
+    stats.mode = call.mode;
+    Run run(*device, source, session::safety_limits(*device, call.rate_hz), start_s, end_s, call.rate_hz);
+    const bool in_time = call.real_time || device->has_motors();
+    if (!(in_time ? run.run_in_time(stats) : run.count_through(stats))) return interrupted_exit_code();
+    if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
+    if (!call.stats.empty()) {
+        if (auto done = io::write_file(call.stats, io::feel_stats_json(stats)); !done)
+            return report(done.error());
+    }
+    print(stats, run.trace(), call.out);
+    return kDone;
+}
+
+}  // namespace tribo::app

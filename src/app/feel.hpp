@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// What `tribo feel` does once its flags are read: a part, a hand, a servo, a trace.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace tribo::app {
+
+struct FeelCall {
+    std::string job, stroke, out;
+    std::string mode = "inspect", device = "simulated", stats;
+    double rate_hz = 1000;
+    double probe_mm = 0;
+    std::optional<double> stiffness_n_per_mm, resolution_mm, until_s;
+    bool real_time = false;
+    int threads = 0;
+};
+
+// The exit code. Says on stderr what is wrong; prints what was felt on stdout.
+int feel(const FeelCall& call);
+
+}  // namespace tribo::app

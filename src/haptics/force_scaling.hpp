@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Hundreds of newtons at the cutter to a few at a desk-top arm.
+#pragma once
+
+#include "base/vec3.hpp"
+
+namespace tribo::haptics {
+
+enum class ScalingLaw {
+    gain,         // gain |F|: ratios stay as they are; what is above the arm's force is clamped
+    compressive,  // gain |F| / (1 + gain |F| / limit): slope `gain` near zero, never reaches the limit, so
+                  // that a heavy cut still feels heavier than a medium one
+};
+
+struct ForceScaling {
+    double gain = 0.01;  // newtons at the hand per newton at the cutter, > 0
+    ScalingLaw law = ScalingLaw::gain;
+    double limit_n = 3.3;  // of the arm, > 0; used by the compressive law
+
+    // Keeps the direction. Real-time safe.
+    Vec3 apply(Vec3 force_n) const {
+        const Vec3 scaled = gain * force_n;
+        return law == ScalingLaw::gain ? scaled : scaled / (1 + length(scaled) / limit_n);
+    }
+};
+
+}  // namespace tribo::haptics

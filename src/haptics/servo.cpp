@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/servo.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tribo::haptics {
+namespace {
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+// Of the period: two ticks closer together than this are one to the passivity controller.
+constexpr double kLeastStep = 1e-2;
+
+}  // namespace
+
+Servo::Servo(Device& device, ForceSource& source, const SafetyLimits& limits)
+    : device_(device), source_(source), safety_(limits), passivity_(device.limits().max_damping_n_s_per_mm) {}
+
+ServoTick Servo::tick(double now_s) noexcept {
+    const bool first = ticks_ == 0;
+    const std::uint64_t known = hand_.sequence;
+    const DeviceState state = device_.read(hand_);
+    if (state == DeviceState::gone) device_there_ = false;
+    // A device that never spoke has been silent since before the start.
+    if (state == DeviceState::ready && hand_.sequence != known) device_s_ = now_s;
+    if (first && hand_.sequence == known) device_s_ = now_s - 2 * safety_.limits().device_silent_s;
+
+    const double period = safety_.limits().tick_s;
+    const double step_s = first ? period : std::clamp(now_s - last_now_s_, 0.0, 2 * period);
+    RenderedForce felt;
+    felt.simulation_s = now_s;
+    Vec3 wanted{kNotANumber, kNotANumber, kNotANumber};  // the guard's business
+    if (is_finite(hand_.position_mm) && is_finite(hand_.velocity_mm_per_s)) {
+        felt = source_.render(hand_, now_s, step_s);
+        wanted = felt.driven_n + passivity_.tick(felt.contact_n, hand_.position_mm, hand_.velocity_mm_per_s,
+                                                 std::max(step_s, kLeastStep * period), felt.touching);
+    }
+    ServoTick tick;
+    tick.now_s = now_s;
+    tick.position_mm = hand_.position_mm;
+    tick.force_n = safety_.tick({now_s, device_s_, felt.simulation_s, hand_.velocity_mm_per_s, wanted});
+    tick.fault = safety_.fault();
+    tick.touching = felt.touching;
+    if (device_there_) device_.write(tick.force_n);
+    max_force_ = std::max(max_force_, length(tick.force_n));
+    last_now_s_ = now_s;
+    ++ticks_;
+    return tick;
+}
+
+}  // namespace tribo::haptics
