@@ -25,6 +25,12 @@ namespace {
 // A row of the trace and its share of the text, bytes: what a run may hold.
 constexpr double kMostTicks = 20e6;
 
+io::DurationFigures figures_of(const devices::DurationHistogram& histogram) {
+    const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
+    return {us(histogram.quantile_ns(0.5)), us(histogram.quantile_ns(0.99)), us(histogram.quantile_ns(0.999)),
+            us(histogram.max_ns())};
+}
+
 io::FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
     const auto bytes = io::read_file(call.stroke);
     if (!bytes) return std::unexpected(bytes.error());
@@ -93,7 +99,7 @@ class Run {
         });
         thread.join();
         stats.late = thread.late();
-        stats.lateness = io::figures_of(thread.lateness());
+        stats.lateness = figures_of(thread.lateness());
         for (const std::string& note : {thread.granted().real_time, thread.granted().memory}) {
             if (!note.empty()) stats.notes.push_back(note);
         }
@@ -111,10 +117,10 @@ class Run {
     void take(const devices::TickClock& clock, io::FeelStats& stats) const {
         stats.ticks = servo_.ticks();
         stats.rate_hz = rate_hz_;
-        stats.cpu = io::figures_of(clock.cpu());
-        stats.wall = io::figures_of(clock.wall());
-        stats.empty_cpu = io::figures_of(clock.empty_cpu());
-        stats.empty_wall = io::figures_of(clock.empty_wall());
+        stats.cpu = figures_of(clock.cpu());
+        stats.wall = figures_of(clock.wall());
+        stats.empty_cpu = figures_of(clock.empty_cpu());
+        stats.empty_wall = figures_of(clock.empty_wall());
         stats.max_force_n = servo_.max_force_n();
         stats.lowest_energy_nmm = servo_.passivity().lowest_energy_nmm();
         for (int n = 1; n < haptics::kFaultKinds; ++n) {

@@ -46,7 +46,7 @@ class ServoThread {
     const Granted& granted() const { return granted_; }
     const TickClock& clock() const { return *clock_; }
     // How long after its deadline each tick began.
-    const haptics::DurationHistogram& lateness() const { return lateness_; }
+    const DurationHistogram& lateness() const { return lateness_; }
     // Ticks that ended after the next one's deadline, and deadlines that so went by without a tick.
     std::uint64_t late() const { return late_.load(std::memory_order_relaxed); }
     std::uint64_t skipped() const { return skipped_.load(std::memory_order_relaxed); }
@@ -58,7 +58,7 @@ class ServoThread {
     ServoThreadOptions options_;
     Tick tick_;
     std::unique_ptr<TickClock> clock_;
-    haptics::DurationHistogram lateness_;
+    DurationHistogram lateness_;
     Granted granted_;
     std::atomic<bool> stop_{false}, running_{true};
     std::atomic<std::uint64_t> late_{0}, skipped_{0};

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "haptics/duration_histogram.hpp"
+#include "devices/duration_histogram.hpp"
 
 namespace tribo::devices {
 
@@ -25,14 +25,14 @@ class TickClock {
     // Records what has passed since begin(), less an empty section's median.
     void end() noexcept;
 
-    const haptics::DurationHistogram& cpu() const { return cpu_; }
-    const haptics::DurationHistogram& wall() const { return wall_; }
+    const DurationHistogram& cpu() const { return cpu_; }
+    const DurationHistogram& wall() const { return wall_; }
     // Empty sections, nothing taken off: what this machine does to a loop by itself.
-    const haptics::DurationHistogram& empty_cpu() const { return empty_cpu_; }
-    const haptics::DurationHistogram& empty_wall() const { return empty_wall_; }
+    const DurationHistogram& empty_cpu() const { return empty_cpu_; }
+    const DurationHistogram& empty_wall() const { return empty_wall_; }
 
   private:
-    haptics::DurationHistogram cpu_, wall_, empty_cpu_, empty_wall_;
+    DurationHistogram cpu_, wall_, empty_cpu_, empty_wall_;
     std::uint64_t cpu_start_ = 0, wall_start_ = 0, cpu_cost_ = 0, wall_cost_ = 0;
 };
 

@@ -36,6 +36,8 @@ class Device {
     virtual DeviceState write(Vec3 force_n) noexcept = 0;
     // Whether motors move a person's hand. If not, there is nothing to ramp up for.
     virtual bool has_motors() const { return true; }
+    // Whether the hand gives way to a force. If not, no force gives it energy.
+    virtual bool yields() const { return true; }
     // What the last state that was not ready means, in words; not for the servo's thread.
     virtual std::string trouble() const { return {}; }
 };

@@ -9,16 +9,16 @@ namespace {
 
 // Longer names before those that they contain.
 constexpr std::array kDevices{
-    DeviceLimits{"PHANToM Premium 3.0", 22, 1, 0.005},
-    DeviceLimits{"PHANToM Premium", 8.5, 0.8, 0.005},
-    DeviceLimits{"PHANToM Desktop", 7.9, 1, 0.005},
-    DeviceLimits{"PHANToM Omni", 3.3, 0.7, 0.005},
-    DeviceLimits{"Touch", 3.3, 0.4, 0.004},
-    DeviceLimits{"delta.3", 20, 5, 0.03},
-    DeviceLimits{"omega", 12, 5, 0.03},
-    DeviceLimits{"sigma.7", 12, 4, 0.03},
-    DeviceLimits{"Inverse3", 2, 0.4, 0.002},
-    DeviceLimits{"Pantograph", 5, 0.3, 0.002},
+    DeviceLimits{"PHANToM Premium 3.0", 22, 1, 0.005, 0.02},
+    DeviceLimits{"PHANToM Premium", 8.5, 0.8, 0.005, 0.03},
+    DeviceLimits{"PHANToM Desktop", 7.9, 1, 0.005, 0.023},
+    DeviceLimits{"PHANToM Omni", 3.3, 0.7, 0.005, 0.055},
+    DeviceLimits{"Touch", 3.3, 0.4, 0.004, 0.055},
+    DeviceLimits{"delta.3", 20, 5, 0.03, 0.01},
+    DeviceLimits{"omega", 12, 5, 0.03, 0.01},
+    DeviceLimits{"sigma.7", 12, 4, 0.03, 0.0015},
+    DeviceLimits{"Inverse3", 2, 0.4, 0.002, 0.01},
+    DeviceLimits{"Pantograph", 5, 0.3, 0.002, 0.01},
     kSimulatedLimits,
 };
 

@@ -5,22 +5,19 @@
 
 namespace tribo::haptics {
 
-Vec3 PassivityController::tick(Vec3 force_n, Vec3 position_mm, Vec3 velocity_mm_per_s, double tick_s,
-                               bool touching) noexcept {
-    if (started_) energy_ -= dot(last_force_, position_mm - last_position_);
-    if (!(std::abs(energy_) < 1e12)) energy_ = 0;  // a reading that was not finite is the guard's business
+Vec3 PassivityController::tick(Vec3 force_n, Vec3 position_mm, bool touching) noexcept {
+    if (!started_) place_ = position_mm;
+    started_ = true;
+    const Vec3 away = position_mm - place_;
+    const double far = length(away);
+    const Vec3 moved = far > play_ ? ((far - play_) / far) * away : Vec3{};
+    place_ += moved;
+    energy_ -= dot(last_force_, moved);
     lowest_ = std::min(lowest_, energy_);
     if (!touching) energy_ = std::min(energy_, 0.0);
-    const double speed2 = squared_length(velocity_mm_per_s);
-    Vec3 force = force_n;
-    if (energy_ < 0 && speed2 > 0) {
-        const double damping = std::min(most_, -energy_ / (speed2 * tick_s));
-        force -= damping * velocity_mm_per_s;
-    }
-    started_ = true;
-    last_force_ = force;
-    last_position_ = position_mm;
-    return force;
+    const double work = dot(force_n, moved), left = std::max(energy_, 0.0);
+    last_force_ = work > left ? (left / work) * force_n : force_n;
+    return last_force_;
 }
 
 }  // namespace tribo::haptics

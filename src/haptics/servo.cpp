@@ -8,13 +8,11 @@ namespace tribo::haptics {
 namespace {
 
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-// Of the period: two ticks closer together than this are one to the passivity controller.
-constexpr double kLeastStep = 1e-2;
 
 }  // namespace
 
 Servo::Servo(Device& device, ForceSource& source, const SafetyLimits& limits)
-    : device_(device), source_(source), safety_(limits), passivity_(device.limits().max_damping_n_s_per_mm) {}
+    : device_(device), source_(source), safety_(limits), passivity_(device.limits().resolution_mm) {}
 
 ServoTick Servo::tick(double now_s) noexcept {
     const bool first = ticks_ == 0;
@@ -32,8 +30,10 @@ ServoTick Servo::tick(double now_s) noexcept {
     Vec3 wanted{kNotANumber, kNotANumber, kNotANumber};  // the guard's business
     if (is_finite(hand_.position_mm) && is_finite(hand_.velocity_mm_per_s)) {
         felt = source_.render(hand_, now_s, step_s);
-        wanted = felt.driven_n + passivity_.tick(felt.contact_n, hand_.position_mm, hand_.velocity_mm_per_s,
-                                                 std::max(step_s, kLeastStep * period), felt.touching);
+        // A hand that does not yield cannot be pushed: there is nothing to keep passive.
+        wanted = felt.driven_n + (device_.yields()
+                                      ? passivity_.tick(felt.contact_n, hand_.position_mm, felt.touching)
+                                      : felt.contact_n);
     }
     ServoTick tick;
     tick.now_s = now_s;

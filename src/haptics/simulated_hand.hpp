@@ -45,6 +45,7 @@ class PlaybackHand final : public Device {
 
     const DeviceLimits& limits() const override { return kSimulatedLimits; }
     bool has_motors() const override { return false; }
+    bool yields() const override { return false; }
     DeviceState read(HandReading& reading) noexcept override;
     DeviceState write(Vec3) noexcept override { return DeviceState::ready; }
 

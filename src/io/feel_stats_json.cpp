@@ -17,12 +17,6 @@ Json figures(const DurationFigures& f) {
 
 }  // namespace
 
-DurationFigures figures_of(const haptics::DurationHistogram& histogram) {
-    const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
-    return {us(histogram.quantile_ns(0.5)), us(histogram.quantile_ns(0.99)), us(histogram.quantile_ns(0.999)),
-            us(histogram.max_ns())};
-}
-
 std::string feel_stats_json(const FeelStats& s) {
     Json json;
     json["schema"] = "tribo.feel/1";

@@ -7,14 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "haptics/duration_histogram.hpp"
-
 namespace tribo::io {
 
 struct DurationFigures {
     double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
 };
-DurationFigures figures_of(const haptics::DurationHistogram& histogram);
 
 struct FeelStats {
     std::string version, device, mode;

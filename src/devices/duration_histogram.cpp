@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/duration_histogram.hpp"
+#include "devices/duration_histogram.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tribo::haptics {
+namespace tribo::devices {
 
 // The largest duration that falls into the bucket.
 std::uint64_t DurationHistogram::end_of(std::uint32_t bucket) {
@@ -30,4 +30,4 @@ std::uint64_t DurationHistogram::count_above(std::uint64_t ns) const {
     return sum;
 }
 
-}  // namespace tribo::haptics
+}  // namespace tribo::devices

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace tribo::haptics {
+namespace tribo::devices {
 
 class DurationHistogram {
   public:
@@ -43,4 +43,4 @@ class DurationHistogram {
     std::atomic<std::uint64_t> count_{0}, max_{0};
 };
 
-}  // namespace tribo::haptics
+}  // namespace tribo::devices

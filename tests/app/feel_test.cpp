@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// `tribo feel` from outside: what the trace holds, what is refused.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/program.hpp"
+
+namespace tribo::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJob = R"(
+[stock]
+box_mm = [[0, 0, -10], [30, 20, 0]]
+[cutter]
+kind = "flat"
+diameter_mm = 6
+flutes = 2
+helix_deg = 30
+length_mm = 20
+[material]
+name = "al7075-t6"
+[process]
+spindle_rpm = 6000
+feed_mm_per_min = 900
+[path]
+gcode = "slot.nc"
+)";
+// A slot along y = 10, 2 mm deep.
+constexpr const char* kProgram = "G21 G90\nG0 X-5 Y10 Z-2\nG1 X35\nM30\n";
+// Down onto the floor of the slot, 0.3 mm into it, along it, and off.
+constexpr const char* kStroke =
+    "t_s,x_mm,y_mm,z_mm\n0,12,10,1\n0.2,12,10,-2.3\n0.4,18,10,-2.3\n0.5,18,10,1\n";
+
+struct Row {
+    double t_s, x, y, z, fx, fy, fz;
+    int contact;
+};
+
+class Feel : public ::testing::Test {
+  protected:
+    Feel() : folder_(scratch_.path()) {
+        put("slot.toml", kJob);
+        put("slot.nc", kProgram);
+        put("stroke.csv", kStroke);
+    }
+    void put(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+    std::string text_of(const std::string& name) const {
+        std::ostringstream text;
+        text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();
+        return text.str();
+    }
+    Outcome feel(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{"feel",       "slot.toml", "--stroke",
+                                           "stroke.csv", "--out",     "trace.csv"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_tribo(arguments, folder_.string());
+    }
+    std::vector<Row> trace() const {
+        std::ifstream file(folder_ / "trace.csv");
+        std::string line;
+        std::getline(file, line);
+        EXPECT_EQ(line, "t_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n,contact");
+        std::vector<Row> rows;
+        while (std::getline(file, line)) {
+            Row r{};
+            EXPECT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%d", &r.t_s, &r.x, &r.y, &r.z,
+                                  &r.fx, &r.fy, &r.fz, &r.contact),
+                      8)
+                << line;
+            rows.push_back(r);
+        }
+        return rows;
+    }
+    Scratch scratch_;
+    fs::path folder_;
+};
+
+TEST_F(Feel, pushes_back_from_the_floor_of_a_slot_by_stiffness_times_depth) {
+    const Outcome run = feel({"--device", "playback", "--stats", "stats.json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::vector<Row> rows = trace();
+    ASSERT_EQ(rows.size(), 501U);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        const Row& r = rows[n];
+        EXPECT_NEAR(r.t_s, 1e-3 * static_cast<double>(n), 1e-9);
+        const double depth = std::max(0.0, -2 - r.z);
+        EXPECT_NEAR(r.fz, 0.5 * depth, 1e-3) << n;
+        EXPECT_NEAR(r.fx, 0, 1e-3) << n;
+        EXPECT_NEAR(r.fy, 0, 1e-3) << n;
+        if (depth > 1e-3) {
+            EXPECT_EQ(r.contact, 1) << n;
+        } else if (r.z > -2) {
+            EXPECT_EQ(r.contact, 0) << n;
+        }
+    }
+    const auto stats = nlohmann::json::parse(text_of("stats.json"));
+    EXPECT_EQ(stats["ticks"], 501);
+    EXPECT_EQ(stats["rate_hz"], 1000);
+    EXPECT_NEAR(stats["max_force_n"].get<double>(), 0.15, 1e-3);
+    for (const char* times : {"cpu_us", "wall_us", "empty_cpu_us", "empty_wall_us"}) {
+        for (const char* key : {"p50", "p99", "p999", "max"}) EXPECT_GE(stats[times][key].get<double>(), 0);
+    }
+    EXPECT_TRUE(stats.contains("late"));
+    EXPECT_TRUE(stats["faults"].empty());
+}
+
+TEST_F(Feel, lets_the_simulated_hand_yield) {
+    ASSERT_EQ(feel({"--rate", "4000", "--stiffness", "1"}).code, 0);
+    const std::vector<Row> rows = trace();
+    ASSERT_EQ(rows.size(), 2001U);
+    double deepest = 0;
+    for (const Row& r : rows) {
+        if (r.contact == 1) {
+            EXPECT_NEAR(r.fz, -2 - r.z, 0.02);
+        }
+        deepest = std::max(deepest, -2 - r.z);
+    }
+    // A wall of 1 N/mm against a hand of 0.3: it gets nowhere near the 0.3 mm of the stroke.
+    EXPECT_GT(deepest, 0.02);
+    EXPECT_LT(deepest, 0.2);
+}
+
+TEST_F(Feel, gives_the_same_trace_twice) {
+    ASSERT_EQ(feel({"--threads", "2"}).code, 0);
+    const std::string first = text_of("trace.csv");
+    ASSERT_EQ(feel({"--threads", "1"}).code, 0);
+    EXPECT_EQ(text_of("trace.csv"), first);
+}
+
+TEST_F(Feel, holds_a_ball_of_a_radius_off_the_floor) {
+    ASSERT_EQ(feel({"--device", "playback", "--probe-mm", "1"}).code, 0);
+    for (const Row& r : trace()) {
+        EXPECT_NEAR(r.fz, 0.5 * std::max(0.0, -1 - r.z), 2e-3) << r.t_s;
+    }
+}
+
+TEST_F(Feel, refuses_what_it_cannot_feel) {
+    EXPECT_EQ(feel({"--device", "glove"}).code, 3);
+    EXPECT_EQ(feel({"--rate", "5"}).code, 2);
+    EXPECT_EQ(feel({"--mode", "lick"}).code, 2);
+    EXPECT_EQ(feel({"--stiffness", "-1"}).code, 2);
+    put("stroke.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n1,0,0,1\n");
+    const Outcome run = feel({});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("stroke.csv:1:1: error: the header has no column z_mm"), std::string::npos)
+        << run.err;
+    put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,0,0,1\n900000,0,0,1\n");
+    EXPECT_EQ(feel({}).code, 2);
+    EXPECT_FALSE(fs::exists(folder_ / "trace.csv"));
+}
+
+}  // namespace
+}  // namespace tribo::test
