@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// A cut as it was measured, kept so that its force can be worked out again for another feed, spindle speed,
+// material or helix without milling again: what the teeth meet does not depend on them (but for the feed's
+// share in the chip).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "contact/force_table.hpp"
+#include "session/mill_session.hpp"
+
+namespace tribo::session {
+
+struct CutStretch {
+    double start_s = 0, end_s = 0;  // of the program as written
+    double phase_rad = 0;           // spindle angle at start_s
+    double spindle_rpm = 0;
+    milling::ToolFrame frame;
+    milling::FeedPerTooth feed;
+    std::size_t cutter = 0;
+    milling::Engagement engagement;
+};
+
+// Collects rows: hand add() to MillSinks::row.
+class CutRecord {
+  public:
+    void add(const MillRow& row);
+    std::span<const CutStretch> stretches() const { return stretches_; }
+
+  private:
+    std::vector<CutStretch> stretches_;
+};
+
+// What may change while it runs.
+struct CutChange {
+    double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle
+    std::optional<milling::CuttingCoefficients> coefficients{};
+    std::optional<double> helix_deg{};
+};
+
+// The spectra of a record with something changed, on all threads; times are those of the program at the
+// changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know
+// them).
+std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
+                                                   const CutChange& change = {},
+                                                   const ParallelFor& parallel = serial_for);
+
+// Tells records of different jobs apart: everything that the force along the path depends on.
+std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);
+
+}  // namespace tribo::session
