@@ -25,7 +25,7 @@ struct MillOptions {
     std::optional<double> until_s;
     // Moves are cut into pieces of at most this length, for who wants to see the part in between; absent: as
     // long as they are.
-    std::optional<double> longest_piece_mm;
+    std::optional<double> longest_piece_mm{};
 };
 
 // The grid that shows a blank well at little cost: a four-hundredth of its longest edge, but at least four
