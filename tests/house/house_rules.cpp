@@ -85,8 +85,9 @@ const std::vector<Room>& rooms() {
         {"session", "all above", core, true},
         {"wasm", "session formats and below", with(core, {"session"}), true},
         {"io", "all above but session and wasm", core, false},
-        {"devices", "base contact haptics", {"base", "contact", "haptics"}, false},
-        {"app", "all above but wasm", with(core, {"session", "io", "devices"}), false},
+        {"net", "base", {"base"}, false},
+        {"devices", "base contact haptics net", {"base", "contact", "haptics", "net"}, false},
+        {"app", "all above but wasm", with(core, {"session", "io", "net", "devices"}), false},
     };
     return table;
 }
