@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
     program.set_help_flag("--help,-h", "Print this help");
     program.get_formatter()->column_width(34);
     add_render(program, exit_code);
+    add_read_sofa(program, exit_code);
     add_inspect(program, exit_code);
     add_learn(program, exit_code);
     add_rub(program, exit_code);

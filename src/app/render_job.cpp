@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/listening.hpp"
 #include "field/box_shape.hpp"
 #include "field/carved_field.hpp"
 #include "field/mesh_shape.hpp"
@@ -88,10 +89,10 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call) {
         loaded.warnings.insert(loaded.warnings.end(), loaded.part->warnings.begin(),
                                loaded.part->warnings.end());
     }
-    if (loaded.job.sound.mode || !loaded.job.sound.hrtf.empty()) {
-        loaded.warnings.push_back({call.job, 0,
-                                   "the sound's direction is not rendered yet: [sound] mode and hrtf change "
-                                   "nothing, both channels are alike"});
+    if (call.wants("sound")) {
+        auto head = head_of(loaded.job.sound, call.sample_rate_hz, call.job, loaded.warnings);
+        if (!head) return std::unexpected(head.error());
+        loaded.head = std::move(*head);
     }
     auto material = session::job_material(loaded.job);
     if (!material) {

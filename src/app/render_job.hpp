@@ -3,6 +3,7 @@
 // memory.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "app/render.hpp"
@@ -11,6 +12,7 @@
 #include "io/files.hpp"
 #include "milling/materials.hpp"
 #include "session/mill_setup.hpp"
+#include "sound/head.hpp"
 
 namespace tribo::app {
 
@@ -19,6 +21,7 @@ struct LoadedJob {
     milling::Material material;
     session::MillSetup setup;
     std::optional<formats::Model> part;
+    std::shared_ptr<const sound::Head> head;  // where sound is asked for
     Warnings warnings;
 };
 

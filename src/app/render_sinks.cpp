@@ -91,7 +91,7 @@ SoundFile::SoundFile(io::WavWriter file, const SoundFileOptions& options)
 io::FileResult<SoundFile> SoundFile::create(const std::string& path, const SoundFileOptions& options,
                                             double duration_s) {
     if (auto ok = sound::check(options.track); !ok) return std::unexpected(io::Failure(ok.error()));
-    const double frames = (duration_s + sound::kTailSeconds) * options.track.sample_rate_hz;
+    const double frames = (duration_s + sound::kLongestTailSeconds) * options.track.sample_rate_hz;
     if (frames > static_cast<double>(io::longest_wav_frames(options.format))) {
         return std::unexpected(
             io::Failure({path, 0, 0, "the sound would be longer than a WAV file holds",

@@ -45,6 +45,9 @@ Result<void> check(const SoundtrackOptions& options) {
     if (!is_finite(options.listener_mm)) {
         return fail("listener_mm is not three finite numbers", "try the centre of the stock's top");
     }
+    if (options.head && options.head->sample_rate_hz() != options.sample_rate_hz) {
+        return fail("the head's sample rate is not the track's", "make it for the track's");
+    }
     if (!(options.distance_factor > 0 && std::isfinite(options.distance_factor))) {
         return fail("distance_factor is not above 0", "try 1, or more to make a small part sound larger");
     }
@@ -62,6 +65,10 @@ Soundtrack::Soundtrack(const SoundtrackOptions& options, std::vector<std::unique
       voices_(std::move(voices)),
       samples_per_pascal_(math::pow(10, options.gain_db / 20) / kFullScalePascal) {
     assert(check(options));
+    if (options.head) source_ = std::make_unique<SpatialSource>(options.head);
+    listener_m_.lead(in_metres(options.listener_mm), 0, true);
+    forward_.lead({0, 1, 0}, 0, true);
+    up_.lead({0, 0, 1}, 0, true);
 }
 
 std::int64_t Soundtrack::frame_at(double t_s) const {
@@ -85,6 +92,9 @@ bool Soundtrack::excite(const contact::ContactSample& next) {
     if (!excited_) before_ = here_ = after_ = slow_ = rolloff_to_ = loudness;
     rolloff_from_ = arrival == quantum_ ? loudness : rolloff_now();
     rolloff_to_ = loudness;
+    const bool unheard = !source_ || !source_->sounding();
+    source_m_.lead(in_metres(next.position_mm), arrival - quantum_,
+                   !excited_ || (unheard && arrival == quantum_));
     departure_ = quantum_;
     arrival_ = alive_until_ = arrival;
     excited_ = true;
@@ -96,6 +106,21 @@ void Soundtrack::release() {
     for (const auto& voice : voices_) voice->release();
     arrival_ = quantum_;
     released_ = true;
+}
+
+bool Soundtrack::listen(const Listener& pose_mm, double t_s) {
+    if (!is_finite(pose_mm.position_m) || !is_finite(pose_mm.forward) || !is_finite(pose_mm.up)) return false;
+    const std::int64_t asked = (frame_at(t_s) + kQuantumFrames / 2) / kQuantumFrames;
+    const std::int64_t quanta = std::max<std::int64_t>(asked - quantum_, 0);
+    const bool unheard = !source_ || !source_->sounding();
+    listener_m_.lead(in_metres(pose_mm.position_m), quanta, unheard && quanta == 0);
+    forward_.lead(normalized(pose_mm.forward, {0, 1, 0}), quanta, unheard && quanta == 0);
+    up_.lead(normalized(pose_mm.up, {0, 0, 1}), quanta, unheard && quanta == 0);
+    return true;
+}
+
+double Soundtrack::tail_seconds() const {
+    return kTailSeconds + (source_ ? source_->seconds_to_silence() : 0);
 }
 
 double Soundtrack::rolloff_now() const {
@@ -111,23 +136,41 @@ void Soundtrack::make_quantum() {
     }
     Quantum pressure_pa{};
     for (const auto& voice : voices_) voice->add(pressure_pa);
-    before_ = here_;
-    here_ = after_;
-    slow_ += kFollow * (rolloff_now() - slow_);
-    after_ += kFollow * (slow_ - after_);
-    const Spline loudness(before_, here_, after_);
-    for (std::size_t j = 0; j < made_.size(); ++j) {
-        const double share = loudness.at(static_cast<double>(j) * (1.0 / kQuantumFrames));
-        made_[j] = static_cast<float>(limited(samples_per_pascal_ * share * pressure_pa[j]));
+    if (source_) {
+        place(pressure_pa);
+    } else {
+        before_ = here_;
+        here_ = after_;
+        slow_ += kFollow * (rolloff_now() - slow_);
+        after_ += kFollow * (slow_ - after_);
+        const Spline loudness(before_, here_, after_);
+        for (std::size_t j = 0; j < made_.left.size(); ++j) {
+            const double share = loudness.at(static_cast<double>(j) * (1.0 / kQuantumFrames));
+            made_.left[j] = static_cast<float>(limited(samples_per_pascal_ * share * pressure_pa[j]));
+        }
+        made_.right = made_.left;
     }
     ++quantum_;
 }
 
+void Soundtrack::place(const Quantum& pressure_pa) {
+    Listener listener;
+    listener.position_m = listener_m_.advance();
+    listener.forward = forward_.advance();
+    listener.up = up_.advance();
+    made_ = {};
+    source_->add(pressure_pa, source_m_.advance(), listener, made_);
+    for (EarQuantum* ear : {&made_.left, &made_.right}) {
+        for (float& v : *ear) v = static_cast<float>(limited(samples_per_pascal_ * static_cast<double>(v)));
+    }
+}
+
 void Soundtrack::render(std::span<float> interleaved) {
     for (std::size_t i = 0; i + 1 < interleaved.size(); i += kChannels) {
-        const auto place = static_cast<std::size_t>(frame_ % kQuantumFrames);
-        if (place == 0) make_quantum();
-        interleaved[i] = interleaved[i + 1] = made_[place];
+        const auto n = static_cast<std::size_t>(frame_ % kQuantumFrames);
+        if (n == 0) make_quantum();
+        interleaved[i] = made_.left[n];
+        interleaved[i + 1] = made_.right[n];
         ++frame_;
     }
 }
@@ -135,7 +178,9 @@ void Soundtrack::render(std::span<float> interleaved) {
 std::vector<float> steady_wave(const contact::ContactSample& cut, const SoundtrackOptions& options,
                                double seconds) {
     constexpr double kStartSeconds = 0.05;
-    Soundtrack track(options);
+    SoundtrackOptions at_source = options;
+    at_source.head = nullptr;
+    Soundtrack track(at_source);
     std::vector<float> wave;
     const auto keep_left = [&](std::span<const float> block) {
         for (std::size_t i = 0; i < block.size(); i += kChannels) wave.push_back(block[i]);

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// The kernels of ear_kernels.hpp; included by ear_kernels_sse2.cpp and ear_kernels_v3.cpp.
+#include "base/simd.hpp"
+#include "sound/ear_kernels.hpp"
+
+namespace tribo::sound {
+namespace {
+
+using namespace simd;
+
+constexpr int kFrames = 64, kLanes = 8;
+constexpr F8 kEach{0, 1, 2, 3, 4, 5, 6, 7};
+
+TRIBO_LANES F8 time_of(int frame) {
+    return (splat(static_cast<float>(frame)) + kEach) * splat(1.0f / kFrames);
+}
+
+TRIBO_LANES F8 at(Course c, F8 t) {
+    return splat(c.c0) + t * (splat(c.c1) + t * splat(c.c2));
+}
+
+// Lane n: the sum of the lanes of p[n].
+TRIBO_LANES F8 sums(const F8* p) {
+    F8 pair[4];
+    for (int n = 0; n < 4; ++n) {
+        const F8 a = p[2 * n], b = p[2 * n + 1];
+        pair[n] = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13) +
+                  __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    F8 four[2];
+    for (int n = 0; n < 2; ++n) {
+        const F8 a = pair[2 * n], b = pair[2 * n + 1];
+        four[n] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13) +
+                  __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+           __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+void read(const float* line, const InterpolatorTable& table, Course delay, Course gain, float* out) {
+    for (int frame = 0; frame < kFrames; frame += kLanes) {
+        const F8 t = time_of(frame);
+        const F8 place = (splat(static_cast<float>(frame)) + kEach) - at(delay, t);
+        I8 whole = __builtin_convertvector(place, I8);
+        whole += __builtin_convertvector(whole, F8) > place;  // a mask is -1 where it holds
+        const F8 row = (place - __builtin_convertvector(whole, F8)) * splat(float{kInterpolatorRows});
+        const I8 nearest = __builtin_convertvector(row + splat(0.5f), I8);
+        F8 products[kLanes];
+        for (int n = 0; n < kLanes; ++n) {
+            const float* x = line + whole[n] - (kInterpolatorAhead - 1);
+            const float* c = table.data() + nearest[n] * kInterpolatorTaps;
+            products[n] = load(c) * load(x) + load(c + 8) * load(x + 8);
+        }
+        store(out + frame, at(gain, t) * sums(products));
+    }
+}
+
+// The width of a register: which lanes go together changes no sum.
+#if defined(__AVX__)
+using Wide = F8;
+#else
+using Wide = float __attribute__((vector_size(16)));
+#endif
+constexpr int kWide = sizeof(Wide) / sizeof(float);
+
+TRIBO_LANES Wide wide(const float* p) {
+    Wide v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+TRIBO_LANES Wide all(float f) {
+    return f - Wide{};
+}
+// Loaded once and kept: compilers would rather load again than spend a register.
+TRIBO_LANES Wide kept(const float* p) {
+    Wide v = wide(p);
+#if defined(__SSE2__)
+    asm("" : "+x"(v));
+#endif
+    return v;
+}
+TRIBO_LANES void put(float* p, Wide v) {
+    std::memcpy(p, &v, sizeof v);
+}
+
+void convolve_still(const float* x, const float* h, int taps, float* out) {
+    constexpr int kBlocks = 8;
+    for (int frame = 0; frame < kFrames; frame += kWide * kBlocks) {
+        Wide sum[kBlocks]{};
+        for (int k = 0; k < taps; ++k) {
+            const Wide c = all(h[k]);
+            for (int b = 0; b < kBlocks; ++b) sum[b] += c * wide(x + frame + kWide * b - k);
+        }
+        for (int b = 0; b < kBlocks; ++b) {
+            float* o = out + frame + kWide * b;
+            put(o, wide(o) + sum[b]);
+        }
+    }
+}
+
+void convolve(const float* x, const float* from, const float* to, int taps, float* out) {
+    constexpr int kBlocks = 4;
+    alignas(32) float way[kHeadTaps], time[kFrames];
+    for (int k = 0; k < taps; k += kLanes) store(way + k, load(to + k) - load(from + k));
+    for (int n = 0; n < kFrames; n += kLanes) store(time + n, time_of(n));
+    for (int frame = 0; frame < kFrames; frame += kWide * kBlocks) {
+        Wide start[kBlocks]{}, moved[kBlocks]{};
+        // Taps k and k + 8 together: what one sees at a frame the other sees 8 frames on.
+        constexpr int kOn = kLanes / kWide;
+        for (int first = 0; first < taps; first += 2 * kLanes) {
+            for (int k = first; k < first + kLanes; ++k) {
+                const Wide c = all(from[k]), d = all(way[k]);
+                const Wide later_c = all(from[k + kLanes]), later_d = all(way[k + kLanes]);
+                const float* back = x + frame - k;
+                for (int b = -kOn; b < kBlocks; ++b) {
+                    const Wide v = kept(back + kWide * b);
+                    if (b >= 0) {
+                        start[b] += c * v;
+                        moved[b] += d * v;
+                    }
+                    if (b + kOn < kBlocks) {
+                        start[b + kOn] += later_c * v;
+                        moved[b + kOn] += later_d * v;
+                    }
+                }
+            }
+        }
+        for (int b = 0; b < kBlocks; ++b) {
+            const int n = frame + kWide * b;
+            put(out + n, wide(out + n) + (start[b] + wide(time + n) * moved[b]));
+        }
+    }
+}
+
+void blend(const float* const* five, const float* weight, int taps, float* out) {
+    const F8 w0 = splat(weight[0]), w1 = splat(weight[1]), w2 = splat(weight[2]), w3 = splat(weight[3]),
+             w4 = splat(weight[4]);
+    for (int k = 0; k < taps; k += kLanes) {
+        store(out + k, ((w0 * load(five[0] + k) + w1 * load(five[1] + k)) +
+                        (w2 * load(five[2] + k) + w3 * load(five[3] + k))) +
+                           w4 * load(five[4] + k));
+    }
+}
+
+constexpr EarKernels kKernels{read, convolve, convolve_still, blend};
+
+}  // namespace
+}  // namespace tribo::sound

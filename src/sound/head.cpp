@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "sound/head.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "base/math.hpp"
+
+namespace tribo::sound {
+namespace {
+
+double energy(const HeadTaps& taps) {
+    double sum = 0;
+    for (const float t : taps) sum += static_cast<double>(t) * static_cast<double>(t);
+    return sum;
+}
+
+}  // namespace
+
+Head::Head(double sample_rate_hz, int taps) : sample_rate_hz_(sample_rate_hz), taps_(taps) {
+    nodes_.resize(static_cast<std::size_t>(kRows * kColumns));
+}
+
+Vec3 Head::grid_direction(int row, int column) {
+    double sine, cosine, up, across;
+    math::sincos(math::kRadPerDeg * kStepDeg * column, sine, cosine);
+    math::sincos(math::kRadPerDeg * (kStepDeg * row - 90), up, across);
+    return {across * sine, across * cosine, up};
+}
+
+void Head::hear(Vec3 place, EarResponses& out, const EarKernels& kernels) const {
+    const double size = length(place), inside = std::min(size, 1.0);
+    const Vec3 d = size > 0 ? place / size : Vec3{0, 1, 0};
+    const double azimuth = math::atan2(d.x, d.y) / math::kTwoPi * kColumns;
+    const double elevation = (math::asin(std::clamp(d.z, -1.0, 1.0)) / math::kPi + 0.5) * (kRows - 1);
+    const double column = std::floor(azimuth), row = std::min(std::floor(elevation), kRows - 2.0);
+    const double across = azimuth - column, up = elevation - row;
+    const int c0 = (static_cast<int>(column) + kColumns) % kColumns, c1 = (c0 + 1) % kColumns;
+    const int r0 = static_cast<int>(row);
+    const EarResponses* corner[4] = {&node(r0, c0), &node(r0, c1), &node(r0 + 1, c0), &node(r0 + 1, c1)};
+    const double weight[4] = {inside * (1 - across) * (1 - up), inside * across * (1 - up),
+                              inside * (1 - across) * up, inside * across * up};
+    const float w[5] = {static_cast<float>(weight[0]), static_cast<float>(weight[1]),
+                        static_cast<float>(weight[2]), static_cast<float>(weight[3]),
+                        static_cast<float>(1 - inside)};
+    for (std::size_t ear = 0; ear < 2; ++ear) {
+        const float* five[5] = {corner[0]->taps[ear].data(), corner[1]->taps[ear].data(),
+                                corner[2]->taps[ear].data(), corner[3]->taps[ear].data(), everywhere_.data()};
+        kernels.blend(five, w, taps_, out.taps[ear].data());
+        out.delay_s[ear] = 0;
+        for (int n = 0; n < 4; ++n) out.delay_s[ear] += weight[n] * corner[n]->delay_s[ear];
+    }
+}
+
+void Head::finish() {
+    for (const int row : {0, kRows - 1}) {
+        EarResponses mean;
+        for (int c = 0; c < kColumns; ++c) {
+            for (std::size_t ear = 0; ear < 2; ++ear) {
+                mean.delay_s[ear] += node(row, c).delay_s[ear] / kColumns;
+                for (std::size_t k = 0; k < kHeadTaps; ++k)
+                    mean.taps[ear][k] += node(row, c).taps[ear][k] * (1.0f / kColumns);
+            }
+        }
+        for (int c = 0; c < kColumns; ++c) node(row, c) = mean;
+    }
+    const EarResponses& front = node(kRows / 2, 0);
+    const double level = std::sqrt(0.5 * (energy(front.taps[0]) + energy(front.taps[1])));
+    const auto gain = static_cast<float>(level > 0 ? 1 / level : 1);
+
+    // Means over the sphere: a row counts by the cosine of its elevation.
+    double delay = 0, area = 0;
+    MinimumPhase phase(sample_rate_hz_);
+    const FourierTransform fourier(8);
+    std::vector<double> power(fourier.size() / 2 + 1);
+    std::vector<std::complex<double>> work(fourier.size());
+    for (int r = 0; r < kRows; ++r) {
+        const double share = math::cos(math::kRadPerDeg * (kStepDeg * r - 90));
+        for (int c = 0; c < kColumns; ++c) {
+            EarResponses& n = node(r, c);
+            for (HeadTaps& taps : n.taps) {
+                for (float& t : taps) t *= gain;
+            }
+            delay += share * 0.5 * (n.delay_s[0] + n.delay_s[1]);
+            area += share;
+            // The sum of a transform's squares over both ears is that of left + i right, k and size - k.
+            if (c % 2 != 0) continue;
+            std::fill(work.begin(), work.end(), 0);
+            for (std::size_t k = 0; k < kHeadTaps; ++k)
+                work[k] = {static_cast<double>(n.taps[0][k]), static_cast<double>(n.taps[1][k])};
+            fourier.forward(work);
+            for (std::size_t k = 0; k < power.size(); ++k) {
+                const std::complex<double> a = work[k], b = work[(work.size() - k) % work.size()];
+                power[k] +=
+                    share * 0.25 *
+                    (a.real() * a.real() + a.imag() * a.imag() + b.real() * b.real() + b.imag() * b.imag());
+            }
+        }
+    }
+    delay /= area;
+    for (EarResponses& n : nodes_) {
+        for (double& d : n.delay_s) d -= delay;
+    }
+    // A source everywhere: the root of the mean power, of minimum phase.
+    std::vector<std::complex<double>> everywhere(phase.bins());
+    for (std::size_t k = 0; k < everywhere.size(); ++k) {
+        const double place = static_cast<double>(k) * static_cast<double>(power.size() - 1) /
+                             static_cast<double>(everywhere.size() - 1);
+        const auto at = std::min(static_cast<std::size_t>(place), power.size() - 2);
+        const double t = place - static_cast<double>(at);
+        everywhere[k] = std::sqrt(2 * ((1 - t) * power[at] + t * power[at + 1]) / area);
+    }
+    everywhere_ = phase.split(everywhere, everywhere).taps[0];
+    for (std::size_t k = static_cast<std::size_t>(taps_); k < kHeadTaps; ++k) everywhere_[k] = 0;
+}
+
+std::shared_ptr<const Head> Head::panning(double sample_rate_hz) {
+    const auto head = std::shared_ptr<Head>(new Head(sample_rate_hz, 16));
+    for (int r = 0; r < kRows; ++r) {
+        for (int c = 0; c < kColumns; ++c) {
+            // The angle between the loudspeakers by how far to the side the source is.
+            const double side = grid_direction(r, c).x;
+            double left, right;
+            math::sincos(0.25 * math::kPi * (1 - side), left, right);
+            constexpr double kSqrt2 = 1.4142135623730951;
+            head->node(r, c).taps[0][0] = static_cast<float>(kSqrt2 * left);
+            head->node(r, c).taps[1][0] = static_cast<float>(kSqrt2 * right);
+        }
+    }
+    head->finish();
+    return head;
+}
+
+}  // namespace tribo::sound

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// From measured head responses to the grid.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "base/math.hpp"
+#include "sound/head.hpp"
+
+namespace tribo::sound {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::size_t kMostDirections = 100000;
+constexpr int kMostTaps = 16384;
+constexpr std::size_t kNeighbours = 14;  // among which the triangle around a direction is looked for
+
+struct Weighted {
+    std::size_t index = 0;
+    double weight = 0;
+};
+
+// Barycentric weights of `d` in the spherical triangle: the solution of [a b c] w = d, scaled to sum 1.
+bool inside(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double* w) {
+    const double volume = dot(a, cross(b, c));
+    if (std::abs(volume) < 1e-9) return false;
+    w[0] = dot(d, cross(b, c)) / volume;
+    w[1] = dot(d, cross(c, a)) / volume;
+    w[2] = dot(d, cross(a, b)) / volume;
+    constexpr double kRounding = -1e-9;
+    if (w[0] < kRounding || w[1] < kRounding || w[2] < kRounding) return false;
+    const double sum = w[0] + w[1] + w[2];
+    for (int n = 0; n < 3; ++n) w[n] = std::max(w[n], 0.0) / sum;
+    return true;
+}
+
+// Radius of the circle through three unit vectors, as the squared distance of its plane's pole.
+double circle(Vec3 a, Vec3 b, Vec3 c) {
+    const Vec3 pole = normalized(cross(b - a, c - a));
+    return squared_length(a - (dot(pole, a) < 0 ? -1.0 : 1.0) * pole);
+}
+
+// The measured directions that stand for `d`: the corners of the smallest triangle around it; outside of all
+// triangles a mean of those near it, the wider the further they are.
+std::vector<Weighted> around(const std::vector<Vec3>& all, Vec3 d) {
+    std::vector<std::pair<double, std::size_t>> near(all.size());
+    for (std::size_t n = 0; n < all.size(); ++n) near[n] = {squared_length(all[n] - d), n};
+    const std::size_t few = std::min(kNeighbours, near.size());
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(few), near.end());
+    if (near[0].first < 1e-10) return {{near[0].second, 1}};
+    double best = 1e300;
+    std::vector<Weighted> corners;
+    for (std::size_t i = 0; i < few; ++i) {
+        for (std::size_t j = i + 1; j < few; ++j) {
+            for (std::size_t k = j + 1; k < few; ++k) {
+                const std::size_t at[3] = {near[i].second, near[j].second, near[k].second};
+                double w[3];
+                if (!inside(all[at[0]], all[at[1]], all[at[2]], d, w)) continue;
+                const double size = circle(all[at[0]], all[at[1]], all[at[2]]);
+                if (size >= best) continue;
+                best = size;
+                corners = {{at[0], w[0]}, {at[1], w[1]}, {at[2], w[2]}};
+            }
+        }
+    }
+    if (!corners.empty()) return corners;
+    double sum = 0;
+    for (const auto& [squared, index] : near) {
+        const double weight = math::exp(-4 * (squared - near[0].first) / near[0].first);
+        if (weight < 1e-4) continue;
+        corners.push_back({index, weight});
+        sum += weight;
+    }
+    for (Weighted& c : corners) c.weight /= sum;
+    return corners;
+}
+
+// The spectrum of a response at frequencies of another sample rate: a long transform, and lines between its
+// bins.
+class Resampled {
+  public:
+    Resampled(const HrirSet& set, const MinimumPhase& phase)
+        : rate_(set.sample_rate_hz),
+          bins_(phase.bins()),
+          bin_hz_(phase.bin_hz()),
+          fourier_(log2_size(set)),
+          work_(fourier_.size()) {}
+
+    // Left and right at once; each is turned back so that its peak is at 0, `peak` says from where.
+    void at(const float* left, const float* right, std::size_t taps, std::vector<Complex>* spectra,
+            std::size_t* peak) {
+        std::fill(work_.begin(), work_.end(), 0);
+        for (int ear = 0; ear < 2; ++ear) {
+            const float* x = ear == 0 ? left : right;
+            const auto size = [](float a, float b) { return std::abs(a) < std::abs(b); };
+            peak[ear] = static_cast<std::size_t>(std::max_element(x, x + taps, size) - x);
+            for (std::size_t k = 0; k < taps; ++k) {
+                const auto v = static_cast<double>(x[k]);
+                Complex& w = work_[(k + work_.size() - peak[ear]) % work_.size()];
+                w = ear == 0 ? Complex{v, w.imag()} : Complex{w.real(), v};
+            }
+        }
+        fourier_.forward(work_);
+        const double own_hz = rate_ / static_cast<double>(work_.size());
+        for (int ear = 0; ear < 2; ++ear) spectra[ear].resize(bins_);
+        for (std::size_t k = 0; k < bins_; ++k) {
+            // Beyond what was measured the last of it is held.
+            const double place = std::min(bin_hz_ * static_cast<double>(k), 0.49 * rate_) / own_hz;
+            const auto whole = static_cast<std::size_t>(place);
+            const double t = place - static_cast<double>(whole);
+            for (int ear = 0; ear < 2; ++ear) {
+                const Complex a = ear_at(whole, ear), b = ear_at(whole + 1, ear);
+                spectra[ear][k] = {(1 - t) * a.real() + t * b.real(), (1 - t) * a.imag() + t * b.imag()};
+            }
+        }
+    }
+
+  private:
+    // Bins an eighth of a response's own or finer: a line between two follows the turning phase.
+    static int log2_size(const HrirSet& set) {
+        int log2 = 12;
+        while ((1 << log2) < 8 * set.taps) ++log2;
+        return log2;
+    }
+    Complex ear_at(std::size_t k, int ear) const {
+        const Complex a = work_[k], b = work_[(work_.size() - k) % work_.size()];
+        return ear == 0 ? Complex{0.5 * (a.real() + b.real()), 0.5 * (a.imag() - b.imag())}
+                        : Complex{0.5 * (a.imag() + b.imag()), 0.5 * (b.real() - a.real())};
+    }
+    double rate_;
+    std::size_t bins_;
+    double bin_hz_;
+    FourierTransform fourier_;
+    std::vector<Complex> work_;
+};
+
+}  // namespace
+
+Result<void> check_hrirs(const HrirSet& set) {
+    const auto bad = [](const std::string& cause) {
+        return fail("the head responses " + cause, "try another SOFA file, or the built-in set");
+    };
+    if (!(set.sample_rate_hz >= 8000 && set.sample_rate_hz <= 384000)) {
+        return bad("have no sample rate between 8 and 384 kHz");
+    }
+    if (set.directions.size() < 4 || set.directions.size() > kMostDirections) {
+        return bad("are of " + std::to_string(set.directions.size()) +
+                   " directions (4 to 100000 are possible)");
+    }
+    if (set.taps < 8 || set.taps > kMostTaps) {
+        return bad("are " + std::to_string(set.taps) + " samples long (8 to 16384 are possible)");
+    }
+    const std::size_t responses = 2 * set.directions.size();
+    if (set.responses.size() != responses * static_cast<std::size_t>(set.taps) ||
+        set.extra_delays_s.size() != responses) {
+        return bad("do not have the size that they claim");
+    }
+    for (const Vec3 d : set.directions) {
+        if (!is_finite(d) || std::abs(length(d) - 1) > 1e-3) return bad("come from no direction");
+    }
+    for (const double d : set.extra_delays_s) {
+        if (!(d >= 0 && d <= 1)) return bad("are delayed by less than nothing or more than a second");
+    }
+    double sum = 0;
+    for (const float v : set.responses) {
+        if (!std::isfinite(v) || std::abs(v) > 1e6f) return bad("hold a number that is none");
+        sum += std::abs(static_cast<double>(v));
+    }
+    if (sum == 0) return bad("are silent");
+    return {};
+}
+
+Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sample_rate_hz) {
+    if (auto ok = check_hrirs(set); !ok) return std::unexpected(ok.error());
+    MinimumPhase phase(sample_rate_hz);
+    Resampled resampled(set, phase);
+    std::vector<EarResponses> by_direction;
+    std::vector<Complex> spectra[2];
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        const auto taps = static_cast<std::size_t>(set.taps);
+        const float* left = set.responses.data() + 2 * n * taps;
+        std::size_t peak[2];
+        resampled.at(left, left + taps, taps, spectra, peak);
+        by_direction.push_back(phase.split(spectra[0], spectra[1]));
+        for (std::size_t ear = 0; ear < 2; ++ear) {
+            by_direction.back().delay_s[ear] +=
+                set.extra_delays_s[2 * n + ear] + static_cast<double>(peak[ear]) / set.sample_rate_hz;
+        }
+    }
+    const auto head = std::shared_ptr<Head>(new Head(sample_rate_hz, kHeadTaps));
+    for (int r = 0; r < kRows; ++r) {
+        for (int c = 0; c < kColumns; ++c) {
+            EarResponses& node = head->node(r, c);
+            for (const Weighted& w : around(set.directions, grid_direction(r, c))) {
+                const EarResponses& from = by_direction[w.index];
+                for (std::size_t ear = 0; ear < 2; ++ear) {
+                    node.delay_s[ear] += w.weight * from.delay_s[ear];
+                    for (std::size_t k = 0; k < kHeadTaps; ++k)
+                        node.taps[ear][k] += static_cast<float>(w.weight) * from.taps[ear][k];
+                }
+            }
+        }
+    }
+    head->finish();
+    return std::shared_ptr<const Head>(head);
+}
+
+}  // namespace tribo::sound

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "sound/minimum_phase.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/math.hpp"
+
+namespace tribo::sound {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Notches deeper than this below the loudest frequency are filled: their logarithm would ring.
+constexpr double kDeepestNotch = 1e-4;
+// The last taps fade out over this many.
+constexpr int kFadeTaps = 24;
+
+// std::complex's own product may call a library function that tests for infinities.
+Complex product(Complex a, Complex b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+double squared(Complex a) {
+    return a.real() * a.real() + a.imag() * a.imag();
+}
+
+}  // namespace
+
+FourierTransform::FourierTransform(int log2_size) {
+    assert(log2_size >= 1 && log2_size <= 20);
+    const std::size_t size = std::size_t{1} << log2_size;
+    turn_.resize(size);
+    reversed_.assign(size, 0);
+    for (std::size_t k = 0; k < size; ++k) {
+        double sine, cosine;
+        math::sincos(math::kTwoPi * static_cast<double>(k) / static_cast<double>(size), sine, cosine);
+        turn_[k] = {cosine, -sine};
+        for (int b = 0; b < log2_size; ++b) reversed_[k] |= (k >> b & 1) << (log2_size - 1 - b);
+    }
+}
+
+void FourierTransform::forward(std::span<Complex> x) const {
+    assert(x.size() == size());
+    for (std::size_t k = 0; k < size(); ++k) {
+        if (k < reversed_[k]) std::swap(x[k], x[reversed_[k]]);
+    }
+    for (std::size_t half = 1; half < size(); half *= 2) {
+        const std::size_t stride = size() / (2 * half);
+        for (std::size_t block = 0; block < size(); block += 2 * half) {
+            for (std::size_t k = 0; k < half; ++k) {
+                const Complex a = x[block + k], b = product(turn_[k * stride], x[block + k + half]);
+                x[block + k] = {a.real() + b.real(), a.imag() + b.imag()};
+                x[block + k + half] = {a.real() - b.real(), a.imag() - b.imag()};
+            }
+        }
+    }
+}
+
+void FourierTransform::inverse(std::span<Complex> x) const {
+    const double scale = 1 / static_cast<double>(size());
+    for (Complex& v : x) v = {v.real(), -v.imag()};
+    forward(x);
+    for (Complex& v : x) v = {scale * v.real(), -scale * v.imag()};
+}
+
+// Bins of 23 Hz at 48 kHz, and as fine at any rate.
+MinimumPhase::MinimumPhase(double sample_rate_hz)
+    : sample_rate_hz_(sample_rate_hz),
+      fourier_(sample_rate_hz > 96000   ? 13
+               : sample_rate_hz > 48000 ? 12
+                                        : 11) {
+    work_.resize(fourier_.size());
+    for (std::vector<double>& p : phase_) p.resize(bins());
+}
+
+// By the cepstrum (Oppenheim and Schafer, Discrete-Time Signal Processing, section 13.3): the logarithm of
+// the magnitude is the real part of the logarithm of a causal, invertible response; its negative times fold
+// onto the positive ones. Left and right go as real and imaginary part through every transform.
+EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const Complex> right) {
+    assert(left.size() == bins() && right.size() == bins());
+    const std::size_t n = fourier_.size(), half = n / 2;
+    double loudest[2] = {1e-300, 1e-300};
+    for (std::size_t k = 0; k <= half; ++k) {
+        loudest[0] = std::max(loudest[0], squared(left[k]));
+        loudest[1] = std::max(loudest[1], squared(right[k]));
+    }
+    const auto level = [&](Complex v, double most) {
+        return 0.5 * math::log(std::max(squared(v), kDeepestNotch * kDeepestNotch * most));
+    };
+    for (std::size_t k = 0; k <= half; ++k) {
+        work_[k] = {level(left[k], loudest[0]), level(right[k], loudest[1])};
+        if (k > 0 && k < half) work_[n - k] = work_[k];
+    }
+    fourier_.inverse(work_);
+    for (std::size_t k = 1; k < half; ++k) work_[k] = {2 * work_[k].real(), 2 * work_[k].imag()};
+    for (std::size_t k = half + 1; k < n; ++k) work_[k] = 0;
+    fourier_.forward(work_);
+
+    // Back from the logarithms, ear by ear, and as one transform again.
+    for (std::size_t k = 0; k <= half; ++k) {
+        const Complex a = work_[k], b = work_[k == 0 ? 0 : n - k];
+        const Complex log_left{0.5 * (a.real() + b.real()), 0.5 * (a.imag() - b.imag())};
+        const Complex log_right{0.5 * (a.imag() + b.imag()), 0.5 * (b.real() - a.real())};
+        phase_[0][k] = log_left.imag();
+        phase_[1][k] = log_right.imag();
+        Complex h[2];
+        for (int ear = 0; ear < 2; ++ear) {
+            const Complex l = ear == 0 ? log_left : log_right;
+            double sine, cosine;
+            math::sincos(l.imag(), sine, cosine);
+            const double size = math::exp(l.real());
+            h[ear] = {size * cosine, size * sine};
+        }
+        work_[k] = {h[0].real() - h[1].imag(), h[0].imag() + h[1].real()};
+        if (k > 0 && k < half) work_[n - k] = {h[0].real() + h[1].imag(), h[1].real() - h[0].imag()};
+    }
+    fourier_.inverse(work_);
+
+    EarResponses out;
+    for (int k = 0; k < kHeadTaps; ++k) {
+        const double after = k - (kHeadTaps - kFadeTaps);
+        const double fade = after <= 0 ? 1 : 0.5 + 0.5 * math::cos(math::kPi * after / kFadeTaps);
+        out.taps[0][static_cast<std::size_t>(k)] =
+            static_cast<float>(fade * work_[static_cast<std::size_t>(k)].real());
+        out.taps[1][static_cast<std::size_t>(k)] =
+            static_cast<float>(fade * work_[static_cast<std::size_t>(k)].imag());
+    }
+    out.delay_s = {delay_behind(left, 0), delay_behind(right, 1)};
+    return out;
+}
+
+// The delay that makes filter and spectrum most alike: the peak of their cross-correlation over the band.
+double MinimumPhase::delay_behind(std::span<const Complex> spectrum, std::size_t ear) const {
+    constexpr double kFromHz = 300, kToHz = 1500;
+    const auto first = static_cast<std::size_t>(kFromHz / bin_hz());
+    const auto last = static_cast<std::size_t>(kToHz / bin_hz());
+    // A straight line through the unwrapped phase that is left ...
+    const auto excess = [&](std::size_t k) {
+        return math::atan2(spectrum[k].imag(), spectrum[k].real()) - phase_[ear][k];
+    };
+    double turn_sum = 0, weight_sum = 0;
+    for (std::size_t k = first; k < last; ++k) {
+        double step = excess(k + 1) - excess(k);
+        step -= math::kTwoPi * std::floor(step / math::kTwoPi + 0.5);
+        const double weight = squared(spectrum[k]);
+        turn_sum += weight * step;
+        weight_sum += weight;
+    }
+    double delay = weight_sum > 0 ? -turn_sum / weight_sum / (math::kTwoPi * bin_hz()) : 0;
+    // ... leads to the peak, and Newton's method up to it.
+    for (int round = 0; round < 6; ++round) {
+        double slope = 0, bend = 0;
+        for (std::size_t k = first; k <= last; ++k) {
+            const double w = math::kTwoPi * bin_hz() * static_cast<double>(k);
+            const double off = excess(k) + w * delay, weight = squared(spectrum[k]);
+            slope -= weight * w * math::sin(off);
+            bend -= weight * w * w * math::cos(off);
+        }
+        if (!(bend < 0)) break;
+        delay -= slope / bend;
+    }
+    return delay;
+}
+
+}  // namespace tribo::sound
