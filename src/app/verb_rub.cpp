@@ -21,7 +21,7 @@ struct Call {
     std::string material, stroke, out, interpolate = "mix";
     int sample_rate_hz = 0, bits = 24;
     std::uint64_t seed = 1;
-    bool as_published = false;
+    bool as_published = false, gaussian = false;
 };
 
 // The rate at which the material was learned, where all its models agree and a file can have it.
@@ -38,6 +38,7 @@ io::FileResult<void> write_sound(const Call& call, const noise::MaterialVoices& 
     options.sample_rate_hz = call.sample_rate_hz > 0 ? call.sample_rate_hz : rate_of(voices);
     options.seed = call.seed;
     options.as_published = call.as_published;
+    options.gaussian = call.gaussian;
     if (call.interpolate == "lsf") options.interpolation = noise::Interpolation::line_spectrum;
     session::Rubbing rubbing(voices, points, options);
     io::WavFormat format;
@@ -98,6 +99,7 @@ void add_rub(CLI::App& program, int& exit_code) {
         ->type_name("HOW");
     verb->add_flag("--as-published", call->as_published,
                    "The paper's generation step as printed: linear mix, mean power for gain");
+    verb->add_flag("--gaussian", call->gaussian, "Without textures: coloured noise alone, to compare");
     verb->add_option("--sample-rate", call->sample_rate_hz, "That of the material if absent")
         ->check(CLI::Range(8000, 192000))
         ->type_name("HZ");

@@ -158,28 +158,44 @@ std::string JsonSection::text(std::string_view key, std::optional<std::string> o
     return text;
 }
 
-std::vector<double> JsonSection::numbers(std::string_view key, JsonRange range, std::size_t most) {
-    const Json* value = find(key);
-    if (value == nullptr) {
-        fail(key, "is missing", "give an array of numbers");
+std::vector<double> JsonSection::numbers_of(const std::string& key, const Json& value, JsonRange range,
+                                            std::size_t most) {
+    if (!value.is_array()) {
+        fail(key, std::string("is ") + kind_of(value) + " and not an array", "put [...] there");
         return {};
     }
-    if (!value->is_array()) {
-        fail(key, std::string("is ") + kind_of(*value) + " and not an array", "put [...] there");
-        return {};
-    }
-    if (value->size() > most) {
-        fail(key, "has " + std::to_string(value->size()) + " numbers",
-             "give at most " + std::to_string(most));
+    if (value.size() > most) {
+        fail(key, "has " + std::to_string(value.size()) + " numbers", "give at most " + std::to_string(most));
         return {};
     }
     std::vector<double> numbers;
-    for (std::size_t n = 0; n < value->size(); ++n) {
-        const Json& item = (*value)[n];
-        if (!in_range(std::string(key) + "[" + std::to_string(n) + "]", item, range)) return {};
-        numbers.push_back(item.get<double>());
+    for (std::size_t n = 0; n < value.size(); ++n) {
+        if (!in_range(key + "[" + std::to_string(n) + "]", value[n], range)) return {};
+        numbers.push_back(value[n].get<double>());
     }
     return numbers;
+}
+
+std::vector<double> JsonSection::numbers(std::string_view key, JsonRange range, std::size_t most) {
+    const Json* value = find(key);
+    if (value != nullptr) return numbers_of(std::string(key), *value, range, most);
+    fail(key, "is missing", "give an array of numbers");
+    return {};
+}
+
+std::vector<std::vector<double>> JsonSection::tables(std::string_view key, JsonRange range,
+                                                     std::size_t most) {
+    const Json* value = find(key);
+    if (value == nullptr || !value->is_array() || value->size() > most) {
+        fail(key, "is not an array of at most " + std::to_string(most) + " arrays", "put [[...], ...] there");
+        return {};
+    }
+    std::vector<std::vector<double>> tables;
+    for (std::size_t n = 0; n < value->size(); ++n) {
+        tables.push_back(
+            numbers_of(std::string(key) + "[" + std::to_string(n) + "]", (*value)[n], range, kLongestTable));
+    }
+    return tables;
 }
 
 std::vector<const Json*> JsonSection::objects(std::string_view key, std::size_t most) {

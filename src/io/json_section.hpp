@@ -25,6 +25,8 @@ struct JsonRange {
 // Parses with line and column where it is not JSON, and refuses doubled keys. Never throws.
 Result<Json> parse_json(std::string_view text, const std::string& file);
 
+inline constexpr std::size_t kLongestTable = 256;
+
 class JsonSection {
   public:
     // `path` is how messages call the object; empty for the whole file. `keys` are all that it may hold.
@@ -37,6 +39,8 @@ class JsonSection {
     std::string text(std::string_view key, std::optional<std::string> otherwise = {},
                      std::size_t longest = 10'000);
     std::vector<double> numbers(std::string_view key, JsonRange range, std::size_t most);
+    // An array of arrays of numbers, each as numbers() takes them with kLongestTable for `most`.
+    std::vector<std::vector<double>> tables(std::string_view key, JsonRange range, std::size_t most);
     // The objects under a key; none where it is absent.
     std::vector<const Json*> objects(std::string_view key, std::size_t most);
     // The object under a key; null where it is absent.
@@ -48,6 +52,8 @@ class JsonSection {
   private:
     const Json* find(std::string_view key) const;
     bool in_range(std::string_view key, const Json& value, JsonRange range);
+    std::vector<double> numbers_of(const std::string& key, const Json& value, JsonRange range,
+                                   std::size_t most);
 
     const Json& object_;
     std::string path_;

@@ -18,11 +18,15 @@ constexpr std::array<std::string_view, 11> kMaterialKeys{
     "schema", "name",   "note",        "stiffness_n_per_mm", "viscosity_n_s_per_mm", "width_mm", "image",
     "voices", "method", "highpass_hz", "level_law"};
 constexpr std::array<std::string_view, 3> kLawKeys{"level_db", "db_per_decade_speed", "db_per_decade_force"};
-constexpr std::array<std::string_view, 7> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
+constexpr std::array<std::string_view, 8> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
                                                      "sample_rate_hz", "reflection", "line_spectrum_hz",
-                                                     "recordings"};
+                                                     "recordings",     "texture"};
 constexpr std::array<std::string_view, 8> kSourceKeys{"file", "seconds", "sample_rate_hz", "channels",
                                                       "bits", "peak_db", "silent_share",   "clipped_share"};
+
+constexpr std::array<std::string_view, 6> kTextureKeys{"crossovers_hz", "levels_db", "coherence",
+                                                       "lengths_mm",    "weights",   "grains"};
+constexpr std::array<std::string_view, 5> kGrainKeys{"per_mm", "share", "scatter", "sizes", "shape"};
 
 constexpr std::size_t kMostVoices = 64;
 constexpr std::size_t kMostSources = 256;
@@ -81,6 +85,9 @@ class Reader {
             v.spectrum.reflection = section.numbers(
                 "reflection", {-noise::kLargestReflection, noise::kLargestReflection}, noise::kLargestOrder);
             check_line_spectrum(section, v);
+            if (const Json* texture = section.object("texture")) {
+                v.texture = read_texture(*texture, path + ".texture", v.spectrum.sample_rate_hz);
+            }
             if (!error_ && !m.voices.models.empty()) check_order(section, m.voices.models.back(), v);
             m.voices.models.push_back(std::move(v));
             m.sources.push_back(read_sources(section, path));
@@ -105,6 +112,39 @@ class Reader {
             section.fail("speed_mm_per_s", "does not rise",
                          "sort the voices by force, then speed, each pair once");
         }
+    }
+
+    noise::TextureModel read_texture(const Json& json, const std::string& path, double rate_hz) {
+        JsonSection section(json, path, kTextureKeys, error_, file_);
+        noise::TextureModel t;
+        t.crossovers_hz = section.numbers("crossovers_hz", {0, 0.5 * rate_hz, true}, noise::kMostBands - 1);
+        t.levels_db = section.tables("levels_db", {-300, 100}, noise::kMostBands);
+        if (t.levels_db.size() != t.crossovers_hz.size() + 1 ||
+            std::ranges::any_of(t.levels_db, [](const auto& l) { return l.size() != noise::kLevelSteps; }) ||
+            !std::ranges::is_sorted(t.crossovers_hz)) {
+            section.fail("levels_db", "does not fit crossovers_hz",
+                         "give 17 levels for each band, one band more than rising crossovers");
+        }
+        t.coherence = section.number("coherence", kShares);
+        t.lengths_mm = section.numbers("lengths_mm", {0, 1e6, true}, noise::kMostLengths);
+        t.weights = section.numbers("weights", kShares, noise::kMostLengths);
+        double sum = 0;
+        for (const double w : t.weights) sum += w;
+        if (t.weights.size() != t.lengths_mm.size() || (!t.weights.empty() && std::abs(sum - 1) > 1e-3)) {
+            section.fail("weights", "is not one share for each length, sum 1", "let them add up to 1");
+        }
+        if (const Json* grains = section.object("grains")) {
+            JsonSection inner(*grains, path + ".grains", kGrainKeys, error_, file_);
+            t.grains.per_mm = inner.number("per_mm", {0, 1e4});
+            t.grains.share = inner.number("share", kShares);
+            t.grains.scatter = inner.number("scatter", kShares, 1);
+            t.grains.sizes = inner.numbers("sizes", {-1e4, 1e4}, noise::kMostGrainSizes);
+            t.grains.shape = inner.numbers("shape", {-1, 1}, noise::kLongestGrain);
+            if (!std::ranges::is_sorted(t.grains.sizes)) {
+                inner.fail("sizes", "does not rise", "sort it");
+            }
+        }
+        return t;
     }
 
     std::vector<RecordingSource> read_sources(JsonSection& voice, const std::string& path) {
@@ -144,6 +184,24 @@ Json source_json(const RecordingSource& s) {
     return json;
 }
 
+Json texture_json(const noise::TextureModel& t) {
+    Json json = Json::object();
+    json["crossovers_hz"] = t.crossovers_hz;
+    json["levels_db"] = t.levels_db;
+    json["coherence"] = t.coherence;
+    json["lengths_mm"] = t.lengths_mm;
+    json["weights"] = t.weights;
+    if (t.grains.per_mm > 0) {
+        Json& grains = json["grains"];
+        grains["per_mm"] = t.grains.per_mm;
+        grains["share"] = t.grains.share;
+        grains["scatter"] = t.grains.scatter;
+        grains["sizes"] = t.grains.sizes;
+        grains["shape"] = t.grains.shape;
+    }
+    return json;
+}
+
 Json voice_json(const VoiceModel& v, const std::vector<RecordingSource>& sources) {
     Json json = Json::object();
     json["speed_mm_per_s"] = v.speed_mm_per_s;
@@ -156,6 +214,7 @@ Json voice_json(const VoiceModel& v, const std::vector<RecordingSource>& sources
         lines.push_back(std::round(100 * angle / math::kTwoPi * v.spectrum.sample_rate_hz) / 100);
     }
     json["line_spectrum_hz"] = std::move(lines);
+    if (v.texture) json["texture"] = texture_json(*v.texture);
     Json recordings = Json::array();
     for (const RecordingSource& s : sources) recordings.push_back(source_json(s));
     json["recordings"] = std::move(recordings);

@@ -54,7 +54,11 @@ FrictionVoice::FrictionVoice(const MaterialVoices& voices, const FrictionOptions
         line_work_.resize(2 * (order + 2));
         models.resize(1);
     }
-    for (std::size_t n = 0; n < models.size(); ++n) noises_.emplace_back(models[n], seeds.bits(n));
+    for (std::size_t n = 0; n < models.size(); ++n) {
+        const auto& texture = voices.models[n].texture;
+        const bool plain = !texture || options.as_published || options.gaussian || !lines_.empty();
+        noises_.emplace_back(models[n], plain ? nullptr : &*texture, seeds.bits(n));
+    }
     gain_.resize(noises_.size());
     next_gain_.resize(noises_.size());
     smoothing_ = 1 - math::exp(-quantum_ / (kSmoothingS * options.sample_rate_hz));
@@ -85,7 +89,8 @@ void FrictionVoice::smooth_targets() {
 }
 
 void FrictionVoice::add(ModelNoise& noise, float from, float to) {
-    const float* y = noise.block(frame_ / kNoiseBlock).data() + frame_ % kNoiseBlock;
+    const double travel_mm = speed_ * kNoiseBlock / options_.sample_rate_hz;
+    const float* y = noise.block(frame_ / kNoiseBlock, travel_mm).data() + frame_ % kNoiseBlock;
     if (quantum_ % 8 == 0) return noise_kernels().mix(y, from, to, ready_.data(), quantum_);
     const float step = (to - from) / static_cast<float>(quantum_);
     for (int n = 0; n < quantum_; ++n) {

@@ -32,6 +32,8 @@ struct FrictionOptions {
     double sample_rate_hz = 48000;  // 1000 ... 192000: a servo's rate gives vibration in place of sound
     std::uint64_t seed = 1;
     Interpolation interpolation = Interpolation::mix;
+    // Without the textures: coloured Gaussian noise, for comparison.
+    bool gaussian = false;
     // Frames between two looks at the targets: 1, 2, 4 ... 64; 0: what is nearest to 1.33 ms.
     int quantum_frames = 0;
     // The paper's generation step as printed: all models always run, amplitudes are mixed linearly (3 dB too

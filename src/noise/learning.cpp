@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "noise/fourier.hpp"
 #include "noise/levinson.hpp"
+#include "noise/texture_learning.hpp"
 
 namespace tribo::noise {
 namespace {
 
-constexpr double kWhite = 1e-9;          // added to r_0: the top of a band-limited recording is empty
+constexpr double kWhite = 1e-11;         // added to r_0: the top of a band-limited recording is empty
 constexpr double kHeldOutBlockS = 0.25;  // alternate blocks learn and test
 constexpr double kSame = 1e-9;           // relative difference of equal speeds and forces
 
@@ -51,8 +54,10 @@ Pieces alternate(const Pieces& pieces, std::size_t block, std::size_t which) {
     Pieces half;
     std::size_t n = 0;
     for (const std::span<const double> piece : pieces) {
-        for (std::size_t at = 0; at < piece.size(); at += block, ++n) {
-            if (n % 2 == which) half.push_back(piece.subspan(at, std::min(block, piece.size() - at)));
+        // Whole blocks alone: a short rest would be mostly window.
+        const std::size_t own = std::max<std::size_t>(std::min(block, piece.size() / 2), 1);
+        for (std::size_t at = 0; at + own <= piece.size(); at += own, ++n) {
+            if (n % 2 == which) half.push_back(piece.subspan(at, own));
         }
     }
     return half;
@@ -69,11 +74,31 @@ double prediction_error(std::span<const double> predictor, std::span<const doubl
     return std::max(sum / r[0], 1e-12);
 }
 
+// Divides a power spectrum by the high-pass's and continues it flat below the corner.
+void restore_below(std::vector<double>& power, double rate_hz, double highpass_hz) {
+    if (!(highpass_hz > 0)) return;
+    const double corner = math::tan(math::kPi * highpass_hz / rate_hz);
+    const auto last = static_cast<double>(power.size() - 1);
+    const auto first = static_cast<std::size_t>(std::ceil(2 * highpass_hz / rate_hz * last));
+    for (std::size_t k = first; k + 1 < power.size(); ++k) {
+        const double w = math::tan(0.5 * math::kPi * static_cast<double>(k) / last) / corner;
+        const double w4 = w * w * w * w;
+        power[k] *= (1 + w4) / w4;
+    }
+    // The mean over the half octave above the corner.
+    const std::size_t end = std::min(first + std::max<std::size_t>(first / 2, 2), power.size());
+    double mean = 0;
+    for (std::size_t k = first; k < end; ++k) mean += power[k] / static_cast<double>(end - first);
+    for (std::size_t k = 0; k < first; ++k) power[k] = mean;
+}
+
 // Mean log prediction error on held-out sound at orders 1 ... most: two folds.
-std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, int most) {
+std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, double highpass_hz, int most) {
     const auto block = static_cast<std::size_t>(kHeldOutBlockS * rate_hz);
-    const std::vector<double> r[2] = {windowed_autocorrelation(alternate(pieces, block, 0), most),
-                                      windowed_autocorrelation(alternate(pieces, block, 1), most)};
+    const auto half = [&](std::size_t which) {
+        return windowed_autocorrelation(alternate(pieces, block, which), rate_hz, highpass_hz, most);
+    };
+    const std::vector<double> r[2] = {half(0), half(1)};
     std::vector<double> errors(static_cast<std::size_t>(most));
     if (!(r[0][0] > 0) || !(r[1][0] > 0)) return errors;
     for (std::size_t fold = 0; fold < 2; ++fold) {
@@ -94,36 +119,33 @@ int chosen_order(std::span<const double> errors) {
     return static_cast<int>(order);
 }
 
-// The autocorrelation, scaled to r_0 = 1, of all members of a group at the rate of the first.
+// The autocorrelation of all members of a group together, at the rate of the first.
 std::vector<double> group_autocorrelation(const Group& group, std::span<const PreparedRecording> prepared,
-                                          int order) {
+                                          double highpass_hz, int order) {
     std::vector<double> sum(static_cast<std::size_t>(order) + 1);
     const double rate_hz = prepared[group.members[0]].sample_rate_hz;
     for (const std::size_t n : group.members) {
-        std::vector<double> r = windowed_autocorrelation(prepared[n].pieces(), order);
-        if (prepared[n].sample_rate_hz != rate_hz) {
-            const ArModel model{prepared[n].sample_rate_hz, levinson(r, kWhite)};
-            r = autocorrelation_of(at_rate(model, rate_hz).reflection, order);
+        const double own_hz = prepared[n].sample_rate_hz;
+        std::vector<double> r = windowed_autocorrelation(prepared[n].pieces(), own_hz, highpass_hz, order);
+        if (own_hz != rate_hz) {
+            const double power = r[0];
+            const ArModel model = at_rate({own_hz, levinson(r, kWhite)}, rate_hz);
+            r = autocorrelation_of(model.reflection, order);
+            for (double& v : r) v *= power;
         }
-        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += r[k] / r[0];
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            sum[k] += r[k] / static_cast<double>(group.members.size());
     }
     return sum;
 }
 
-std::vector<double> group_reflection(const Group& group, std::span<const PreparedRecording> prepared,
-                                     const LearningOptions& options, int order) {
-    const double rate_hz = prepared[group.members[0]].sample_rate_hz;
-    const bool one_rate = std::ranges::all_of(
-        group.members, [&](std::size_t n) { return prepared[n].sample_rate_hz == rate_hz; });
-    if (options.method == Method::burg && one_rate) {
-        Pieces pieces;
-        for (const std::size_t n : group.members) {
-            const Pieces own = prepared[n].pieces();
-            pieces.insert(pieces.end(), own.begin(), own.end());
-        }
-        return burg(pieces, order);
+// The member with the most sound.
+const PreparedRecording& longest_of(const Group& group, std::span<const PreparedRecording> prepared) {
+    const PreparedRecording* longest = &prepared[group.members[0]];
+    for (const std::size_t n : group.members) {
+        if (prepared[n].sound.size() > longest->sound.size()) longest = &prepared[n];
     }
-    return levinson(group_autocorrelation(group, prepared, order), kWhite);
+    return *longest;
 }
 
 VoiceModel group_model(const Group& group, std::span<const PreparedRecording> prepared,
@@ -131,11 +153,14 @@ VoiceModel group_model(const Group& group, std::span<const PreparedRecording> pr
     VoiceModel model;
     model.speed_mm_per_s = group.speed;
     model.force_n = group.force;
-    double power = 0;
-    for (const std::size_t n : group.members) power += math::pow(10, 0.1 * prepared[n].level_db);
-    model.level_db = 10 * math::log10(power / static_cast<double>(group.members.size()));
-    model.spectrum = {prepared[group.members[0]].sample_rate_hz,
-                      group_reflection(group, prepared, options, order)};
+    const std::vector<double> r = group_autocorrelation(group, prepared, options.highpass_hz, order);
+    model.level_db = 10 * math::log10(r[0]);
+    model.spectrum = {prepared[group.members[0]].sample_rate_hz, levinson(r, kWhite)};
+    const PreparedRecording& longest = longest_of(group, prepared);
+    const Pieces pieces = longest.pieces();
+    const bool one_rate = longest.sample_rate_hz == model.spectrum.sample_rate_hz;
+    if (options.method == Method::burg && one_rate) model.spectrum.reflection = burg(pieces, order);
+    if (options.textures && one_rate) model.texture = learn_texture(pieces, model.spectrum, group.speed);
     return model;
 }
 
@@ -158,29 +183,37 @@ Result<std::vector<PreparedRecording>> prepared_all(std::span<const Recording> r
 
 }  // namespace
 
-std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces, int lags) {
-    std::vector<double> r(static_cast<std::size_t>(lags) + 1), frame;
+std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
+                                             double sample_rate_hz, double highpass_hz, int lags) {
+    // Frames are padded to twice their length, so that the correlation does not wrap around.
+    constexpr std::size_t kPadded = 2 * kAutocorrelationFrame;
+    std::vector<double> power(kPadded / 2 + 1);
+    std::vector<std::complex<double>> x(kPadded);
     double weight = 0;
+    const std::size_t shortest = 2 * (static_cast<std::size_t>(lags) + 1);
     for (const std::span<const double> piece : pieces) {
         const std::size_t length = std::min(piece.size(), kAutocorrelationFrame);
-        if (length < 2 * r.size()) continue;  // shorter ones would be mostly window
+        if (length < shortest) continue;  // mostly window
         for (std::size_t at = 0; at + length <= piece.size(); at += length / 2) {
-            frame.resize(length);
+            std::ranges::fill(x, 0.0);
             for (std::size_t n = 0; n < length; ++n) {
                 const double phase =
                     math::kTwoPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length);
                 const double hann = 0.5 - 0.5 * math::cos(phase);
-                frame[n] = hann * piece[at + n];
+                x[n] = hann * piece[at + n];
                 weight += hann * hann;
             }
-            for (std::size_t k = 0; k < r.size(); ++k) {
-                double sum = 0;
-                for (std::size_t n = k; n < length; ++n) sum += frame[n] * frame[n - k];
-                r[k] += sum;
-            }
+            fourier(x);
+            for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(x[k]);
         }
     }
-    for (double& v : r) v /= std::max(weight, 1e-300);
+    restore_below(power, sample_rate_hz, highpass_hz);
+    for (std::size_t k = 0; k < kPadded; ++k) x[k] = power[k <= kPadded / 2 ? k : kPadded - k];
+    fourier(x);
+    std::vector<double> r(static_cast<std::size_t>(lags) + 1);
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        r[k] = x[k].real() / (static_cast<double>(kPadded) * std::max(weight, 1e-300));
+    }
     return r;
 }
 
@@ -194,7 +227,8 @@ Result<Learned> learn(std::span<const Recording> recordings, const LearningOptio
     } else {
         std::vector<double> errors(kMostLearnedOrder);
         for (const PreparedRecording& p : *prepared) {
-            const std::vector<double> own = held_out_errors(p.pieces(), p.sample_rate_hz, kMostLearnedOrder);
+            const std::vector<double> own =
+                held_out_errors(p.pieces(), p.sample_rate_hz, options.highpass_hz, kMostLearnedOrder);
             for (std::size_t n = 0; n < errors.size(); ++n) {
                 errors[n] += own[n] / static_cast<double>(prepared->size());
             }

@@ -4,7 +4,8 @@
 // Each recording: high-pass, silence out, autocorrelation under Hann windows of 4096 samples, Yule-Walker
 // equations by Levinson and Durbin (or Burg's method), RMS level. Recordings at one speed and force are
 // learned from together. One order serves all models of a material: the smallest whose prediction error on
-// held-out sound is within kOrderTolerance of the best.
+// held-out sound is within kOrderTolerance of the best. What a recording is beyond Gaussian noise becomes its
+// texture (texture_learning.hpp); of several at one speed and force that of the longest.
 // Paper: the touch paper, 3.1, with RMS in place of mean power. Allocates; any thread.
 #pragma once
 
@@ -23,8 +24,9 @@ enum class Method { yule_walker, burg };
 
 struct LearningOptions {
     Method method = Method::yule_walker;
-    std::optional<int> order;  // 1 ... kLargestOrder; absent: by held-out sound
-    double highpass_hz = 50;   // 0: only the mean is removed
+    std::optional<int> order{};  // 1 ... kLargestOrder; absent: by held-out sound
+    double highpass_hz = 50;     // 0: only the mean is removed
+    bool textures = true;        // false: Gaussian models alone
 };
 
 inline constexpr int kMostLearnedOrder = 100;
@@ -53,8 +55,10 @@ struct Learned {
 // prepare() refuses.
 Result<Learned> learn(std::span<const Recording> recordings, const LearningOptions& options = {});
 
-// Autocorrelation r_0 ... r_lags over Hann frames of all pieces, r_0 = mean square. Pieces shorter than a
-// frame are taken under a window of their own length.
-std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces, int lags);
+// Autocorrelation r_0 ... r_lags of sound that went through prepare()'s high-pass, as if nothing had been
+// removed: above the corner the filter's loss is made good, below it the spectrum goes on as it is just
+// above. So the fit does not bend to a hole that the recording never had. r_0 is the mean square.
+std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
+                                             double sample_rate_hz, double highpass_hz, int lags);
 
 }  // namespace tribo::noise

@@ -4,9 +4,11 @@
 // carries and FrictionVoice plays. Plain data.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "noise/ar_model.hpp"
+#include "noise/texture_model.hpp"
 
 namespace tribo::noise {
 
@@ -16,6 +18,7 @@ struct VoiceModel {
     double force_n = 1;         // > 0
     double level_db = 0;        // RMS, dB of full scale
     ArModel spectrum;
+    std::optional<TextureModel> texture{};  // absent: Gaussian noise of that spectrum
 
     friend bool operator==(const VoiceModel&, const VoiceModel&) = default;
 };

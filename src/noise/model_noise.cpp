@@ -16,11 +16,12 @@ constexpr std::uint64_t kRunUp = 16;
 
 }  // namespace
 
-ModelNoise::ModelNoise(const ArModel& model, std::uint64_t seed)
+ModelNoise::ModelNoise(const ArModel& model, const TextureModel* texture, std::uint64_t seed)
     : kernels_(&noise_kernels()),
       key_(CounterNoise(seed).bits(0)),
       order_(static_cast<int>(model.reflection.size())) {
     assert(order_ <= kLargestOrder);
+    if (texture) texture_.emplace(*texture, model.sample_rate_hz, seed);
     retune(predictor_of(model.reflection), std::sqrt(innovation_power(model.reflection)));
     seek(0);
 }
@@ -39,13 +40,17 @@ void ModelNoise::retune(std::span<const double> predictor, double gain) {
     }
 }
 
-void ModelNoise::make(std::uint64_t index) {
+void ModelNoise::make(std::uint64_t index, double travel_mm) {
     std::array<float, kNoiseBlock> white;
     // Samples are numbered by 32 bits inside a stream of its own for each 2^26 blocks (a day at 48 kHz).
     constexpr std::uint64_t kBlocksPerKey = std::uint64_t{1} << 26;
     const auto key = static_cast<std::uint32_t>(CounterNoise(key_).bits(index / kBlocksPerKey) >> 32);
     const auto first = static_cast<std::uint32_t>(index % kBlocksPerKey * kNoiseBlock);
-    kernels_->gaussian(key, first, white.data(), kNoiseBlock);
+    if (texture_) {
+        texture_->block(index * kNoiseBlock, travel_mm, white);
+    } else {
+        kernels_->gaussian(key, first, white.data(), kNoiseBlock);
+    }
     std::copy_n(y_.begin() + kNoiseBlock, kLargestOrder, y_.begin());
     kernels_->all_pole(predictor_.data(), order_, response_.data(), gain_, white.data(),
                        y_.data() + kLargestOrder, kNoiseBlock);
@@ -54,16 +59,17 @@ void ModelNoise::make(std::uint64_t index) {
 
 void ModelNoise::seek(std::uint64_t index) {
     y_.fill(0);
-    for (std::uint64_t n = index - std::min(index, kRunUp); n < index; ++n) make(n);
+    if (texture_) texture_->restart();
+    for (std::uint64_t n = index - std::min(index, kRunUp); n < index; ++n) make(n, 0);
     // Where nothing lies before the start, the far end of the stream does.
     if (index < kRunUp) {
-        for (std::uint64_t n = index; n < kRunUp; ++n) make(n - kRunUp);
+        for (std::uint64_t n = index; n < kRunUp; ++n) make(n - kRunUp, 0);
     }
     made_ = index - 1;
 }
 
-std::span<const float, kNoiseBlock> ModelNoise::block(std::uint64_t index) {
-    if (made_ != index) make(index);
+std::span<const float, kNoiseBlock> ModelNoise::block(std::uint64_t index, double travel_mm) {
+    if (made_ != index) make(index, travel_mm);
     return std::span<const float, kNoiseBlock>(y_.data() + kLargestOrder, kNoiseBlock);
 }
 

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "noise/ar_model.hpp"
+#include "noise/texture_excitation.hpp"
 
 namespace tribo::noise {
 
@@ -20,12 +22,14 @@ inline constexpr int kNoiseBlock = 64;
 class ModelNoise {
   public:
     // `model` at the rate at which it shall play (at_rate). Streams of different seeds are independent.
-    ModelNoise(const ArModel& model, std::uint64_t seed);
+    ModelNoise(const ArModel& model, std::uint64_t seed) : ModelNoise(model, nullptr, seed) {}
+    // With a texture (null: Gaussian), which costs 10 ns a sample more.
+    ModelNoise(const ArModel& model, const TextureModel* texture, std::uint64_t seed);
 
     // Block `index`. Blocks in a row make one continuous stream; after a gap the filter goes on from where it
     // was, which is as good a past as any, so noise may be left out where nobody hears it. Valid until the
-    // next call.
-    std::span<const float, kNoiseBlock> block(std::uint64_t index);
+    // next call. `travel_mm`: how far the finger moves meanwhile, for the texture.
+    std::span<const float, kNoiseBlock> block(std::uint64_t index, double travel_mm = 0);
 
     // The next block is preceded by the blocks before it, not by what was played last: the same samples come
     // whatever was played before.
@@ -39,10 +43,11 @@ class ModelNoise {
     void render(std::uint64_t first, std::span<double> out);
 
   private:
-    void make(std::uint64_t index);
+    void make(std::uint64_t index, double travel_mm);
 
     const NoiseKernels* kernels_;
     std::uint64_t key_ = 0;
+    std::optional<TextureExcitation> texture_;
     int order_ = 0;
     float gain_ = 1;
     std::uint64_t made_ = ~std::uint64_t{0};                   // the block that stands in y_

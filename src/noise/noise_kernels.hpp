@@ -11,6 +11,12 @@ namespace tribo::noise {
 // Samples that the filter works out at once. Every count of samples below is a multiple of it.
 inline constexpr int kFilterBlock = 16;
 
+// One crossover of eight bands side by side, a lane each: second-order sections in the transposed form.
+struct alignas(32) BandSection {
+    float b0[8], b1[8], b2[8], a1[8], a2[8];
+    float s1[8], s2[8];
+};
+
 struct NoiseKernels {
     // Near-Gaussian samples `first` ... `first + count - 1` of the stream `key`: mean 0, variance 1, kurtosis
     // 3, never beyond 4.1. A sample depends on its key and number alone.
@@ -24,6 +30,11 @@ struct NoiseKernels {
     //              count + 16 and needs no content
     void (*all_pole)(const float* predictor, int order, const float* response, float gain, const float* x,
                      float* y, int count);
+
+    // Noise in eight bands, a stream each (`keys`), through all sections, times a gain that starts from
+    // `gain` and grows by `step` a sample; out gets the sum of the bands.
+    void (*bands)(BandSection* sections, int section_count, const std::uint32_t* keys, std::uint32_t first,
+                  const float* gain, const float* step, float* out, int count);
 
     // out += gain * y, the gain going from `from` to `to` in equal steps over the samples.
     void (*mix)(const float* y, float from, float to, float* out, int count);

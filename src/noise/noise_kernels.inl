@@ -30,18 +30,44 @@ constexpr float kMean = 510.0F;
 constexpr float kCubic = 0.0186423825F;
 constexpr float kLinear = 0.9490332781F;
 
+TRIBO_LANES F8 gaussian_of(U8 x) {
+    // Bytes 0 and 2, 1 and 3 side by side, then both pairs into one 16-bit sum.
+    const U8 pairs = (x & 0x00ff00ffU) + ((x >> 8) & 0x00ff00ffU);
+    const U8 sum = (pairs + (pairs >> 16)) & 0xffffU;
+    const F8 z = (__builtin_convertvector(reinterpret_cast<simd::I8>(sum), F8) - kMean) * kUnit;
+    return z * (kLinear + kCubic * z * z);
+}
+
 void gaussian(std::uint32_t key, std::uint32_t first, float* out, int count) {
     const U8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
     const U8 stream = splat_u(key);
     U8 counter = lanes + splat_u(first);
     for (int n = 0; n < count; n += 8) {
-        const U8 x = mixed(mixed(counter) ^ stream);
-        // Bytes 0 and 2, 1 and 3 side by side, then both pairs into one 16-bit sum.
-        const U8 pairs = (x & 0x00ff00ffU) + ((x >> 8) & 0x00ff00ffU);
-        const U8 sum = (pairs + (pairs >> 16)) & 0xffffU;
-        const F8 z = (__builtin_convertvector(reinterpret_cast<simd::I8>(sum), F8) - kMean) * kUnit;
-        simd::store(out + n, z * (kLinear + kCubic * z * z));
+        simd::store(out + n, gaussian_of(mixed(mixed(counter) ^ stream)));
         counter += 8U;
+    }
+}
+
+void bands(BandSection* sections, int section_count, const std::uint32_t* keys, std::uint32_t first,
+           const float* gain, const float* step, float* out, int count) {
+    U8 streams;
+    std::memcpy(&streams, keys, sizeof streams);
+    F8 level = simd::load(gain);
+    const F8 slope = simd::load(step);
+    for (int n = 0; n < count; ++n) {
+        F8 x = gaussian_of(mixed(mixed(splat_u(first + static_cast<std::uint32_t>(n))) ^ streams));
+        for (int k = 0; k < section_count; ++k) {
+            BandSection& s = sections[k];
+            const F8 y = simd::load(s.b0) * x + simd::load(s.s1);
+            simd::store(s.s1, simd::load(s.b1) * x - simd::load(s.a1) * y + simd::load(s.s2));
+            simd::store(s.s2, simd::load(s.b2) * x - simd::load(s.a2) * y);
+            x = y;
+        }
+        level += slope;
+        x *= level;
+        float lane[8];
+        simd::store(lane, x);
+        out[n] = ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
     }
 }
 
@@ -95,7 +121,7 @@ void mix(const float* y, float from, float to, float* out, int count) {
     }
 }
 
-constexpr NoiseKernels kKernels{gaussian, all_pole, mix};
+constexpr NoiseKernels kKernels{gaussian, all_pole, bands, mix};
 
 }  // namespace
 }  // namespace tribo::noise

@@ -96,7 +96,13 @@ std::vector<bool> silent_frames(std::span<const double> raw, std::span<const dou
     };
     mark([&](std::size_t f) { return power[f] < floor; }, kShortestSilenceS);
     mark([&](std::size_t f) { return static_cast<bool>(constant[f]); }, kShortestConstantS);
-    return silent;
+    // Where sound begins or ends inside a frame, the edge would be heard as a click.
+    std::vector<bool> wider = silent;
+    for (std::size_t f = 0; f < count; ++f) {
+        if (silent[f] && f > 0) wider[f - 1] = true;
+        if (silent[f] && f + 1 < count) wider[f + 1] = true;
+    }
+    return wider;
 }
 
 }  // namespace

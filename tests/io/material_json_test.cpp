@@ -25,6 +25,14 @@ Material sponge() {
                        {100, 0.5, -30, {48000, {0.1}}},
                        {30, 1, -38, {44100, {}}}};
     m.voices.law = {-31, 14, 9};
+    noise::TextureModel t;
+    t.crossovers_hz = {400};
+    t.levels_db = {std::vector<double>(17, -3.5), std::vector<double>(17, 1)};
+    t.coherence = 0.75;
+    t.lengths_mm = {0.5, 4};
+    t.weights = {0.25, 0.75};
+    t.grains = {0.8, 0.3, 0.9, {-2, 0.5, 3}, {0.6, 0.8}};
+    m.voices.models[1].texture = t;
     m.sources = {
         {{"slow.wav", 4.5, 44100, 2, 24, -3.5, 0.1, 0}, {"again.flac", 2, 44100, 1, 16, -1, 0, 0.001}},
         {{"fast.wav", 3, 48000, 1, 0, -6, 0, 0}},
@@ -80,6 +88,13 @@ TEST(MaterialJson, is_refused_with_path_and_remedy_where_it_is_wrong) {
          "voices[0].line_spectrum_hz is not one"},
         {with("\"seconds\": 4.5", "\"seconds\": [4.5]"), "voices[0].recordings[0].seconds is array"},
         {with("\"name\": \"sponge\"", "\"name\": \"sponge\", \"name\": \"twice\""), "'name' stands twice"},
+        {with("\"weights\": [0.25, 0.75]", "\"weights\": [0.25, 0.5]"),
+         "voices[1].texture.weights is not one"},
+        {with("\"crossovers_hz\": [400.0]", "\"crossovers_hz\": []"),
+         "voices[1].texture.levels_db does not fit"},
+        {with("[-2.0, 0.5, 3.0]", "[2.0, 0.5, 3.0]"), "voices[1].texture.grains.sizes does not rise"},
+        {with("\"levels_db\": [[", "\"levels_db\": [[true, "),
+         "voices[1].texture.levels_db[0][0] is boolean"},
         {std::string(100, '[') + std::string(100, ']'), "is nested too deeply"},
         {"\xff\xfe{", "is not JSON here"},
     };

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+#include "noise/texture_learning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "noise/model_noise.hpp"
+#include "noise/sound_statistics.hpp"
+
+namespace tribo::noise {
+namespace {
+
+using Pieces = std::span<const std::span<const double>>;
+
+constexpr std::array<double, 4> kCrossoversHz{400, 1500, 5000, 12000};
+constexpr double kFrameS = 0.003;
+constexpr double kFramesPerBandwidth = 4;  // a band's frame is at least this many over its width
+// Memory of the level process, at the learned speed.
+constexpr std::array<double, kMostLengths> kMemoryS{0.003, 0.012, 0.05, 0.2};
+// Level deviations beyond those of Gaussian noise that are worth a texture.
+constexpr double kLeastDeviationDb = 0.7;
+// With fewer grains than this nothing is known of their sizes.
+constexpr std::size_t kFewestGrains = 8;
+constexpr double kGrainReachS = 0.0005;
+constexpr double kSurroundingsS = 0.01;
+constexpr double kGrainConcentration = 0.5;
+
+constexpr std::uint64_t kCalibrationSeeds = 11;
+constexpr int kCalibrationRounds = 10;
+constexpr double kCalibrationS = 6;         // of sound for each seed at most
+constexpr double kCalibratedWithin = 0.05;  // of the logarithms together
+
+// Where a Gaussian is exceeded by 1 - p: Acklam's rational approximation (2003), to 1e-9.
+double normal_quantile(double p) {
+    if (p > 0.5) return -normal_quantile(1 - p);
+    if (p < 0.02425) {
+        const double q = std::sqrt(-2 * math::log(p));
+        return (((((-7.784894002430293e-03 * q - 3.223964580411365e-01) * q - 2.400758277161838e+00) * q -
+                  2.549732539343734e+00) *
+                     q +
+                 4.374664141464968e+00) *
+                    q +
+                2.938163982698783e+00) /
+               ((((7.784695709041462e-03 * q + 3.224671290700398e-01) * q + 2.445134137142996e+00) * q +
+                 3.754408661907416e+00) *
+                    q +
+                1);
+    }
+    const double q = p - 0.5, r = q * q;
+    return (((((-3.969683028665376e+01 * r + 2.209460984245205e+02) * r - 2.759285104469687e+02) * r +
+              1.383577518672690e+02) *
+                 r -
+             3.066479806614716e+01) *
+                r +
+            2.506628277459239e+00) *
+           q /
+           (((((-5.447609879822406e+01 * r + 1.615858368580409e+02) * r - 1.556989798598866e+02) * r +
+              6.680131188771972e+01) *
+                 r -
+             1.328068155288572e+01) *
+                r +
+            1);
+}
+
+// Second-order Butterworth, as texture_excitation plays it.
+void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool low) {
+    const double k = math::tan(math::kPi * corner_hz / rate_hz);
+    const double a0 = 1 + std::sqrt(2.0) * k + k * k;
+    const double b0 = (low ? k * k : 1) / a0, b1 = low ? 2 * b0 : -2 * b0;
+    const double a1 = 2 * (k * k - 1) / a0, a2 = (1 - std::sqrt(2.0) * k + k * k) / a0;
+    double s1 = 0, s2 = 0;
+    for (double& v : x) {
+        const double y = b0 * v + s1;
+        s1 = b1 * v - a1 * y + s2;
+        s2 = b0 * v - a2 * y;
+        v = y;
+    }
+}
+
+// Levels of one band, two ways.
+struct BandLevels {
+    std::vector<double> fine,
+        coarse;  // dB, at kFrameS (or longer in narrow bands), and at the longest of them
+    double power = 0;
+};
+
+struct Analysis {
+    std::vector<BandLevels> bands;
+    double fine_s = kFrameS;
+};
+
+Analysis analysed(Pieces pieces, double rate_hz) {
+    Analysis a;
+    std::vector<double> corners;
+    for (const double hz : kCrossoversHz) {
+        if (hz < 0.4 * rate_hz) corners.push_back(hz);
+    }
+    const auto coarse =
+        static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / corners[0]) * rate_hz);
+    a.bands.resize(corners.size() + 1);
+    for (std::size_t b = 0; b < a.bands.size(); ++b) {
+        const double low = b > 0 ? corners[b - 1] : 0, high = b < corners.size() ? corners[b] : 0.5 * rate_hz;
+        const auto fine =
+            static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / (high - low)) * rate_hz);
+        double count = 0;
+        for (const std::span<const double> piece : pieces) {
+            std::vector<double> x(piece.begin(), piece.end());
+            if (b > 0) split_off(x, low, rate_hz, false);
+            if (b < corners.size()) split_off(x, high, rate_hz, true);
+            for (const double v : x) a.bands[b].power += v * v;
+            count += static_cast<double>(x.size());
+            const std::vector<double> f = frame_levels_db(x, fine), c = frame_levels_db(x, coarse);
+            a.bands[b].fine.insert(a.bands[b].fine.end(), f.begin(), f.end());
+            a.bands[b].coarse.insert(a.bands[b].coarse.end(), c.begin(), c.end());
+        }
+        a.bands[b].power /= std::max(count, 1.0);
+    }
+    return a;
+}
+
+double deviation(const std::vector<double>& x) {
+    double mean = 0, square = 0;
+    for (const double v : x) mean += v;
+    mean /= static_cast<double>(x.size());
+    for (const double v : x) square += (v - mean) * (v - mean);
+    return std::sqrt(square / static_cast<double>(x.size()));
+}
+
+// Levels as Gaussian numbers of the same order.
+std::vector<double> gaussianized(const std::vector<double>& levels) {
+    std::vector<std::size_t> order(levels.size());
+    for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return levels[a] < levels[b]; });
+    std::vector<double> g(levels.size());
+    for (std::size_t n = 0; n < order.size(); ++n) {
+        g[order[n]] = normal_quantile((static_cast<double>(n) + 0.5) / static_cast<double>(order.size()));
+    }
+    return g;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b, std::size_t lag = 0) {
+    const std::size_t count = std::min(a.size(), b.size());
+    if (count <= lag + 1) return 0;
+    double ab = 0, aa = 0, bb = 0;
+    for (std::size_t n = lag; n < count; ++n) {
+        ab += a[n] * b[n - lag];
+        aa += a[n] * a[n];
+        bb += b[n - lag] * b[n - lag];
+    }
+    return aa * bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
+// The distribution of levels at g = -4 ... 4, pulled towards its middle by `shrink`.
+std::vector<double> level_table(std::vector<double> levels, double shrink) {
+    std::ranges::sort(levels);
+    const auto count = static_cast<double>(levels.size());
+    std::vector<double> table(kLevelSteps);
+    const double middle = levels[levels.size() / 2];
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        const double g = -kLevelReach + 0.5 * static_cast<double>(n);
+        std::size_t rank = 0;
+        while (rank + 1 < levels.size() && normal_quantile((static_cast<double>(rank) + 0.5) / count) < g)
+            ++rank;
+        table[n] = middle + shrink * (levels[rank] - middle);
+    }
+    return table;
+}
+
+// Shares of the memories that explain an autocorrelation best: projected coordinate descent.
+std::vector<double> memory_shares(const std::vector<double>& g, double frame_s) {
+    constexpr std::array<std::size_t, 10> kLags{1, 2, 3, 5, 8, 12, 20, 32, 50, 80};
+    std::vector<double> w(kMemoryS.size(), 0.25);
+    const auto basis = [&](std::size_t lag, std::size_t m) {
+        return math::exp(-static_cast<double>(lag) * frame_s / kMemoryS[m]);
+    };
+    std::array<double, kLags.size()> wanted;
+    for (std::size_t n = 0; n < kLags.size(); ++n) wanted[n] = correlation(g, g, kLags[n]);
+    for (int round = 0; round < 300; ++round) {
+        for (std::size_t m = 0; m < w.size(); ++m) {
+            double slope = 0, curve = 1e-9;
+            for (std::size_t n = 0; n < kLags.size(); ++n) {
+                double rest = wanted[n];
+                for (std::size_t k = 0; k < w.size(); ++k) {
+                    if (k != m) rest -= w[k] * basis(kLags[n], k);
+                }
+                slope += rest * basis(kLags[n], m);
+                curve += basis(kLags[n], m) * basis(kLags[n], m);
+            }
+            w[m] = std::max(slope / curve, 0.0);
+        }
+    }
+    double sum = 0;
+    for (const double v : w) sum += v;
+    for (double& v : w) v = sum > 0 ? v / sum : 1.0 / static_cast<double>(w.size());
+    return w;
+}
+
+std::vector<double> plain_noise(const ArModel& model, std::size_t count, std::uint64_t seed) {
+    ModelNoise noise(model, seed);
+    std::vector<double> x(count);
+    noise.render(0, x);
+    return x;
+}
+
+std::vector<double> residual_of(Pieces pieces, const ArModel& model) {
+    const std::vector<double> a = predictor_of(model.reflection);
+    std::vector<double> e;
+    for (const std::span<const double> x : pieces) {
+        for (std::size_t n = a.size(); n < x.size(); ++n) {
+            double v = x[n];
+            for (std::size_t k = 0; k < a.size(); ++k) v += a[k] * x[n - 1 - k];
+            e.push_back(v);
+        }
+    }
+    double square = 0;
+    for (const double v : e) square += v * v;
+    const double scale = square > 0 ? std::sqrt(static_cast<double>(e.size()) / square) : 0;
+    for (double& v : e) v *= scale;
+    return e;
+}
+
+// Median over seeds of what a texture's own sound shows.
+struct Shown {
+    double kurtosis = 0, deviation_db = 0;
+};
+Shown shown(const TextureModel& texture, const ArModel& model, std::size_t count, double speed_mm_per_s) {
+    std::vector<double> kurtoses, deviations, x;
+    const double travel_mm = speed_mm_per_s * kNoiseBlock / model.sample_rate_hz;
+    for (std::uint64_t seed = 0; seed < kCalibrationSeeds; ++seed) {
+        ModelNoise noise(model, &texture, 1000 + seed);
+        x.clear();
+        for (std::uint64_t n = 0; x.size() < count; ++n) {
+            for (const float v : noise.block(n, travel_mm)) x.push_back(v);
+        }
+        kurtoses.push_back(kurtosis(x));
+        deviations.push_back(level_deviation_db(x, model.sample_rate_hz));
+    }
+    const auto median = [](std::vector<double>& v) {
+        std::ranges::sort(v);
+        return v[v.size() / 2];
+    };
+    return {median(kurtoses), median(deviations)};
+}
+
+// Tables with deviations from the middle scaled by `spread`, those of the louder sixth by `crest` besides.
+TextureModel bent(const TextureModel& texture, double spread, double crest) {
+    TextureModel out = texture;
+    for (std::vector<double>& table : out.levels_db) {
+        const double middle = table[kLevelSteps / 2], knee = table[kLevelSteps / 2 + 2];
+        for (std::size_t n = 0; n < table.size(); ++n) {
+            const double own = n > kLevelSteps / 2 + 2 ? knee + crest * (table[n] - knee) : table[n];
+            table[n] = middle + spread * (own - middle);
+        }
+    }
+    normalize(out);
+    return out;
+}
+
+// What the analysis smoothed away: levels are stretched until the texture's own sound shows the recording's
+// kurtosis and 10 ms level deviation.
+TextureModel calibrated(const TextureModel& texture, const ArModel& model, std::size_t count,
+                        double speed_mm_per_s, Shown wanted) {
+    double spread = 1, crest = 1;
+    TextureModel best = texture;
+    double least = 1e300;
+    for (int round = 0; round < kCalibrationRounds; ++round) {
+        const TextureModel trial = bent(texture, spread, crest);
+        const Shown now = shown(trial, model, count, speed_mm_per_s);
+        const double level = math::log(wanted.deviation_db / now.deviation_db);
+        const double peak =
+            math::log(std::max(wanted.kurtosis, 3.01) / 3) / math::log(std::max(now.kurtosis, 3.01) / 3);
+        const double miss = std::abs(level) + std::abs(math::log(wanted.kurtosis / now.kurtosis));
+        if (miss < least) {
+            least = miss;
+            best = trial;
+        }
+        if (least < kCalibratedWithin) break;
+        spread = std::clamp(spread * math::exp(0.8 * level), 0.2, 3.0);
+        crest = std::clamp(crest * math::pow(std::clamp(peak, 0.5, 2.0), 0.6), 0.1, 3.0);
+    }
+    return best;
+}
+
+}  // namespace
+
+GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, double speed_mm_per_s) {
+    GrainModel grains;
+    const auto reach = static_cast<std::size_t>(std::max(kGrainReachS * sample_rate_hz, 2.0));
+    const auto around = static_cast<std::size_t>(kSurroundingsS * sample_rate_hz);
+    std::vector<std::size_t> places;
+    std::vector<double> sizes, window;
+    double energy = 0;
+    for (const double v : residual) energy += v * v;
+    for (std::size_t begin = 0; begin + around <= residual.size(); begin += around) {
+        // The median size of a Gaussian is 0.6745 of its deviation.
+        const std::size_t from = begin > around / 2 ? begin - around / 2 : 0;
+        const std::size_t to = std::min(residual.size(), begin + 3 * around / 2);
+        window.clear();
+        for (std::size_t n = from; n < to; ++n) window.push_back(std::abs(residual[n]));
+        std::ranges::nth_element(window, window.begin() + static_cast<std::ptrdiff_t>(window.size() / 2));
+        const double floor = kGrainThreshold * window[window.size() / 2] / 0.6745;
+        for (std::size_t n = std::max(begin, reach); n < begin + around && n + reach < residual.size(); ++n) {
+            const double size = std::abs(residual[n]);
+            if (!(size > floor)) continue;
+            bool largest = true;
+            double near = 0, core = 0;
+            for (std::size_t m = n - reach; m <= n + reach; ++m) {
+                largest = largest && std::abs(residual[m]) <= size;
+                near += residual[m] * residual[m];
+                if (m + 2 >= n && m <= n + 2) core += residual[m] * residual[m];
+            }
+            if (!largest || core < kGrainConcentration * near) continue;
+            places.push_back(n);
+            sizes.push_back(std::copysign(std::sqrt(near), residual[n]));
+            n += reach;
+        }
+    }
+    if (places.size() < kFewestGrains) return grains;
+    double taken = 0, last_gap = 0, gaps = 0, squares = 0;
+    grains.shape.assign(std::min<std::size_t>(2 * reach + 1, kLongestGrain), 0.0);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) {
+            const std::size_t tap = m + reach - places[k];
+            if (tap < grains.shape.size()) grains.shape[tap] += (sizes[k] < 0 ? -residual[m] : residual[m]);
+            taken += residual[m] * residual[m];
+        }
+        for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) residual[m] = 0;
+        if (k == 0) continue;
+        last_gap = static_cast<double>(places[k] - places[k - 1]);
+        gaps += last_gap;
+        squares += last_gap * last_gap;
+    }
+    double square = 0;
+    for (const double v : grains.shape) square += v * v;
+    for (double& v : grains.shape) v /= std::sqrt(square);
+    const auto count = static_cast<double>(places.size() - 1);
+    const double mean = gaps / count;
+    grains.per_mm = static_cast<double>(places.size()) / static_cast<double>(residual.size()) *
+                    sample_rate_hz / speed_mm_per_s;
+    grains.share = std::clamp(taken / energy, 0.0, 1.0);
+    grains.scatter = std::min(std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean, 1.0);
+    std::ranges::sort(sizes);
+    const std::size_t steps = std::min<std::size_t>(sizes.size(), kMostGrainSizes);
+    for (std::size_t n = 0; n < steps; ++n) {
+        grains.sizes.push_back(sizes[n * (sizes.size() - 1) / (steps - 1)]);
+    }
+    return grains;
+}
+
+std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, double speed_mm_per_s) {
+    TextureModel texture;
+    const double rate = model.sample_rate_hz;
+    std::vector<double> residual = residual_of(pieces, model);
+    texture.grains = take_grains(residual, rate, speed_mm_per_s);
+
+    const Analysis own = analysed(pieces, rate);
+    std::size_t count = 0;
+    for (const auto piece : pieces) count += piece.size();
+    const std::vector<double> noise = plain_noise(model, count, 1);
+    const std::span<const double> noise_piece[] = {noise};
+    const Analysis plain = analysed(noise_piece, rate);
+
+    double largest = 0;
+    std::vector<double> shrinks;
+    for (std::size_t b = 0; b < own.bands.size(); ++b) {
+        const double measured = deviation(own.bands[b].fine), expected = deviation(plain.bands[b].fine);
+        const double true_square = measured * measured - expected * expected;
+        largest = std::max(largest, true_square);
+        shrinks.push_back(std::sqrt(std::max(true_square, 0.0)) / std::max(measured, 1e-9));
+        texture.levels_db.push_back(level_table(own.bands[b].fine, shrinks.back()));
+    }
+    if (largest < kLeastDeviationDb * kLeastDeviationDb && texture.grains.sizes.empty()) return std::nullopt;
+    for (std::size_t b = 0; b + 1 < own.bands.size(); ++b) texture.crossovers_hz.push_back(kCrossoversHz[b]);
+
+    // Memory: of the bands whose frames are short, together.
+    std::vector<double> together;
+    double together_weight = 0;
+    for (std::size_t b = 2; b < own.bands.size(); ++b) {
+        const std::vector<double> g = gaussianized(own.bands[b].fine);
+        together.resize(b == 2 ? g.size() : std::min(g.size(), together.size()));
+        const double weight = own.bands[b].power * shrinks[b];
+        for (std::size_t n = 0; n < together.size(); ++n) together[n] += weight * g[n];
+        together_weight += weight;
+    }
+    texture.weights = memory_shares(together, kFrameS);
+    for (const double s : kMemoryS) texture.lengths_mm.push_back(s * speed_mm_per_s);
+
+    double coherence = 0;
+    int pairs = 0;
+    std::vector<std::vector<double>> g;
+    for (const BandLevels& band : own.bands) g.push_back(gaussianized(band.coarse));
+    for (std::size_t a = 0; a < g.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            coherence += correlation(g[a], g[b]);
+            ++pairs;
+        }
+    }
+    texture.coherence = std::clamp(coherence / std::max(pairs, 1), 0.0, 1.0);
+    normalize(texture);
+    std::vector<double> whole;
+    for (const auto piece : pieces) whole.insert(whole.end(), piece.begin(), piece.end());
+    count = std::min(count, static_cast<std::size_t>(kCalibrationS * rate));
+    return calibrated(texture, model, count, speed_mm_per_s,
+                      {kurtosis(whole), level_deviation_db(whole, rate)});
+}
+
+}  // namespace tribo::noise

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Finding the texture of a recording: single grains in what its all-pole model does not predict, then the
+// level of bands, frame by frame, as a process over the way of the finger. What Gaussian noise of the same
+// model shows under the same analysis is taken off, so that a Gaussian recording gets no texture.
+// Allocates; any thread.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "noise/ar_model.hpp"
+#include "noise/texture_model.hpp"
+
+namespace tribo::noise {
+
+// `pieces` of sound at the model's rate, made at this speed. Nothing where the sound is Gaussian.
+std::optional<TextureModel> learn_texture(std::span<const std::span<const double>> pieces,
+                                          const ArModel& model, double speed_mm_per_s);
+
+// Grains of a residual (white, mean square 1): impulses that stand out of their surroundings by
+// kGrainThreshold and hold most of the energy around them. Their samples are replaced by nothing in
+// `residual`. `sample_rate_hz` over speed makes distances of times.
+inline constexpr double kGrainThreshold = 5.5;
+GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, double speed_mm_per_s);
+
+}  // namespace tribo::noise

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "noise/learning.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "noise/levinson.hpp"
+#include "noise/sound_statistics.hpp"
+
+namespace tribo::noise {
+namespace {
+
+// Poles of two resonances on a falling slope: the process of known spectrum that recordings are drawn from.
+ArModel known_model(double rate_hz) {
+    std::vector<double> a{1};
+    const auto pole = [&](double hz, double r) {
+        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / rate_hz), c = r * r;
+        std::vector<double> next(a.size() + 2);
+        for (std::size_t n = 0; n < a.size(); ++n) {
+            next[n] += a[n];
+            next[n + 1] += b * a[n];
+            next[n + 2] += c * a[n];
+        }
+        a = next;
+    };
+    pole(900, 0.97);
+    pole(3500, 0.95);
+    pole(200, 0.7);
+    a.erase(a.begin());
+    ArModel model{rate_hz, std::vector<double>(a.size())};
+    reflection_of(a, model.reflection);
+    return model;
+}
+
+// Driven by the standard library's Gaussian numbers, sample by sample.
+std::vector<double> drawn(const ArModel& model, std::size_t count, double rms, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> gauss(0, rms * std::sqrt(innovation_power(model.reflection)));
+    const std::vector<double> a = predictor_of(model.reflection);
+    std::vector<double> x(count + 2000);
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        x[n] = gauss(random);
+        for (std::size_t k = 1; k <= std::min(n, a.size()); ++k) x[n] -= a[k - 1] * x[n - k];
+    }
+    x.erase(x.begin(), x.begin() + 2000);
+    return x;
+}
+
+Recording recorded(double speed, std::vector<double> samples, double rate_hz = 44100, double force = 1) {
+    return {"test.wav", speed, force, rate_hz, std::move(samples)};
+}
+
+double level_db(double rms) {
+    return 20 * std::log10(rms);
+}
+
+TEST(Learning, finds_the_spectrum_of_a_known_process_within_1_dB) {
+    for (const double rate : {44100.0, 48000.0}) {
+        for (const Method method : {Method::yule_walker, Method::burg}) {
+            const ArModel truth = known_model(rate);
+            const Recording r = recorded(100, drawn(truth, 200000, 0.05, 1), rate);
+            const auto learned = learn({&r, 1}, {.method = method});
+            ASSERT_TRUE(learned) << learned.error().text();
+            const VoiceModel& m = learned->voices.models.at(0);
+            // Burg sees the high-pass's hole, Yule-Walker does not.
+            EXPECT_LT(log_spectral_distance_db(m.spectrum, truth), method == Method::burg ? 2 : 1);
+            EXPECT_NEAR(m.level_db, level_db(0.05), 0.3);
+            EXPECT_GE(learned->order, 6);
+            EXPECT_LE(learned->order, 20);
+            EXPECT_FALSE(m.texture) << "Gaussian noise has no texture";
+        }
+    }
+}
+
+TEST(Learning, brings_fast_recordings_down_and_keeps_their_spectrum) {
+    const ArModel truth = known_model(96000);
+    const Recording r = recorded(100, drawn(truth, 400000, 0.05, 1), 96000);
+    const auto learned = learn({&r, 1});
+    ASSERT_TRUE(learned);
+    const ArModel& m = learned->voices.models[0].spectrum;
+    EXPECT_EQ(m.sample_rate_hz, 48000);
+    EXPECT_LT(log_spectral_distance_db(m, truth, 18000), 1);
+}
+
+TEST(Learning, fits_the_law_of_unsorted_speeds_and_joins_repeated_ones) {
+    const ArModel truth = known_model(44100);
+    std::vector<Recording> recordings;
+    for (const double speed : {300.0, 30.0, 100.0, 100.0})
+        recordings.push_back(recorded(speed, drawn(truth, 100000, 0.03 * std::pow(speed / 100, 0.8),
+                                                   static_cast<unsigned>(recordings.size()))));
+    const auto learned = learn(recordings);
+    ASSERT_TRUE(learned);
+    ASSERT_EQ(learned->voices.models.size(), 3u);
+    EXPECT_EQ(learned->voices.models[0].speed_mm_per_s, 30);
+    EXPECT_EQ(learned->voices.models[2].speed_mm_per_s, 300);
+    EXPECT_NEAR(learned->voices.law.db_per_decade_speed, 16, 0.5);
+    EXPECT_NEAR(learned->voices.law.level_db, level_db(0.03), 0.3);
+    EXPECT_EQ(learned->recordings[0].model, 2);
+    EXPECT_EQ(learned->recordings[2].model, 1);
+    EXPECT_EQ(learned->recordings[3].model, 1);
+    for (const VoiceModel& m : learned->voices.models)
+        EXPECT_EQ(m.spectrum.reflection.size(), static_cast<std::size_t>(learned->order));
+}
+
+TEST(Learning, tells_forces_apart) {
+    const ArModel truth = known_model(44100);
+    std::vector<Recording> recordings;
+    for (const double force : {2.0, 0.5})
+        for (const double speed : {200.0, 50.0})
+            recordings.push_back(
+                recorded(speed, drawn(truth, 60000, 0.02 * std::sqrt(force * speed / 100), 3), 44100, force));
+    const auto learned = learn(recordings);
+    ASSERT_TRUE(learned);
+    ASSERT_EQ(learned->voices.models.size(), 4u);
+    EXPECT_EQ(learned->voices.models[0].force_n, 0.5);
+    EXPECT_EQ(learned->voices.models[0].speed_mm_per_s, 50);
+    EXPECT_NEAR(learned->voices.law.db_per_decade_force, 10, 0.3);
+    EXPECT_NEAR(learned->voices.law.db_per_decade_speed, 10, 0.3);
+}
+
+TEST(Learning, removes_the_baseline_and_leaves_silence_out) {
+    const ArModel truth = known_model(44100);
+    std::vector<double> x = drawn(truth, 100000, 0.05, 1);
+    x.insert(x.begin(), 44100, 0.0);
+    x.insert(x.end(), 55900, 0.0);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] += 0.3 + 0.02 * std::sin(2 * std::numbers::pi * 3 * static_cast<double>(n) / 44100);
+    const Recording r = recorded(100, x);
+    const auto learned = learn({&r, 1});
+    ASSERT_TRUE(learned);
+    EXPECT_NEAR(learned->recordings[0].silent_share, 0.5, 0.01);
+    EXPECT_NEAR(learned->voices.models[0].level_db, level_db(0.05), 0.3);
+    EXPECT_LT(log_spectral_distance_db(learned->voices.models[0].spectrum, truth), 1);
+    ASSERT_EQ(learned->warnings.size(), 1u);
+    EXPECT_NE(learned->warnings[0].text.find("silence"), std::string::npos);
+}
+
+TEST(Learning, counts_clipped_samples) {
+    std::vector<double> x = drawn(known_model(44100), 100000, 0.4, 1);
+    std::size_t clipped = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        if (std::abs(x[n]) < 0.8) continue;
+        x[n] = std::copysign(0.8, x[n]);
+        ++clipped;
+    }
+    const Recording r = recorded(100, x);
+    const auto learned = learn({&r, 1});
+    ASSERT_TRUE(learned);
+    // Tops of one or two samples are not told from peaks.
+    EXPECT_GT(learned->recordings[0].clipped_share, 0.6 * static_cast<double>(clipped) / 1e5);
+    EXPECT_LE(learned->recordings[0].clipped_share, 1.0 * static_cast<double>(clipped) / 1e5);
+    EXPECT_EQ(learned->warnings.size(), 1u);
+}
+
+TEST(Learning, refuses_what_holds_no_sound) {
+    const std::vector<double> good = drawn(known_model(44100), 20000, 0.1, 1);
+    std::vector<double> odd = good;
+    odd[77] = std::nan("");
+    const struct {
+        Recording recording;
+        const char* cause;
+    } cases[] = {{recorded(100, {}), "holds no sound"},
+                 {recorded(100, std::vector<double>(44100)), "is silent"},
+                 {recorded(100, std::vector<double>(44100, 0.5)), "is silent"},
+                 {recorded(100, {good.begin(), good.begin() + 4000}), "holds only"},
+                 {recorded(100, odd), "no numbers"},
+                 {recorded(0, good), "speed or force"},
+                 {recorded(-5, good), "speed or force"},
+                 {recorded(100, good, 44100, 0), "speed or force"},
+                 {recorded(std::nan(""), good), "speed or force"}};
+    for (const auto& c : cases) {
+        const auto learned = learn({&c.recording, 1});
+        ASSERT_FALSE(learned) << c.cause;
+        EXPECT_NE(learned.error().cause.find(c.cause), std::string::npos) << learned.error().text();
+        EXPECT_FALSE(learned.error().remedy.empty());
+    }
+    EXPECT_FALSE(learn({}));
+}
+
+TEST(Learning, burg_finds_reflection_coefficients_of_short_sound) {
+    const ArModel truth{8000, {-0.8, 0.5, 0.2}};
+    const std::vector<double> x = drawn(truth, 4000, 1, 5);
+    const std::span<const double> piece[] = {x};
+    const std::vector<double> k = burg(piece, 3);
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(k[n], truth.reflection[n], 0.05);
+}
+
+// A Gaussian window of the same length on white noise: the measures against their closed forms.
+TEST(SoundStatistics, are_those_of_known_sounds) {
+    const std::vector<double> x = drawn({8000, {}}, 800000, 0.5, 2);
+    EXPECT_NEAR(kurtosis(x), 3, 0.03);
+    // The level of 80 squared Gaussians: 4.343 dB times the root of the trigamma function at 40.
+    EXPECT_NEAR(level_deviation_db(x, 8000), 4.343 * std::sqrt(1.0 / 40 + 1.0 / (2 * 40 * 40)), 0.02);
+    double mean = 0;
+    for (const double p : power_spectrum(x)) mean += p / 512;
+    EXPECT_NEAR(mean, 0.25, 0.005);
+    std::vector<double> sine(100000);
+    for (std::size_t n = 0; n < sine.size(); ++n) sine[n] = std::sin(0.1 * static_cast<double>(n));
+    EXPECT_NEAR(kurtosis(sine), 1.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace tribo::noise

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "noise/learning.hpp"
+#include "noise/model_noise.hpp"
+#include "noise/sound_statistics.hpp"
+#include "noise/texture_excitation.hpp"
+
+namespace tribo::noise {
+namespace {
+
+// Impulses at random places through a resonance, on a quiet floor: grain whose rate and sizes are known.
+struct Grain {
+    double per_mm = 0.5, speed = 100, rate_hz = 44100, seconds = 10;
+    double scatter = 1;   // 1: at random, 0: evenly spaced
+    double floor = 0.02;  // of the floor, where grains are about 1
+    unsigned seed = 1;
+    std::size_t count = 0;  // of grains drawn
+
+    std::vector<double> samples() {
+        std::mt19937_64 random(seed);
+        std::normal_distribution<double> gauss;
+        std::uniform_real_distribution<double> share;
+        std::vector<double> drive(static_cast<std::size_t>(seconds * rate_hz));
+        for (double& v : drive) v = floor * gauss(random);
+        const double mean_gap = rate_hz / (per_mm * speed);
+        for (double at = mean_gap * share(random); at < static_cast<double>(drive.size()); ++count) {
+            drive[static_cast<std::size_t>(at)] +=
+                (0.6 + 0.8 * share(random)) * (share(random) < 0.5 ? -1 : 1);
+            at += mean_gap * ((1 - scatter) - scatter * std::log(1 - share(random)));
+        }
+        // 1 / (1 - 2 r cos(w) z^-1 + r^2 z^-2), 2.5 kHz, ringing for a millisecond.
+        const double r = 0.978, b = 2 * r * std::cos(2 * std::numbers::pi * 2500 / rate_hz);
+        double y1 = 0, y2 = 0;
+        for (double& v : drive) {
+            const double y = v + b * y1 - r * r * y2;
+            y2 = y1;
+            y1 = y;
+            v = 0.02 * y;
+        }
+        return drive;
+    }
+};
+
+VoiceModel learned(const std::vector<double>& samples, double rate_hz, double speed) {
+    const Recording r{"grain.wav", speed, 1, rate_hz, samples};
+    auto result = learn({&r, 1});
+    EXPECT_TRUE(result) << result.error().text();
+    return result->voices.models.at(0);
+}
+
+std::vector<double> played(const VoiceModel& m, double seconds, double speed, std::uint64_t seed,
+                           bool gaussian = false) {
+    ModelNoise noise(m.spectrum, gaussian || !m.texture ? nullptr : &*m.texture, seed);
+    const double rate = m.spectrum.sample_rate_hz;
+    std::vector<double> x;
+    for (std::uint64_t n = 0; static_cast<double>(x.size()) < seconds * rate; ++n)
+        for (const float v : noise.block(n, speed * 64 / rate)) x.push_back(v);
+    return x;
+}
+
+// Grains heard: places where the short-time envelope rises through a third of its largest values.
+double grains_per_s(const std::vector<double>& x, double rate_hz) {
+    std::vector<double> sorted(x.size());
+    std::ranges::transform(x, sorted.begin(), [](double v) { return std::abs(v); });
+    std::ranges::nth_element(sorted, sorted.end() - static_cast<std::ptrdiff_t>(x.size() / 2000));
+    const double high = 0.2 * sorted[sorted.size() - x.size() / 2000];
+    double envelope = 0, count = 0;
+    bool inside = false;
+    const double fall = std::exp(-1 / (0.0015 * rate_hz));
+    for (const double v : x) {
+        envelope = std::max(std::abs(v), envelope * fall);
+        if (!inside && envelope > high) ++count;
+        inside = inside ? envelope > 0.5 * high : envelope > high;
+    }
+    return count * rate_hz / static_cast<double>(x.size());
+}
+
+TEST(Texture, grain_of_known_rate_is_learned_and_played_within_15_per_cent) {
+    for (const double per_mm : {0.25, 0.6, 1.5}) {
+        {
+            const double scatter = per_mm < 1 ? 1 : 0.3;
+            Grain grain;
+            grain.per_mm = per_mm;
+            grain.scatter = scatter;
+            const std::vector<double> x = grain.samples();
+            const VoiceModel m = learned(x, grain.rate_hz, grain.speed);
+            ASSERT_TRUE(m.texture);
+            const double true_rate = static_cast<double>(grain.count) / (grain.seconds * grain.speed);
+            EXPECT_NEAR(m.texture->grains.per_mm / true_rate, 1, 0.15) << per_mm;
+            EXPECT_NEAR(m.texture->grains.scatter, scatter, 0.15) << per_mm;
+            std::vector<double> kurtoses, rates;
+            for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+                const std::vector<double> y = played(m, grain.seconds, grain.speed, seed);
+                kurtoses.push_back(kurtosis(y));
+                rates.push_back(grains_per_s(y, grain.rate_hz));
+            }
+            std::ranges::sort(kurtoses);
+            std::ranges::sort(rates);
+            EXPECT_NEAR(kurtoses[4] / kurtosis(x), 1, 0.15) << per_mm << " " << scatter;
+            // Counted by ear: the envelope's rises, whose threshold hangs on the largest few grains.
+            EXPECT_NEAR(rates[4] / grains_per_s(x, grain.rate_hz), 1, 0.2) << per_mm << " " << scatter;
+        }
+    }
+}
+
+TEST(Texture, grains_come_faster_as_the_finger_moves_faster) {
+    Grain grain;
+    const VoiceModel m = learned(grain.samples(), grain.rate_hz, grain.speed);
+    const double slow = grains_per_s(played(m, 40, 50, 1), grain.rate_hz);
+    const double fast = grains_per_s(played(m, 40, 200, 1), grain.rate_hz);
+    EXPECT_NEAR(slow, 25, 5);
+    EXPECT_NEAR(fast, 100, 20);
+}
+
+TEST(Texture, driving_noise_is_white_with_a_mean_square_of_1) {
+    TextureModel t;
+    t.crossovers_hz = {400, 1500, 5000, 12000};
+    for (int b = 0; b < 5; ++b) {
+        std::vector<double> table;
+        for (int n = 0; n < kLevelSteps; ++n) table.push_back(0.8 * (b + 1) * (n - 8));
+        t.levels_db.push_back(table);
+    }
+    t.coherence = 0.5;
+    t.lengths_mm = {0.2, 1};
+    t.weights = {0.5, 0.5};
+    t.grains = {2, 0.3, 1, {-1, -0.5, 0.5, 1}, {1}};
+    normalize(t);
+    TextureExcitation excitation(t, 48000, 3);
+    std::vector<double> x;
+    std::array<float, 64> block;
+    for (std::uint64_t n = 0; n < 120000; ++n) {
+        excitation.block(n * 64, 100.0 * 64 / 48000, block);
+        x.insert(x.end(), block.begin(), block.end());
+    }
+    const std::vector<double> power = power_spectrum(x, 256);
+    double mean = 0;
+    for (const double p : power) mean += p / static_cast<double>(power.size());
+    EXPECT_NEAR(10 * std::log10(mean), 0, 0.3);
+    for (std::size_t k = 1; k < power.size(); ++k) EXPECT_NEAR(10 * std::log10(power[k] / mean), 0, 0.7) << k;
+}
+
+}  // namespace
+}  // namespace tribo::noise
