@@ -112,13 +112,17 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
     session_->run_to(target, sinks);
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
     if (clock_s_ >= duration_s()) playing_ = false;
-    show_changes(frames);
+    if (begun_anew_) {
+        begun_anew_ = false;
+        show_job(frames);
+        show_part(picture_->all(), frames);
+        last_state_.clear();
+    } else if (session_->milled_s() > shown_s_) {
+        show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
+    }
+    show_rows(frames);
+    show_state(frames);
     return {};
-}
-
-void LiveMill::show_chunk(ChunkCoord c, const TriangleMesh& mesh, const FrameSink& frames) {
-    write_chunk_frame(session_->milled_s(), {c.i, c.j, c.k}, mesh, frame_);
-    frames(frame_);
 }
 
 void LiveMill::show_job(const FrameSink& frames) {
@@ -128,22 +132,20 @@ void LiveMill::show_job(const FrameSink& frames) {
     frames(frame_);
 }
 
-void LiveMill::show_changes(const FrameSink& frames) {
-    if (begun_anew_) {
-        show_all(frames);
-        return;
-    }
-    const double milled = session_->milled_s();
-    if (milled > shown_s_) {
-        picture_->update(
-            swept_box(*session_, shown_s_, milled),
-            [&](ChunkCoord chunk, const TriangleMesh& mesh) { show_chunk(chunk, mesh, frames); });
-        shown_s_ = milled;
-    }
-    for (; rows_told_ < rows_.size(); rows_told_ += std::min(kRowsPerFrame, rows_.size() - rows_told_)) {
+void LiveMill::show_part(const Box3& box_mm, const FrameSink& frames) {
+    picture_->update(box_mm, [&](ChunkCoord c, const TriangleMesh& mesh) {
+        write_chunk_frame(session_->milled_s(), {c.i, c.j, c.k}, mesh, frame_);
+        frames(frame_);
+    });
+    shown_s_ = session_->milled_s();
+}
+
+void LiveMill::show_rows(const FrameSink& frames) {
+    while (rows_told_ < rows_.size()) {
         const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
         write_rows_frame({rows_.data() + rows_told_, now}, frame_);
         frames(frame_);
+        rows_told_ += now;
     }
     const auto& collisions = session_->totals().collisions;
     for (; collisions_told_ < collisions.size(); ++collisions_told_) {
@@ -151,19 +153,13 @@ void LiveMill::show_changes(const FrameSink& frames) {
         write_collision_frame(c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm, frame_);
         frames(frame_);
     }
-    write_state_frame(state(), frame_);
-    frames(frame_);
 }
 
-void LiveMill::show_all(const FrameSink& frames) {
-    begun_anew_ = false;
-    show_job(frames);
-    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
-    picture_->update(picture_->all(),
-                     [&](ChunkCoord chunk, const TriangleMesh& mesh) { show_chunk(chunk, mesh, frames); });
-    shown_s_ = session_->milled_s();
-    rows_told_ = collisions_told_ = 0;
-    show_changes(frames);
+void LiveMill::show_state(const FrameSink& frames) {
+    write_state_frame(state(), frame_);
+    if (frame_ == last_state_) return;
+    frames(frame_);
+    std::swap(frame_, last_state_);
 }
 
 LiveState LiveMill::state() const {

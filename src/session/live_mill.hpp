@@ -35,20 +35,20 @@ class LiveMill {
     void set_clock(double t_s);                 // clamped to the program; not a number: nothing changes
 
     // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `may_go_on` says so (asked
-    // every few moves), then tells what is new. The clock waits for the part.
+    // every few moves), then tells what is new (LiveMemory keeps it for who comes later). The clock waits for
+    // the part.
     Result<void> tick(double dt_s, const std::function<bool()>& may_go_on, const FrameSink& frames);
-    // All of it, for a viewer that has just come: job, part, rows so far, collisions.
-    void show_all(const FrameSink& frames);
 
   private:
     LiveMill(MakeSetup make_setup, ParallelFor parallel)
         : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)) {}
     Result<void> begin();
     void add_row(const MillRow& row);
-    void show_changes(const FrameSink& frames);
-    LiveState state() const;
     void show_job(const FrameSink& frames);
-    void show_chunk(ChunkCoord chunk, const TriangleMesh& mesh, const FrameSink& frames);
+    void show_part(const Box3& box_mm, const FrameSink& frames);
+    void show_rows(const FrameSink& frames);
+    void show_state(const FrameSink& frames);
+    LiveState state() const;
 
     MakeSetup make_setup_;
     ParallelFor parallel_;
@@ -65,7 +65,7 @@ class LiveMill {
     std::size_t rows_told_ = 0, collisions_told_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;
-    std::vector<std::uint8_t> frame_;
+    std::vector<std::uint8_t> frame_, last_state_;
 };
 
 }  // namespace tribo::session

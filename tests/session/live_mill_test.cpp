@@ -11,6 +11,7 @@
 #include "field/box_shape.hpp"
 #include "milling/materials.hpp"
 #include "motion/path.hpp"
+#include "session/live_memory.hpp"
 
 namespace tribo::session {
 namespace {
@@ -249,12 +250,30 @@ TEST(LiveMill, KeepsItsClockWhateverItIsTold) {
     live->play(true);
     ASSERT_TRUE(live->tick(0.5, always, viewer.sink()));
     EXPECT_DOUBLE_EQ(viewer.state_s, 0.5);
-    const auto latecomer = [&] {
-        Viewer other;
-        live->show_all(other.sink());
-        return other.row_times.size();
-    }();
-    EXPECT_EQ(latecomer, viewer.row_times.size());
+}
+
+TEST(LiveMill, IsRememberedForALatecomer) {
+    auto live = *LiveMill::create(slot, serial_for);
+    Viewer viewer, latecomer;
+    LiveMemory memory;
+    const FrameSink both = [&](std::span<const std::uint8_t> frame) {
+        memory.take(frame);
+        viewer.sink()(frame);
+    };
+    live->play(true);
+    for (int n = 0; n < 200; ++n) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    memory.replay(latecomer.sink());
+    EXPECT_EQ(latecomer.jobs, 1);
+    EXPECT_EQ(latecomer.row_times, viewer.row_times);
+    EXPECT_EQ(latecomer.state_s, viewer.state_s);
+    EXPECT_DOUBLE_EQ(latecomer.part_volume_mm3(), viewer.part_volume_mm3());
+    // Nothing moves, nothing is told.
+    live->play(false);
+    ASSERT_TRUE(live->tick(1, always, both));
+    bool told = false;
+    ASSERT_TRUE(live->tick(1, always, [&](std::span<const std::uint8_t>) { told = true; }));
+    EXPECT_FALSE(told);
+    memory.take(std::array<std::uint8_t, 3>{1, 2, 3});
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

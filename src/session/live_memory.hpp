@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Keeps of a stream of live frames what a viewer that comes later needs to see the same: the job, the newest
+// of each chunk, all rows and collisions, the last state.
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "session/live_frame.hpp"
+
+namespace tribo::session {
+
+class LiveMemory {
+  public:
+    // A job frame begins anew. Bytes that are no frame are left alone.
+    void take(std::span<const std::uint8_t> frame);
+    // Everything kept, in an order that a viewer can take in.
+    void replay(const FrameSink& frames) const;
+
+  private:
+    using Frame = std::vector<std::uint8_t>;
+    Frame job_, state_;
+    std::map<std::array<std::uint8_t, 12>, Frame> chunks_;  // by their coordinates' bytes
+    std::vector<Frame> others_;                             // rows and collisions
+};
+
+}  // namespace tribo::session
