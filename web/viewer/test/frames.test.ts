@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Frames put together byte by byte as docs/live-protocol.md has them.
+import { describe, expect, it } from "vitest";
+
+import { decodeFrame } from "../src/frames.js";
+
+class Bytes {
+  private readonly view = new DataView(new ArrayBuffer(4096));
+  private at = 0;
+  header(kind: number, time: number, version = 1): this {
+    this.view.setUint8(0, kind);
+    this.view.setUint8(1, version);
+    this.view.setFloat64(8, time, true);
+    this.at = 16;
+    return this;
+  }
+  f32(...values: number[]): this {
+    for (const v of values) this.view.setFloat32((this.at += 4) - 4, v, true);
+    return this;
+  }
+  f64(v: number): this {
+    this.view.setFloat64((this.at += 8) - 8, v, true);
+    return this;
+  }
+  u32(...values: number[]): this {
+    for (const v of values) this.view.setUint32((this.at += 4) - 4, v, true);
+    return this;
+  }
+  u16(...values: number[]): this {
+    for (const v of values) this.view.setUint16((this.at += 2) - 2, v, true);
+    return this;
+  }
+  pad(): this {
+    this.at = 4 * Math.ceil(this.at / 4);
+    return this;
+  }
+  done(): ArrayBuffer {
+    return this.view.buffer.slice(0, this.at);
+  }
+}
+
+describe("decodeFrame", () => {
+  it("reads a job", () => {
+    const bytes = new Bytes()
+      .header(1, 0)
+      .f64(12.5)
+      .f32(0.25, 0, 0, -10, 40, 30, 0)
+      .u32(1)
+      .u32(7, 4)
+      .f32(6, 1, 40)
+      .u32(1)
+      .f32(10, 30)
+      .u32(2)
+      .f32(0, 1, 2, 3)
+      .u32(1)
+      .f32(0.5, 4, 5, 6)
+      .u32(0);
+    const job = decodeFrame(bytes.done());
+    expect(job).toMatchObject({
+      kind: "job",
+      duration: 12.5,
+      cell: 0.25,
+      blank: { min: [0, 0, -10], max: [40, 30, 0] },
+      cutters: [{ number: 7, flutes: 4, radius: 6, corner: 1, length: 40, holder: [{ radius: 10, length: 30 }] }],
+    });
+    if (job.kind !== "job") throw new Error();
+    expect([...job.path.times]).toEqual([0, 0.5]);
+    expect([...job.path.points]).toEqual([1, 2, 3, 4, 5, 6]);
+    expect([...job.path.rapid]).toEqual([1, 0]);
+  });
+
+  it("reads a chunk with padding after an odd number of vertices", () => {
+    const bytes = new Bytes()
+      .header(2, 3)
+      .u32(1, 2, 3)
+      .u32(3, 1)
+      .f32(10, 20, 30, 0.5)
+      .u16(0, 0, 0, 2, 0, 0, 0, 4, 65535)
+      .pad()
+      .u16(0, 1, 2)
+      .pad();
+    const chunk = decodeFrame(bytes.done());
+    if (chunk.kind !== "chunk") throw new Error();
+    expect(chunk.chunk).toEqual([1, 2, 3]);
+    expect([...chunk.positions]).toEqual([10, 20, 30, 11, 20, 30, 10, 22, 30 + 65535 * 0.5]);
+    expect([...chunk.indices]).toEqual([0, 1, 2]);
+  });
+
+  it("reads a state", () => {
+    const bytes = new Bytes().header(3, 1.25).f32(1, 2, 3, 0, 0, 1, 4, 5, 6);
+    bytes.f32(100, 2, 6000, 900, 0.5, 7, 1.5, 10).u32(42, 1, 3);
+    expect(decodeFrame(bytes.done())).toEqual({
+      kind: "state",
+      time: 1.25,
+      tip: [1, 2, 3],
+      axis: [0, 0, 1],
+      force: [4, 5, 6],
+      peakForce: 100,
+      torque: 2,
+      rpm: 6000,
+      feed: 900,
+      angle: 0.5,
+      removed: 7,
+      milled: 1.5,
+      speed: 10,
+      line: 42,
+      cutter: 1,
+      cutting: true,
+      playing: true,
+      rapid: false,
+    });
+  });
+
+  it("reads rows and collisions", () => {
+    const bytes = new Bytes().header(4, 2).u32(1).f64(2).f32(0.5, 1, 2, 3, 10, 20, 0.25, 1, 2, 5, 0.125).u32(9);
+    expect(decodeFrame(bytes.done())).toEqual({
+      kind: "rows",
+      rows: [
+        {
+          time: 2,
+          duration: 0.5,
+          tip: [1, 2, 3],
+          meanForce: 10,
+          peakForce: 20,
+          torque: 0.25,
+          entry: 1,
+          exit: 2,
+          depth: 5,
+          feedPerTooth: 0.125,
+          line: 9,
+        },
+      ],
+    });
+    expect(decodeFrame(new Bytes().header(5, 4).u32(2, 17).f32(1, 2, 3).done())).toEqual({
+      kind: "collision",
+      time: 4,
+      what: "holder in stock",
+      line: 17,
+      tip: [1, 2, 3],
+    });
+  });
+
+  it("refuses what it does not know or what is cut off", () => {
+    expect(() => decodeFrame(new Bytes().header(9, 0).done())).toThrow("kind 9");
+    expect(() => decodeFrame(new Bytes().header(3, 0, 2).done())).toThrow("version 2");
+    expect(() => decodeFrame(new Bytes().header(3, 0).f32(1, 2).done())).toThrow(RangeError);
+    expect(() => decodeFrame(new ArrayBuffer(0))).toThrow(RangeError);
+  });
+});

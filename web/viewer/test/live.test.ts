@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The page with the engine behind it: `tribo live` in headless Chromium.
+import { spawn, type ChildProcess } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+
+const ROOT = join(import.meta.dirname, "../../..");
+const PROGRAM = join(ROOT, "build/release/tribo");
+const CHROMIUM = "/usr/bin/chromium";
+const PATIENCE_MS = 60_000;
+
+const JOB = `
+[stock]
+box_mm = [[0, 0, -8], [40, 20, 0]]
+[cutter]
+kind = "ball"
+diameter_mm = 6
+flutes = 2
+helix_deg = 30
+length_mm = 20
+[material]
+name = "al7075-t6"
+[process]
+spindle_rpm = 9000
+feed_mm_per_min = 1200
+[path]
+gcode = "p.nc"
+`;
+// Two grooves, then a rapid through what is left between.
+const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\nG0 Y16 X20\n";
+
+async function startLive(folder: string): Promise<{ engine: ChildProcess; url: string }> {
+  const engine = spawn(PROGRAM, ["live", join(folder, "job.toml"), "--port", "0", "--resolution", "0.5"]);
+  let said = "";
+  const url = await new Promise<string>((resolve, reject) => {
+    const take = (data: Buffer) => {
+      said += data.toString();
+      const found = /http:\/\/\S+/.exec(said);
+      if (found) resolve(found[0]);
+    };
+    engine.stdout?.on("data", take);
+    engine.stderr?.on("data", take);
+    engine.on("exit", (code) => reject(new Error(`tribo live ended with ${code}: ${said}`)));
+  });
+  return { engine, url };
+}
+
+describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () => {
+  let folder: string;
+  let engine: ChildProcess;
+  let browser: Browser;
+  let page: Page;
+  const problems: string[] = [];
+  const foreign: string[] = [];
+
+  beforeAll(async () => {
+    folder = mkdtempSync(join(tmpdir(), "tribo-live-"));
+    writeFileSync(join(folder, "job.toml"), JOB);
+    writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT);
+    const started = await startLive(folder);
+    engine = started.engine;
+    browser = await chromium.launch({
+      executablePath: CHROMIUM,
+      headless: true,
+      args: [
+        "--no-sandbox",
+        "--disable-quic",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+      ],
+    });
+    page = await browser.newPage({ viewport: { width: 800, height: 600 } });
+    page.on("pageerror", (error) => problems.push(error.message));
+    page.on("request", (request) => {
+      const asked = new URL(request.url());
+      if (asked.protocol !== "data:" && asked.host !== new URL(started.url).host) foreign.push(request.url());
+    });
+    await page.goto(started.url);
+    await page.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
+  }, PATIENCE_MS);
+
+  afterAll(async () => {
+    await browser?.close();
+    engine?.kill("SIGINT");
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  const removed = async () => parseFloat((await page.textContent("#removed")) ?? "");
+  const until = (text: string, id: string) =>
+    page.waitForFunction(
+      ([want, where]) => document.getElementById(where)?.textContent?.includes(want),
+      [text, id] as const,
+      { timeout: PATIENCE_MS },
+    );
+
+  it("mills while it plays and stops where it is paused", async () => {
+    expect(await removed()).toBe(0);
+    await page.selectOption("#speed", "2");
+    await page.click("#play");
+    await until("Pause", "play");
+    await page.waitForFunction(() => parseFloat(document.getElementById("removed")?.textContent ?? "0") > 0.1, null, {
+      timeout: PATIENCE_MS,
+    });
+    await page.click("#play");
+    await until("Play", "play");
+    const clock = await page.textContent("#clock");
+    await page.waitForTimeout(300);
+    expect(await page.textContent("#clock")).toBe(clock);
+  }, PATIENCE_MS);
+
+  it("goes to where the timeline is set, back as well as forth", async () => {
+    const seek = async (time: string) => {
+      await page.fill("#time", time);
+      await page.dispatchEvent("#time", "change");
+    };
+    await seek("0.1");
+    await until("0.00", "removed");
+    await seek("1000");
+    await page.waitForFunction(() => parseFloat(document.getElementById("removed")?.textContent ?? "0") > 0.5, null, {
+      timeout: PATIENCE_MS,
+    });
+  }, PATIENCE_MS);
+
+  it("lists the rapid that ran through stock, with its line", async () => {
+    await until("line 9: rapid through stock", "collisions");
+  }, PATIENCE_MS);
+
+  it("draws the part", async () => {
+    const colours = new Set<number>();
+    const picture = await page.locator("#scene").screenshot();
+    for (const byte of picture) colours.add(byte);
+    expect(picture.length).toBeGreaterThan(5000);
+    expect(colours.size).toBeGreaterThan(200);
+  }, PATIENCE_MS);
+
+  it("is worked by the keyboard", async () => {
+    await page.focus("#scene");
+    await page.keyboard.press("Space");
+    await until("Pause", "play");
+    await page.keyboard.press("Space");
+    await until("Play", "play");
+  }, PATIENCE_MS);
+
+  it("asks nobody else and makes no error", () => {
+    expect(foreign).toEqual([]);
+    expect(problems).toEqual([]);
+  });
+
+  it("says when the engine has gone", async () => {
+    engine.kill("SIGINT");
+    await page.waitForFunction(() => !document.getElementById("notice")?.hidden, null, { timeout: PATIENCE_MS });
+    expect(await page.textContent("#notice")).toContain("No line to the engine");
+  }, PATIENCE_MS);
+});
