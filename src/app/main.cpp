@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
     program.get_formatter()->column_width(34);
     add_render(program, exit_code);
     add_read_sofa(program, exit_code);
+    add_live(program, exit_code);
     add_inspect(program, exit_code);
     add_learn(program, exit_code);
     add_rub(program, exit_code);

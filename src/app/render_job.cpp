@@ -60,7 +60,7 @@ double bytes_at(const RenderCall& call, const session::MillSetup& setup, double 
 
 }  // namespace
 
-io::FileResult<LoadedJob> load_job(const RenderCall& call) {
+io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double> longest_piece_mm) {
     LoadedJob loaded;
     auto job = io::read_job(call.job);
     if (!job) return std::unexpected(job.error());
@@ -101,8 +101,8 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call) {
         return std::unexpected(io::Failure(error));
     }
     loaded.material = std::move(*material);
-    auto setup = session::prepare_mill(loaded.job, std::move(inputs), {call.resolution_mm, call.until_s},
-                                       loaded.warnings);
+    auto setup = session::prepare_mill(loaded.job, std::move(inputs),
+                                       {call.resolution_mm, call.until_s, longest_piece_mm}, loaded.warnings);
     if (!setup) {
         Error error = setup.error();
         if (error.file.empty()) error.file = call.job;

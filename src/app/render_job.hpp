@@ -25,7 +25,8 @@ struct LoadedJob {
     Warnings warnings;
 };
 
-io::FileResult<LoadedJob> load_job(const RenderCall& call);
+// Moves are cut into pieces of at most `longest_piece_mm` where it is given.
+io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double> longest_piece_mm = {});
 
 // Refuses what would not fit, naming the finest spacing of the grid that would.
 Result<void> check_memory(const RenderCall& call, const LoadedJob& loaded);

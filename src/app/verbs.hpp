@@ -9,6 +9,7 @@ namespace tribo::app {
 
 void add_render(CLI::App& program, int& exit_code);
 void add_read_sofa(CLI::App& program, int& exit_code);
+void add_live(CLI::App& program, int& exit_code);
 void add_inspect(CLI::App& program, int& exit_code);
 void add_learn(CLI::App& program, int& exit_code);
 void add_rub(CLI::App& program, int& exit_code);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// `tribo live JOB`: the job milled before the eyes of a browser.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tribo::app {
+
+inline constexpr std::uint16_t kLivePort = 8317;
+
+struct LiveCall {
+    std::string job;
+    std::uint16_t port = kLivePort;
+    bool open = false;                    // the page in the user's browser
+    std::string web_root;                 // empty: as built or installed
+    std::optional<double> resolution_mm;  // absent: as render
+    int threads = 0;                      // 0: all
+};
+
+// Serves until Ctrl-C; gives the exit code.
+int live(const LiveCall& call);
+
+}  // namespace tribo::app
