@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
         {"carving", [&] { measure_carving(report, repeats); }},
         {"moves", [&] { measure_many_moves(report, repeats); }},
         {"sessions", [&] { measure_sessions(report, repeats); }},
+        {"noise", [&] { measure_noise(report, repeats); }},
         {"elastic", [&] { measure_elastic(report); }},
     };
     bool known = only.empty();

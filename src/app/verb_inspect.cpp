@@ -13,6 +13,7 @@
 #include "io/gzip.hpp"
 #include "io/job_toml.hpp"
 #include "io/machine_file.hpp"
+#include "io/material_json.hpp"
 #include "io/model_file.hpp"
 #include "io/picture.hpp"
 #include "io/program_file.hpp"
@@ -135,13 +136,18 @@ io::FileResult<Found> inspect_file(const Call& call) {
     if (!bytes) return std::unexpected(bytes.error());
     if (std::filesystem::path(file).extension() == ".toml") return inspect_job(*bytes, file);
     if (io::is_gzip(*bytes)) return inspect_model(file);
+    if (io::looks_like_material(*bytes)) {
+        const Result<formats::Material> material = io::parse_material(*bytes, file);
+        if (!material) return std::unexpected(io::Failure(material.error()));
+        return Found{io::describe(*material), {}, {}};
+    }
     const std::optional<formats::PathKind> program = io::detect_program(*bytes, file);
     if (formats::detect_model_format(*bytes, file) && !program) return inspect_model(file);
     if (program) return inspect_program(*bytes, call, *program);
-    return std::unexpected(
-        io::Failure({file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
-                     "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl) "
-                     "or a job (.toml)"}));
+    return std::unexpected(io::Failure(
+        {file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
+         "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl), "
+         "a job (.toml) or a material (.json)"}));
 }
 
 int inspect(const Call& call) {
@@ -169,7 +175,7 @@ void add_inspect(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<Call>();
     CLI::App* verb =
         program.add_subcommand("inspect", "Say what a program, a model or a job holds, with warnings");
-    verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model or a job")->required();
+    verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model, a job or a material")->required();
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
     verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/job.hpp"
+#include "formats/material.hpp"
 #include "formats/model.hpp"
 #include "motion/program.hpp"
 #include "motion/summary.hpp"
@@ -28,6 +29,10 @@ Facts describe(const motion::Program& program, const motion::ProgramMeter& meter
 Facts describe(const formats::Model& model);
 // {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".
 Facts describe(const formats::Job& job, const Facts* program, const Facts* part);
+
+// {kind: "material", stiffness_n_per_mm, viscosity_n_s_per_mm, width_mm, image, voices: [{speed_mm_per_s,
+// ...}], ...}
+Facts describe(const formats::Material& material);
 
 // The lines as text, names padded to one width.
 std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines);

@@ -6,19 +6,79 @@
 namespace tribo::noise {
 namespace {
 
-using simd::F8;
-using U8 = std::uint32_t __attribute__((vector_size(32)));
+#if defined(__AVX__)
+// Eight lanes in one register.
+using F = simd::F8;
+using U = std::uint32_t __attribute__((vector_size(32)));
+TRIBO_LANES F splat(float v) {
+    return F{v, v, v, v, v, v, v, v};
+}
+TRIBO_LANES U splat(std::uint32_t v) {
+    return U{v, v, v, v, v, v, v, v};
+}
+TRIBO_LANES F to_float(U v) {
+    return __builtin_convertvector(reinterpret_cast<simd::I8>(v), F);
+}
+#else
+// Eight lanes in two registers, spelt out: g++ keeps a vector that is wider than its registers in memory.
+using F4 = float __attribute__((vector_size(16)));
+using U4 = std::uint32_t __attribute__((vector_size(16)));
+using I4 = int __attribute__((vector_size(16)));
+struct F {
+    F4 low, high;
+};
+struct U {
+    U4 low, high;
+};
+#define TRIBO_TWICE(TYPE, OPERATOR)                            \
+    TRIBO_LANES TYPE operator OPERATOR(TYPE a, TYPE b) {       \
+        return {a.low OPERATOR b.low, a.high OPERATOR b.high}; \
+    }
+TRIBO_TWICE(F, +)
+TRIBO_TWICE(F, -)
+TRIBO_TWICE(F, *)
+TRIBO_TWICE(U, +)
+TRIBO_TWICE(U, *)
+TRIBO_TWICE(U, ^)
+TRIBO_TWICE(U, &)
+#undef TRIBO_TWICE
+TRIBO_LANES U operator>>(U a, int bits) {
+    return {a.low >> bits, a.high >> bits};
+}
+TRIBO_LANES F splat(float v) {
+    const F4 half{v, v, v, v};
+    return {half, half};
+}
+TRIBO_LANES U splat(std::uint32_t v) {
+    const U4 half{v, v, v, v};
+    return {half, half};
+}
+TRIBO_LANES F to_float(U v) {
+    return {__builtin_convertvector(reinterpret_cast<I4>(v.low), F4),
+            __builtin_convertvector(reinterpret_cast<I4>(v.high), F4)};
+}
+#endif
 
-TRIBO_LANES U8 splat_u(std::uint32_t v) {
-    return U8{v, v, v, v, v, v, v, v};
+TRIBO_LANES F load(const float* p) {
+    F v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+TRIBO_LANES U load(const std::uint32_t* p) {
+    U v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+}
+TRIBO_LANES void store(float* p, F v) {
+    std::memcpy(p, &v, sizeof v);
 }
 
 // A bijection of 32 bits with little bias (found by search, C. Wellons 2018, "lowbias32").
-TRIBO_LANES U8 mixed(U8 x) {
-    x ^= x >> 16;
-    x *= 0x7feb352dU;
-    x ^= x >> 15;
-    x *= 0x846ca68bU;
+TRIBO_LANES U mixed(U x) {
+    x = x ^ (x >> 16);
+    x = x * splat(0x7feb352dU);
+    x = x ^ (x >> 15);
+    x = x * splat(0x846ca68bU);
     return x ^ (x >> 16);
 }
 
@@ -30,43 +90,42 @@ constexpr float kMean = 510.0F;
 constexpr float kCubic = 0.0186423825F;
 constexpr float kLinear = 0.9490332781F;
 
-TRIBO_LANES F8 gaussian_of(U8 x) {
+TRIBO_LANES F gaussian_of(U x) {
     // Bytes 0 and 2, 1 and 3 side by side, then both pairs into one 16-bit sum.
-    const U8 pairs = (x & 0x00ff00ffU) + ((x >> 8) & 0x00ff00ffU);
-    const U8 sum = (pairs + (pairs >> 16)) & 0xffffU;
-    const F8 z = (__builtin_convertvector(reinterpret_cast<simd::I8>(sum), F8) - kMean) * kUnit;
-    return z * (kLinear + kCubic * z * z);
+    const U halves = splat(0x00ff00ffU);
+    const U pairs = (x & halves) + ((x >> 8) & halves);
+    const U sum = (pairs + (pairs >> 16)) & splat(0xffffU);
+    const F z = (to_float(sum) - splat(kMean)) * splat(kUnit);
+    return z * (splat(kLinear) + splat(kCubic) * z * z);
 }
 
+constexpr std::uint32_t kLanes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
 void gaussian(std::uint32_t key, std::uint32_t first, float* out, int count) {
-    const U8 lanes = {0, 1, 2, 3, 4, 5, 6, 7};
-    const U8 stream = splat_u(key);
-    U8 counter = lanes + splat_u(first);
+    U counter = load(kLanes) + splat(first);
     for (int n = 0; n < count; n += 8) {
-        simd::store(out + n, gaussian_of(mixed(mixed(counter) ^ stream)));
-        counter += 8U;
+        store(out + n, gaussian_of(mixed(counter ^ splat(key))));
+        counter = counter + splat(8U);
     }
 }
 
 void bands(BandSection* sections, int section_count, const std::uint32_t* keys, std::uint32_t first,
            const float* gain, const float* step, float* out, int count) {
-    U8 streams;
-    std::memcpy(&streams, keys, sizeof streams);
-    F8 level = simd::load(gain);
-    const F8 slope = simd::load(step);
+    const U streams = load(keys);
+    F level = load(gain);
+    const F slope = load(step);
     for (int n = 0; n < count; ++n) {
-        F8 x = gaussian_of(mixed(mixed(splat_u(first + static_cast<std::uint32_t>(n))) ^ streams));
+        F x = gaussian_of(mixed(splat(first + static_cast<std::uint32_t>(n)) ^ streams));
         for (int k = 0; k < section_count; ++k) {
             BandSection& s = sections[k];
-            const F8 y = simd::load(s.b0) * x + simd::load(s.s1);
-            simd::store(s.s1, simd::load(s.b1) * x - simd::load(s.a1) * y + simd::load(s.s2));
-            simd::store(s.s2, simd::load(s.b2) * x - simd::load(s.a2) * y);
+            const F y = load(s.b0) * x + load(s.s1);
+            store(s.s1, load(s.b1) * x - load(s.a1) * y + load(s.s2));
+            store(s.s2, load(s.b2) * x - load(s.a2) * y);
             x = y;
         }
-        level += slope;
-        x *= level;
+        level = level + slope;
         float lane[8];
-        simd::store(lane, x);
+        store(lane, x * level);
         out[n] = ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
     }
 }
@@ -76,48 +135,52 @@ void all_pole(const float* predictor, int order, const float* response, float ga
     for (int n = 0; n < count; n += kFilterBlock) {
         float* const now = y + n;
         // The block's own samples count as zeros for now: what remains is the past alone.
-        const F8 zero = {};
-        simd::store(now, zero);
-        simd::store(now + 8, zero);
+        const F zero = splat(0.0F);
+        store(now, zero);
+        store(now + 8, zero);
         // Two chains a half block, so that additions need not wait for each other and all sums stay in
         // registers; the oldest lags first, as the youngest samples have only just been stored.
-        F8 low[2] = {simd::load(x + n) * gain, zero};
-        F8 high[2] = {simd::load(x + n + 8) * gain, zero};
+        F low = load(x + n) * splat(gain), high = load(x + n + 8) * splat(gain), low_2 = zero, high_2 = zero;
         int k = order;
         for (; k > 1; k -= 2) {
-            const float a = predictor[k - 1], b = predictor[k - 2];
-            low[0] -= simd::load(now - k) * a;
-            high[0] -= simd::load(now - k + 8) * a;
-            low[1] -= simd::load(now - k + 1) * b;
-            high[1] -= simd::load(now - k + 9) * b;
+            const F a = splat(predictor[k - 1]), b = splat(predictor[k - 2]);
+            low = low - load(now - k) * a;
+            high = high - load(now - k + 8) * a;
+            low_2 = low_2 - load(now - k + 1) * b;
+            high_2 = high_2 - load(now - k + 9) * b;
         }
         if (k > 0) {
-            low[0] -= simd::load(now - 1) * predictor[0];
-            high[0] -= simd::load(now + 7) * predictor[0];
+            const F a = splat(predictor[0]);
+            low = low - load(now - 1) * a;
+            high = high - load(now + 7) * a;
         }
         float drive[kFilterBlock];
-        simd::store(drive, low[0] + low[1]);
-        simd::store(drive + 8, high[0] + high[1]);
-        F8 out_low[2] = {}, out_high[2] = {};
-        for (int j = 0; j < kFilterBlock; j += 2) {
-            for (int chain = 0; chain < 2; ++chain) {
-                const float d = drive[j + chain];
-                if (j < 8) out_low[chain] += simd::load(response + 15 - j - chain) * d;
-                out_high[chain] += simd::load(response + 23 - j - chain) * d;
-            }
+        store(drive, low + low_2);
+        store(drive + 8, high + high_2);
+        low = low_2 = high = high_2 = zero;
+        // The first half drives both halves, the second half itself alone.
+        for (int j = 0; j < 8; j += 2) {
+            const F d = splat(drive[j]), e = splat(drive[j + 1]);
+            low = low + load(response + 15 - j) * d;
+            high = high + load(response + 23 - j) * d;
+            low_2 = low_2 + load(response + 14 - j) * e;
+            high_2 = high_2 + load(response + 22 - j) * e;
         }
-        simd::store(now, out_low[0] + out_low[1]);
-        simd::store(now + 8, out_high[0] + out_high[1]);
+        for (int j = 8; j < kFilterBlock; j += 2) {
+            high = high + load(response + 23 - j) * splat(drive[j]);
+            high_2 = high_2 + load(response + 22 - j) * splat(drive[j + 1]);
+        }
+        store(now, low + low_2);
+        store(now + 8, high + high_2);
     }
 }
 
 void mix(const float* y, float from, float to, float* out, int count) {
     const float step = (to - from) / static_cast<float>(count);
-    const F8 lanes = {1, 2, 3, 4, 5, 6, 7, 8};
-    F8 index = lanes;
+    F index = to_float(load(kLanes)) + splat(1.0F);
     for (int n = 0; n < count; n += 8) {
-        simd::store(out + n, simd::load(out + n) + simd::load(y + n) * (from + step * index));
-        index += 8.0F;
+        store(out + n, load(out + n) + load(y + n) * (splat(from) + splat(step) * index));
+        index = index + splat(8.0F);
     }
 }
 
