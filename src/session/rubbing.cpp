@@ -26,6 +26,9 @@ double StrokeMotion::speed_of(std::size_t segment) const {
 
 double StrokeMotion::change_s(std::size_t point) const {
     if (point == 0 || point + 1 >= points_.size()) return 0;
+    // What a lifted finger does between two strokes is not heard in either.
+    const auto lifted = [&](std::size_t n) { return points_[n].force_n <= 0 && points_[n + 1].force_n <= 0; };
+    if (lifted(point - 1) || lifted(point)) return 0;
     const double before = points_[point].t_s - points_[point - 1].t_s;
     const double after = points_[point + 1].t_s - points_[point].t_s;
     return std::min(kSpeedChangeS, 0.5 * std::min(before, after));
