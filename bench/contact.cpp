@@ -21,7 +21,7 @@
 namespace tribo::bench {
 namespace {
 
-constexpr double kCell = 0.25, kSidestep = 1, kMark = 0.5;
+constexpr double kCell = 0.15, kSidestep = 1, kMark = 0.5;
 constexpr double kTickS = 1e-3, kStrokeS = 60;
 // A ball of this radius leaves marks of 8 um every 0.5 mm; drawn across by kAcross, scallops of 25 um every 1
 // mm.
@@ -221,7 +221,7 @@ void add_times(Report& report, const std::string& name, const Stroke& s, double 
 }  // namespace
 
 void measure_contact(Report& report) {
-    report.section("A tick of contact, 60 s at 1 kHz over grooves, 0.25 mm grid");
+    report.section("A tick of contact, 60 s at 1 kHz over grooves, 0.15 mm grid");
     const auto small = straight_grooves(100);
     const Stroke point = stroke(*small, 100, 0, 0, true);
     add_times(report, "contact tick, straight sweeps, point", point, 1, 5, 1.8, 33);

@@ -7,7 +7,7 @@ namespace tribo::contact {
 namespace {
 
 // Less than this over a border is rounding, mm.
-constexpr double kOnBorder = 1e-9;
+constexpr double kOnBorder = 1e-8;
 // Two normals closer than this (sine squared) have no line in common that means anything.
 constexpr double kParallel = 1e-10;
 
@@ -22,8 +22,7 @@ void HalfSpaces::put(const HalfSpace& h, double alike) {
         }
     }
     if (count == kMost) {
-        side[0] = side[1];
-        side[1] = side[2];
+        for (std::size_t n = 1; n < kMost; ++n) side[n - 1] = side[n];
         --count;
     }
     side[static_cast<std::size_t>(count++)] = h;
@@ -50,22 +49,28 @@ Vec3 HalfSpaces::nearest(Vec3 y) const {
     }
     // A point that is nearest on one border and allowed is nearest of all, and so on.
     if (least < std::numeric_limits<double>::infinity()) return best;
-    for (int n = 0; n < count; ++n) {
-        const HalfSpace& a = side[static_cast<std::size_t>(n)];
-        const HalfSpace& b = side[static_cast<std::size_t>((n + 1) % count)];
-        const double c = dot(a.normal, b.normal), sine2 = 1 - c * c;
-        if (sine2 < kParallel || count < 2) continue;
-        const double u = a.above(y), v = b.above(y);
-        offer(y - ((u - c * v) / sine2) * a.normal - ((v - c * u) / sine2) * b.normal);
+    const auto at = [&](int n) -> const HalfSpace& { return side[static_cast<std::size_t>(n)]; };
+    for (int i = 0; i < count; ++i) {
+        for (int j = i + 1; j < count; ++j) {
+            const double c = dot(at(i).normal, at(j).normal), sine2 = 1 - c * c;
+            if (sine2 < kParallel) continue;
+            const double u = at(i).above(y), v = at(j).above(y);
+            offer(y - ((u - c * v) / sine2) * at(i).normal - ((v - c * u) / sine2) * at(j).normal);
+        }
     }
     if (least < std::numeric_limits<double>::infinity()) return best;
-    if (count == 3) {
-        const Vec3 bc = cross(side[1].normal, side[2].normal), ca = cross(side[2].normal, side[0].normal),
-                   ab = cross(side[0].normal, side[1].normal);
-        const double volume = dot(side[0].normal, bc);
-        if (volume * volume > kParallel)
-            return (side[0].offset * bc + side[1].offset * ca + side[2].offset * ab) / volume;
+    for (int i = 0; i < count; ++i) {
+        for (int j = i + 1; j < count; ++j) {
+            for (int k = j + 1; k < count; ++k) {
+                const Vec3 jk = cross(at(j).normal, at(k).normal), ki = cross(at(k).normal, at(i).normal),
+                           ij = cross(at(i).normal, at(j).normal);
+                const double volume = dot(at(i).normal, jk);
+                if (volume * volume < kParallel) continue;
+                offer((at(i).offset * jk + at(j).offset * ki + at(k).offset * ij) / volume);
+            }
+        }
     }
+    if (least < std::numeric_limits<double>::infinity()) return best;
     const HalfSpace& last = side[static_cast<std::size_t>(count - 1)];
     return y - last.above(y) * last.normal;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The point of an intersection of up to three half-spaces that is nearest to a given one.
+// The point of an intersection of up to four half-spaces that is nearest to a given one.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct HalfSpace {
 };
 
 struct HalfSpaces {
-    static constexpr int kMost = 3;
+    static constexpr int kMost = 4;
     std::array<HalfSpace, kMost> side;
     int count = 0;
 

@@ -144,23 +144,38 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
 }
 
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_mm) const {
-    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
-    const auto try_from = [&](BrickRef ref, Vec3 start) {
-        const contact::SurfaceSample found = contact::nearest_from(OneBrick(*this, ref), p, start);
-        if (found.distance_mm >= best.distance_mm) return;
-        // What one brick's shapes leave may be air by another's.
-        const Vec3 at = p - found.distance_mm * found.normal;
-        if (std::abs(distance_mm(at)) <= kOnSurface) best = found;
-    };
-    const BrickCoord here = brick_at(p);
-    if (bricks.contains(here) && bricks.get(here) != kAir) {
-        const contact::SurfaceSample s = sample(p);
-        if (s.distance_mm <= 0) return s;
-        try_from(bricks.get(here), p - s.distance_mm * s.normal);
+    // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
+    // a smooth piece does.
+    const BrickCoord here = brick_at(p), there = brick_at(hint_mm);
+    for (const BrickCoord b : {here, there}) {
+        if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
+        const contact::SurfaceSample s = OneBrick(*this, bricks.get(b)).sample(p);
+        if (s.distance_mm >= within_mm) return s;
+        if (s.distance_mm <= 0) {
+            if (b == here) return s;
+            continue;
+        }
+        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kOnSurface) return s;
     }
-    const BrickCoord there = brick_at(hint_mm);
-    if (bricks.contains(there) && bricks.get(there) != kAir) try_from(bricks.get(there), hint_mm);
-    // Bricks that may hold something nearer: those that cannot show that they do not are searched.
+    // At a cusp: the nearest surface point of each brick that may hold one. Where none is found though the
+    // brick could not show that it is clear, its bound stands.
+    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0}, doubt = best;
+    const auto search = [&](BrickRef ref, Vec3 start, double least) {
+        const OneBrick brick(*this, ref);
+        const contact::SurfaceSample found = contact::nearest_from(brick, p, start);
+        // What one brick's shapes leave may be air by another's.
+        if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kOnSurface) {
+            if (found.distance_mm < best.distance_mm) best = found;
+            return;
+        }
+        contact::SurfaceSample bound = brick.sample(p);
+        bound.distance_mm = std::max(bound.distance_mm, least);
+        if (bound.distance_mm < doubt.distance_mm) doubt = bound;
+    };
+    if (bricks.contains(there) && bricks.get(there) != kAir) {
+        search(bricks.get(there), hint_mm, 0);
+        doubt.distance_mm = within_mm;  // that brick comes again
+    }
     const auto reach = [&](double from, double at) {
         return std::clamp(static_cast<int>(std::floor((at - from) * per_cell / kBrickCells)), -kMostRings,
                           kMostRings);
@@ -176,13 +191,17 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
                 if (ref == kAir) continue;
                 const Box3 space = box(b);
                 const double least = distance_to(space, p);
-                if (least >= best.distance_mm - kOnSurface || is_clear(ref, p, best.distance_mm - kOnSurface))
-                    continue;
-                try_from(ref, clamped(space, p));
+                const double bound = std::min(best.distance_mm, doubt.distance_mm) - kOnSurface;
+                if (least >= bound || is_clear(ref, p, bound)) continue;
+                // What is in the box lies further from p than from the box's point nearest to p, at a right
+                // angle or more.
+                const Vec3 start = clamped(space, p);
+                if (is_clear(ref, start, std::sqrt(bound * bound - least * least))) continue;
+                search(ref, start, least);
             }
         }
     }
-    return best;
+    return doubt.distance_mm < best.distance_mm ? doubt : best;
 }
 
 bool FieldQuery::is_material(Vec3 p, double skin_mm) const {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kSkin = 1e-6;
 // The proxy has settled when its way along the surface is below this share of the penetration: the share of
 // the force's direction that is still wrong.
-constexpr double kSettled = 2e-4;
+constexpr double kSettled = 2e-3;
 // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
 constexpr double kOneSide = 0.95;
 // A step that ends this share of its length above the surface has gone over an edge.
@@ -23,6 +23,7 @@ constexpr double kNear = 0.02;
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 constexpr int kMostSlides = 8;
+constexpr int kMostTries = 8;
 constexpr int kMostClimbs = 24;
 
 contact::HalfSpace side_of(Vec3 normal) {
@@ -133,7 +134,8 @@ void FieldContact::fly(Vec3 probe) {
     phase_ = Phase::touching;
     sticking_ = true;
     ease_ = 1;
-    lift(std::clamp(distance(probe, at_.proxy), kLowest, kHighest));
+    height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
+    anchor_here();
     if (budget(kMostSlides)) slide(probe);
 }
 
@@ -181,7 +183,7 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         }
         const double goal = std::max(0.0, 1 - options_.friction_kinetic * s.press_mm / rest);
         Vec3 step = limited((s.sides.count == 1 ? ease_ * goal : goal) * s.rest, longest_step);
-        if (distance(s.proxy + step, from) > longest_step) return s;
+        if (moved && distance(s.proxy + step, from) > longest_step) return s;
         last_rest = s.rest;
         const Vec3 trial = s.proxy + step;
         const ProbeGap::Gap g = gap_.measure(*field_, trial);
@@ -271,17 +273,25 @@ bool FieldContact::tie(const Slide& s) {
     return false;
 }
 
-void FieldContact::lift(double height) {
-    const Vec3 at = at_.proxy + height * at_.normal;
-    const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
-    if (a.radius > 0) chain(a);
-    height_ = height;
+// An anchor whose ball touches the proxy: free, and where the proxy is.
+void FieldContact::anchor_here() {
+    Vec3 up;
+    for (int n = 0; n < at_.sides.count; ++n) up -= at_.sides.side[static_cast<std::size_t>(n)].normal;
+    up = normalized(up, at_.normal);
+    for (double height = height_; height > 0.1 * kLowest && budget(1); height *= 0.25) {
+        const Vec3 at = at_.proxy + height * up;
+        const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
+        if (a.radius < (1 - kTouches) * height) continue;
+        anchor_ = a;
+        height_ = height;
+        return;
+    }
 }
 
 void FieldContact::slide(Vec3 probe) {
     double longest = 1e30;
     bool settled = false;
-    while (!settled && budget(8)) {
+    for (int tries = 0; !settled && tries < kMostTries && budget(8); ++tries) {
         const Slide s = slide_from_proxy(probe, longest);
         if (s.lost) {
             // Over an edge, or the material is gone: through the air from here.
@@ -300,8 +310,9 @@ void FieldContact::slide(Vec3 probe) {
             if (longest > 1e29) break;
             continue;
         }
-        // No way there was proved: in smaller steps.
-        longest = longest > 1e29 ? 0.5 * std::max(anchor_.radius, kLowest) : 0.25 * longest;
+        // No way there was proved: in smaller steps, from where the proxy is.
+        if (longest > 1e29) anchor_here();
+        longest = longest > 1e29 ? std::max(anchor_.radius, kLowest) : 0.25 * longest;
         if (longest < 0.01 * kLowest) break;
     }
     at_.settled = settled;

@@ -42,7 +42,7 @@ struct Contact {
 // overlaps the one before (or a chain of such). What does not fit into a tick's budget goes on in the next.
 //
 // The proxy is where the distance to the probe is least, found by sliding along the surface with the step
-// that its curvature allows; in a corner it is held by up to three sides. Depends on no mesh and no unit.
+// that its curvature allows; in a corner it is held by all its sides. Depends on no mesh and no unit.
 //
 // One thread at a time. update() is real-time safe: no allocation, lock, exception or output, at most
 // kMostQueries queries of the field (times the balls of a shell).
@@ -93,7 +93,7 @@ class FieldContact {
     Vec3 along(const Slide& s, Vec3 way) const;
     bool tie(const Slide& s);
     bool chain(const Anchor& to);
-    void lift(double height);
+    void anchor_here();
     Contact answer(Vec3 probe) const;
     bool budget(int queries) const { return gap_.queries() + queries <= first_query_ + kMostQueries; }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
