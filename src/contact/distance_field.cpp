@@ -6,7 +6,7 @@
 namespace tribo::contact {
 namespace {
 
-constexpr int kMostSamples = 16;
+constexpr int kMostRounds = 16;
 // A point this close to the surface is on it, mm.
 constexpr double kOnSurface = 1e-6;
 // Normals of one smooth piece, from one step of the search to the next, agree at least this well.
@@ -27,12 +27,18 @@ SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start
     HalfSpaces sides;
     Vec3 q = start_mm;
     SurfaceSample best = field.sample(point_mm);  // a lower bound
-    for (int n = 0; n < kMostSamples; ++n) {
+    for (int n = 0; n < kMostRounds; ++n) {
         const SurfaceSample s = field.sample(q);
         if (s.distance_mm <= kOnSurface && n > 0 && s.distance_mm >= -kOnSurface) {
             const double way = length(point_mm - q);
             if (way > kOnSurface) return {way, (point_mm - q) / way, s.piece};
             return {s.distance_mm, s.normal, s.piece};
+        }
+        for (int i = 0; i < sides.count; ++i) {
+            HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
+            const SurfaceSample t = field.sample_piece(side.piece, q);
+            if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike)
+                side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
         }
         sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
         q = sides.nearest(point_mm);

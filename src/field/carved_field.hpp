@@ -38,6 +38,9 @@ class CarvedField final : public contact::DistanceField {
     double distance_mm(Vec3 p) const override { return tables_->query.distance_mm(p); }
     Vec3 normal(Vec3 p) const override { return tables_->query.sample(p).normal; }
     contact::SurfaceSample sample(Vec3 p) const override { return tables_->query.sample(p); }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return tables_->query.sample_piece(piece, p);
+    }
     // Looks as far as three bricks (21 cells).
     double clearance_mm(Vec3 p, double enough_mm) const override {
         return tables_->query.clearance_mm(p, enough_mm);

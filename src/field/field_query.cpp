@@ -35,6 +35,9 @@ class OneBrick final : public contact::DistanceField {
         return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
                 e.shape};
     }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return field_.sample_piece(piece, p);
+    }
 
   private:
     const FieldQuery& field_;
@@ -166,7 +169,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         // What one brick's shapes leave may be air by another's.
         if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kOnSurface) {
             if (found.distance_mm < best.distance_mm) best = found;
-            return;
+            if (found.distance_mm < within_mm) return;
         }
         contact::SurfaceSample bound = brick.sample(p);
         bound.distance_mm = std::max(bound.distance_mm, least);

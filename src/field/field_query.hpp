@@ -60,6 +60,10 @@ struct FieldQuery {
     // As of contact::DistanceField.
     double distance_mm(Vec3 point_mm) const;
     contact::SurfaceSample sample(Vec3 point_mm) const;
+    contact::SurfaceSample sample_piece(ShapeId id, Vec3 point_mm) const {
+        return {id == 0 ? blank().distance_mm(point_mm) : -shape(id).distance_mm(point_mm),
+                outward(id, point_mm), id};
+    }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, Vec3 hint_mm) const;
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already

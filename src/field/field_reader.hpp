@@ -29,6 +29,9 @@ class FieldReader final : public contact::DistanceField {
     double distance_mm(Vec3 p) const override { return reading_->query.distance_mm(p); }
     Vec3 normal(Vec3 p) const override { return reading_->query.sample(p).normal; }
     contact::SurfaceSample sample(Vec3 p) const override { return reading_->query.sample(p); }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return reading_->query.sample_piece(piece, p);
+    }
     double clearance_mm(Vec3 p, double enough_mm) const override {
         return reading_->query.clearance_mm(p, enough_mm);
     }

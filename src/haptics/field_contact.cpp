@@ -179,7 +179,8 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         if (last_length > 0) {
             const Vec3 change = s.rest - last_rest;
             const double up = -dot(last_step, change), down = squared_length(change);
-            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : 1;
+            // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
+            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::clamp(2 * ease_, 1.0, 8.0);
         }
         const double goal = std::max(0.0, 1 - options_.friction_kinetic * s.press_mm / rest);
         Vec3 step = limited((s.sides.count == 1 ? ease_ * goal : goal) * s.rest, longest_step);
