@@ -23,6 +23,9 @@ constexpr double kNear = 0.02;
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 constexpr int kMostSlides = 8;
+// A landing this much (of the step's length) above or below the trial is looked at again.
+constexpr double kLeap = 0.02;
+constexpr int kMostLandings = 3;
 constexpr int kMostTries = 8;
 constexpr int kMostClimbs = 24;
 
@@ -40,7 +43,7 @@ Vec3 limited(Vec3 v, double most) {
 FieldContact::FieldContact(const contact::DistanceField& field, const ContactOptions& options)
     : field_(&field) {
     set_options(options);
-    gap_.set_balls(std::array{Vec3{}});
+    (void)gap_.set_balls(std::array{Vec3{}});
 }
 
 void FieldContact::set_options(const ContactOptions& o) {
@@ -57,7 +60,8 @@ void FieldContact::reset() {
 }
 
 Contact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
-    gap_.set_balls(balls_mm);
+    // What was free for the probe as it was turned is so for the turned one less what that moved.
+    anchor_.radius -= gap_.set_balls(balls_mm);
     return update(probe);
 }
 
@@ -197,10 +201,17 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         }
         const Vec3 landed = trial - g.gap_mm * g.normal;
         const bool bends = dot(g.normal, s.normal) > kOneSide;
+        ProbeGap::Gap last = g;
         Vec3 next = landed;
         if (s.sides.count == 1 && (bends || g.gap_mm >= -kSkin)) {
+            // After a leap in height what was nearest from the trial may not be so where it lands.
+            for (int k = 0; k < kMostLandings && std::abs(last.gap_mm) > kLeap * size + kSkin && budget(6);
+                 ++k) {
+                last = gap_.measure(*field_, next);
+                next -= last.gap_mm * last.normal;
+            }
             s.sides = {};
-            s.sides.put(side_of(g.normal), kOneSide);
+            s.sides.put(side_of(last.normal), kOneSide);
         } else if (g.gap_mm < -kSkin) {
             // Another side is in the way: the proxy stands where all of them meet.
             contact::HalfSpaces corner = s.sides;
@@ -221,8 +232,8 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
             kept.put(side_of(g.normal), kOneSide);
             s.sides = kept;
         }
-        s.normal = g.normal;
-        s.ball = g.ball;
+        s.normal = last.normal;
+        s.ball = last.ball;
         last_step = next - s.proxy;
         last_length = bends && s.sides.count == 1 ? length(last_step) : 0;
         if (last_length == 0) ease_ = 1;

@@ -5,12 +5,20 @@
 
 namespace tribo::haptics {
 
-void ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
+double ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
     assert(!offsets_mm.empty() && offsets_mm.size() <= kMostBalls);
-    if (offsets_mm.size() != count_) forget();
+    double most = 0;
+    if (offsets_mm.size() != count_) {
+        forget();
+        most = 1e30;
+    }
     count_ = offsets_mm.size();
     if (last_ >= count_) last_ = 0;
-    for (std::size_t n = 0; n < count_; ++n) ball_[n].offset = offsets_mm[n];
+    for (std::size_t n = 0; n < count_; ++n) {
+        most = std::max(most, distance(ball_[n].offset, offsets_mm[n]));
+        ball_[n].offset = offsets_mm[n];
+    }
+    return most;
 }
 
 void ProbeGap::forget() {

@@ -21,8 +21,9 @@ class ProbeGap {
 
     explicit ProbeGap(double radius_mm = 0) : radius_(radius_mm) {}
 
-    // At most kMostBalls, at least one.
-    void set_balls(std::span<const Vec3> offsets_mm);
+    // At most kMostBalls, at least one. Gives how far the ball that moved most has moved against the probe
+    // (without end where their number is another).
+    double set_balls(std::span<const Vec3> offsets_mm);
     void set_radius(double radius_mm) { radius_ = radius_mm; }
     double radius_mm() const { return radius_; }
     std::size_t balls() const { return count_; }

@@ -26,6 +26,22 @@ class Grooves final : public contact::DistanceField {
     double distance_mm(Vec3 p) const override { return radius_ - length(offset(p)); }
     Vec3 normal(Vec3 p) const override { return -normalized(offset(p), {0, 0, -1}); }
     double radius_mm() const { return radius_; }
+    // In closed form: the foot in the groove that the point is in, or the nearer of its cusps.
+    contact::SurfaceSample nearest(Vec3 p, double, Vec3) const override {
+        const double middle = pitch_ * std::round(p.x / pitch_);
+        const Vec3 d = offset(p);
+        const double depth = length(d);
+        contact::SurfaceSample best{1e9, {0, 0, 1}, 0};
+        if (depth > radius_) return {radius_ - depth, normal(p), 0};
+        if (depth > 0 && std::abs(d.x) / depth * radius_ <= 0.5 * pitch_ && d.z < 0)
+            best = {radius_ - depth, normal(p), 0};
+        const double cusp = radius_ - std::sqrt(radius_ * radius_ - 0.25 * pitch_ * pitch_);
+        for (const double side : {-0.5, 0.5}) {
+            const Vec3 off{p.x - middle - side * pitch_, 0, p.z - cusp};
+            if (length(off) < best.distance_mm) best = {length(off), normalized(off), 0};
+        }
+        return best;
+    }
 
   private:
     // From the nearest groove's axis. Above all axes there is air.
