@@ -31,8 +31,11 @@ class DistanceField {
     // Both of them.
     virtual SurfaceSample sample(Vec3 point_mm) const { return {distance_mm(point_mm), normal(point_mm), 0}; }
 
-    // The distance to one piece, as if it went on beyond its edges; any other piece's where that is not known.
-    virtual SurfaceSample sample_piece(std::uint32_t /*piece*/, Vec3 point_mm) const { return sample(point_mm); }
+    // The distance to one piece, as if it went on beyond its edges; any other piece's where that is not
+    // known.
+    virtual SurfaceSample sample_piece(std::uint32_t /*piece*/, Vec3 point_mm) const {
+        return sample(point_mm);
+    }
 
     // Radius of a ball around the point that holds no material, up to `enough_mm` (more may be given): what a
     // probe may travel without looking. Far from the surface too; 0 or less in material.
@@ -47,8 +50,8 @@ class DistanceField {
 
 // The surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting planes: the
 // material near it is the intersection of half-spaces, one for each piece met, each renewed where the last
-// answer lay. Exact on edges and corners. Real-time safe, at most 16 rounds of a sample and the pieces met; where that is not
-// enough, a lower bound of the distance.
+// answer lay. Exact on edges and corners. Real-time safe, at most 16 rounds of a sample and the pieces met;
+// where that is not enough, a lower bound of the distance.
 SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm);
 
 }  // namespace tribo::contact

@@ -148,6 +148,17 @@ Vec3 FieldContact::along(const Slide& s, Vec3 way) const {
     return s.sides.nearest(way);
 }
 
+// The sides at the proxy, and one more through `point`, where they stand.
+contact::HalfSpaces FieldContact::corner_of(const Slide& s, Vec3 point, Vec3 normal) {
+    contact::HalfSpaces corner = s.sides;
+    for (int i = 0; i < corner.count; ++i) {
+        contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+        h.offset = dot(h.normal, s.proxy);
+    }
+    corner.put({-normal, -dot(normal, point), 0}, kOneSide);
+    return corner;
+}
+
 FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_step) {
     Slide s = at_;
     s.settled = s.lost = false;
@@ -163,20 +174,24 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const double hold = (moved ? options_.friction_kinetic : this->hold()) * s.press_mm;
         if (rest <= hold + kSettled * s.press_mm + kSkin) {
             s.settled = true;
-            if (moved) return s;
-            // Held: is there still a surface?
+            if (moved && s.sides.count == 1) return s;
+            // Held: is there still a surface? In a corner: do all its sides hold?
             const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
-            s.lost = g.gap_mm > 2 * kSkin;
             s.ball = g.ball;
-            if (g.gap_mm < -2 * kSkin) {  // a probe that turns
-                s.proxy -= g.gap_mm * g.normal;
-                s.normal = g.normal;
+            if (g.gap_mm > 2 * kSkin) s.lost = !moved;
+            if (g.gap_mm >= -2 * kSkin) return s;
+            s.settled = false;
+            moved = true;
+            const Vec3 landed = s.proxy - g.gap_mm * g.normal;
+            if (s.sides.count == 1 && dot(g.normal, s.normal) > kOneSide) {
+                s.proxy = landed;
                 s.sides = {};
-                s.sides.put(side_of(g.normal), kOneSide);
-                moved = true;
-                continue;
+            } else {
+                s.proxy = corner_of(s, landed, g.normal).nearest(s.proxy);
             }
-            return s;
+            s.sides.put(side_of(g.normal), kOneSide);
+            s.normal = g.normal;
+            continue;
         }
         if (s.press_mm <= 0) return s;  // the surface does not hold the probe
         // The step that would settle it, were the surface to bend on as it did over the last step.
@@ -214,13 +229,7 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
             s.sides.put(side_of(last.normal), kOneSide);
         } else if (g.gap_mm < -kSkin) {
             // Another side is in the way: the proxy stands where all of them meet.
-            contact::HalfSpaces corner = s.sides;
-            for (int i = 0; i < corner.count; ++i) {
-                contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
-                h.offset = dot(h.normal, s.proxy);
-            }
-            corner.put({-g.normal, -dot(g.normal, landed), 0}, kOneSide);
-            next = corner.nearest(trial);
+            next = corner_of(s, landed, g.normal).nearest(trial);
             s.sides.put(side_of(g.normal), kOneSide);
         } else {
             // Along a corner: the sides that the step has not left are still there.
@@ -239,6 +248,18 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         if (last_length == 0) ease_ = 1;
         s.proxy = next;
     }
+    // Cut short: on with the next tick, from a place that is in air.
+    for (int n = 0; n < kMostLandings; ++n) {
+        const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
+        if (g.gap_mm >= -2 * kSkin) return s;
+        s.proxy -= g.gap_mm * g.normal;
+        s.normal = g.normal;
+        s.ball = g.ball;
+        s.sides = {};
+        s.sides.put(side_of(g.normal), kOneSide);
+    }
+    s = at_;
+    s.settled = s.lost = false;
     return s;
 }
 

@@ -91,6 +91,7 @@ class FieldContact {
     void slide(Vec3 probe);
     Slide slide_from_proxy(Vec3 probe, double longest_step);
     Vec3 along(const Slide& s, Vec3 way) const;
+    static contact::HalfSpaces corner_of(const Slide& s, Vec3 point, Vec3 normal);
     bool tie(const Slide& s);
     bool chain(const Anchor& to);
     void anchor_here();
