@@ -124,8 +124,8 @@ TEST_F(BuiltinHrirs, keep_arrival_offset_and_level_in_128_taps) {
         const auto b = broadband([&](double hz) { return measured(n, hz); });
         for (std::size_t ear = 0; ear < 2; ++ear) {
             levels.push_back(std::abs(decibel(a[ear] / b[ear] / (gain * gain))));
-            at_1_khz.push_back(std::abs(decibel(std::norm(made(heard, 1000)[ear]) /
-                                                std::norm(gain * measured(n, 1000)[ear]))));
+            at_1_khz.push_back(std::abs(
+                decibel(std::norm(made(heard, 1000)[ear]) / std::norm(gain * measured(n, 1000)[ear]))));
         }
     }
     for (std::vector<double>* v : {&offsets, &levels, &at_1_khz}) std::ranges::sort(*v);
@@ -134,8 +134,8 @@ TEST_F(BuiltinHrirs, keep_arrival_offset_and_level_in_128_taps) {
     EXPECT_LT(levels.back(), 0.3);
     EXPECT_LT(at_1_khz.back(), 0.1);
     for (const std::vector<double>* v : {&offsets, &levels, &at_1_khz}) {
-        std::printf("median %.3f, 95%% %.3f, worst %.3f\n", (*v)[v->size() / 2],
-                    (*v)[v->size() * 95 / 100], v->back());
+        std::printf("median %.3f, 95%% %.3f, worst %.3f\n", (*v)[v->size() / 2], (*v)[v->size() * 95 / 100],
+                    v->back());
     }
 }
 
