@@ -2,8 +2,27 @@
 #include "app/listening.hpp"
 
 #include "io/hrir_file.hpp"
+#include "io/material_json.hpp"
+#include "io/sound_file.hpp"
 
 namespace tribo::app {
+
+namespace {
+
+io::FileResult<std::shared_ptr<const sound::Recording>> recording(const std::string& path, double rpm) {
+    auto file = io::read_sound(path);
+    if (!file) return std::unexpected(file.error());
+    auto recording = std::make_shared<sound::Recording>();
+    recording->samples.assign(file->samples.begin(), file->samples.end());
+    recording->sample_rate_hz = file->sample_rate_hz;
+    recording->spindle_rpm = rpm;
+    if (auto ok = sound::check_recording(*recording); !ok) {
+        return std::unexpected(io::Failure({path, 0, 0, ok.error().cause, ok.error().remedy}));
+    }
+    return recording;
+}
+
+}  // namespace
 
 using Heard = std::shared_ptr<const sound::Head>;
 
@@ -25,6 +44,30 @@ io::FileResult<Heard> head_of(const formats::JobSound& sound, int sample_rate_hz
                         "the built-in head responses cannot be read (" + set.error().text() +
                             "): a sphere stands in for the head"});
     return sound::Head::sphere(rate);
+}
+
+io::FileResult<void> read_voices(const formats::JobSound& sound, sound::SoundtrackOptions& track) {
+    track.recording_share = sound.recording_share;
+    if (!sound.recording.empty()) {
+        auto read = recording(sound.recording, sound.recording_rpm);
+        if (!read) return std::unexpected(read.error());
+        track.recording = std::move(*read);
+    }
+    if (!sound.idle_recording.empty()) {
+        auto read = recording(sound.idle_recording, sound.idle_recording_rpm);
+        if (!read) return std::unexpected(read.error());
+        track.idle = std::move(*read);
+    }
+    if (!sound.chips.empty()) {
+        auto material = io::read_material(sound.chips);
+        if (!material) return std::unexpected(material.error());
+        if (material->voices.models.empty()) {
+            return std::unexpected(io::Failure({sound.chips, 0, 0, "the material has no voice",
+                                                "learn one from a recorded cut with tribo learn"}));
+        }
+        track.chip_model = material->voices.models.front().spectrum;
+    }
+    return {};
 }
 
 }  // namespace tribo::app

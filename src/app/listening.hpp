@@ -9,6 +9,7 @@
 #include "formats/job.hpp"
 #include "io/files.hpp"
 #include "sound/head.hpp"
+#include "sound/soundtrack.hpp"
 
 namespace tribo::app {
 
@@ -19,5 +20,8 @@ inline constexpr const char* kReadSofaVerb = "read-sofa";
 // the shipped set is missing and the job did not ask for it, a sphere, and a warning.
 io::FileResult<std::shared_ptr<const sound::Head>> head_of(const formats::JobSound& sound, int sample_rate_hz,
                                                            const std::string& job_file, Warnings& warnings);
+
+// What else [sound] names: recordings and the colour of the chips, read, checked and put into `track`.
+io::FileResult<void> read_voices(const formats::JobSound& sound, sound::SoundtrackOptions& track);
 
 }  // namespace tribo::app

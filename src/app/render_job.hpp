@@ -12,7 +12,7 @@
 #include "io/files.hpp"
 #include "milling/materials.hpp"
 #include "session/mill_setup.hpp"
-#include "sound/head.hpp"
+#include "sound/soundtrack.hpp"
 
 namespace tribo::app {
 
@@ -21,7 +21,7 @@ struct LoadedJob {
     milling::Material material;
     session::MillSetup setup;
     std::optional<formats::Model> part;
-    std::shared_ptr<const sound::Head> head;  // where sound is asked for
+    sound::SoundtrackOptions track;  // head and voices, where sound is asked for
     Warnings warnings;
 };
 

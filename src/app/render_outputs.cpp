@@ -55,12 +55,12 @@ io::FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
     if (call_.wants("sound")) {
         const formats::JobSound& s = loaded_.job.sound;
         SoundFileOptions options;
+        options.track = loaded_.track;
         options.format.sample_rate_hz = options.track.sample_rate_hz = call_.sample_rate_hz;
         options.format.bits = s.bits;
         options.track.gain_db = s.gain_db;
         options.track.listener_mm = listener(loaded_.job, blank);
         options.track.distance_factor = s.distance_factor;
-        options.track.head = loaded_.head;
         options.track.as_published = call_.as_published;
         auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
         if (!file) return std::unexpected(file.error());

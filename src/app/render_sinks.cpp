@@ -121,6 +121,7 @@ void SoundFile::add(const session::MillRow& row) {
         end_cut();
         contact::ContactSample none;
         none.position_mm = row.values.tip_mm;
+        none.phase_rate_rad_per_s = row.values.spindle_rpm / 60 * math::kTwoPi;  // it idles
         if (heard_from_ < 0) {
             none.t_s = std::max(0.0, start - kLeadInS);
             track_->play_to(none, sink);

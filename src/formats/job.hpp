@@ -73,6 +73,13 @@ struct JobSound {
     int bits = 16;  // 16, 24 or 32 per sample
     std::optional<SoundMode> mode;
     std::string hrtf;  // a SOFA file; empty: the set that is built in
+    // A recorded cut and the spindle speed at which it was recorded, mixed with equal power: its share of it.
+    std::string recording;  // empty: none
+    double recording_rpm = 0, recording_share = 0.5;
+    std::string idle_recording;  // of a spindle that turns and does not cut; empty: none
+    double idle_recording_rpm = 0;
+    std::string
+        chips;  // a material file, whose first voice colours the noise of the chips; empty: a plain band
 };
 
 enum class ProbeKind { point, ray, cylinder };

@@ -24,8 +24,18 @@ constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpo
 constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
-constexpr std::array kSoundKeys{"listener_mm"sv, "distance_factor"sv, "gain_db"sv, "bits"sv, "hrtf"sv,
-                                "mode"sv};
+constexpr std::array kSoundKeys{"listener_mm"sv,
+                                "distance_factor"sv,
+                                "gain_db"sv,
+                                "bits"sv,
+                                "hrtf"sv,
+                                "mode"sv,
+                                "recording"sv,
+                                "recording_rpm"sv,
+                                "recording_share"sv,
+                                "idle_recording"sv,
+                                "chips"sv,
+                                "idle_recording_rpm"sv};
 constexpr std::array kSoundModes{"hrtf"sv, "sphere"sv, "pan"sv};
 constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "probe"sv,
                                   "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
@@ -193,6 +203,26 @@ formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
         section.fail("hrtf", "'hrtf' names a file, but the mode does not use it",
                      "write mode = \"hrtf\" or remove it");
     }
+    sound.recording = section.path("recording").value_or("");
+    sound.idle_recording = section.path("idle_recording").value_or("");
+    sound.chips = section.path("chips").value_or("");
+    // The speed at which something was recorded belongs to the recording, and the other way round.
+    const auto recorded_rpm = [&](std::string_view file, std::string_view key, bool there) {
+        if (there) return section.required_number(key, kPositive);
+        if (section.has(key)) {
+            section.fail(key, "'" + std::string(key) + "' belongs to '" + std::string(file) + "'",
+                         "name the recording, or remove it");
+        }
+        return 0.0;
+    };
+    sound.recording_rpm = recorded_rpm("recording", "recording_rpm", !sound.recording.empty());
+    sound.idle_recording_rpm =
+        recorded_rpm("idle_recording", "idle_recording_rpm", !sound.idle_recording.empty());
+    if (sound.recording.empty() && section.has("recording_share")) {
+        section.fail("recording_share", "'recording_share' belongs to 'recording'",
+                     "name the recording, or remove it");
+    }
+    sound.recording_share = section.number("recording_share", {0, 1}).value_or(sound.recording_share);
     return sound;
 }
 

@@ -29,6 +29,39 @@ CuttingVoice::CuttingVoice(const CuttingVoiceOptions& options)
         sum += bell_[k];
     }
     for (std::size_t k = 0; k < bell_size_; ++k) bell_[k] /= sum;
+    if (!options.chip_model.reflection.empty()) {
+        model_chips_.emplace(noise::at_rate(options.chip_model, options.sample_rate_hz), options.seed);
+    }
+    body_.set(options.body, options.sample_rate_hz);
+}
+
+void CuttingVoice::drive(const Quantum& force_n) {
+    // What does not change is not heard: a high-pass of first order at 10 Hz.
+    constexpr double kLowestHz = 10;
+    const double keep = 1 - math::kTwoPi * kLowestHz / options_.sample_rate_hz;
+    for (std::size_t j = 0; j < driven_.size(); ++j) {
+        tone_before_ = keep * (tone_before_ + kPascalPerNewton * (force_n[j] - force_before_));
+        force_before_ = force_n[j];
+        driven_[j] = tone_before_;
+    }
+    drive_next_ = 1;
+}
+
+void CuttingVoice::mix_driven(Quantum& tone) {
+    constexpr double kPerQuantum = 0.25;
+    const double to = std::clamp(drive_next_, drive_share_ - kPerQuantum, drive_share_ + kPerQuantum);
+    for (std::size_t j = 0; j < tone.size(); ++j) {
+        const double share =
+            drive_share_ + static_cast<double>(j) * (1.0 / kQuantumFrames) * (to - drive_share_);
+        tone[j] += share * (driven_[j] - tone[j]);
+    }
+    drive_share_ = to;
+    if (drive_next_ == 0) {
+        // Nobody drives any more: what is left of the last force dies away with its share.
+        for (double& v : driven_) v = tone_before_ *= 0.98;
+        if (drive_share_ == 0) force_before_ = tone_before_ = 0;
+    }
+    drive_next_ = 0;
 }
 
 CuttingVoice::Excitation CuttingVoice::now() const {
@@ -101,12 +134,22 @@ void CuttingVoice::add(Quantum& pressure_pa) {
     before_ = here_;
     here_ = after_;
     after_ = next_level(phase);
-    Quantum tone{};
+    Quantum tone{}, sound{};
     if (!before_.partials.silent() || !here_.partials.silent() || !after_.partials.silent()) {
         play(before_.partials, here_.partials, after_.partials, phase, step_, tone);
-        for (std::size_t j = 0; j < tone.size(); ++j) pressure_pa[j] += tone[j];
     }
-    add_noise(tone, pressure_pa);
+    if (drive_next_ > 0 || drive_share_ > 0) mix_driven(tone);
+    sound = tone;
+    add_noise(tone, sound);
+    bool any = false;
+    for (const double v : sound) any = any || v != 0;
+    constexpr int kRingQuanta = 64;  // 85 ms: every mode is 60 dB down
+    if (any) ringing_ = body_.rings() ? kRingQuanta : 1;
+    if (ringing_ > 0) {
+        body_.apply(sound);
+        for (std::size_t j = 0; j < sound.size(); ++j) pressure_pa[j] += options_.share * sound[j];
+        if (--ringing_ == 0) body_.forget();
+    }
     frame_ += kQuantumFrames;
 }
 
@@ -115,16 +158,21 @@ void CuttingVoice::add_noise(const Quantum& tone, Quantum& pressure_pa) {
         chips_fresh_ = true;
         return;
     }
-    if (chips_fresh_) chips_.clear();
-    chips_fresh_ = false;
     Quantum chips;
-    chips_.render(frame_, chips);
+    if (model_chips_) {
+        const auto block = model_chips_->block(frame_ / kQuantumFrames);
+        for (std::size_t j = 0; j < chips.size(); ++j) chips[j] = static_cast<double>(block[j]);
+    } else {
+        if (chips_fresh_) chips_.clear();
+        chips_.render(frame_, chips);
+    }
+    chips_fresh_ = false;
     const Spline level(before_.noise_pa, here_.noise_pa, after_.noise_pa);
     const Spline peak(before_.partials.peak(), here_.partials.peak(), after_.partials.peak());
     for (std::size_t j = 0; j < chips.size(); ++j) {
         const double t = static_cast<double>(j) * (1.0 / kQuantumFrames);
         const double highest = peak.at(t);
-        const double swing = highest > 0 ? kNoiseSwing * tone[j] / highest : 0;
+        const double swing = highest > 0 ? kNoiseSwing * std::clamp(tone[j] / highest, -1.0, 1.0) : 0;
         pressure_pa[j] += level.at(t) * (1 + swing) * chips[j];
     }
 }

@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "noise/band_noise.hpp"
+#include "noise/model_noise.hpp"
+#include "sound/body.hpp"
 #include "sound/partials.hpp"
 #include "sound/spindle_phase.hpp"
 #include "sound/voice.hpp"
@@ -14,8 +17,11 @@ namespace tribo::sound {
 
 struct CuttingVoiceOptions {
     double sample_rate_hz = 48000;
-    std::uint64_t seed = 1;   // of the chip noise
-    noise::Band chip_band{};  // 1 to 8 kHz
+    std::uint64_t seed = 1;       // of the chip noise
+    noise::Band chip_band{};      // 1 to 8 kHz; unless
+    noise::ArModel chip_model{};  // has poles: the colour of a recorded cut
+    double share = 1;             // of the pressure
+    Body body{};                  // what rings along
 };
 
 // Eq. 22 of the paper made to work: partials at the harmonics of the force spectrum (tooth passing and its
@@ -34,6 +40,7 @@ class CuttingVoice final : public Voice {
 
     void excite(const contact::ContactSample& next, std::int64_t quanta) override;
     void release() override;
+    void drive(const Quantum& force_n) override;
     void add(Quantum& pressure_pa) override;
 
   private:
@@ -56,9 +63,17 @@ class CuttingVoice final : public Voice {
         return asked_sounding_ > 0 || !before_.silent() || !here_.silent() || !after_.silent();
     }
     void add_noise(const Quantum& tone, Quantum& pressure_pa);
+    // Its share of the tone, crossfaded.
+    void mix_driven(Quantum& tone);
 
     CuttingVoiceOptions options_;
     noise::BandNoise chips_;
+    std::optional<noise::ModelNoise> model_chips_;
+    BodyFilter body_;
+    int ringing_ = 0;  // quanta for which the body is still heard
+    // A force that came at audio rate: its tone, and how much of the sound it makes.
+    Quantum driven_{};
+    double drive_share_ = 0, drive_next_ = 0, force_before_ = 0, tone_before_ = 0;
     SpindlePhase phase_;
     Excitation from_, to_;
     std::int64_t length_ = 0, elapsed_ = 0;  // of the way from one to the other, quanta

@@ -25,8 +25,23 @@ std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& opti
     if (options.as_published) {
         voices.push_back(std::make_unique<PublishedVoice>(options.sample_rate_hz));
     } else {
-        voices.push_back(std::make_unique<CuttingVoice>(
-            CuttingVoiceOptions{static_cast<double>(options.sample_rate_hz), options.seed, {}}));
+        CuttingVoiceOptions cut;
+        cut.sample_rate_hz = options.sample_rate_hz;
+        cut.seed = options.seed;
+        cut.chip_model = options.chip_model;
+        cut.body = options.body;
+        RecordedVoiceOptions recorded;
+        recorded.sample_rate_hz = options.sample_rate_hz;
+        if (options.recording) {
+            math::sincos(math::kHalfPi * options.recording_share, recorded.share, cut.share);
+            voices.push_back(std::make_unique<RecordedVoice>(*options.recording, recorded));
+        }
+        voices.push_back(std::make_unique<CuttingVoice>(cut));
+        if (options.idle) {
+            recorded.share = 1;
+            recorded.idle_pa = options.idle_pa;
+            voices.push_back(std::make_unique<RecordedVoice>(*options.idle, recorded));
+        }
     }
     return voices;
 }
@@ -44,6 +59,16 @@ Result<void> check(const SoundtrackOptions& options) {
     }
     if (!is_finite(options.listener_mm)) {
         return fail("listener_mm is not three finite numbers", "try the centre of the stock's top");
+    }
+    if (!(options.recording_share >= 0 && options.recording_share <= 1)) {
+        return fail("recording_share is outside 0 ... 1", "try 0.5");
+    }
+    if (!(options.idle_pa >= 0 && options.idle_pa <= 20)) {
+        return fail("the idle spindle's pressure is outside 0 ... 20 Pa", "try 0.02, 60 dB SPL");
+    }
+    for (const auto& recording : {options.recording, options.idle}) {
+        if (!recording) continue;
+        if (auto ok = check_recording(*recording); !ok) return ok;
     }
     if (options.head && options.head->sample_rate_hz() != options.sample_rate_hz) {
         return fail("the head's sample rate is not the track's", "make it for the track's");
@@ -135,6 +160,10 @@ void Soundtrack::make_quantum() {
         release();
     }
     Quantum pressure_pa{};
+    if (signal_ != nullptr && signal_->next(quantum_ * kQuantumFrames, pressure_pa)) {
+        for (const auto& voice : voices_) voice->drive(pressure_pa);
+    }
+    pressure_pa.fill(0);
     for (const auto& voice : voices_) voice->add(pressure_pa);
     if (source_) {
         place(pressure_pa);

@@ -11,7 +11,10 @@
 
 #include "base/result.hpp"
 #include "contact/contact_sample.hpp"
+#include "noise/ar_model.hpp"
+#include "sound/body.hpp"
 #include "sound/glide.hpp"
+#include "sound/recorded_voice.hpp"
 #include "sound/spatial_source.hpp"
 #include "sound/voice.hpp"
 
@@ -31,8 +34,14 @@ struct SoundtrackOptions {
     double distance_factor = 1;  // > 0; distances count times this (the paper's; > 1 enlarges a small part)
     // How places are heard, of the same sample rate; null: both channels alike, distance is loudness.
     std::shared_ptr<const Head> head{};
-    bool as_published = false;  // eq. 23 as printed in place of partials and noise
-    std::uint64_t seed = 1;     // of the noise
+    bool as_published = false;    // eq. 23 as printed in place of partials and noise
+    std::uint64_t seed = 1;       // of the noise
+    noise::ArModel chip_model{};  // colour of the chip noise, learned from a recorded cut; none: a band
+    Body body{};                  // what tool and material add
+    // A recorded cut that follows the spindle, and its share of the power, 0 ... 1 (equal power: the
+    // synthesis has the rest); an idle spindle, and its RMS pressure at 1 m.
+    std::shared_ptr<const Recording> recording{}, idle{};
+    double recording_share = 0.5, idle_pa = 0.02;
 };
 
 // Refuses numbers out of range, naming the job file's key.
@@ -69,6 +78,9 @@ class Soundtrack {
     // passed: at once, smoothly. Until the first call: at options' place, looking along +y, up is +z. Only a
     // head hears it. A pose that is not finite is refused.
     bool listen(const Listener& pose_mm, double t_s);
+    // The force at audio rate comes from here for as long as it gives any (null: from the spectra alone). It
+    // has to live until the next call.
+    void drive_by(ForceSignal* signal) { signal_ = signal; }
     // Longest time that a release sounds on.
     double tail_seconds() const;
     // interleaved.size() / 2 frames.
@@ -119,6 +131,7 @@ class Soundtrack {
     SoundtrackOptions options_;
     std::vector<std::unique_ptr<Voice>> voices_;
     double samples_per_pascal_ = 0;
+    ForceSignal* signal_ = nullptr;
     std::int64_t quantum_ = 0;      // the next one to be made
     std::int64_t frame_ = 0;        // the next one to be given out
     std::int64_t arrival_ = 0;      // quantum at which the last sample is reached
