@@ -12,7 +12,7 @@
 namespace tribo::sound {
 namespace {
 
-constexpr double kLeastTurns = 4, kMostSeconds = 600;
+constexpr double kLeastTurns = 4, kMostSeconds = 120;
 constexpr double kLeastRms = 1e-5;  // of full scale; less is silence
 constexpr double kFollow = 0.125;   // of what is left, per quantum, twice over
 constexpr double kInaudiblePa = 1e-9;
@@ -34,16 +34,18 @@ std::vector<float> low_passed(const std::vector<float>& loop, double share) {
         const double w = 0.5 + 0.5 * math::cos(math::kPi * k / (kHalf + 1));
         sum += h[static_cast<std::size_t>(k + kHalf)] = w * (k == 0 ? 1 : math::sin(x) / x);
     }
-    const auto size = static_cast<std::int64_t>(loop.size());
-    std::vector<float> out(loop.size());
-    for (std::int64_t n = 0; n < size; ++n) {
-        double y = 0;
-        for (int k = -kHalf; k <= kHalf; ++k) {
-            const std::int64_t at = ((n + k) % size + size) % size;
-            y += h[static_cast<std::size_t>(k + kHalf)] *
-                 static_cast<double>(loop[static_cast<std::size_t>(at)]);
+    std::vector<float> wide(loop.size() + 2 * kHalf), out(loop.size());
+    for (std::size_t n = 0; n < wide.size(); ++n) {
+        wide[n] = loop[(n + loop.size() - kHalf % loop.size()) % loop.size()];
+    }
+    std::array<float, h.size()> taps;
+    for (std::size_t k = 0; k < h.size(); ++k) taps[k] = static_cast<float>(h[k] / sum);
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        float y[4]{};
+        for (std::size_t k = 0; k + 4 <= taps.size(); k += 4) {
+            for (std::size_t i = 0; i < 4; ++i) y[i] += taps[k + i] * wide[n + k + i];
         }
-        out[static_cast<std::size_t>(n)] = static_cast<float>(y / sum);
+        out[n] = ((y[0] + y[1]) + (y[2] + y[3])) + taps.back() * wide[n + taps.size() - 1];
     }
     return out;
 }
@@ -62,7 +64,7 @@ Result<void> check_recording(const Recording& r) {
     const double seconds = static_cast<double>(r.samples.size()) / r.sample_rate_hz;
     if (!(seconds * r.spindle_rpm / 60 >= kLeastTurns))
         return bad("the recording holds less than four turns");
-    if (seconds > kMostSeconds) return bad("the recording is longer than ten minutes");
+    if (seconds > kMostSeconds) return bad("the recording is longer than two minutes");
     for (const float v : r.samples) {
         if (!std::isfinite(v)) return bad("the recording holds a number that is none");
     }

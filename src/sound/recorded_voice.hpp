@@ -22,7 +22,7 @@ struct Recording {
 // The spindle may run at up to this many times the recorded speed; beyond, the voice keeps to it.
 inline constexpr double kFastestPlay = 4;
 
-// Refuses what cannot be looped: less than four turns, more than ten minutes, silence, no rate or speed.
+// Refuses what cannot be looped: less than four turns, more than two minutes, silence, no rate or speed.
 Result<void> check_recording(const Recording& recording);
 
 struct RecordedVoiceOptions {

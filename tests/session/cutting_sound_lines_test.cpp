@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// From engagement to what is heard: the lines of a cut, and a spindle that runs up.
+#include <cmath>
+#include <complex>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+#include "milling/force.hpp"
+#include "milling/materials.hpp"
+#include "sound/minimum_phase.hpp"
+#include "sound/soundtrack.hpp"
+
+namespace tribo::session {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kRate = 48000;
+
+// Five flutes, 4 mm deep, engaged from entry to exit.
+contact::ForceSpectrum spectrum_of(double entry_deg, double exit_deg) {
+    milling::Cutter cutter;
+    cutter.diameter_mm = 12;
+    cutter.flutes = 5;
+    cutter.helix_rad = 30 * kPi / 180;
+    cutter.length_mm = 40;
+    milling::Engagement engagement;
+    engagement.bands.push_back({0, 4, entry_deg * kPi / 180, exit_deg * kPi / 180});
+    contact::ForceSpectrum spectrum;
+    milling::force_spectrum(cutter, milling::find_material("al7075-t6")->coefficients, engagement, {0.1, 0},
+                            32, spectrum);
+    return spectrum;
+}
+
+contact::ContactSample sample_at(double t, double rpm, double angle, const contact::ForceSpectrum& spectrum) {
+    contact::ContactSample s;
+    s.t_s = t;
+    s.force_n = {100, 0, 0};
+    s.slip_mm_per_s = {10, 0, 0};
+    s.area_mm2 = 10;
+    s.phase_rad = angle;
+    s.phase_rate_rad_per_s = rpm / 60 * 2 * kPi;
+    s.spectrum = &spectrum;
+    return s;
+}
+
+// The left channel of a spindle at rpm(t); samples every 50 ms.
+template <class Rpm>
+std::vector<float> sound_of(const contact::ForceSpectrum& spectrum, double seconds, Rpm rpm,
+                            std::shared_ptr<const sound::Head> head = nullptr) {
+    sound::SoundtrackOptions options;
+    options.head = std::move(head);
+    options.body = sound::tool_body(12, 40, sound::material_damping("al7075-t6"));
+    sound::Soundtrack track(options);
+    std::vector<float> left;
+    const auto keep = [&](std::span<const float> block) {
+        for (std::size_t n = 0; n < block.size(); n += 2) left.push_back(block[n]);
+    };
+    double angle = 0;
+    constexpr double kStep = 0.05;
+    for (double t = 0; t < seconds + kStep / 2; t += kStep) {
+        if (t > 0) angle += 0.5 * (rpm(t - kStep) + rpm(t)) / 60 * 2 * kPi * kStep;
+        track.play_to(sample_at(t, rpm(t), angle, spectrum), keep);
+    }
+    return left;
+}
+
+// The strongest line, by a transform of 2^17 samples and a parabola through its peak.
+double strongest_hz(const std::vector<float>& x) {
+    const sound::FourierTransform fourier(17);
+    std::vector<std::complex<double>> f(fourier.size());
+    for (std::size_t n = 0; n < f.size(); ++n) {
+        const double a = 2 * kPi * (static_cast<double>(n) + 0.5) / static_cast<double>(f.size());
+        f[n] = (1 - std::cos(a)) * static_cast<double>(x[n + 9600]);
+    }
+    fourier.forward(f);
+    std::size_t peak = 1;
+    for (std::size_t k = 1; k < f.size() / 2; ++k) peak = std::norm(f[k]) > std::norm(f[peak]) ? k : peak;
+    const double a = std::log(std::norm(f[peak - 1])), b = std::log(std::norm(f[peak])),
+                 c = std::log(std::norm(f[peak + 1]));
+    return (static_cast<double>(peak) + 0.5 * (a - c) / (a - 2 * b + c)) * kRate /
+           static_cast<double>(f.size());
+}
+
+TEST(CuttingSoundLines, of_down_milling_are_led_by_tooth_passing) {
+    const contact::ForceSpectrum down = spectrum_of(120, 180);
+    EXPECT_NEAR(strongest_hz(sound_of(down, 3, [](double) { return 4500.0; })) / 375, 1, 1e-3);
+    EXPECT_NEAR(strongest_hz(sound_of(down, 3, [](double) { return 9000.0; })) / 750, 1, 1e-3);
+}
+
+TEST(CuttingSoundLines, of_a_full_slot_are_led_by_its_second_harmonic) {
+    const contact::ForceSpectrum slot = spectrum_of(0, 180);
+    EXPECT_NEAR(strongest_hz(sound_of(slot, 3, [](double) { return 4500.0; })) / 750, 1, 1e-3);
+}
+
+double roughness(const std::vector<float>& x, std::size_t from, std::size_t count) {
+    double sum = 0;
+    for (std::size_t n = from + 2; n < from + count; ++n) {
+        const double d =
+            static_cast<double>(x[n]) - 2 * static_cast<double>(x[n - 1]) + static_cast<double>(x[n - 2]);
+        sum += d * d;
+    }
+    return sum;
+}
+
+TEST(CuttingSoundLines, of_a_spindle_that_runs_up_are_as_rough_as_at_each_speed_and_no_rougher) {
+    const contact::ForceSpectrum down = spectrum_of(120, 180);
+    for (const auto& head : {std::shared_ptr<const sound::Head>(), sound::Head::sphere(kRate)}) {
+        const auto swept = sound_of(down, 4, [](double t) { return 4500 + 4500 * t / 4; }, head);
+        for (const double at : {0.5, 1.3, 2.0, 2.7, 3.5}) {
+            const double rpm = 4500 + 4500 * at / 4;
+            const auto steady = sound_of(down, 1, [&](double) { return rpm; }, head);
+            constexpr std::size_t kWindow = 9600;
+            const double during =
+                roughness(swept, static_cast<std::size_t>(at * kRate) - kWindow / 2, kWindow);
+            EXPECT_NEAR(10 * std::log10(during / roughness(steady, 19200, kWindow)), 0, 1) << at;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tribo::session
