@@ -71,6 +71,7 @@ void measure_carving(Report& report, int repeats);
 void measure_many_moves(Report& report, int repeats);
 void measure_sessions(Report& report, int repeats);
 void measure_noise(Report& report, int repeats);
+void measure_sound(Report& report);
 void measure_elastic(Report& report);
 
 }  // namespace tribo::bench

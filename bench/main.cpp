@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
         {"moves", [&] { measure_many_moves(report, repeats); }},
         {"sessions", [&] { measure_sessions(report, repeats); }},
         {"noise", [&] { measure_noise(report, repeats); }},
+        {"sound", [&] { measure_sound(report); }},
         {"elastic", [&] { measure_elastic(report); }},
     };
     bool known = only.empty();

@@ -84,11 +84,10 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
     const double most = static_cast<double>(places_.size() - 2);
     Vec3 place;
     const auto place_at = [&](double quanta) {
-        const double back = std::floor(quanta);
-        const auto n = static_cast<std::size_t>(back);
-        const Vec3 a = places_[(newest_ + places_.size() - n) % places_.size()];
-        const Vec3 b = places_[(newest_ + places_.size() - n - 1) % places_.size()];
-        return lerp(a, b, quanta - back);
+        const auto n = static_cast<std::size_t>(quanta);
+        const std::size_t a = newest_ >= n ? newest_ - n : newest_ + places_.size() - n;
+        const std::size_t b = a > 0 ? a - 1 : places_.size() - 1;
+        return lerp(places_[a], places_[b], quanta - static_cast<double>(n));
     };
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds; ++round) {
