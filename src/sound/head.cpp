@@ -10,6 +10,23 @@
 namespace tribo::sound {
 namespace {
 
+// The angle of the point (x, y) within 2e-8 (Abramowitz and Stegun 4.4.49), at a quarter of math::atan2's
+// price.
+double angle_of(double y, double x) {
+    const double ax = std::abs(x), ay = std::abs(y), most = std::max(ax, ay);
+    const double t = most > 0 ? std::min(ax, ay) / most : 0, s = t * t;
+    const double a =
+        t * (1 + s * (-0.3333314528 +
+                      s * (0.1999355085 +
+                           s * (-0.1420889944 +
+                                s * (0.1065626393 +
+                                     s * (-0.0752896400 +
+                                          s * (0.0429096138 + s * (-0.0161657367 + s * 0.0028662257))))))));
+    const double first = ay > ax ? math::kHalfPi - a : a;
+    const double half = x < 0 ? math::kPi - first : first;
+    return y < 0 ? -half : half;
+}
+
 double energy(const HeadTaps& taps) {
     double sum = 0;
     for (const float t : taps) sum += static_cast<double>(t) * static_cast<double>(t);
@@ -32,9 +49,11 @@ Vec3 Head::grid_direction(int row, int column) {
 void Head::hear(Vec3 place, EarResponses& out, const EarKernels& kernels) const {
     const double size = length(place), inside = std::min(size, 1.0);
     const Vec3 d = size > 0 ? place / size : Vec3{0, 1, 0};
-    const double azimuth = math::atan2(d.x, d.y) / math::kTwoPi * kColumns;
-    const double elevation = (math::asin(std::clamp(d.z, -1.0, 1.0)) / math::kPi + 0.5) * (kRows - 1);
-    const double column = std::floor(azimuth), row = std::min(std::floor(elevation), kRows - 2.0);
+    const double azimuth = angle_of(d.x, d.y) * (kColumns / math::kTwoPi);
+    const double elevation =
+        (angle_of(d.z, std::sqrt(d.x * d.x + d.y * d.y)) / math::kPi + 0.5) * (kRows - 1);
+    const double column = std::floor(azimuth);
+    const double row = std::clamp(std::floor(elevation), 0.0, kRows - 2.0);
     const double across = azimuth - column, up = elevation - row;
     const int c0 = (static_cast<int>(column) + kColumns) % kColumns, c1 = (c0 + 1) % kColumns;
     const int r0 = static_cast<int>(row);

@@ -124,8 +124,11 @@ void SpatialSource::settle(Vec3 place_m, const Listener& listener) {
 }
 
 void SpatialSource::add(const Quantum& pressure_pa, Vec3 place_m, const Listener& listener, Ears& out) {
+    const bool unmoved = placed_ && place_m == places_[newest_] && listener == listener_;
     newest_ = (newest_ + 1) % places_.size();
     places_[newest_] = place_m;
+    listener_ = listener;
+    unmoved_ = unmoved ? unmoved_ + 1 : 0;
     if (!placed_) settle(place_m, listener);
     write(pressure_pa);
     if (!sounding()) {
@@ -134,18 +137,23 @@ void SpatialSource::add(const Quantum& pressure_pa, Vec3 place_m, const Listener
     }
     before_ = here_;
     here_ = after_;
-    to_ = 1 - to_;
-    after_ = state(retarded(listener), listener, responses_[to_]);
-    for (std::size_t ear = 0; ear < 2; ++ear) {
-        after_.delay[ear] = std::clamp(after_.delay[ear], here_.delay[ear] - kShorterPerQuantum,
-                                       here_.delay[ear] + kLongerPerQuantum);
+    // Nothing has moved since before the sound that arrives now set out: nothing to work out.
+    constexpr double kSettled = 4;
+    const bool settled = unmoved_ > travelled_ + kSettled && before_.delay == here_.delay;
+    if (!settled) {
+        to_ = 1 - to_;
+        after_ = state(retarded(listener), listener, responses_[to_]);
+        for (std::size_t ear = 0; ear < 2; ++ear) {
+            after_.delay[ear] = std::clamp(after_.delay[ear], here_.delay[ear] - kShorterPerQuantum,
+                                           here_.delay[ear] + kLongerPerQuantum);
+        }
     }
-    play(out);
+    play(!settled, out);
 }
 
-void SpatialSource::play(Ears& out) {
+void SpatialSource::play(bool moves, Ears& out) {
     const auto &from = responses_[1 - to_].taps, &to = responses_[to_].taps;
-    const bool moves = std::memcmp(&from, &to, sizeof from) != 0;
+    moves = moves && std::memcmp(&from, &to, sizeof from) != 0;
     const Course gain = course(before_.gain, here_.gain, after_.gain, 0);
     for (std::size_t ear = 0; ear < 2; ++ear) {
         float* past = ear_[ear].data();

@@ -21,6 +21,7 @@ struct Listener {
     Vec3 forward{0, 1, 0};
     Vec3 up{0, 0, 1};
 
+    bool operator==(const Listener&) const = default;
     // A direction in the world as the head sees it: x right, y front, z up.
     Vec3 seen(Vec3 direction) const;
 };
@@ -73,7 +74,7 @@ class SpatialSource {
     Vec3 retarded(const Listener& listener);
     State state(Vec3 place_m, const Listener& listener, EarResponses& heard);
     void settle(Vec3 place_m, const Listener& listener);
-    void play(Ears& out);
+    void play(bool moves, Ears& out);
 
     std::shared_ptr<const Head> head_;
     const EarKernels* kernels_;
@@ -88,6 +89,8 @@ class SpatialSource {
     std::vector<Vec3> places_;  // of the source, ends of quanta; a ring
     std::size_t newest_ = 0;
     double travelled_ = 0;  // quanta
+    Listener listener_;     // of the last quantum
+    double unmoved_ = 0;    // quanta for which neither source nor listener moved
 
     bool placed_ = false;
     State before_, here_, after_;
