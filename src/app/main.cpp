@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
     add_learn(program, exit_code);
     add_rub(program, exit_code);
     add_feel(program, exit_code);
+    add_press(program, exit_code);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& success) {

@@ -14,5 +14,6 @@ void add_inspect(CLI::App& program, int& exit_code);
 void add_learn(CLI::App& program, int& exit_code);
 void add_rub(CLI::App& program, int& exit_code);
 void add_feel(CLI::App& program, int& exit_code);
+void add_press(CLI::App& program, int& exit_code);
 
 }  // namespace tribo::app

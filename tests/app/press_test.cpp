@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// `tribo press` from outside: frames against an independent computation of the touch paper's equations, and
+// what comes out of good and bad calls.
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/program.hpp"
+#include "io/image_file.hpp"
+
+namespace tribo::test {
+namespace {
+
+constexpr int kSize = 48;
+constexpr double kWidthMm = 60, kRadiusMm = 5, kFps = 30;
+
+std::string material(double k, double nu) {
+    return R"({"schema": "tribo.material/1", "width_mm": 60, "stiffness_n_per_mm": )" + std::to_string(k) +
+           R"(, "viscosity_n_s_per_mm": )" + std::to_string(nu) + "}";
+}
+
+// Pressed from 0 to 0.4 s while it moves, lifted, pressed again from 0.6 s.
+constexpr const char* kStroke =
+    "t_s,x_mm,y_mm,force_n\n0,20,30,1\n0.4,40,30,1\n0.401,40,30,0\n0.599,10,12,0\n0.6,10,12,2\n0.8,12,12,2\n";
+constexpr int kFrames = 25;
+
+struct Touch {
+    bool down;
+    double x, y, held;
+};
+Touch touch_at(int frame) {
+    const double t = frame / kFps;
+    if (t <= 0.4) return {true, 20 + 50 * t, 30, t};
+    if (t < 0.5999) return {false, 0, 0, 0};
+    return {true, 10 + 10 * (t - 0.6), 12, t - 0.6};
+}
+
+std::vector<float> heights(const Scratch& scratch, int frame) {
+    char name[40];
+    std::snprintf(name, sizeof name, "out/frame_%04d.f32", frame);
+    const std::string bytes = scratch.get(name);
+    std::vector<float> values(bytes.size() / sizeof(float));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+    return values;
+}
+
+Outcome press(const Scratch& scratch, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"press", "m.json", "--stroke", "s.csv", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tribo(arguments, scratch.path());
+}
+
+// Equation 1, 2 or the point limit, straight from the page.
+double published(bool area, double d, double t) {
+    const double reach = 40 * kRadiusMm;
+    if (d > reach) return 0;
+    if (!area) return t == 0 ? 0 : -std::exp(-5 * d / (reach * t)) * t;
+    if (d <= kRadiusMm) return (std::exp(5 * (d - kRadiusMm) / kRadiusMm) - 1) / 10 - t;
+    return t == 0 ? 0 : -std::exp(-5 * (d - kRadiusMm) / (reach * t)) * (t - 1.0 / 50);
+}
+
+TEST(Press, frames_as_published_are_equations_1_to_3) {
+    const double k = 1.4, nu = 0.1, ts = 1 / kFps;
+    for (const bool area : {true, false}) {
+        Scratch scratch;
+        scratch.put("m.json", material(k, nu));
+        scratch.put("s.csv", kStroke);
+        const Outcome run = press(scratch, {"--as-published", "--heights", "--size", "48", "--fps", "30",
+                                            "--radius-mm", "5", "--contact", area ? "area" : "point"});
+        ASSERT_EQ(run.code, 0) << run.err;
+        std::vector<double> e(kSize * kSize);
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const std::vector<float> written = heights(scratch, frame);
+            ASSERT_EQ(written.size(), e.size()) << frame;
+            const Touch touch = touch_at(frame);
+            for (int i = 0; i < kSize * kSize; ++i) {
+                const double x = (i % kSize + 0.5) * kWidthMm / kSize;
+                const double y = (std::floor(i / kSize) + 0.5) * kWidthMm / kSize;
+                const double p =
+                    touch.down ? published(area, std::hypot(x - touch.x, y - touch.y), touch.held) : 0;
+                double& node = e[static_cast<std::size_t>(i)];
+                node = (p + nu / ts * node) / (k + nu / ts);
+                ASSERT_NEAR(written[static_cast<std::size_t>(i)], node, 1e-5) << frame << ' ' << i;
+            }
+        }
+        EXPECT_TRUE(heights(scratch, kFrames).empty());
+    }
+}
+
+TEST(Press, default_frames_do_not_depend_on_their_rate_and_never_rise) {
+    std::vector<float> at_30;
+    for (const int rate : {30, 60, 144}) {
+        Scratch scratch;
+        scratch.put("m.json", material(4, 0.8));
+        scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,25,30,2\n1,25,30,2\n");
+        const Outcome run = press(scratch, {"--heights", "--size", "48", "--fps", std::to_string(rate)});
+        ASSERT_EQ(run.code, 0) << run.err;
+        // The frame at rate - 1 is the state after one second.
+        const std::vector<float> end = heights(scratch, rate - 1);
+        ASSERT_EQ(end.size(), std::size_t{kSize * kSize});
+        if (at_30.empty()) at_30 = end;
+        for (std::size_t i = 0; i < end.size(); ++i) {
+            EXPECT_LE(end[i], 0);
+            EXPECT_NEAR(end[i], at_30[i], 1e-5 + 0.01 * std::abs(at_30[i]));
+        }
+        // Under the finger: 2 N over 4 N/mm, five time constants on.
+        EXPECT_NEAR(end[24 * kSize + 20], -0.5 * (1 - std::exp(-5)), 0.01);
+    }
+}
+
+TEST(Press, a_frame_before_the_touch_is_the_image_itself) {
+    Scratch scratch;
+    io::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize)};
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        image.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : (i * i) % 256);
+    }
+    scratch.put("image.png", io::png_bytes(image));
+    std::string with_image = material(1.4, 0.1);
+    with_image.insert(with_image.size() - 1, R"(, "image": "image.png")");
+    scratch.put("m.json", with_image);
+    scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,30,30,0\n0.1,30,30,0\n0.101,30,30,3\n0.3,30,30,3\n");
+    const Outcome run = press(scratch, {"--size", "48", "--fps", "20"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const auto first = io::parse_image(scratch.get("out/frame_0000.png"), "first");
+    const auto last = io::parse_image(scratch.get("out/frame_0006.png"), "last");
+    ASSERT_TRUE(first && last);
+    EXPECT_EQ(first->rgba, image.rgba);
+    EXPECT_NE(last->rgba, image.rgba);
+    EXPECT_TRUE(scratch.get("out/frame_0000.f32").empty());
+    const auto summary = nlohmann::json::parse(scratch.get("out/summary.json"));
+    EXPECT_EQ(summary["schema"], "tribo.press/1");
+    EXPECT_EQ(summary["frames"], 7);
+}
+
+TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {
+    Scratch scratch;
+    scratch.put("m.json", material(1.4, 0.1));
+    scratch.put("s.csv", kStroke);
+    const auto expect_refusal = [&](std::vector<std::string> more, const std::string& part) {
+        const Outcome run = press(scratch, std::move(more));
+        EXPECT_EQ(run.code, 2);
+        EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+    };
+    expect_refusal({"--contact", "line"}, "--contact");
+    expect_refusal({"--size", "0"}, "--size");
+    expect_refusal({"--fps", "nan"}, "--fps");
+    expect_refusal({"--radius-mm", "0"}, "--radius-mm");
+    expect_refusal({"--fps", "9999", "--stroke", "long.csv"}, "long.csv");
+    scratch.put("long.csv", "t_s,x_mm,y_mm,force_n\n0,1,1,1\n1000,1,1,1\n");
+    expect_refusal({"--fps", "9999", "--stroke", "long.csv"}, "frames");
+    scratch.put("m.json", "{}");
+    expect_refusal({}, "m.json");
+    std::string without_image = material(1.4, 0.1);
+    without_image.insert(without_image.size() - 1, R"(, "image": "gone.png")");
+    scratch.put("m.json", without_image);
+    expect_refusal({}, "gone.png");
+    scratch.put("gone.png", "not a picture");
+    expect_refusal({}, "gone.png");
+}
+
+}  // namespace
+}  // namespace tribo::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "elastic/picture.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <vector>
+
+namespace tribo::elastic {
+namespace {
+
+constexpr int kSide = 96;
+
+std::vector<std::uint8_t> plain(std::uint8_t grey) {
+    std::vector<std::uint8_t> image(4 * kSide * kSide, grey);
+    for (std::size_t i = 3; i < image.size(); i += 4) image[i] = 200;
+    return image;
+}
+
+Sheet pressed(double x_mm, double y_mm) {
+    Sheet sheet({kSide, kSide, 1});
+    sheet.set_material({1, 0});
+    Contact c;
+    c.x_mm = x_mm;
+    c.y_mm = y_mm;
+    c.force_n = 5;
+    sheet.press({&c, 1});
+    sheet.step(1);
+    return sheet;
+}
+
+TEST(Picture, at_rest_is_the_image_byte_by_byte) {
+    std::vector<std::uint8_t> image(4 * kSide * kSide), out(image.size());
+    std::iota(image.begin(), image.end(), std::uint8_t{0});
+    const Sheet sheet({kSide, kSide, 0.3});
+    draw_rows(sheet, image, out, 0, kSide);
+    EXPECT_EQ(out, image);
+}
+
+TEST(Picture, the_far_wall_of_a_dent_is_lit_and_the_near_one_dark) {
+    const Sheet sheet = pressed(48, 48);
+    const auto image = plain(120);
+    std::vector<std::uint8_t> out(image.size());
+    draw_rows(sheet, image, out, 0, kSide);
+    const auto grey = [&](int x, int y) { return int{out[static_cast<std::size_t>(4 * (y * kSide + x))]}; };
+    // The light stands at the upper left: the wall that faces it is the one at the lower right.
+    EXPECT_GT(grey(54, 57), 130);
+    EXPECT_LT(grey(42, 39), 110);
+    EXPECT_NEAR(grey(3, 92), 120, 2);
+    EXPECT_EQ(out[3], 200);
+}
+
+TEST(Picture, what_is_pressed_moves_away_from_the_eye) {
+    // A dark row of the image through the dent: the eye looks from below, so that its image comes nearer
+    // to the middle of the eye's field, downwards.
+    const Sheet sheet = pressed(48, 30);
+    auto image = plain(250);
+    for (int x = 0; x < kSide; ++x)
+        for (int c = 0; c < 3; ++c) image[static_cast<std::size_t>(4 * (30 * kSide + x) + c)] = 0;
+    std::vector<std::uint8_t> out(image.size());
+    draw_rows(sheet, image, out, 0, kSide);
+    const auto darkest = [&](int x) {
+        int best = 0;
+        for (int y = 0; y < kSide; ++y)
+            if (out[static_cast<std::size_t>(4 * (y * kSide + x))] <
+                out[static_cast<std::size_t>(4 * (best * kSide + x))])
+                best = y;
+        return best;
+    };
+    EXPECT_EQ(darkest(1), 30);
+    // The eye is over y = 95.5 at a height of 96: 5 mm deep, (95.5 - 30) 5 / 101 = 3.2 aside.
+    EXPECT_NEAR(darkest(48), 33, 1);
+}
+
+TEST(Picture, rows_drawn_apart_are_those_drawn_at_once) {
+    const Sheet sheet = pressed(40, 50);
+    const auto image = plain(120);
+    std::vector<std::uint8_t> whole(image.size()), parts(image.size());
+    draw_rows(sheet, image, whole, 0, kSide);
+    for (int y = 0; y < kSide; y += 5) draw_rows(sheet, image, parts, y, std::min(5, kSide - y));
+    EXPECT_EQ(whole, parts);
+}
+
+}  // namespace
+}  // namespace tribo::elastic
