@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// The C ABI of touch.wasm: a sheet for the page, a friction voice for its AudioWorklet (each in an instance
+// of its own). Handles come from *_create and end with *_destroy. Numbers out of range are brought into it;
+// what is not a number is ignored, as the rooms do. Buffers move when memory grows: ask for them after calls.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "elastic/sheet.hpp"
+#include "noise/friction_voice.hpp"
+
+#define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+namespace {
+
+using tribo::elastic::Contact;
+using tribo::elastic::Material;
+using tribo::elastic::Sheet;
+
+constexpr std::uint32_t kMostContacts = 16;
+
+struct TouchSheet {
+    Sheet sheet;
+    std::array<Contact, kMostContacts> contacts{};  // seven doubles each, in the order of Contact
+    std::array<std::int32_t, 4> changes{};
+};
+
+double within(double value, double least, double most) {
+    return value >= least ? std::min(value, most) : least;
+}
+
+Material material(double stiffness_n_per_mm, double viscosity_n_s_per_mm) {
+    return {within(stiffness_n_per_mm, 1e-3, 1e6), within(viscosity_n_s_per_mm, 0, 1e6)};
+}
+
+}  // namespace
+
+TRIBO_EXPORT(sheet_create) TouchSheet* sheet_create(int width, int height, double spacing_mm) {
+    const auto nodes = [](int n) { return std::clamp(n, 1, tribo::elastic::kMostNodesPerSide); };
+    return new TouchSheet{Sheet({nodes(width), nodes(height), within(spacing_mm, 1e-6, 1e6)})};
+}
+
+TRIBO_EXPORT(sheet_destroy) void sheet_destroy(TouchSheet* s) {
+    delete s;
+}
+
+TRIBO_EXPORT(sheet_set_material)
+void sheet_set_material(TouchSheet* s, double stiffness_n_per_mm, double viscosity_n_s_per_mm) {
+    s->sheet.set_material(material(stiffness_n_per_mm, viscosity_n_s_per_mm));
+}
+
+// Levels, one byte a node, row by row; palette: stiffness and viscosity of each of the 256 levels.
+TRIBO_EXPORT(sheet_set_materials)
+void sheet_set_materials(TouchSheet* s, const std::uint8_t* levels, const double* palette) {
+    std::array<Material, 256> materials;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        materials[i] = material(palette[2 * i], palette[2 * i + 1]);
+    }
+    const auto& size = s->sheet.size();
+    s->sheet.set_materials({levels, static_cast<std::size_t>(size.width * size.height)}, materials);
+}
+
+// Where to write contacts before sheet_press: x_mm, y_mm, half_width_mm, half_height_mm, angle_rad, force_n,
+// held_s; doubles.
+TRIBO_EXPORT(sheet_contacts) Contact* sheet_contacts(TouchSheet* s) {
+    static_assert(sizeof(Contact) == 7 * sizeof(double));
+    return s->contacts.data();
+}
+
+TRIBO_EXPORT(sheet_press)
+void sheet_press(TouchSheet* s, std::uint32_t count, std::uint32_t point, std::uint32_t as_published) {
+    tribo::elastic::PressOptions options;
+    if (point != 0) options.shape = tribo::elastic::ContactShape::point;
+    options.as_published = as_published != 0;
+    s->sheet.press({s->contacts.data(), std::min(count, kMostContacts)}, options);
+}
+
+// 1 while anything moves.
+TRIBO_EXPORT(sheet_step)
+std::uint32_t sheet_step(TouchSheet* s, double duration_s, std::uint32_t as_published) {
+    using tribo::elastic::TimeScheme;
+    return s->sheet.step(duration_s, as_published != 0 ? TimeScheme::implicit_euler : TimeScheme::exact);
+}
+
+TRIBO_EXPORT(sheet_reset) void sheet_reset(TouchSheet* s) {
+    s->sheet.reset();
+}
+
+// x, y, width, height of what moved since the last call; width 0: nothing.
+TRIBO_EXPORT(sheet_changes) const std::int32_t* sheet_changes(TouchSheet* s) {
+    const tribo::elastic::NodeRect rect = s->sheet.take_changes();
+    s->changes = {rect.x, rect.y, rect.width, rect.height};
+    return s->changes.data();
+}
+
+// First node of the first row; rows are sheet_stride floats apart.
+TRIBO_EXPORT(sheet_heights) const float* sheet_heights(const TouchSheet* s) {
+    return s->sheet.heights(0);
+}
+TRIBO_EXPORT(sheet_stride) std::int32_t sheet_stride(const TouchSheet* s) {
+    return static_cast<std::int32_t>(s->sheet.stride());
+}
+
+// x or y of the unit normals, brought up to date; laid out as the heights.
+TRIBO_EXPORT(sheet_normals) const float* sheet_normals(TouchSheet* s, std::uint32_t axis) {
+    s->sheet.update_normals();
+    return axis == 0 ? s->sheet.normals_x(0) : s->sheet.normals_y(0);
+}
+
+// A voice from numbers: count of models; level in dB at 100 mm/s and 1 N and its two slopes; then of each
+// model speed, force, level in dB, sample rate, order and so many reflection coefficients. Null where they
+// are no voice.
+TRIBO_EXPORT(voice_create)
+tribo::noise::FrictionVoice* voice_create(const double* numbers, std::uint32_t length, double sample_rate_hz,
+                                          std::uint32_t seed, std::uint32_t as_published) {
+    using namespace tribo::noise;
+    std::uint32_t at = 0;
+    bool good = true;
+    const auto next = [&](double least, double most) {
+        const double value = at < length ? numbers[at] : std::nan("");
+        ++at;
+        good = good && value >= least && value <= most;
+        return good ? value : least;
+    };
+    MaterialVoices voices;
+    const double count = next(1, 64);
+    voices.law.level_db = next(-300, 300);
+    voices.law.db_per_decade_speed = next(-200, 200);
+    voices.law.db_per_decade_force = next(-200, 200);
+    for (int i = 0; good && i < count; ++i) {
+        VoiceModel model;
+        model.speed_mm_per_s = next(1e-6, 1e6);
+        model.force_n = next(1e-6, 1e4);
+        model.level_db = next(-300, 100);
+        model.spectrum.sample_rate_hz = next(1000, 384000);
+        const double order = next(0, kLargestOrder);
+        for (int k = 0; good && k < order; ++k) {
+            model.spectrum.reflection.push_back(next(-kLargestReflection, kLargestReflection));
+        }
+        voices.models.push_back(model);
+    }
+    FrictionOptions options;
+    options.sample_rate_hz = sample_rate_hz;
+    options.seed = seed;
+    options.as_published = as_published != 0;
+    if (!good || !(sample_rate_hz >= 1000 && sample_rate_hz <= 192000)) return nullptr;
+    return new FrictionVoice(voices, options);
+}
+
+TRIBO_EXPORT(voice_destroy) void voice_destroy(tribo::noise::FrictionVoice* voice) {
+    delete voice;
+}
+TRIBO_EXPORT(voice_set_target)
+void voice_set_target(tribo::noise::FrictionVoice* voice, double speed_mm_per_s, double force_n) {
+    voice->set_target(speed_mm_per_s, force_n);
+}
+TRIBO_EXPORT(voice_render)
+void voice_render(tribo::noise::FrictionVoice* voice, float* out, std::uint32_t frames) {
+    voice->render({out, frames});
+}
+// RMS, full scale 1, that the present speed and force lead to.
+TRIBO_EXPORT(voice_gain) double voice_gain(const tribo::noise::FrictionVoice* voice) {
+    return voice->target_gain();
+}
