@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Builds dist/: the registering module, the class alone, the worklet, types, and touch.wasm beside them.
+// TRIBO_WASM_DIR says where touch.wasm is (build/wasm of the repository otherwise).
+import { execFileSync } from "node:child_process";
+import { copyFile, mkdir, readFile, rm } from "node:fs/promises";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
+
+const here = new URL(".", import.meta.url).pathname;
+const wasm = process.env.TRIBO_WASM_DIR ?? `${here}../../build/wasm`;
+const banner = "// Tribo, MIT licence";
+
+await rm(`${here}dist`, { recursive: true, force: true });
+await mkdir(`${here}dist`, { recursive: true });
+const common = { bundle: true, format: "esm", target: "es2022", minify: true, legalComments: "none", banner: { js: banner } };
+await build({ ...common, entryPoints: { "tribo-touch": `${here}src/index.ts` }, outdir: `${here}dist` });
+await build({ ...common, entryPoints: { element: `${here}src/element.ts`, worklet: `${here}src/worklet.ts` }, outdir: `${here}dist` });
+await copyFile(`${wasm}/touch.wasm`, `${here}dist/touch.wasm`);
+execFileSync(process.execPath, [`${here}node_modules/typescript/bin/tsc`, "-p", `${here}tsconfig.json`], { stdio: "inherit" });
+
+let total = 0;
+for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
+  const bytes = gzipSync(await readFile(`${here}dist/${file}`), { level: 9 }).length;
+  total += bytes;
+  console.log(`${file.padEnd(16)} ${bytes} bytes gzip`);
+}
+console.log(`${"together".padEnd(16)} ${total} bytes gzip`);
+if (total > 40_000) throw new Error("the component is larger than 40 kB");

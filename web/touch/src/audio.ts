@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Friction sound for all elements of a page: one AudioContext, one AudioWorkletNode. It is made ready while
+// nothing is touched yet and begins with the first gesture, as browsers demand.
+import { engine } from "./engine.js";
+import { voiceNumbers, type Material } from "./material.js";
+
+/** What the worklet is told. */
+export type VoiceMessage =
+  | { kind: "add"; id: number; numbers: Float64Array; published: boolean }
+  | { kind: "target"; id: number; speed: number; force: number; pan: number; gain: number }
+  | { kind: "remove"; id: number };
+
+let nextId = 1;
+
+class Sound {
+  readonly context: AudioContext;
+  #node: AudioWorkletNode;
+
+  constructor(context: AudioContext, node: AudioWorkletNode) {
+    this.context = context;
+    this.#node = node;
+    node.connect(context.destination);
+  }
+
+  send(message: VoiceMessage): void {
+    this.#node.port.postMessage(message);
+  }
+
+  /** Call from a gesture. */
+  resume(): Promise<void> {
+    return this.context.state === "running" ? Promise.resolve() : this.context.resume();
+  }
+}
+
+let loading: Promise<Sound> | undefined;
+
+async function load(): Promise<Sound> {
+  if (typeof AudioContext === "undefined") throw new Error("Web Audio is not available");
+  const context = new AudioContext({ latencyHint: "interactive" });
+  if (context.audioWorklet === undefined) throw new Error("AudioWorklet needs a secure page (https or localhost)");
+  const [{ module }] = await Promise.all([
+    engine(),
+    context.audioWorklet.addModule(new URL("./worklet.js", import.meta.url)),
+  ]);
+  const node = new AudioWorkletNode(context, "tribo-friction", {
+    numberOfInputs: 0,
+    outputChannelCount: [2],
+    processorOptions: { module },
+  });
+  return new Sound(context, node);
+}
+
+function sound(): Promise<Sound> {
+  loading ??= load().catch((error: unknown) => {
+    loading = undefined;
+    throw error;
+  });
+  return loading;
+}
+
+/** The voice of one element. */
+export class Voice {
+  readonly id = nextId++;
+  #sound: Sound | undefined;
+  #freed = false;
+  readonly ready: Promise<void>;
+
+  constructor(material: Material, published: boolean) {
+    this.ready = sound().then((made) => {
+      if (this.#freed) return;
+      this.#sound = made;
+      made.send({ kind: "add", id: this.id, numbers: voiceNumbers(material), published });
+    });
+  }
+
+  /** Call from a gesture: browsers let sound begin there only. */
+  wake(): void {
+    void this.ready.then(() => this.#sound?.resume()).catch(() => undefined);
+  }
+
+  /** Speed in mm/s, force in N, pan -1 (left) to 1, gain 1 for the level as it was recorded. */
+  target(speed: number, force: number, pan: number, gain = 1): void {
+    this.#sound?.send({ kind: "target", id: this.id, speed, force, pan, gain });
+  }
+
+  free(): void {
+    this.#freed = true;
+    this.#sound?.send({ kind: "remove", id: this.id });
+    this.#sound = undefined;
+  }
+
+  /** Seconds that the system adds between the worklet and the ear, as far as it says. */
+  get latency(): number {
+    const context = this.#sound?.context;
+    return context === undefined ? 0 : context.baseLatency + (context.outputLatency ?? 0);
+  }
+}

@@ -1,0 +1,556 @@
+// SPDX-License-Identifier: MIT
+// <tribo-touch>: an image that yields under fingers and sounds when rubbed. docs/touch.md has the list of
+// attributes, properties, events, slots, parts and CSS properties; custom-elements.json has it for tools.
+import { Voice } from "./audio.js";
+import { engine, type Sheet } from "./engine.js";
+import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
+import { animate, stop } from "./frames.js";
+import { parseMaterial, type Material } from "./material.js";
+import { Relief } from "./relief.js";
+import { renderer, type Picture, type Renderer } from "./renderer.js";
+import { build, type Parts } from "./shadow.js";
+import { Vibration } from "./vibration.js";
+
+/** Of contact-start, contact-move and contact-end. */
+export interface ContactDetail {
+  /** Place in the image, 0 to 1 from its top left corner. */
+  u: number;
+  v: number;
+  depth_mm: number;
+  force_n: number;
+  area_mm2: number;
+  speed_mm_per_s: number;
+  pointerType: string;
+  timeStamp: number;
+}
+
+/** Of error. Without `material` and `image` nothing can be shown; the others leave the plain image or silence. */
+export interface TriboErrorDetail {
+  type: "material" | "image" | "wasm" | "webgl" | "audio";
+  message: string;
+}
+
+/** idle: not asked for yet; plain: the image alone, nothing yields; failed: not even that. */
+export type State = "idle" | "loading" | "ready" | "plain" | "failed";
+
+const kNodes = 512;
+// Equations 1 and 2 as printed reach over the whole image at every frame.
+const kPublishedNodes = 256;
+const kMostPixelRatio = 2;
+const kKeyboardStep = 0.02;
+const kStrongestMapFactor = 8;
+
+// On a server there are no elements; the class is never made there.
+const Base = typeof HTMLElement === "undefined" ? (class {} as typeof HTMLElement) : HTMLElement;
+
+export class TriboTouch extends Base {
+  static readonly observedAttributes = [
+    "src", "alt", "poster", "disabled", "muted", "sound", "stiffness", "damping", "stiffness-map", "as-published",
+    "touch-action",
+  ];
+
+  #parts: Parts | undefined;
+  #state: State = "idle";
+  #material: Material | undefined;
+  #sheet: Sheet | undefined;
+  #picture: Picture | undefined;
+  #context: CanvasRenderingContext2D | null = null;
+  #renderer: Renderer | undefined;
+  #voice: Voice | undefined;
+  #relief: Relief | undefined;
+  #vibration = new Vibration();
+  #fingers = new Map<number, Finger>();
+  #types = new Map<number, string>();
+  #probe = { u: 0.5, v: 0.5, down: false, firmness: 1 };
+  #visible = false;
+  #posterDismissed = false;
+  #attempt = 0;
+  #inView: IntersectionObserver | undefined;
+  #sized: ResizeObserver | undefined;
+  #restore = () => this.#contextRestored();
+  #lose = () => this.#contextLost();
+  #hide = () => document.visibilityState === "hidden" && this.#liftAll();
+
+  // Properties that mirror attributes ---------------------------------------------------------------------------
+
+  get src(): string { return this.getAttribute("src") ?? ""; }
+  set src(value: string) { this.setAttribute("src", value); }
+  get alt(): string { return this.getAttribute("alt") ?? ""; }
+  set alt(value: string) { this.setAttribute("alt", value); }
+  get poster(): string { return this.getAttribute("poster") ?? ""; }
+  set poster(value: string) { this.setAttribute("poster", value); }
+  get loading(): string { return this.getAttribute("loading") ?? "auto"; }
+  set loading(value: string) { this.setAttribute("loading", value); }
+  get reveal(): string { return this.getAttribute("reveal") ?? "auto"; }
+  set reveal(value: string) { this.setAttribute("reveal", value); }
+  get disabled(): boolean { return this.hasAttribute("disabled"); }
+  set disabled(value: boolean) { this.toggleAttribute("disabled", value); }
+  get muted(): boolean { return this.hasAttribute("muted"); }
+  set muted(value: boolean) { this.toggleAttribute("muted", value); }
+  get asPublished(): boolean { return this.hasAttribute("as-published"); }
+  set asPublished(value: boolean) { this.toggleAttribute("as-published", value); }
+  /** K in N/mm: the attribute, or the material's. */
+  get stiffness(): number { return this.#number("stiffness", 1e-3) ?? this.#material?.stiffness_n_per_mm ?? Number.NaN; }
+  set stiffness(value: number) { this.setAttribute("stiffness", String(value)); }
+  /** nu in N s/mm: the attribute, or the material's. */
+  get damping(): number { return this.#number("damping", 0) ?? this.#material?.viscosity_n_s_per_mm ?? Number.NaN; }
+  set damping(value: number) { this.setAttribute("damping", String(value)); }
+
+  get state(): State { return this.#state; }
+  get loaded(): boolean { return this.#state === "ready" || this.#state === "plain"; }
+  get material(): Material | undefined { return this.#material; }
+  /** Seconds from the worklet to the ear, as far as the system says. */
+  get audioLatency(): number { return this.#voice?.latency ?? 0; }
+
+  #number(name: string, least: number): number | undefined {
+    const value = Number(this.getAttribute(name) ?? Number.NaN);
+    return value >= least && value <= 1e6 ? value : undefined;
+  }
+
+  // Life --------------------------------------------------------------------------------------------------------
+
+  connectedCallback(): void {
+    this.#parts ??= this.#build();
+    this.#inView = new IntersectionObserver((entries) => this.#seen(entries[entries.length - 1]!.isIntersecting),
+      { rootMargin: "200px" });
+    this.#inView.observe(this);
+    this.#sized = new ResizeObserver(() => this.#resize());
+    this.#sized.observe(this.#parts.surface);
+    document.addEventListener("visibilitychange", this.#hide);
+    this.#describe();
+    if (this.loading === "eager") void this.#load();
+  }
+
+  disconnectedCallback(): void {
+    this.#inView?.disconnect();
+    this.#sized?.disconnect();
+    document.removeEventListener("visibilitychange", this.#hide);
+    this.#free();
+    this.#state = "idle";
+  }
+
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    if (before === now || this.#parts === undefined) return;
+    this.#describe();
+    if (name === "src" || name === "as-published" || name === "stiffness-map") {
+      const wanted = this.#state !== "idle" || this.#visible || this.loading === "eager";
+      this.#free();
+      this.#state = "idle";
+      if (wanted && this.isConnected) void this.#load();
+    } else if (name === "stiffness" || name === "damping") {
+      this.#applyMaterial();
+      animate(this);
+    } else if (name === "disabled") {
+      if (this.disabled) this.#liftAll();
+    } else if (name === "muted" || name === "sound") {
+      this.#makeVoice();
+    }
+  }
+
+  #build(): Parts {
+    const parts = build(this);
+    const { surface } = parts;
+    this.#context = parts.canvas.getContext("2d");
+    surface.addEventListener("pointerdown", (event) => this.#down(event));
+    surface.addEventListener("pointermove", (event) => this.#move(event));
+    surface.addEventListener("pointerup", (event) => this.#lift(event.pointerId, event.timeStamp));
+    surface.addEventListener("pointercancel", (event) => this.#lift(event.pointerId, event.timeStamp));
+    surface.addEventListener("lostpointercapture", (event) => this.#lift(event.pointerId, event.timeStamp));
+    surface.addEventListener("contextmenu", (event) => this.#fingers.size > 0 && event.preventDefault());
+    surface.addEventListener("keydown", (event) => this.#key(event));
+    surface.addEventListener("focus", () => this.#showProbe(surface.matches(":focus-visible")));
+    surface.addEventListener("blur", () => { this.#keyUp(); this.#showProbe(false); });
+    return parts;
+  }
+
+  #describe(): void {
+    const { surface, image, poster, cover } = this.#parts!;
+    surface.setAttribute("aria-label", this.alt || this.#material?.name || "touchable image");
+    surface.setAttribute("aria-disabled", String(this.disabled));
+    surface.tabIndex = this.disabled ? -1 : 0;
+    surface.style.touchAction = this.getAttribute("touch-action") ?? "";
+    image.alt = this.#state === "failed" ? this.alt : "";
+    if (this.poster !== "" && poster.getAttribute("src") !== this.poster) poster.src = this.poster;
+    poster.hidden = this.poster === "";
+    cover.hidden = this.#posterDismissed;
+  }
+
+  #seen(visible: boolean): void {
+    this.#visible = visible;
+    if (visible && this.#state === "idle") void this.#load();
+    if (visible) animate(this);
+    else this.#liftAll();
+  }
+
+  #fail(type: TriboErrorDetail["type"], error: unknown): void {
+    const message = error instanceof Error ? error.message : String(error);
+    this.dispatchEvent(new CustomEvent<TriboErrorDetail>("error", { detail: { type, message } }));
+  }
+
+  async #load(): Promise<void> {
+    if (this.src === "") return;
+    const attempt = ++this.#attempt;
+    const stale = () => attempt !== this.#attempt || !this.isConnected;
+    this.#state = "loading";
+    const image = this.#parts!.image;
+    try {
+      const address = new URL(this.src, document.baseURI);
+      const response = await fetch(address);
+      if (!response.ok) throw new Error(`${address.href}: HTTP ${response.status}`);
+      const material = parseMaterial(await response.json(), response.url || address.href);
+      if (material.image === "") throw new Error("the material has no image");
+      if (stale()) return;
+      this.#material = material;
+    } catch (error) {
+      if (!stale()) this.#end("failed", "material", error);
+      return;
+    }
+    // The engine loads while the image does.
+    const engineReady = engine();
+    engineReady.catch(() => undefined);
+    try {
+      image.crossOrigin = "anonymous";
+      image.src = this.#material.image;
+      await image.decode();
+      if (stale()) return;
+    } catch (error) {
+      if (!stale()) this.#end("failed", "image", error instanceof Error ? `${this.#material.image}: ${error.message}` : error);
+      return;
+    }
+    let kind: TriboErrorDetail["type"] = "wasm";
+    try {
+      const made = await engineReady;
+      if (stale()) return;
+      kind = "webgl";
+      this.#renderer = renderer();
+      this.#renderer.addEventListener("lost", this.#lose);
+      this.#renderer.addEventListener("restored", this.#restore);
+      const most = this.asPublished ? kPublishedNodes : kNodes;
+      const scale = Math.min(1, most / Math.max(image.naturalWidth, image.naturalHeight));
+      const nodesX = Math.max(1, Math.round(image.naturalWidth * scale));
+      const nodesY = Math.max(1, Math.round(image.naturalHeight * scale));
+      const spacingMm = this.#material.width_mm / nodesX;
+      this.#sheet = made.sheet(nodesX, nodesY, spacingMm);
+      this.#picture = { image, nodesX, nodesY, spacingMm };
+      this.#renderer.add(this.#picture);
+      this.#renderer.upload(this.#picture, this.#sheet.everything());
+    } catch (error) {
+      if (!stale()) this.#end("plain", kind, error);
+      return;
+    }
+    this.#applyMaterial();
+    await this.#loadMap().catch((error: unknown) => this.#fail("image", error));
+    if (stale()) return;
+    this.#makeVoice();
+    this.#end("ready");
+  }
+
+  #end(state: State, type?: TriboErrorDetail["type"], error?: unknown): void {
+    this.#state = state;
+    if (type !== undefined) {
+      if (state !== "ready") this.#freeGraphics();
+      this.#fail(type, error);
+    }
+    this.#describe();
+    this.#resize();
+    if (this.loaded) {
+      if (this.reveal !== "manual") this.dismissPoster();
+      this.dispatchEvent(new Event("load"));
+    }
+  }
+
+  #applyMaterial(): void {
+    if (this.#sheet !== undefined && !this.hasAttribute("stiffness-map")) {
+      this.#sheet.setMaterial(this.stiffness, this.damping);
+    }
+  }
+
+  /** A grey image: white has the material's stiffness, black eight times as much. */
+  async #loadMap(): Promise<void> {
+    const address = this.getAttribute("stiffness-map"), sheet = this.#sheet;
+    if (address === null || sheet === undefined) return;
+    const map = new Image();
+    map.crossOrigin = "anonymous";
+    map.src = new URL(address, document.baseURI).href;
+    await map.decode();
+    if (sheet !== this.#sheet) return;
+    const canvas = document.createElement("canvas");
+    canvas.width = sheet.width;
+    canvas.height = sheet.height;
+    const context = canvas.getContext("2d")!;
+    context.drawImage(map, 0, 0, canvas.width, canvas.height);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const levels = new Uint8Array(canvas.width * canvas.height);
+    for (let i = 0; i < levels.length; ++i) {
+      levels[i] = Math.round(0.3 * data[4 * i]! + 0.59 * data[4 * i + 1]! + 0.11 * data[4 * i + 2]!);
+    }
+    const palette = new Float64Array(512);
+    for (let level = 0; level < 256; ++level) {
+      palette[2 * level] = this.stiffness * kStrongestMapFactor ** (1 - level / 255);
+      palette[2 * level + 1] = this.damping;
+    }
+    sheet.setMaterials(levels, palette);
+  }
+
+  #makeVoice(): void {
+    this.#voice?.free();
+    this.#voice = undefined;
+    if (this.muted || this.getAttribute("sound") === "off" || !this.#material?.voices.length || !this.#sheet) return;
+    const voice = new Voice(this.#material, this.asPublished);
+    this.#voice = voice;
+    voice.ready.catch((error: unknown) => {
+      if (this.#voice === voice) this.#fail("audio", error);
+    });
+    try {
+      this.#relief = new Relief(this.#parts!.image);
+    } catch {
+      this.#relief = undefined;
+    }
+  }
+
+  #freeGraphics(): void {
+    stop(this);
+    this.#sheet?.free();
+    this.#sheet = undefined;
+    if (this.#picture !== undefined) this.#renderer?.free(this.#picture);
+    this.#picture = undefined;
+    this.#renderer?.removeEventListener("lost", this.#lose);
+    this.#renderer?.removeEventListener("restored", this.#restore);
+    this.#renderer = undefined;
+    this.#parts?.surface.classList.remove("drawn");
+    if (this.#parts !== undefined) this.#parts.canvas.width = this.#parts.canvas.height = 0;
+  }
+
+  #free(): void {
+    ++this.#attempt;
+    this.#liftAll();
+    this.#freeGraphics();
+    this.#voice?.free();
+    this.#voice = undefined;
+    this.#relief = undefined;
+    this.#parts?.image.removeAttribute("src");
+  }
+
+  // The picture -------------------------------------------------------------------------------------------------
+
+  #resize(): void {
+    if (this.#picture === undefined || this.#parts === undefined) return;
+    const { canvas, surface } = this.#parts;
+    const ratio = Math.min(kMostPixelRatio, window.devicePixelRatio || 1);
+    const width = Math.round(surface.clientWidth * ratio);
+    const height = Math.round((width * this.#picture.nodesY) / this.#picture.nodesX);
+    if (width > 0 && (canvas.width !== width || canvas.height !== height)) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    animate(this);
+  }
+
+  #contextLost(): void {
+    this.#parts?.surface.classList.remove("drawn");
+    stop(this);
+  }
+
+  #contextRestored(): void {
+    if (this.#picture === undefined || this.#sheet === undefined) return;
+    this.#renderer!.add(this.#picture);
+    this.#renderer!.upload(this.#picture, this.#sheet.everything());
+    animate(this);
+  }
+
+  /** Called by the page's animation loop. */
+  frame(now: number, seconds: number): boolean {
+    const sheet = this.#sheet, picture = this.#picture;
+    if (sheet === undefined || picture === undefined || this.#context === null || this.#renderer!.lost) return false;
+    const contacts = [...this.#fingers.values()].map((finger) => finger.contact(now));
+    sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point");
+    const moving = sheet.step(seconds, this.asPublished);
+    const changes = sheet.changes();
+    if (changes !== null) this.#renderer!.upload(picture, changes);
+    if (this.#context.canvas.width > 0) {
+      const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+      if (this.#renderer!.draw(picture, this.#context, !still)) this.#parts!.surface.classList.add("drawn");
+    }
+    this.#sound(now, seconds);
+    for (const [id, finger] of this.#fingers) this.#tell("contact-move", id, finger, now * 1000);
+    return (moving || this.#fingers.size > 0) && this.#visible;
+  }
+
+  #sound(now: number, seconds: number): void {
+    let speed = 0, force = 0, u = 0.5, v = 0.5;
+    for (const finger of this.#fingers.values()) {
+      if (finger.speed(now) < speed) continue;
+      speed = finger.speed(now);
+      force = finger.force(now);
+      [u, v] = this.#place(finger);
+    }
+    const inside = u >= 0 && u <= 1 && v >= 0 && v <= 1;
+    this.#voice?.target(inside ? speed : 0, force, Math.min(1, Math.max(-1, 2 * u - 1)), this.#relief?.gain(u, v) ?? 1);
+    if (speed > 0 && this.getAttribute("haptics") !== "off") this.#vibration.rub(speed, force, seconds, now);
+  }
+
+  // Fingers -----------------------------------------------------------------------------------------------------
+
+  #place(finger: Finger): [number, number] {
+    const { nodesX, nodesY, spacingMm } = this.#picture!;
+    return [finger.x / (nodesX * spacingMm), finger.y / (nodesY * spacingMm)];
+  }
+
+  #tell(type: string, id: number, finger: Finger, timeStamp: number): void {
+    const now = timeStamp / 1000, [u, v] = this.#place(finger);
+    const detail: ContactDetail = {
+      u, v, timeStamp,
+      depth_mm: this.#sheet?.depthAt(finger.x, finger.y) ?? 0,
+      force_n: finger.force(now),
+      area_mm2: finger.area,
+      speed_mm_per_s: finger.speed(now),
+      pointerType: this.#types.get(id) ?? "",
+    };
+    this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true, composed: true }));
+  }
+
+  #report(event: PointerEvent): FingerReport {
+    const box = this.#parts!.surface.getBoundingClientRect();
+    const { nodesX, spacingMm } = this.#picture!;
+    const mmPerPixel = (nodesX * spacingMm) / Math.max(1, box.width);
+    // A mouse and a screen that does not measure say one pixel.
+    const size = (pixels: number) => (pixels > 1 ? pixels * mmPerPixel : 0);
+    return {
+      x: (event.clientX - box.left) * mmPerPixel,
+      y: (event.clientY - box.top) * mmPerPixel,
+      width: size(event.width),
+      height: size(event.height),
+      pressure: measuredPressure(event),
+      time: event.timeStamp / 1000,
+    };
+  }
+
+  #touch(id: number, type: string, report: FingerReport, firmness = 1): void {
+    const finger = new Finger(report);
+    finger.firmness = firmness;
+    this.#fingers.set(id, finger);
+    this.#types.set(id, type);
+    this.#voice?.wake();
+    this.dismissPoster();
+    this.#tell("contact-start", id, finger, report.time * 1000);
+    animate(this);
+  }
+
+  #down(event: PointerEvent): void {
+    if (this.#picture === undefined || this.disabled || event.button !== 0) return;
+    try {
+      this.#parts!.surface.setPointerCapture(event.pointerId);
+    } catch {
+      // The pointer is gone already, or made by a script.
+    }
+    this.#showProbe(false);
+    this.#touch(event.pointerId, event.pointerType, this.#report(event));
+  }
+
+  #move(event: PointerEvent): void {
+    const finger = this.#fingers.get(event.pointerId);
+    if (finger === undefined || this.#picture === undefined) return;
+    const reports = event.getCoalescedEvents?.() ?? [];
+    for (const one of reports.length > 0 ? reports : [event]) finger.move(this.#report(one));
+  }
+
+  #lift(id: number, timeStamp: number): void {
+    const finger = this.#fingers.get(id);
+    if (finger === undefined) return;
+    if (this.#picture !== undefined) this.#tell("contact-end", id, finger, timeStamp);
+    this.#fingers.delete(id);
+    this.#types.delete(id);
+    if (this.#fingers.size === 0) this.#voice?.target(0, 0, 0);
+    animate(this);
+  }
+
+  #liftAll(): void {
+    this.#keyUp();
+    for (const id of [...this.#fingers.keys()]) this.#lift(id, performance.now());
+  }
+
+  // The keyboard's finger, number -1 ----------------------------------------------------------------------------
+
+  #showProbe(shown: boolean): void {
+    const { probe } = this.#parts!;
+    probe.hidden = !shown || this.#state !== "ready";
+    probe.style.left = `${100 * this.#probe.u}%`;
+    probe.style.top = `${100 * this.#probe.v}%`;
+    probe.classList.toggle("down", this.#probe.down);
+  }
+
+  #probeReport(): FingerReport {
+    const { nodesX, nodesY, spacingMm } = this.#picture!;
+    return {
+      x: this.#probe.u * nodesX * spacingMm, y: this.#probe.v * nodesY * spacingMm,
+      width: 0, height: 0, pressure: Number.NaN, time: performance.now() / 1000,
+    };
+  }
+
+  #keyUp(): void {
+    if (!this.#probe.down) return;
+    this.#probe.down = false;
+    this.#lift(-1, performance.now());
+    this.#say("lifted");
+  }
+
+  #say(text: string): void {
+    this.#parts!.status.textContent = text;
+  }
+
+  #key(event: KeyboardEvent): void {
+    if (this.#picture === undefined || this.disabled || event.ctrlKey || event.altKey || event.metaKey) return;
+    const probe = this.#probe;
+    const moves: Record<string, [number, number]> = {
+      ArrowLeft: [-kKeyboardStep, 0], ArrowRight: [kKeyboardStep, 0], ArrowUp: [0, -kKeyboardStep], ArrowDown: [0, kKeyboardStep],
+    };
+    const move = moves[event.key];
+    if (move !== undefined) {
+      probe.u = Math.min(1, Math.max(0, probe.u + move[0]));
+      probe.v = Math.min(1, Math.max(0, probe.v + move[1]));
+      this.#fingers.get(-1)?.move(this.#probeReport());
+    } else if (event.key === " " || event.key === "Enter") {
+      if (event.repeat) return event.preventDefault();
+      if (probe.down) this.#keyUp();
+      else {
+        probe.down = true;
+        this.#touch(-1, "keyboard", this.#probeReport(), probe.firmness);
+        this.#say("pressed");
+      }
+    } else if (event.key === "+" || event.key === "-") {
+      probe.firmness = Math.min(3, Math.max(0.25, probe.firmness * (event.key === "+" ? 1.25 : 0.8)));
+      const finger = this.#fingers.get(-1);
+      if (finger !== undefined) finger.firmness = probe.firmness;
+      this.#say(`force ${(2 * probe.firmness).toFixed(1)} newton`);
+    } else if (event.key === "Escape" && probe.down) {
+      this.#keyUp();
+    } else {
+      return;
+    }
+    event.preventDefault();
+    this.#showProbe(true);
+    animate(this);
+  }
+
+  // Methods -----------------------------------------------------------------------------------------------------
+
+  /** Takes the poster away; happens by itself after loading unless reveal is "manual". */
+  dismissPoster(): void {
+    if (this.#posterDismissed) return;
+    this.#posterDismissed = true;
+    if (this.#parts !== undefined) this.#parts.cover.hidden = true;
+    this.dispatchEvent(new Event("poster-dismissed"));
+  }
+
+  showPoster(): void {
+    this.#posterDismissed = false;
+    if (this.#parts !== undefined) this.#parts.cover.hidden = false;
+  }
+
+  /** The picture as it is now, as a PNG; null before there is one. */
+  toBlob(): Promise<Blob | null> {
+    const canvas = this.#parts?.canvas;
+    if (canvas === undefined || canvas.width === 0) return Promise.resolve(null);
+    return new Promise((done) => canvas.toBlob(done));
+  }
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// From what a screen tells of fingers to what a sheet and a voice need: an ellipse, a force, a speed.
+import type { Contact } from "./engine.js";
+
+/** One report about one finger, in mm of the image and seconds. */
+export interface FingerReport {
+  x: number;
+  y: number;
+  /** Size of the touch in mm; 0: the screen does not say. */
+  width: number;
+  height: number;
+  /** 0 to 1, or NaN where the screen does not measure it. */
+  pressure: number;
+  time: number;
+}
+
+// A finger that presses as hard as it is asked to, and how long it takes to where nothing measures it.
+const kFullForceN = 2;
+const kGrowthS = 0.25;
+const kMeasuredForceN = 3;
+const kDefaultRadiusMm = 6;
+const kLeastRadiusMm = 1, kMostRadiusMm = 15;
+// Speed is the way of the last reports over their time; a finger that reports nothing stands still.
+const kSpeedWindowS = 0.03;
+const kStandsStillS = 0.05;
+
+export class Finger {
+  x: number;
+  y: number;
+  #since: number;
+  #pressure: number;
+  #halfWidth = kDefaultRadiusMm;
+  #halfHeight = kDefaultRadiusMm;
+  #trail: { x: number; y: number; time: number }[] = [];
+  /** Times the usual force; the keyboard changes it. */
+  firmness = 1;
+
+  constructor(report: FingerReport) {
+    this.x = report.x;
+    this.y = report.y;
+    this.#since = report.time;
+    this.#pressure = report.pressure;
+    this.move(report);
+  }
+
+  move(report: FingerReport): void {
+    this.x = report.x;
+    this.y = report.y;
+    this.#pressure = report.pressure;
+    const radius = (size: number) =>
+      size > 0 ? Math.min(kMostRadiusMm, Math.max(kLeastRadiusMm, size / 2)) : kDefaultRadiusMm;
+    this.#halfWidth = radius(report.width);
+    this.#halfHeight = radius(report.height);
+    this.#trail.push({ x: report.x, y: report.y, time: report.time });
+    while (this.#trail.length > 2 && this.#trail[1]!.time <= report.time - kSpeedWindowS) this.#trail.shift();
+  }
+
+  held(now: number): number {
+    return Math.max(0, now - this.#since);
+  }
+
+  force(now: number): number {
+    const firm = this.firmness;
+    if (Number.isNaN(this.#pressure)) return firm * kFullForceN * (1 - Math.exp(-this.held(now) / kGrowthS));
+    return firm * kMeasuredForceN * this.#pressure;
+  }
+
+  /** mm/s along the surface. */
+  speed(now: number): number {
+    const first = this.#trail[0]!, last = this.#trail[this.#trail.length - 1]!;
+    if (now - last.time > kStandsStillS || last.time <= first.time) return 0;
+    let way = 0;
+    for (let i = 1; i < this.#trail.length; ++i) {
+      way += Math.hypot(this.#trail[i]!.x - this.#trail[i - 1]!.x, this.#trail[i]!.y - this.#trail[i - 1]!.y);
+    }
+    return way / (last.time - first.time);
+  }
+
+  contact(now: number): Contact {
+    return {
+      x: this.x, y: this.y, halfWidth: this.#halfWidth, halfHeight: this.#halfHeight,
+      force: this.force(now), held: this.held(now),
+    };
+  }
+
+  get area(): number {
+    return Math.PI * this.#halfWidth * this.#halfHeight;
+  }
+}
+
+/** The pressure that a pointer measures, or NaN: a mouse says 0.5, a screen without the sense 0, 0.5 or 1. */
+export function measuredPressure(event: PointerEvent): number {
+  if (event.pointerType === "mouse") return Number.NaN;
+  const p = event.pressure;
+  return p > 0 && p < 1 && p !== 0.5 ? p : Number.NaN;
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// One animation loop for all elements; it runs only while one of them moves.
+
+export interface Animated {
+  /** Draws the frame at `now` (seconds); false: nothing moves any more. */
+  frame(now: number, seconds: number): boolean;
+}
+
+const running = new Map<Animated, number>();
+let request = 0;
+// After a pause the sheet need not make up for all of it: it has long come to rest.
+const kLongestFrameS = 0.25;
+
+function tick(milliseconds: number): void {
+  const now = milliseconds / 1000;
+  for (const [element, last] of [...running]) {
+    if (!running.has(element)) continue;
+    const seconds = last < 0 ? 1 / 60 : Math.min(kLongestFrameS, Math.max(0, now - last));
+    running.set(element, now);
+    if (!element.frame(now, seconds)) running.delete(element);
+  }
+  request = running.size > 0 ? requestAnimationFrame(tick) : 0;
+}
+
+export function animate(element: Animated): void {
+  if (!running.has(element)) running.set(element, -1);
+  if (request === 0) request = requestAnimationFrame(tick);
+}
+
+export function stop(element: Animated): void {
+  running.delete(element);
+}

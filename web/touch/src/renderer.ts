@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// One WebGL2 context for all elements of a page (browsers give only about sixteen): each element's image and
+// heights are textures of it, each frame is drawn into its corner and copied to the element's own canvas.
+import type { Changes } from "./engine.js";
+import { kFragment, kVertex } from "./shader.js";
+
+/** What an element shows; its textures live in the shared context until free() is called. */
+export interface Picture {
+  image: HTMLImageElement;
+  /** Nodes of the sheet. */
+  nodesX: number;
+  nodesY: number;
+  spacingMm: number;
+}
+
+interface Textures {
+  image: WebGLTexture;
+  heights: WebGLTexture;
+}
+
+const kUniforms = ["image", "heights", "extent", "node", "spacing", "longer", "parallax"] as const;
+type Uniforms = Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
+
+function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
+  const made = gl.createShader(type)!;
+  gl.shaderSource(made, source);
+  gl.compileShader(made);
+  return made;
+}
+
+export class Renderer extends EventTarget {
+  readonly canvas = document.createElement("canvas");
+  #gl: WebGL2RenderingContext;
+  #program: WebGLProgram | null = null;
+  #uniforms!: Uniforms;
+  #floatHeights = false;
+  #textures = new Map<Picture, Textures>();
+  #largest = 4096;
+
+  constructor() {
+    super();
+    const gl = this.canvas.getContext("webgl2", {
+      alpha: true, antialias: false, depth: false, stencil: false, powerPreference: "low-power",
+    });
+    if (gl === null) throw new Error("WebGL2 is not available");
+    this.#gl = gl;
+    this.#prepare();
+    this.canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.#program = null;
+      this.#textures.clear();
+      this.dispatchEvent(new Event("lost"));
+    });
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      this.#prepare();
+      this.dispatchEvent(new Event("restored"));
+    });
+  }
+
+  get lost(): boolean {
+    return this.#program === null;
+  }
+
+  get pictures(): number {
+    return this.#textures.size;
+  }
+
+  #prepare(): void {
+    const gl = this.#gl;
+    this.#floatHeights = gl.getExtension("OES_texture_float_linear") !== null;
+    this.#largest = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
+    const program = gl.createProgram()!;
+    gl.attachShader(program, shader(gl, gl.VERTEX_SHADER, kVertex));
+    gl.attachShader(program, shader(gl, gl.FRAGMENT_SHADER, kFragment));
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+      throw new Error(`the shader does not link: ${gl.getProgramInfoLog(program)}`);
+    }
+    this.#uniforms = Object.fromEntries(kUniforms.map((n) => [n, gl.getUniformLocation(program, n)])) as Uniforms;
+    gl.useProgram(program);
+    gl.uniform1i(this.#uniforms.image, 0);
+    gl.uniform1i(this.#uniforms.heights, 1);
+    this.#program = program;
+  }
+
+  add(picture: Picture): void {
+    const gl = this.#gl;
+    if (this.lost || this.#textures.has(picture)) return;
+    const image = gl.createTexture()!, heights = gl.createTexture()!;
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, image);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, this.#fitting(picture.image));
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    this.#clamp();
+    gl.bindTexture(gl.TEXTURE_2D, heights);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, this.#floatHeights ? gl.R32F : gl.R16F, picture.nodesX, picture.nodesY);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    this.#clamp();
+    this.#textures.set(picture, { image, heights });
+  }
+
+  #clamp(): void {
+    const gl = this.#gl;
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+  }
+
+  /** The image, made smaller where it is larger than a texture may be. */
+  #fitting(image: HTMLImageElement): TexImageSource {
+    const most = Math.min(this.#largest, 4096);
+    const scale = most / Math.max(image.naturalWidth, image.naturalHeight);
+    if (scale >= 1) return image;
+    const canvas = document.createElement("canvas");
+    canvas.width = Math.max(1, Math.floor(image.naturalWidth * scale));
+    canvas.height = Math.max(1, Math.floor(image.naturalHeight * scale));
+    canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+    return canvas;
+  }
+
+  free(picture: Picture): void {
+    const textures = this.#textures.get(picture);
+    if (textures === undefined) return;
+    this.#gl.deleteTexture(textures.image);
+    this.#gl.deleteTexture(textures.heights);
+    this.#textures.delete(picture);
+  }
+
+  upload(picture: Picture, changes: Changes): void {
+    const textures = this.#textures.get(picture);
+    if (textures === undefined) return;
+    const gl = this.#gl;
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, textures.heights);
+    gl.pixelStorei(gl.UNPACK_ROW_LENGTH, changes.stride);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, changes.x, changes.y, changes.width, changes.height, gl.RED, gl.FLOAT,
+      changes.values);
+    gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
+  }
+
+  /** Draws the picture and copies it to a canvas of the element. */
+  draw(picture: Picture, to: CanvasRenderingContext2D, parallax: boolean): boolean {
+    const textures = this.#textures.get(picture);
+    if (textures === undefined) return false;
+    const gl = this.#gl, { width, height } = to.canvas;
+    if (this.canvas.width < width || this.canvas.height < height) {
+      this.canvas.width = Math.max(this.canvas.width, width);
+      this.canvas.height = Math.max(this.canvas.height, height);
+    }
+    gl.viewport(0, this.canvas.height - height, width, height);
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, textures.image);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, textures.heights);
+    const longer = Math.max(picture.nodesX, picture.nodesY);
+    gl.uniform2f(this.#uniforms.extent, picture.nodesX / longer, picture.nodesY / longer);
+    gl.uniform2f(this.#uniforms.node, 1 / picture.nodesX, 1 / picture.nodesY);
+    gl.uniform1f(this.#uniforms.spacing, picture.spacingMm);
+    gl.uniform1f(this.#uniforms.longer, longer * picture.spacingMm);
+    gl.uniform1f(this.#uniforms.parallax, Number(parallax));
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    to.globalCompositeOperation = "copy";
+    to.drawImage(this.canvas, 0, 0, width, height, 0, 0, width, height);
+    return true;
+  }
+
+  /** For tests: takes the context away and gives it back, as a browser under pressure does. */
+  get loseContext(): WEBGL_lose_context | null {
+    return this.#gl.getExtension("WEBGL_lose_context");
+  }
+}
+
+let shared: Renderer | undefined;
+
+/** The page's renderer; throws where there is no WebGL2. */
+export function renderer(): Renderer {
+  shared ??= new Renderer();
+  return shared;
+}

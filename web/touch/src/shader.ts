@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The picture of a pressed image: the mathematics of src/elastic/picture.cpp, one fragment a pixel. Lengths in
+// the image's longer side but heights, which are in mm; texture coordinates from the top left.
+
+export const kVertex = `#version 300 es
+out vec2 at;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  at = vec2(corner.x, 1.0 - corner.y);
+  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);
+}`;
+
+export const kFragment = `#version 300 es
+precision highp float;
+precision highp sampler2D;
+in vec2 at;
+out vec4 colour;
+uniform sampler2D image, heights;
+uniform vec2 extent;     // of the image, in its longer side
+uniform vec2 node;       // one node of the sheet, in texture coordinates
+uniform float spacing;   // from node to node, mm
+uniform float longer;    // the longer side, mm
+uniform float parallax;  // 1, or 0 where motion is to be reduced
+const vec3 light = vec3(-0.45, -0.6, 0.6614378);
+const float eyeBelow = 0.5, eyeHeight = 1.0, ambient = 0.3;
+const float slopeLow = 0.25, slopeHigh = 1.5, shadow = 0.55, shadowReach = 0.12;
+
+float height(vec2 uv) { return texture(heights, uv).r; }
+
+void main() {
+  vec2 eye = vec2(0.5, 0.5) + vec2(0.0, eyeBelow) / extent;
+  vec2 uv = at;
+  for (int i = 0; i < 3; ++i) uv = at + (at - eye) * (-height(uv) * parallax / (eyeHeight * longer));
+  vec2 n = vec2(height(uv - vec2(node.x, 0.0)) - height(uv + vec2(node.x, 0.0)),
+                height(uv - vec2(0.0, node.y)) - height(uv + vec2(0.0, node.y))) * (0.5 / spacing);
+  float diffuse = max(dot(vec3(n, 1.0), light) * inversesqrt(dot(n, n) + 1.0), 0.0) / light.z;
+  float here = height(uv), horizon = 0.0;
+  vec2 toLight = normalize(light.xy);
+  for (int i = 1; i <= 8; ++i) {
+    float away = shadowReach * float(i * i) / 64.0;
+    horizon = max(horizon, (height(uv + toLight * away / extent) - here) / (away * longer));
+  }
+  float hidden = clamp((horizon - slopeLow) / (slopeHigh - slopeLow), 0.0, 1.0);
+  float bright = (ambient + (1.0 - ambient) * diffuse) * (1.0 - shadow * hidden);
+  vec4 base = texture(image, uv);
+  colour = vec4(base.rgb * pow(min(bright, 2.0), 1.0 / 2.2), base.a);
+  colour.rgb *= colour.a;
+}`;

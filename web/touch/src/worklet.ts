@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The audio side: touch.wasm in an instance of its own, a friction voice for each element that has sound.
+import type { VoiceMessage } from "./audio.js";
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  tribo_allocate(bytes: number): number;
+  tribo_release(pointer: number): void;
+  voice_create(numbers: number, length: number, rate: number, seed: number, published: number): number;
+  voice_destroy(voice: number): void;
+  voice_set_target(voice: number, speed: number, force: number): void;
+  voice_render(voice: number, out: number, frames: number): void;
+}
+
+// What AudioWorkletGlobalScope has and TypeScript's page library does not know.
+declare const sampleRate: number;
+declare class AudioWorkletProcessor {
+  readonly port: MessagePort;
+}
+declare function registerProcessor(name: string, type: unknown): void;
+
+interface Playing {
+  voice: number;
+  moving: boolean;
+  /** Quanta to play on after the last target was silence, so that it fades. */
+  tail: number;
+  pan: number;
+  panTarget: number;
+  gain: number;
+  gainTarget: number;
+}
+
+const kMostFrames = 1024;
+const kTailQuanta = 40;
+
+class Friction extends AudioWorkletProcessor {
+  #x: Exports;
+  #out: number;
+  #voices = new Map<number, Playing>();
+
+  constructor(options: { processorOptions: { module: WebAssembly.Module } }) {
+    super();
+    const instance = new WebAssembly.Instance(options.processorOptions.module, {});
+    this.#x = instance.exports as unknown as Exports;
+    this.#x._initialize();
+    this.#out = this.#x.tribo_allocate(4 * kMostFrames);
+    this.port.onmessage = (event: MessageEvent<VoiceMessage>) => this.#take(event.data);
+  }
+
+  #take(message: VoiceMessage): void {
+    const playing = this.#voices.get(message.id);
+    if (message.kind === "add") {
+      if (playing !== undefined) this.#x.voice_destroy(playing.voice);
+      const { numbers } = message;
+      const at = this.#x.tribo_allocate(8 * numbers.length);
+      new Float64Array(this.#x.memory.buffer, at, numbers.length).set(numbers);
+      const voice = this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published));
+      this.#x.tribo_release(at);
+      if (voice === 0) return;
+      this.#voices.set(message.id, { voice, moving: false, tail: 0, pan: 0, panTarget: 0, gain: 1, gainTarget: 1 });
+    } else if (playing !== undefined && message.kind === "target") {
+      this.#x.voice_set_target(playing.voice, message.speed, message.force);
+      playing.moving = message.speed > 0 && message.force > 0;
+      if (playing.moving && playing.tail === 0) {
+        playing.pan = message.pan;
+        playing.gain = message.gain;
+      }
+      if (playing.moving) playing.tail = kTailQuanta;
+      playing.panTarget = message.pan;
+      playing.gainTarget = message.gain;
+    } else if (playing !== undefined && message.kind === "remove") {
+      this.#x.voice_destroy(playing.voice);
+      this.#voices.delete(message.id);
+    }
+  }
+
+  process(_inputs: Float32Array[][], outputs: Float32Array[][]): boolean {
+    const left = outputs[0]?.[0], right = outputs[0]?.[1] ?? left;
+    if (left === undefined || right === undefined) return true;
+    const frames = Math.min(left.length, kMostFrames);
+    for (const p of this.#voices.values()) {
+      // A voice that nobody hears costs nothing.
+      if (p.tail === 0) continue;
+      if (!p.moving) --p.tail;
+      this.#x.voice_render(p.voice, this.#out, frames);
+      const mono = new Float32Array(this.#x.memory.buffer, this.#out, frames);
+      const panStep = (p.panTarget - p.pan) / frames, gainStep = (p.gainTarget - p.gain) / frames;
+      for (let i = 0; i < frames; ++i) {
+        p.pan += panStep;
+        p.gain += gainStep;
+        // Constant power, 1 on both sides in the middle.
+        const sample = mono[i]! * p.gain, angle = (p.pan + 1) * 0.7853981633974483;
+        left[i] = left[i]! + sample * 1.4142135623730951 * Math.cos(angle);
+        right[i] = right[i]! + sample * 1.4142135623730951 * Math.sin(angle);
+      }
+    }
+    return true;
+  }
+}
+
+registerProcessor("tribo-friction", Friction);

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+// <tribo-touch> in headless Chromium under real touch events: what it does when all is well, and when not.
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import { fingers, hasBrowser, launch } from "./browser.mjs";
+import { serve } from "./site.mjs";
+
+const kTag = '<tribo-touch id="t" src="sponge.json" alt="Yellow sponge" style="width:256px"></tribo-touch>';
+const kScript = '<script type="module" src="/dist/tribo-touch.js"></script>';
+let site, browser, context;
+
+beforeAll(async () => {
+  if (!hasBrowser) return;
+  site = await serve();
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  await site?.close();
+});
+afterEach(async () => {
+  await context?.close();
+  context = undefined;
+  site?.blocked.clear();
+});
+
+/** A page with this body; events of #t are kept in window.log. */
+async function open(body, options = {}) {
+  const { before, ...contextOptions } = options;
+  context = await browser.newContext({ hasTouch: true, viewport: { width: 320, height: 320 }, ...contextOptions });
+  const page = await context.newPage();
+  page.errors = [];
+  page.on("pageerror", (error) => page.errors.push(error.message));
+  if (before !== undefined) await page.addInitScript(before);
+  site.page("/", `<script>window.log = [];
+    for (const n of ["load", "error", "poster-dismissed", "contact-start", "contact-move", "contact-end"])
+      document.addEventListener(n, (e) => e.target.localName === "tribo-touch" && log.push({ n, ...(e.detail ?? {}) }), true);
+    </script>${kScript}${body}`);
+  await page.goto(`${site.root}/`);
+  return page;
+}
+const settled = (page, id = "t") =>
+  page.waitForFunction((which) => ["ready", "plain", "failed"].includes(document.getElementById(which).state), id);
+const log = (page, name) => page.evaluate((n) => window.log.filter((e) => e.n === n), name);
+const heap = (page) => page.evaluate(() => (globalThis.gc?.(), performance.memory.usedJSHeapSize));
+/** How many pixels of #t's canvas differ from what they were at the first call. */
+const changed = (page) => page.evaluate(() => {
+  const canvas = t.shadowRoot.querySelector("canvas");
+  const now = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  window.flat ??= now.slice();
+  let count = 0;
+  for (let i = 0; i < now.length; i += 4) if (Math.abs(now[i] - flat[i]) > 6) ++count;
+  return count;
+});
+const frames = (page, count) => page.evaluate((n) => new Promise((done) => {
+  const next = () => (n-- > 0 ? requestAnimationFrame(next) : done());
+  next();
+}), count);
+
+describe.skipIf(!hasBrowser)("tribo-touch", () => {
+  test("yields under a finger, tells of it, and comes to rest", async () => {
+    const page = await open(kTag);
+    await settled(page);
+    expect(await page.evaluate(() => t.state)).toBe("ready");
+    await frames(page, 3);
+    expect(await changed(page)).toBe(0);
+    const hand = await fingers(page);
+    await hand.touch([{ x: 120, y: 100, radius: 14, radiusY: 9, force: 0.4 }]);
+    await page.waitForFunction(() => log.some((e) => e.n === "contact-move" && e.depth_mm > 0.7));
+    expect(await changed(page)).toBeGreaterThan(300);
+    const [start] = await log(page, "contact-start");
+    expect(start.pointerType).toBe("touch");
+    expect(start.u).toBeCloseTo((120 - 8) / 256, 2);
+    expect(start.force_n).toBeCloseTo(3 * 0.4, 4);
+    // 28 x 18 pixels of 80 mm / 256 pixels.
+    expect(start.area_mm2).toBeCloseTo(Math.PI * 14 * 9 * (80 / 256) ** 2, 1);
+    await hand.touch([]);
+    await page.waitForTimeout(1200);
+    expect(await changed(page)).toBe(0);
+    expect(await log(page, "contact-end")).toHaveLength(1);
+    expect(page.errors).toEqual([]);
+  });
+
+  test("takes five fingers at once, a rub, a cancel and a mouse", async () => {
+    const page = await open(kTag);
+    await settled(page);
+    const hand = await fingers(page);
+    const five = [0, 1, 2, 3, 4].map((id) => ({ id, x: 40 + 45 * id, y: 60 + 20 * (id % 2) }));
+    for (let n = 1; n <= 5; ++n) await hand.touch(five.slice(0, n));
+    await frames(page, 10);
+    expect(await log(page, "contact-start")).toHaveLength(5);
+    for (let step = 0; step < 10; ++step) {
+      await hand.touch(five.map((p) => ({ ...p, y: p.y + 6 * step })));
+      await frames(page, 1);
+    }
+    expect(Math.max(...(await log(page, "contact-move")).map((e) => e.speed_mm_per_s))).toBeGreaterThan(5);
+    await hand.cancel();
+    await frames(page, 2);
+    expect(await log(page, "contact-end")).toHaveLength(5);
+    await page.mouse.move(100, 100);
+    await page.mouse.down();
+    await frames(page, 20);
+    await page.mouse.move(400, 500);
+    await page.mouse.up();
+    await frames(page, 2);
+    expect(await log(page, "contact-end")).toHaveLength(6);
+    expect(page.errors).toEqual([]);
+  });
+
+  test("works by keyboard alone", async () => {
+    const page = await open(kTag);
+    await settled(page);
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Space");
+    await page.keyboard.press("+");
+    await frames(page, 20);
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Escape");
+    await frames(page, 2);
+    const [start] = await log(page, "contact-start");
+    expect(start).toMatchObject({ pointerType: "keyboard", u: 0.52 });
+    const [end] = await log(page, "contact-end");
+    expect(end.v).toBeCloseTo(0.6, 6);
+    expect(end.depth_mm).toBeGreaterThan(0.1);
+  });
+
+  test("follows a change of size and of attributes", async () => {
+    const page = await open(kTag);
+    await settled(page);
+    await page.evaluate(() => { t.style.width = "128px"; });
+    await page.waitForFunction(() => t.shadowRoot.querySelector("canvas").width === 128);
+    await page.setViewportSize({ width: 200, height: 400 });
+    await page.evaluate(() => { t.stiffness = 7; t.damping = 0.3; });
+    expect(await page.evaluate(() => [t.stiffness, t.damping])).toEqual([7, 0.3]);
+    await page.evaluate(() => { t.disabled = true; });
+    const hand = await fingers(page);
+    await hand.touch([{ x: 50, y: 50 }]);
+    await frames(page, 3);
+    expect(await log(page, "contact-start")).toHaveLength(0);
+    await hand.touch([]);
+    await page.evaluate(() => { t.disabled = false; t.asPublished = true; });
+    await settled(page);
+    await hand.touch([{ x: 50, y: 50 }]);
+    await page.waitForFunction(() => log.some((e) => e.n === "contact-move" && e.depth_mm > 0.03));
+    await hand.touch([]);
+    expect(page.errors).toEqual([]);
+  });
+
+  test("lifts all fingers when the page is hidden", async () => {
+    const page = await open(kTag);
+    await settled(page);
+    const hand = await fingers(page);
+    await hand.touch([{ x: 100, y: 100 }]);
+    await frames(page, 3);
+    await page.evaluate(() => {
+      Object.defineProperty(document, "visibilityState", { value: "hidden", configurable: true });
+      document.dispatchEvent(new Event("visibilitychange"));
+    });
+    expect(await log(page, "contact-end")).toHaveLength(1);
+    await page.evaluate(() => {
+      delete document.visibilityState;
+      document.dispatchEvent(new Event("visibilitychange"));
+    });
+    await hand.touch([]);
+    await hand.touch([{ x: 120, y: 100 }]);
+    await frames(page, 3);
+    expect(await log(page, "contact-start")).toHaveLength(2);
+  });
+
+  test("loads only when it comes near the view, and shows a poster until then", async () => {
+    const page = await open(`<div style="height:3000px"></div>${kTag.replace("id=", 'poster="plain.png" id=')}`);
+    await page.waitForTimeout(300);
+    expect(await page.evaluate(() => t.state)).toBe("idle");
+    expect(await page.evaluate(() => t.shadowRoot.querySelector("[part=poster]").hidden)).toBe(false);
+    await page.evaluate(() => t.scrollIntoView());
+    await settled(page);
+    expect(await page.evaluate(() => t.shadowRoot.querySelector("[part=poster]").hidden)).toBe(true);
+    expect((await log(page, "load")).length).toBe(1);
+  });
+
+  test("twenty elements share one context and one worklet", async () => {
+    const many = Array.from({ length: 20 }, (_, i) => kTag.replace('id="t"', `id="t${i}" loading="eager"`).replace("256px", "60px"));
+    const page = await open(`<div style="display:flex;flex-wrap:wrap">${many.join("")}</div>`, {
+      before: () => {
+        window.contexts = 0;
+        const get = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+          if (kind === "webgl2") ++window.contexts;
+          return get.call(this, kind, ...rest);
+        };
+        const Real = AudioWorkletNode;
+        window.nodes = 0;
+        window.AudioWorkletNode = class extends Real { constructor(...args) { super(...args); ++window.nodes; } };
+      },
+    });
+    await page.waitForFunction(() => [...document.querySelectorAll("tribo-touch")].every((e) => e.state === "ready"));
+    await page.waitForFunction(() => window.nodes > 0);
+    expect(await page.evaluate(() => [contexts, nodes])).toEqual([1, 1]);
+    expect(site.requests.filter((path) => path === "/dist/touch.wasm").length).toBeGreaterThan(0);
+    expect(page.errors).toEqual([]);
+  });
+
+  test("200 times added and removed leave nothing behind", async () => {
+    const page = await open(kTag.replace("sponge.json", "plain.json"));
+    await settled(page);
+    const cycle = (count) => page.evaluate(async (n) => {
+      for (let i = 0; i < n; ++i) {
+        const element = document.createElement("tribo-touch");
+        element.src = "plain.json";
+        element.loading = "eager";
+        element.style.width = "64px";
+        document.body.append(element);
+        if (element.state !== "ready") await new Promise((done) => element.addEventListener("load", done, { once: true }));
+        element.remove();
+      }
+    }, count);
+    await cycle(20);
+    const before = await heap(page);
+    await cycle(200);
+    await page.waitForTimeout(200);
+    const after = await heap(page);
+    expect(after - before).toBeLessThan(1_500_000);
+    expect(page.errors).toEqual([]);
+  });
+
+  test("draws again after the context was lost", async () => {
+    const page = await open(kTag, { before: () => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        const made = get.call(this, kind, ...rest);
+        if (kind === "webgl2") window.gl = made;
+        return made;
+      };
+    } });
+    await settled(page);
+    await frames(page, 3);
+    const drawn = () => page.evaluate(() => t.shadowRoot.querySelector(".surface").classList.contains("drawn"));
+    expect(await drawn()).toBe(true);
+    await page.evaluate(() => { window.lose = gl.getExtension("WEBGL_lose_context"); lose.loseContext(); });
+    await page.waitForTimeout(100);
+    expect(await drawn()).toBe(false);
+    await page.evaluate(() => lose.restoreContext());
+    await page.waitForTimeout(200);
+    expect(await drawn()).toBe(true);
+    await changed(page);
+    const hand = await fingers(page);
+    await hand.touch([{ x: 120, y: 100 }]);
+    await page.waitForFunction(() => log.some((e) => e.n === "contact-move" && e.depth_mm > 0.5));
+    expect(await changed(page)).toBeGreaterThan(100);
+  });
+
+  test.each([
+    ["no WebAssembly module", "/dist/touch.wasm", undefined, "plain", "wasm"],
+    ["no worklet", "/dist/worklet.js", undefined, "ready", "audio"],
+    ["no image", undefined, "noimage.json", "failed", "image"],
+    ["no material", undefined, "gone.json", "failed", "material"],
+    ["a broken material", undefined, "broken.json", "failed", "material"],
+  ])("with %s it says so and shows what it can", async (_, blocked, src, state, type) => {
+    if (blocked !== undefined) site.blocked.add(blocked);
+    const page = await open(src === undefined ? kTag : kTag.replace("sponge.json", src));
+    await page.waitForFunction((wanted) => log.some((e) => e.n === "error" && e.type === wanted), type);
+    await settled(page);
+    expect(await page.evaluate(() => t.state)).toBe(state);
+    const image = await page.evaluate(() => {
+      const { naturalWidth, alt } = t.shadowRoot.querySelector("img");
+      return { naturalWidth, alt };
+    });
+    expect(image).toEqual(state === "failed" ? { naturalWidth: 0, alt: "Yellow sponge" } : { naturalWidth: 256, alt: "" });
+    expect(page.errors).toEqual([]);
+  });
+
+  test("without WebGL2 the plain image stays", async () => {
+    const page = await open(kTag, { before: () => {
+      const get = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind === "webgl2" ? null : get.call(this, kind, ...rest);
+      };
+    } });
+    await settled(page);
+    expect(await page.evaluate(() => t.state)).toBe("plain");
+    expect((await log(page, "error"))[0].type).toBe("webgl");
+  });
+
+  test("rubbing makes sound, standing still does not, and muted makes none", async () => {
+    const page = await open(kTag, { before: () => {
+      const connect = AudioNode.prototype.connect;
+      AudioNode.prototype.connect = function (to, ...rest) {
+        if (to instanceof AudioDestinationNode && window.analyser === undefined) {
+          window.analyser = to.context.createAnalyser();
+          connect.call(this, window.analyser);
+        }
+        return connect.call(this, to, ...rest);
+      };
+    } });
+    await settled(page);
+    await page.waitForFunction(() => window.analyser !== undefined);
+    const level = () => page.evaluate(() => {
+      const samples = new Float32Array(2048);
+      analyser.getFloatTimeDomainData(samples);
+      return Math.sqrt(samples.reduce((sum, x) => sum + x * x, 0) / samples.length);
+    });
+    const hand = await fingers(page);
+    await hand.touch([{ x: 40, y: 100 }]);
+    await page.waitForTimeout(400);
+    expect(await level()).toBe(0);
+    let loudest = 0;
+    for (let i = 0; i < 25; ++i) {
+      await hand.touch([{ x: 40 + 6 * i, y: 100 }]);
+      await frames(page, 1);
+      loudest = Math.max(loudest, await level());
+    }
+    // -20 dB at 100 mm/s and 1 N.
+    expect(loudest).toBeGreaterThan(0.01);
+    expect(loudest).toBeLessThan(0.7);
+    await page.waitForTimeout(600);
+    expect(await level()).toBe(0);
+  });
+
+  test("the page passes axe-core", async () => {
+    const page = await open(`<main><h1>Touch</h1>${kTag}</main>`);
+    await settled(page);
+    const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => axe.run());
+    expect(violations.map((v) => v.id)).toEqual([]);
+  });
+});

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// What the page makes of material files, and of what screens say about fingers.
+import { build } from "esbuild";
+import { expect, test } from "vitest";
+import { material } from "./site.mjs";
+
+async function load(name) {
+  const { outputFiles } = await build({
+    entryPoints: [new URL(`../src/${name}.ts`, import.meta.url).pathname], bundle: true, write: false, format: "esm" });
+  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
+}
+const { parseMaterial, voiceNumbers } = await load("material");
+const { Finger } = await load("fingers");
+const base = "https://example.org/goods/sponge.json";
+
+test("a material's image is beside it and its voices become numbers", () => {
+  const read = parseMaterial(material(), base);
+  expect(read.image).toBe("https://example.org/goods/sponge.png");
+  expect(read.width_mm).toBe(80);
+  expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 150, 1, -22, 44100, 2, -0.6, 0.2]);
+});
+
+test.each([
+  [null, "file"], [[], "file"], [{}, "schema"], [material({ schema: "tribo.material/9" }), "schema"],
+  [material({ stiffness_n_per_mm: "soft" }), "stiffness"], [material({ stiffness_n_per_mm: 0 }), "stiffness"],
+  [material({ viscosity_n_s_per_mm: -1 }), "viscosity"], [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
+  [material({ voices: [{ speed_mm_per_s: 1, level_db: 0, sample_rate_hz: 44100, reflection: [1] }] }), "reflection"],
+  [material({ image: 7 }), "image"],
+])("a wrong material is refused by its key", (json, key) => {
+  expect(() => parseMaterial(json, base)).toThrow(key);
+});
+
+const report = (changes) => ({ x: 0, y: 0, width: 0, height: 0, pressure: Number.NaN, time: 0, ...changes });
+
+test("force grows with time where nothing measures it, and follows pressure where something does", () => {
+  const mouse = new Finger(report({}));
+  expect(mouse.force(0)).toBe(0);
+  expect(mouse.force(0.25)).toBeCloseTo(2 * (1 - Math.exp(-1)), 6);
+  expect(mouse.force(100)).toBeCloseTo(2, 6);
+  const pen = new Finger(report({ pressure: 0.5 }));
+  expect(pen.force(0)).toBeCloseTo(1.5, 6);
+});
+
+test("speed is way over time, and nothing once the finger stands", () => {
+  const finger = new Finger(report({}));
+  for (let i = 1; i <= 20; ++i) finger.move(report({ x: 1.6 * i, time: 0.008 * i }));
+  expect(finger.speed(0.16)).toBeCloseTo(200, 6);
+  expect(finger.speed(0.3)).toBe(0);
+});
+
+test("the contact is as large as the touch, within what a finger can be", () => {
+  expect(new Finger(report({ width: 14, height: 20 })).contact(0)).toMatchObject({ halfWidth: 7, halfHeight: 10 });
+  expect(new Finger(report({ width: 900, height: 0 })).contact(0)).toMatchObject({ halfWidth: 15, halfHeight: 6 });
+});
