@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every test: form, g++ (release preset), clang (dev preset), WebAssembly in Node. Runs all, then says how each went.
+# Every test: form, g++ (release preset), clang (dev preset), WebAssembly in Node, the web component in Chromium. Runs all, then says how each went.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 
@@ -9,4 +9,6 @@ step "clang-format" scripts/check_format.sh
 test_preset release
 test_preset dev
 test_preset wasm
+say "web"
+step "web: build and tests" scripts/web.sh test
 closing_summary

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// `tribo site --out DIR`: the static site, ready for any web server.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/exit.hpp"
+#include "app/verbs.hpp"
+#include "app/web_root.hpp"
+#include "io/output_folder.hpp"
+
+namespace tribo::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Call {
+    std::string out, web_root;
+};
+
+// Files under `folder`, relative to it, in order.
+std::vector<std::string> files_of(const std::string& folder) {
+    std::vector<std::string> files;
+    std::error_code error;
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        if (at->is_regular_file(error)) files.push_back(at->path().lexically_relative(folder).string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+int site(const Call& call) {
+    const io::FileResult<std::string> from = find_web_files(call.web_root, "site");
+    if (!from) return report(from.error());
+    auto folder = io::OutputFolder::open(call.out, {"site.json", "tribo."});
+    if (!folder) return report(folder.error());
+    const std::vector<std::string> files = files_of(*from);
+    for (const std::string& file : files) {
+        const io::FileResult<std::string> bytes = io::read_file(*from + "/" + file);
+        if (!bytes) return report(bytes.error());
+        std::error_code error;
+        fs::create_directories(fs::path(folder->file(file)).parent_path(), error);
+        if (auto done = io::write_file(folder->file(file), *bytes); !done) return report(done.error());
+    }
+    if (auto done = folder->commit(); !done) return report(done.error());
+    std::printf("%-16s %zu files in %s\n", "site", files.size(), folder->path().c_str());
+    std::printf("%-16s any web server will do; sound needs https or localhost\n", "serve");
+    return kDone;
+}
+
+}  // namespace
+
+void add_site(CLI::App& program, int& exit_code) {
+    const auto call = std::make_shared<Call>();
+    CLI::App* verb = program.add_subcommand("site", "Write the static site: the touch page, no server needed");
+    verb->add_option("--out", call->out, "Folder for the site; an older one of Tribo's is replaced whole")
+        ->required()
+        ->type_name("DIR");
+    verb->add_option("--web-root", call->web_root, "Where the built pages are; found by itself if absent")
+        ->type_name("DIR");
+    verb->callback([call, &exit_code] { exit_code = site(*call); });
+}
+
+}  // namespace tribo::app

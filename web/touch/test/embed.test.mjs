@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The example of docs/touch.md, word for word; the site's page; the package as npm would publish it.
+import { execFileSync } from "node:child_process";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { hasBrowser, launch } from "./browser.mjs";
+import { material, png, serve } from "./site.mjs";
+
+let site, browser;
+beforeAll(async () => {
+  site = await serve();
+  if (hasBrowser) browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  await site.close();
+});
+
+test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable carpet", async () => {
+  const text = await readFile(new URL("../../../docs/touch.md", import.meta.url), "utf8");
+  const example = /```html\n([^]*?)```/.exec(text)[1];
+  expect(example.trim().split("\n").length).toBe(5);
+  for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
+    site.pages.set(`/${file}`, await readFile(new URL(`../dist/${file}`, import.meta.url)));
+  }
+  site.pages.set("/example.html", example);
+  site.pages.set("/carpet.json", JSON.stringify(material({ name: "carpet", image: "sponge.png" })));
+  const page = await browser.newPage();
+  await page.goto(`${site.root}/example.html`);
+  await page.waitForFunction(() => document.querySelector("tribo-touch").state === "ready");
+  expect(await page.evaluate(() => document.querySelector("tribo-touch").material.name)).toBe("carpet");
+  await page.close();
+});
+
+test("the packed package installs from its tarball and imports on a server", async () => {
+  const folder = await mkdtemp(join(tmpdir(), "tribo-pack-"));
+  try {
+    const here = new URL("..", import.meta.url).pathname;
+    const name = execFileSync("npm", ["pack", "--silent", "--pack-destination", folder], { cwd: here, encoding: "utf8" }).trim().split("\n").pop();
+    execFileSync("npm", ["init", "--yes", "--silent"], { cwd: folder });
+    execFileSync("npm", ["install", "--silent", "--no-audit", "--no-fund", "--offline", join(folder, name)], { cwd: folder });
+    const installed = JSON.parse(await readFile(join(folder, "node_modules/@tribo/touch/package.json"), "utf8"));
+    expect(installed.dependencies).toBeUndefined();
+    for (const file of ["dist/tribo-touch.js", "dist/worklet.js", "dist/touch.wasm", "dist/types/index.d.ts", "custom-elements.json"]) {
+      expect((await readFile(join(folder, "node_modules/@tribo/touch", file))).length).toBeGreaterThan(100);
+    }
+    const said = execFileSync(process.execPath, ["--input-type=module", "-e", 'import { TriboTouch } from "@tribo/touch"; console.log(typeof TriboTouch)'],
+      { cwd: folder, encoding: "utf8" });
+    expect(said.trim()).toBe("function");
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+});
+
+test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passes axe-core", async () => {
+  const built = new URL("../../../build/web/site/", import.meta.url);
+  for (const file of ["index.html", "touch.css", "page.js", "tribo-touch.js", "worklet.js", "touch.wasm"]) {
+    site.pages.set(`/site/${file}`, await readFile(new URL(file, built)));
+  }
+  site.pages.set("/site/materials.json", JSON.stringify([{ file: "a.json", name: "Sponge", note: "made up" }, { file: "b.json", name: "Paper", note: "" }]));
+  site.pages.set("/site/a.json", JSON.stringify(material()));
+  site.pages.set("/site/b.json", JSON.stringify(material({ name: "Paper", stiffness_n_per_mm: 7, viscosity_n_s_per_mm: 0.3 })));
+  site.pages.set("/site/sponge.png", png(320, 240, (x, y) => [200 + (x % 16), 180, 120 + (y % 16)]));
+  const page = await browser.newPage({ viewport: { width: 900, height: 900 } });
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  await page.goto(`${site.root}/site/index.html`);
+  const ready = () => page.waitForFunction(() => [...document.querySelectorAll("tribo-touch")].every((e) => e.state === "ready"));
+  await ready();
+  await page.waitForFunction(() => document.getElementById("stiffness-value").textContent === "1.40 N/mm");
+  await page.getByText("Paper", { exact: true }).click();
+  await page.waitForFunction(() => document.getElementById("stiffness-value").textContent === "7.00 N/mm");
+  await ready();
+  await page.locator("#stiffness").fill("0");
+  expect(await page.evaluate(() => [ours.stiffness, published.stiffness])).toEqual([1, 1]);
+  expect(await page.locator("#meaning").textContent()).toContain("2 mm deep; 63 % of the way takes 300 ms");
+  await page.evaluate(await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
+  const { violations } = await page.evaluate(() => axe.run());
+  expect(violations.map((v) => `${v.id} ${v.nodes[0].html}`)).toEqual([]);
+  if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/page.png`, fullPage: true });
+  expect(errors).toEqual([]);
+  await page.close();
+});
