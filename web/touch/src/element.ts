@@ -193,6 +193,9 @@ export class TriboTouch extends Base {
     const stale = () => attempt !== this.#attempt || !this.isConnected;
     this.#state = "loading";
     const image = this.#parts!.image;
+    // The engine loads while the material and its image do.
+    const engineReady = engine();
+    engineReady.catch(() => undefined);
     try {
       const address = new URL(this.src, document.baseURI);
       const response = await fetch(address);
@@ -205,9 +208,6 @@ export class TriboTouch extends Base {
       if (!stale()) this.#end("failed", "material", error);
       return;
     }
-    // The engine loads while the image does.
-    const engineReady = engine();
-    engineReady.catch(() => undefined);
     try {
       image.crossOrigin = "anonymous";
       image.src = this.#material.image;
