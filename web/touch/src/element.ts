@@ -153,7 +153,11 @@ export class TriboTouch extends Base {
     this.#context = parts.canvas.getContext("2d");
     surface.addEventListener("pointerdown", (event) => this.#down(event));
     surface.addEventListener("pointermove", (event) => this.#move(event));
-    surface.addEventListener("pointerup", (event) => this.#lift(event.pointerId, event.timeStamp));
+    surface.addEventListener("pointerup", (event) => {
+      this.#lift(event.pointerId, event.timeStamp);
+      // To a browser a touch is a gesture only once it ends.
+      this.#voice?.wake();
+    });
     surface.addEventListener("pointercancel", (event) => this.#lift(event.pointerId, event.timeStamp));
     surface.addEventListener("lostpointercapture", (event) => this.#lift(event.pointerId, event.timeStamp));
     surface.addEventListener("contextmenu", (event) => this.#fingers.size > 0 && event.preventDefault());
