@@ -23,9 +23,10 @@ io::FileResult<std::string> find_web_files(const std::string& web_root, const st
     for (const fs::path& place : places) {
         if (fs::is_directory(place / part, error)) return (place / part).string();
     }
-    const std::string remedy = "run `make build` with Node.js 20.19 or newer, or name the folder by --web-root";
-    return std::unexpected(io::Failure(
-        {web_root.empty() ? part : (fs::path(web_root) / part).string(), 0, 0, "the pages are not there", remedy}));
+    const std::string remedy =
+        "run `make build` with Node.js 20.19 or newer, or name the folder by --web-root";
+    return std::unexpected(io::Failure({web_root.empty() ? part : (fs::path(web_root) / part).string(), 0, 0,
+                                        "the pages are not there", remedy}));
 }
 
 }  // namespace tribo::app

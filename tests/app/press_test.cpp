@@ -148,9 +148,11 @@ TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {
     expect_refusal({"--size", "0"}, "--size");
     expect_refusal({"--fps", "nan"}, "--fps");
     expect_refusal({"--radius-mm", "0"}, "--radius-mm");
-    expect_refusal({"--fps", "9999", "--stroke", "long.csv"}, "long.csv");
-    scratch.put("long.csv", "t_s,x_mm,y_mm,force_n\n0,1,1,1\n1000,1,1,1\n");
-    expect_refusal({"--fps", "9999", "--stroke", "long.csv"}, "frames");
+    scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,1,1,1\n1000,1,1,1\n");
+    expect_refusal({"--fps", "9999"}, "frames");
+    scratch.put("s.csv", "t_s,x_mm\n");
+    expect_refusal({}, "s.csv");
+    scratch.put("s.csv", kStroke);
     scratch.put("m.json", "{}");
     expect_refusal({}, "m.json");
     std::string without_image = material(1.4, 0.1);

@@ -13,7 +13,9 @@ TEST(Site, is_the_built_pages_and_replaces_an_older_one_whole) {
     scratch.put("web/site/index.html", "<p>page");
     scratch.put("web/site/materials/a.json", "{}");
     scratch.put("web/site/site.json", R"({"schema":"tribo.site/1"})");
-    const auto site = [&] { return run_tribo({"site", "--out", "out", "--web-root", "web"}, scratch.path()); };
+    const auto site = [&] {
+        return run_tribo({"site", "--out", "out", "--web-root", "web"}, scratch.path());
+    };
     ASSERT_EQ(site().code, 0);
     EXPECT_EQ(scratch.get("out/index.html"), "<p>page");
     EXPECT_EQ(scratch.get("out/materials/a.json"), "{}");
