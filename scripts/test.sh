@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every test: form, g++ (release preset), clang (dev preset), WebAssembly in Node, the web component in Chromium. Runs all, then says how each went.
+# Every test: form, g++ (release preset), clang (dev preset), WebAssembly in Node, the web component in Chromium. Runs
+# all, then says how each went.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 

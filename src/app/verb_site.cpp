@@ -9,7 +9,7 @@
 
 #include "app/exit.hpp"
 #include "app/verbs.hpp"
-#include "app/web_root.hpp"
+#include "app/web_files.hpp"
 #include "io/output_folder.hpp"
 
 namespace tribo::app {
@@ -33,13 +33,18 @@ std::vector<std::string> files_of(const std::string& folder) {
 }
 
 int site(const Call& call) {
-    const io::FileResult<std::string> from = find_web_files(call.web_root, "site");
-    if (!from) return report(from.error());
+    const std::string from = call.web_root.empty() ? WebFiles::folder_of("site") : call.web_root;
+    std::error_code missing;
+    if (from.empty() || !fs::is_regular_file(from + "/index.html", missing)) {
+        return report(
+            Error{from, 0, 0, "the pages of the site are not there",
+                  "run 'make build' with Node.js 20.19 or newer, or name their folder with --web-root"});
+    }
     auto folder = io::OutputFolder::open(call.out, {"site.json", "tribo."});
     if (!folder) return report(folder.error());
-    const std::vector<std::string> files = files_of(*from);
+    const std::vector<std::string> files = files_of(from);
     for (const std::string& file : files) {
-        const io::FileResult<std::string> bytes = io::read_file(*from + "/" + file);
+        const io::FileResult<std::string> bytes = io::read_file(from + "/" + file);
         if (!bytes) return report(bytes.error());
         std::error_code error;
         fs::create_directories(fs::path(folder->file(file)).parent_path(), error);
@@ -60,7 +65,7 @@ void add_site(CLI::App& program, int& exit_code) {
     verb->add_option("--out", call->out, "Folder for the site; an older one of Tribo's is replaced whole")
         ->required()
         ->type_name("DIR");
-    verb->add_option("--web-root", call->web_root, "Where the built pages are; found by itself if absent")
+    verb->add_option("--web-root", call->web_root, "Folder of the built pages; found by itself if absent")
         ->type_name("DIR");
     verb->callback([call, &exit_code] { exit_code = site(*call); });
 }

@@ -10,11 +10,11 @@ namespace {
 
 TEST(Site, is_the_built_pages_and_replaces_an_older_one_whole) {
     Scratch scratch;
-    scratch.put("web/site/index.html", "<p>page");
-    scratch.put("web/site/materials/a.json", "{}");
-    scratch.put("web/site/site.json", R"({"schema":"tribo.site/1"})");
+    scratch.put("pages/index.html", "<p>page");
+    scratch.put("pages/materials/a.json", "{}");
+    scratch.put("pages/site.json", R"({"schema":"tribo.site/1"})");
     const auto site = [&] {
-        return run_tribo({"site", "--out", "out", "--web-root", "web"}, scratch.path());
+        return run_tribo({"site", "--out", "out", "--web-root", "pages"}, scratch.path());
     };
     ASSERT_EQ(site().code, 0);
     EXPECT_EQ(scratch.get("out/index.html"), "<p>page");
