@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of touch.wasm: a sheet for the page, a friction voice for its AudioWorklet (each in an instance
-// of its own). Handles come from *_create and end with *_destroy. Numbers out of range are brought into it;
-// what is not a number is ignored, as the rooms do. Buffers move when memory grows: ask for them after calls.
+// The C ABI of touch.wasm, the page's side: a sheet. Handles come from sheet_create and end with
+// sheet_destroy. Numbers out of range are brought into it; what is not a number is ignored, as the rooms do.
+// Buffers move when memory grows: ask for them after calls.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <vector>
 
 #include "elastic/sheet.hpp"
-#include "noise/friction_voice.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -108,60 +105,4 @@ TRIBO_EXPORT(sheet_stride) std::int32_t sheet_stride(const TouchSheet* s) {
 TRIBO_EXPORT(sheet_normals) const float* sheet_normals(TouchSheet* s, std::uint32_t axis) {
     s->sheet.update_normals();
     return axis == 0 ? s->sheet.normals_x(0) : s->sheet.normals_y(0);
-}
-
-// A voice from numbers: count of models; level in dB at 100 mm/s and 1 N and its two slopes; then of each
-// model speed, force, level in dB, sample rate, order and so many reflection coefficients. Null where they
-// are no voice.
-TRIBO_EXPORT(voice_create)
-tribo::noise::FrictionVoice* voice_create(const double* numbers, std::uint32_t length, double sample_rate_hz,
-                                          std::uint32_t seed, std::uint32_t as_published) {
-    using namespace tribo::noise;
-    std::uint32_t at = 0;
-    bool good = true;
-    const auto next = [&](double least, double most) {
-        const double value = at < length ? numbers[at] : std::nan("");
-        ++at;
-        good = good && value >= least && value <= most;
-        return good ? value : least;
-    };
-    MaterialVoices voices;
-    const double count = next(1, 64);
-    voices.law.level_db = next(-300, 300);
-    voices.law.db_per_decade_speed = next(-200, 200);
-    voices.law.db_per_decade_force = next(-200, 200);
-    for (int i = 0; good && i < count; ++i) {
-        VoiceModel model;
-        model.speed_mm_per_s = next(1e-6, 1e6);
-        model.force_n = next(1e-6, 1e4);
-        model.level_db = next(-300, 100);
-        model.spectrum.sample_rate_hz = next(1000, 384000);
-        const double order = next(0, kLargestOrder);
-        for (int k = 0; good && k < order; ++k) {
-            model.spectrum.reflection.push_back(next(-kLargestReflection, kLargestReflection));
-        }
-        voices.models.push_back(model);
-    }
-    FrictionOptions options;
-    options.sample_rate_hz = sample_rate_hz;
-    options.seed = seed;
-    options.as_published = as_published != 0;
-    if (!good || !(sample_rate_hz >= 1000 && sample_rate_hz <= 192000)) return nullptr;
-    return new FrictionVoice(voices, options);
-}
-
-TRIBO_EXPORT(voice_destroy) void voice_destroy(tribo::noise::FrictionVoice* voice) {
-    delete voice;
-}
-TRIBO_EXPORT(voice_set_target)
-void voice_set_target(tribo::noise::FrictionVoice* voice, double speed_mm_per_s, double force_n) {
-    voice->set_target(speed_mm_per_s, force_n);
-}
-TRIBO_EXPORT(voice_render)
-void voice_render(tribo::noise::FrictionVoice* voice, float* out, std::uint32_t frames) {
-    voice->render({out, frames});
-}
-// RMS, full scale 1, that the present speed and force lead to.
-TRIBO_EXPORT(voice_gain) double voice_gain(const tribo::noise::FrictionVoice* voice) {
-    return voice->target_gain();
 }

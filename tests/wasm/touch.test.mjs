@@ -51,7 +51,7 @@ test("a voice plays what it was told and is silent at rest; numbers that are no 
     x.tribo_release(at);
     return voice;
   };
-  const voice = create([1, -20, 10, 10, 100, 1, -20, 48000, 1, -0.5]);
+  const voice = create([1, -20, 10, 10, 100, 1, -20, 48000, 1, -0.5, 0]);
   const out = x.tribo_allocate(4 * 48000);
   const level = (speed, force) => {
     x.voice_set_target(voice, speed, force);
@@ -62,7 +62,7 @@ test("a voice plays what it was told and is silent at rest; numbers that are no 
   };
   assert.ok(Math.abs(20 * Math.log10(level(100, 1)) + 20) < 0.5);
   assert.equal(level(0, 1), 0);
-  for (const numbers of [[], [1], [1, 0, 0, 0, 100, 1, -20, 48000, 1], [1, 0, 0, 0, 100, 1, -20, 48000, 1, 2], [1, 0, 0, 0, Number.NaN, 1, -20, 48000, 0]]) {
+  for (const numbers of [[], [1], [1, 0, 0, 0, 100, 1, -20, 48000, 1], [1, 0, 0, 0, 100, 1, -20, 48000, 1, 2, 0], [1, 0, 0, 0, Number.NaN, 1, -20, 48000, 0, 0], [2, 0, 0, 0, 100, 1, -20, 48000, 0, 0, 50, 1, -20, 48000, 0, 0]]) {
     assert.equal(create(numbers), 0);
   }
 });

@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Material files (docs/material.md) as the page reads them.
 
+/** What a sound is beyond coloured noise: bands whose level wanders along the way, and single grains. */
+export interface Texture {
+  crossovers_hz: number[];
+  levels_db: number[][];
+  coherence: number;
+  lengths_mm: number[];
+  weights: number[];
+  grains: { per_mm: number; share: number; scatter: number; sizes: number[]; shape: number[] };
+}
+
 /** One learned sound: an all-pole filter and its level at a speed and a force. */
 export interface VoiceModel {
   speed_mm_per_s: number;
@@ -8,6 +18,7 @@ export interface VoiceModel {
   level_db: number;
   sample_rate_hz: number;
   reflection: number[];
+  texture: Texture | undefined;
 }
 
 export interface Material {
@@ -51,18 +62,50 @@ function text(from: Record<string, unknown>, key: string): string {
   return value;
 }
 
+function list(from: Record<string, unknown>, key: string, most: number, absent?: number[]): number[] {
+  const values = from[key] ?? absent;
+  if (!Array.isArray(values) || values.length > most || !values.every((v) => typeof v === "number")) {
+    fail(key, `is not a list of up to ${most} numbers`);
+  }
+  return values as number[];
+}
+
+function texture(value: unknown): Texture | undefined {
+  if (value === undefined) return undefined;
+  const from = record(value, "texture"), grains = record(from["grains"] ?? {}, "grains");
+  const levels = from["levels_db"];
+  if (!Array.isArray(levels) || levels.length > 8) fail("levels_db", "is not a list of up to 8 tables");
+  const crossovers = list(from, "crossovers_hz", 7);
+  if (levels.length !== crossovers.length + 1 || !levels.every((l) => Array.isArray(l) && l.length === 17)) {
+    fail("levels_db", "does not have 17 levels for each band");
+  }
+  return {
+    crossovers_hz: crossovers,
+    levels_db: levels as number[][],
+    coherence: number(from, "coherence", 0, 1),
+    lengths_mm: list(from, "lengths_mm", 4),
+    weights: list(from, "weights", 4),
+    grains: {
+      per_mm: number(grains, "per_mm", 0, 1e4, 0),
+      share: number(grains, "share", 0, 1, 0),
+      scatter: number(grains, "scatter", 0, 1, 1),
+      sizes: list(grains, "sizes", 65, []),
+      shape: list(grains, "shape", 64, []),
+    },
+  };
+}
+
 function voice(value: unknown): VoiceModel {
   const from = record(value, "voices");
-  const reflection = from["reflection"];
-  if (!Array.isArray(reflection) || reflection.length > 128 || !reflection.every((k) => Math.abs(k) < 1)) {
-    fail("reflection", "is not a list of up to 128 numbers inside (-1, 1)");
-  }
+  const reflection = list(from, "reflection", 128);
+  if (!reflection.every((k) => Math.abs(k) < 1)) fail("reflection", "is not inside (-1, 1)");
   return {
     speed_mm_per_s: number(from, "speed_mm_per_s", 1e-6, 1e6),
     force_n: number(from, "force_n", 1e-6, 1e4, 1),
     level_db: number(from, "level_db", -200, 60),
     sample_rate_hz: number(from, "sample_rate_hz", 1000, 384000),
-    reflection: reflection.map((k: number) => Math.min(0.999999, Math.max(-0.999999, k))),
+    reflection: reflection.map((k) => Math.min(0.999999, Math.max(-0.999999, k))),
+    texture: texture(from["texture"]),
   };
 }
 
@@ -77,16 +120,16 @@ function fittedLaw(voices: VoiceModel[]): Material["law"] {
 export function parseMaterial(json: unknown, base: string): Material {
   const from = record(json, "file");
   if (from["schema"] !== "tribo.material/1") fail("schema", 'is not "tribo.material/1"');
-  const list = from["voices"] ?? [];
-  if (!Array.isArray(list) || list.length > 64) fail("voices", "is not a list of up to 64");
-  const voices = list.map(voice);
+  const given = from["voices"] ?? [];
+  if (!Array.isArray(given) || given.length > 64) fail("voices", "is not a list of up to 64");
+  const voices = given.map(voice);
   let law = fittedLaw(voices);
   if (from["level_law"] !== undefined) {
-    const given = record(from["level_law"], "level_law");
+    const fixed = record(from["level_law"], "level_law");
     law = {
-      level_db: number(given, "level_db", -200, 60),
-      db_per_decade_speed: number(given, "db_per_decade_speed", -200, 200, law.db_per_decade_speed),
-      db_per_decade_force: number(given, "db_per_decade_force", -200, 200, law.db_per_decade_force),
+      level_db: number(fixed, "level_db", -200, 60),
+      db_per_decade_speed: number(fixed, "db_per_decade_speed", -200, 200, law.db_per_decade_speed),
+      db_per_decade_force: number(fixed, "db_per_decade_force", -200, 200, law.db_per_decade_force),
     };
   }
   const image = text(from, "image");
@@ -107,6 +150,12 @@ export function voiceNumbers(m: Material): Float64Array {
   const numbers = [m.voices.length, m.law.level_db, m.law.db_per_decade_speed, m.law.db_per_decade_force];
   for (const v of m.voices) {
     numbers.push(v.speed_mm_per_s, v.force_n, v.level_db, v.sample_rate_hz, v.reflection.length, ...v.reflection);
+    const t = v.texture;
+    numbers.push(t?.levels_db.length ?? 0);
+    if (t === undefined) continue;
+    numbers.push(...t.crossovers_hz, ...t.levels_db.flat(), t.coherence, t.lengths_mm.length, ...t.lengths_mm, ...t.weights);
+    const { per_mm, share, scatter, sizes, shape } = t.grains;
+    numbers.push(per_mm, share, scatter, sizes.length, ...sizes, shape.length, ...shape);
   }
   return new Float64Array(numbers);
 }

@@ -17,7 +17,7 @@ test("a material's image is beside it and its voices become numbers", () => {
   const read = parseMaterial(material(), base);
   expect(read.image).toBe("https://example.org/goods/sponge.png");
   expect(read.width_mm).toBe(80);
-  expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 150, 1, -22, 44100, 2, -0.6, 0.2]);
+  expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0]);
 });
 
 test.each([
