@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/exit.hpp"
+#include "app/feel_source.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/render_job.hpp"
-#include "app/threads.hpp"
 #include "devices/servo_thread.hpp"
 #include "formats/feel_trace_csv.hpp"
 #include "formats/stroke_csv.hpp"
@@ -168,9 +168,6 @@ void print(const io::FeelStats& s, const std::vector<formats::FeelTraceRow>& tra
 }  // namespace
 
 int feel(const FeelCall& call) {
-    if (call.mode == "cut") {
-        return report(fail("feeling the cut itself is not there yet", "try --mode inspect").error());
-    }
     auto stroke = read_stroke(call);
     if (!stroke) return report(stroke.error());
     const double start_s = stroke->start_s(), end_s = stroke->end_s();
@@ -190,32 +187,17 @@ int feel(const FeelCall& call) {
     auto loaded = load_job(render);
     if (!loaded) return report(loaded.error());
     if (auto fits = check_memory(render, *loaded); !fits) return report(fits.error());
-    haptics::ContactOptions contact;
-    contact.stiffness_n_per_mm = stiffness(call, loaded->job, device->limits(), loaded->warnings);
-    contact.probe_radius_mm = call.probe_mm;
-    contact.friction_static = loaded->job.haptics.friction_static.value_or(0);
-    contact.friction_kinetic = loaded->job.haptics.friction_kinetic.value_or(contact.friction_static);
-    contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
-    contact.tick_s = 1 / call.rate_hz;
+    const double surface_n_per_mm = stiffness(call, loaded->job, device->limits(), loaded->warnings);
     report(loaded->warnings);
-
-    const int threads = call.threads > 0 ? call.threads : available_threads();
-    session::MillSession milled(std::move(loaded->setup), parallel_for_over(threads));
-    {
-        Progress progress;
-        session::MillSinks sinks;
-        sinks.progress = [&](double fraction) {
-            progress.update("milling", fraction);
-            return !interrupted();
-        };
-        if (!milled.run(sinks)) return interrupted_exit_code();
-    }
-    session::InspectSource source(milled.stock(), contact);
+    FeelSource felt(call, loaded->job, surface_n_per_mm, start_s, device->limits());
+    if (auto made = felt.make(std::move(loaded->setup)); !made) return report(made.error());
+    if (interrupted()) return interrupted_exit_code();
     io::FeelStats stats;
     stats.version = TRIBO_VERSION;
     stats.device = call.device;
     stats.mode = call.mode;
-    Run run(*device, source, session::safety_limits(*device, call.rate_hz), start_s, end_s, call.rate_hz);
+    Run run(*device, felt.source(), session::safety_limits(*device, call.rate_hz), start_s, end_s,
+            call.rate_hz);
     const bool in_time = call.real_time || device->has_motors();
     if (!(in_time ? run.run_in_time(stats) : run.count_through(stats))) return interrupted_exit_code();
     if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
@@ -224,6 +206,7 @@ int feel(const FeelCall& call) {
             return report(done.error());
     }
     print(stats, run.trace(), call.out);
+    felt.print();
     return kDone;
 }
 

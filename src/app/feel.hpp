@@ -13,7 +13,8 @@ struct FeelCall {
     double rate_hz = 1000;
     double probe_mm = 0;
     std::optional<double> stiffness_n_per_mm, resolution_mm, until_s;
-    bool real_time = false;
+    bool real_time = false, texture = true, compressive = false;
+    std::string profile, bake;
     int threads = 0;
 };
 

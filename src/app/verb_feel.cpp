@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `tribo feel JOB --stroke CSV --out TRACE.csv`: the flags.
 #include <memory>
+#include <string>
 
 #include "app/feel.hpp"
 #include "app/options.hpp"
@@ -11,6 +12,7 @@ namespace tribo::app {
 
 void add_feel(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<FeelCall>();
+    const auto texture = std::make_shared<std::string>("on"), scaling = std::make_shared<std::string>("gain");
     CLI::App* verb = program.add_subcommand("feel", "Touch the milled part along a stroke: a force per tick");
     verb->add_option("JOB", call->job, "Job file (TOML)")->required();
     verb->add_option("--stroke", call->stroke, "Where the hand goes: t_s,x_mm,y_mm,z_mm")
@@ -40,13 +42,27 @@ void add_feel(CLI::App& program, int& exit_code) {
     verb->add_option("--until", call->until_s, "Stop the program at this time")
         ->check(finite_number(0, 1e9))
         ->type_name("S");
+    verb->add_option("--texture", *texture, "The grooves' own force in cut mode; on if absent")
+        ->check(CLI::IsMember({"on", "off"}));
+    verb->add_option(
+            "--scaling", *scaling,
+            "From the cutter's newtons to the hand's: gain clamps, compressive never reaches the limit")
+        ->check(CLI::IsMember({"gain", "compressive"}));
+    verb->add_option("--profile", call->profile, "What this user can tell apart; the job's, else the default")
+        ->type_name("TOML");
+    verb->add_option("--bake", call->bake, "Keep the table of cutting forces in this file")
+        ->type_name("FILE");
     verb->add_option("--stats", call->stats, "Times of the servo's ticks as JSON")->type_name("FILE");
     verb->add_flag("--real-time", call->real_time,
                    "Tick by the clock even without an arm, in the real-time class where allowed");
     verb->add_option("--threads", call->threads, "Threads to mill with; all processors if absent")
         ->check(CLI::Range(1, kMaxThreads))
         ->type_name("N");
-    verb->callback([call, &exit_code] { exit_code = feel(*call); });
+    verb->callback([=, &exit_code] {
+        call->texture = *texture == "on";
+        call->compressive = *scaling == "compressive";
+        exit_code = feel(*call);
+    });
 }
 
 }  // namespace tribo::app

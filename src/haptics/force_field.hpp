@@ -78,6 +78,12 @@ class ForceField {
     void set_vibration(Vibration* vibration) { vibration_ = vibration; }
 
     void set_mode(FeelMode mode) { mode_ = mode; }
+    // Begins in a mode instead of fading it in: for whoever fades the whole force, or has no motors.
+    void begin_in(FeelMode mode) {
+        mode_ = mode;
+        cut_.way = mode == FeelMode::cut ? 1 : 0;
+        inspect_.way = 1 - cut_.way;
+    }
     // The user's switch for the cutting force.
     void switch_cutting(bool on) { cutting_on_ = on; }
     FeelMode mode() const { return mode_; }

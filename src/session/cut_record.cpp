@@ -19,8 +19,8 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 }  // namespace
 
 void CutRecord::add(const MillRow& row) {
-    stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.values.spindle_rpm, row.frame,
-                          row.feed, row.cutter, row.engagement});
+    stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.values.spindle_rpm,
+                          row.values.tip_mm, row.frame, row.feed, row.cutter, row.engagement});
 }
 
 std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,

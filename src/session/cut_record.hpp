@@ -4,6 +4,7 @@
 // share in the chip).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct CutStretch {
     double start_s = 0, end_s = 0;  // of the program as written
     double phase_rad = 0;           // spindle angle at start_s
     double spindle_rpm = 0;
+    Vec3 tip_mm;  // in the middle
     milling::ToolFrame frame;
     milling::FeedPerTooth feed;
     std::size_t cutter = 0;

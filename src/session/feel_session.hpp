@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What a hand feels of a milled part: the sources of force that a servo asks, made from a finished run.
+// What a hand feels of a milled part and of its cut: the sources of force that a servo asks, made from a run.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "contact/distance_field.hpp"
-#include "haptics/field_contact.hpp"
+#include "contact/force_table.hpp"
+#include "haptics/force_field.hpp"
+#include "haptics/force_scaling.hpp"
 #include "haptics/safety.hpp"
 #include "haptics/servo.hpp"
+#include "session/cut_record.hpp"
 
 namespace tribo::session {
-
-enum class FeelMode {
-    cut,      // the cutting force while the program runs, felt near the cutter
-    inspect,  // the part as the program leaves it
-};
 
 // Inspect mode: F_reaction = k N_sur from a god-object on the surface (the paper's section 3.2).
 class InspectSource final : public haptics::ForceSource {
@@ -30,7 +29,64 @@ class InspectSource final : public haptics::ForceSource {
     haptics::FieldContact contact_;
 };
 
-// Limits for a device: its own numbers, and the ramp only where motors move a hand.
+// Where the cutter is at a time of the program. Real-time safe; any thread.
+class CutterTrack {
+  public:
+    // Of a setup before it is run.
+    explicit CutterTrack(const MillSetup& setup);
+    haptics::Cylinder at(double t_s) const noexcept;
+
+  private:
+    std::vector<motion::Move> moves_;
+    motion::Schedule schedule_;
+    std::vector<std::size_t> cutter_of_move_;
+    std::vector<haptics::Cylinder> cutters_;  // radius and length
+};
+
+// The cutting force from a table, scaled for the hand.
+class TableForce final : public haptics::CuttingForce {
+  public:
+    TableForce(contact::ForceTable table, const haptics::ForceScaling& scaling, double rate_hz)
+        : table_(std::move(table)), scaling_(scaling), rate_hz_(rate_hz) {}
+    Vec3 force_n(double at_s) noexcept override;
+
+  private:
+    contact::ForceTable table_;
+    haptics::ForceScaling scaling_;
+    double rate_hz_;
+    contact::ForceTable::Cursor cursor_;
+};
+
+// Eight textured triangles for places along the cut, at least `spacing_mm` of path apart.
+haptics::TextureMap texture_map(const CutRecord& record, const contact::DistanceField& machined,
+                                const ParallelFor& parallel, double spacing_mm = 2);
+
+struct CutSourceOptions {
+    double start_s = 0;    // of the program, where the servo's clock is 0
+    double finger_mm = 0;  // radius of the finger's cylinder
+    double tick_s = 1e-3;
+    bool texture = true;
+};
+
+// Cut mode: F_fem + F_tex near the cutter while the program runs (the paper's section 3.2).
+class CutSource final : public haptics::ForceSource {
+  public:
+    // Everything must outlive this; no force where the table holds none.
+    CutSource(const CutterTrack& track, haptics::CuttingForce& force, const haptics::TextureMap& textures,
+              const CutSourceOptions& options);
+
+    haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
+                                  double tick_s) noexcept override;
+
+  private:
+    const CutterTrack& track_;
+    const haptics::TextureMap& textures_;
+    CutSourceOptions options_;
+    haptics::ForceField field_;
+};
+
+// Limits for a device: its own numbers. Where no motors move a hand there is no ramp, and the slew limit is
+// what leaves a tooth's force as it is.
 haptics::SafetyLimits safety_limits(const haptics::Device& device, double rate_hz);
 
 }  // namespace tribo::session

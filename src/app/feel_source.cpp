@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "app/feel_source.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/threads.hpp"
+#include "formats/force_bake.hpp"
+#include "io/jnd_profile_toml.hpp"
+#include "io/mapped_file.hpp"
+
+namespace tribo::app {
+
+FeelSource::FeelSource(const FeelCall& call, const formats::Job& job, double surface_n_per_mm, double start_s,
+                       const haptics::DeviceLimits& limits)
+    : call_(call), job_(job), surface_n_per_mm_(surface_n_per_mm), start_s_(start_s) {
+    scaling_.gain = job.haptics.force_scale;
+    scaling_.law = call.compressive ? haptics::ScalingLaw::compressive : haptics::ScalingLaw::gain;
+    scaling_.limit_n = limits.max_force_n;
+}
+
+io::FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
+    contact::ForceTableOptions options;
+    options.hand_per_tool = scaling_.gain;
+    const std::string& profile = call_.profile.empty() ? job_.haptics.profile : call_.profile;
+    if (profile.empty()) return options;
+    auto read = io::read_jnd_profile(profile);
+    if (!read) return std::unexpected(read.error());
+    options.profile = *read;
+    return options;
+}
+
+std::optional<contact::ForceTable> FeelSource::baked(std::uint64_t key) const {
+    if (call_.bake.empty()) return std::nullopt;
+    auto file = io::MappedFile::open(call_.bake);
+    if (!file) return std::nullopt;  // not baked yet
+    auto bake = formats::read_force_bake((*file)->bytes(), *file, call_.bake);
+    if (!bake) {
+        report(Warnings{{call_.bake, 0, bake.error().cause + "; it is baked again"}});
+        return std::nullopt;
+    }
+    if (bake->key != key) {
+        report(Warnings{{call_.bake, 0, "baked from another job, profile or scale; it is baked again"}});
+        return std::nullopt;
+    }
+    return std::move(bake->table);
+}
+
+bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
+    milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel);
+    Progress progress;
+    session::MillSinks sinks;
+    if (call_.mode == "cut") sinks.row = [this](const session::MillRow& row) { record_.add(row); };
+    sinks.progress = [&](double fraction) {
+        progress.update("milling", fraction);
+        return !interrupted();
+    };
+    return milled_->run(sinks);
+}
+
+void FeelSource::inspect() {
+    haptics::ContactOptions contact;
+    contact.stiffness_n_per_mm = surface_n_per_mm_;
+    contact.probe_radius_mm = call_.probe_mm;
+    contact.friction_static = job_.haptics.friction_static.value_or(0);
+    contact.friction_kinetic = job_.haptics.friction_kinetic.value_or(contact.friction_static);
+    contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
+    contact.tick_s = 1 / call_.rate_hz;
+    source_ = std::make_unique<session::InspectSource>(milled_->stock(), contact);
+}
+
+void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
+    knots_ = table.table().knots();
+    table_bytes_ = table.bytes();
+    force_ = std::make_unique<session::TableForce>(std::move(table), scaling_, call_.rate_hz);
+    if (call_.texture && milled_) textures_ = session::texture_map(record_, milled_->stock(), parallel);
+    texture_records_ = textures_.records().size();
+    session::CutSourceOptions options;
+    options.start_s = start_s_;
+    options.finger_mm = call_.probe_mm;
+    options.tick_s = 1 / call_.rate_hz;
+    options.texture = call_.texture;
+    source_ = std::make_unique<session::CutSource>(*track_, *force_, textures_, options);
+}
+
+io::FileResult<void> FeelSource::make(session::MillSetup setup) {
+    const ParallelFor parallel = parallel_for_over(call_.threads > 0 ? call_.threads : available_threads());
+    if (call_.mode != "cut") {
+        if (mill(std::move(setup), parallel)) inspect();
+        return {};
+    }
+    const auto options = table_options();
+    if (!options) return std::unexpected(options.error());
+    const std::uint64_t key = session::bake_key(setup, *options);
+    track_ = std::make_unique<session::CutterTrack>(setup);
+    auto table = baked(key);
+    from_bake_ = table.has_value();
+    if (!table || call_.texture) {
+        if (!mill(std::move(setup), parallel)) return {};
+    }
+    if (!table) {
+        const auto stretches = session::force_stretches(record_, milled_->setup(), {}, parallel);
+        table = contact::build_force_table(contact::force_function(stretches, *options), *options);
+        if (!call_.bake.empty()) {
+            auto written = io::replace_file(call_.bake, formats::write_force_bake(*table, key));
+            if (!written) return std::unexpected(written.error());
+        }
+    }
+    cut(std::move(*table), parallel);
+    return {};
+}
+
+void FeelSource::print() const {
+    if (call_.mode != "cut") return;
+    std::printf("%-16s %zu knots, %zu bytes%s\n", "force table", knots_, table_bytes_,
+                from_bake_ ? ", as baked" : "");
+    if (call_.texture) std::printf("%-16s %zu places of eight triangles\n", "texture", texture_records_);
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Force Dimension arms (omega, delta, sigma, lambda) and Novint Falcon through libdrd or libdhd, loaded while
+// the program runs (interface of the SDK 3.17; only its types and constants are written here).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/result.hpp"
+#include "devices/mounting.hpp"
+#include "haptics/device.hpp"
+
+namespace tribo::devices {
+
+struct ForceDimensionOptions {
+    std::string
+        library;  // path; empty: libdrd.so.3, libdrd.so, libdhd.so.3, libdhd.so where the loader looks
+    Mounting mounting;
+};
+
+// The firmware's own watchdog is set to 5 ms, too. The errors say what to do: driver missing, wrong version,
+// unplugged, no rights.
+Result<std::unique_ptr<haptics::Device>> open_force_dimension(const ForceDimensionOptions& options);
+
+}  // namespace tribo::devices

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A vendor's library loaded while the program runs: nothing of it is needed to build Tribo.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "base/result.hpp"
+
+namespace tribo::devices {
+
+class SharedLibrary {
+  public:
+    // The first of the names that the system's loader finds; a name with a slash is a path. The error lists
+    // what was tried and what the loader said.
+    static Result<SharedLibrary> open(std::initializer_list<std::string> names);
+    SharedLibrary(SharedLibrary&& other) noexcept;
+    SharedLibrary& operator=(SharedLibrary&& other) noexcept;
+    ~SharedLibrary();
+
+    const std::string& name() const { return name_; }
+    // False, and the first such name kept, where the library has no such symbol.
+    template <class Function>
+    bool find(const char* symbol, Function*& function) {
+        function = reinterpret_cast<Function*>(address(symbol));
+        if (function == nullptr && missing_.empty()) missing_ = symbol;
+        return function != nullptr;
+    }
+    // The first symbol that find() did not find.
+    const std::string& missing() const { return missing_; }
+
+  private:
+    SharedLibrary(void* handle, std::string name) : handle_(handle), name_(std::move(name)) {}
+    void* address(const char* symbol) const;
+
+    void* handle_ = nullptr;
+    std::string name_, missing_;
+};
+
+}  // namespace tribo::devices
