@@ -73,5 +73,6 @@ void measure_sessions(Report& report, int repeats);
 void measure_noise(Report& report, int repeats);
 void measure_sound(Report& report);
 void measure_elastic(Report& report);
+void measure_servo(Report& report);
 
 }  // namespace tribo::bench

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
         {"noise", [&] { measure_noise(report, repeats); }},
         {"sound", [&] { measure_sound(report); }},
         {"elastic", [&] { measure_elastic(report); }},
+        {"servo", [&] { measure_servo(report); }},
     };
     bool known = only.empty();
     for (const auto& part : parts) {

@@ -12,6 +12,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/render_job.hpp"
+#include "devices/device_search.hpp"
 #include "devices/servo_thread.hpp"
 #include "formats/feel_trace_csv.hpp"
 #include "formats/stroke_csv.hpp"
@@ -44,6 +45,17 @@ io::FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
     std::vector<haptics::StrokePoint> stroke;
     for (const formats::ProbePoint& p : *points) stroke.push_back({p.t_s, p.position_mm});
     return haptics::Stroke(std::move(stroke));
+}
+
+// An arm's own zero lies on the middle of the stock's top.
+Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, haptics::Stroke stroke,
+                                                     const Box3& blank) {
+    if (call.device == "playback")
+        return std::make_unique<haptics::PlaybackHand>(std::move(stroke), 1 / call.rate_hz);
+    if (call.device == "simulated")
+        return std::make_unique<haptics::SimulatedHand>(std::move(stroke), 1 / call.rate_hz);
+    const Vec3 middle = blank.centre();
+    return devices::open_arm(call.device, {{middle.x, middle.y, blank.max.z}});
 }
 
 double stiffness(const FeelCall& call, const formats::Job& job, const haptics::DeviceLimits& limits,
@@ -171,15 +183,6 @@ int feel(const FeelCall& call) {
     auto stroke = read_stroke(call);
     if (!stroke) return report(stroke.error());
     const double start_s = stroke->start_s(), end_s = stroke->end_s();
-    std::unique_ptr<haptics::Device> device;
-    if (call.device == "playback") {
-        device = std::make_unique<haptics::PlaybackHand>(std::move(*stroke), 1 / call.rate_hz);
-    } else if (call.device == "simulated") {
-        device = std::make_unique<haptics::SimulatedHand>(std::move(*stroke), 1 / call.rate_hz);
-    } else {
-        report(fail("there is no device '" + call.device + "'", "try simulated or playback").error());
-        return kRefused;
-    }
     RenderCall render;
     render.job = call.job;
     render.resolution_mm = call.resolution_mm;
@@ -187,19 +190,26 @@ int feel(const FeelCall& call) {
     auto loaded = load_job(render);
     if (!loaded) return report(loaded.error());
     if (auto fits = check_memory(render, *loaded); !fits) return report(fits.error());
-    const double surface_n_per_mm = stiffness(call, loaded->job, device->limits(), loaded->warnings);
+    const Box3 blank = loaded->setup.blank->bounds_mm();
+    auto device = open_device(call, std::move(*stroke), blank);
+    if (!device) {
+        report(device.error());
+        return kRefused;
+    }
+    const double surface_n_per_mm = stiffness(call, loaded->job, (*device)->limits(), loaded->warnings);
     report(loaded->warnings);
-    FeelSource felt(call, loaded->job, surface_n_per_mm, start_s, device->limits());
+    FeelSource felt(call, loaded->job, surface_n_per_mm, start_s, (*device)->limits());
     if (auto made = felt.make(std::move(loaded->setup)); !made) return report(made.error());
     if (interrupted()) return interrupted_exit_code();
     io::FeelStats stats;
     stats.version = TRIBO_VERSION;
     stats.device = call.device;
     stats.mode = call.mode;
-    Run run(*device, felt.source(), session::safety_limits(*device, call.rate_hz), start_s, end_s,
+    Run run(**device, felt.source(), session::safety_limits(**device, call.rate_hz), start_s, end_s,
             call.rate_hz);
-    const bool in_time = call.real_time || device->has_motors();
+    const bool in_time = call.real_time || (*device)->has_motors();
     if (!(in_time ? run.run_in_time(stats) : run.count_through(stats))) return interrupted_exit_code();
+    stats.table = felt.table_figures();
     if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
     if (!call.stats.empty()) {
         if (auto done = io::write_file(call.stats, io::feel_stats_json(stats)); !done)

@@ -103,7 +103,17 @@ io::FileResult<void> FeelSource::make(session::MillSetup setup) {
     }
     if (!table) {
         const auto stretches = session::force_stretches(record_, milled_->setup(), {}, parallel);
-        table = contact::build_force_table(contact::force_function(stretches, *options), *options);
+        const contact::ForceFunction function = contact::force_function(stretches, *options);
+        table = contact::build_force_table(function, *options);
+        if (!call_.stats.empty() && !table->table().empty()) {
+            const contact::ErrorInJnd error = contact::force_error(*options);
+            figures_.emplace();
+            figures_->pieces = table->table().pieces().size();
+            figures_->knots = table->table().knots();
+            figures_->bytes = table->bytes();
+            figures_->worst_jnd = contact::worst_error_jnd(table->table(), function.dense, error);
+            figures_->uniform_knots = contact::uniform_knots(function.dense, error, options->most_jnd);
+        }
         if (!call_.bake.empty()) {
             auto written = io::replace_file(call_.bake, formats::write_force_bake(*table, key));
             if (!written) return std::unexpected(written.error());

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "app/feel.hpp"
 #include "formats/job.hpp"
+#include "io/feel_stats_json.hpp"
 #include "io/files.hpp"
 #include "session/feel_session.hpp"
 
@@ -22,6 +24,7 @@ class FeelSource {
     haptics::ForceSource& source() { return *source_; }
     // What there is to say about the table.
     void print() const;
+    const std::optional<io::FeelStats::ForceTableFigures>& table_figures() const { return figures_; }
 
   private:
     io::FileResult<contact::ForceTableOptions> table_options() const;
@@ -43,6 +46,7 @@ class FeelSource {
     std::unique_ptr<haptics::ForceSource> source_;
     std::size_t knots_ = 0, table_bytes_ = 0, texture_records_ = 0;
     bool from_bake_ = false;
+    std::optional<io::FeelStats::ForceTableFigures> figures_;
 };
 
 }  // namespace tribo::app

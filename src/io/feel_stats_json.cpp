@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/feel_stats_json.hpp"
 
+#include <algorithm>
+
 #include "io/json.hpp"
 
 namespace tribo::io {
@@ -33,6 +35,18 @@ std::string feel_stats_json(const FeelStats& s) {
     json["late"] = s.late;
     set(json, "max_force_n", s.max_force_n);
     set(json, "lowest_energy_nmm", s.lowest_energy_nmm);
+    if (s.table) {
+        Json table;
+        table["pieces"] = s.table->pieces;
+        table["knots"] = s.table->knots;
+        table["bytes"] = s.table->bytes;
+        set(table, "worst_jnd", s.table->worst_jnd);
+        table["uniform_knots"] = s.table->uniform_knots;
+        set(table, "times_smaller_than_uniform",
+            static_cast<double>(s.table->uniform_knots) /
+                static_cast<double>(std::max<std::size_t>(1, s.table->knots)));
+        json["force_table"] = std::move(table);
+    }
     json["faults"] = Json::object();
     for (const FeelStats::FaultCount& fault : s.faults) json["faults"][fault.name] = fault.count;
     json["notes"] = s.notes;

@@ -27,6 +27,13 @@ struct FeelStats {
         std::string name;
         std::uint32_t count = 0;
     };
+    // Of cut mode, where the table was made in this run.
+    struct ForceTableFigures {
+        std::size_t pieces = 0, knots = 0, bytes = 0;
+        double worst_jnd = 0;           // by a dense check
+        std::size_t uniform_knots = 0;  // of a table of even spacing with the same worst error
+    };
+    std::optional<ForceTableFigures> table;
     std::vector<FaultCount> faults;  // that happened
     std::vector<std::string> notes;  // what the system did not grant, in words
 };

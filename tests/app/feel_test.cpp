@@ -135,6 +135,89 @@ TEST_F(Feel, gives_the_same_trace_twice) {
     EXPECT_EQ(text_of("trace.csv"), first);
 }
 
+// A probe at the tip, while the slot is cut in steady feed: over whole turns the trace has the mean force of
+// forces.csv, scaled, in the stock's frame (the feed is +x). 6000 rpm: a turn is 10 ticks.
+TEST_F(Feel, gives_the_cutting_force_of_the_program_at_the_time_of_the_stroke) {
+    put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,-5,10,-2\n2.6666666,35,10,-2\n");
+    const Outcome run =
+        feel({"--mode", "cut", "--device", "playback", "--texture", "off", "--bake", "cut.bake"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    ASSERT_EQ(
+        run_tribo({"render", "slot.toml", "--out", "out", "--only", "summary,forces"}, folder_.string()).code,
+        0);
+    std::ifstream forces(folder_ / "out" / "forces.csv");
+    std::string line;
+    double mean[3] = {0, 0, 0};
+    while (std::getline(forces, line)) {
+        double v[16] = {};
+        std::istringstream fields(line);
+        std::string field;
+        for (double& value : v) {
+            if (std::getline(fields, field, ',')) value = std::atof(field.c_str());
+        }
+        if (v[0] > 1.25 && v[0] < 1.3) std::copy(v + 13, v + 16, mean);  // in the middle of the slot
+    }
+    ASSERT_NE(mean[0], 0);
+    const std::vector<Row> rows = trace();
+    double sum[3] = {0, 0, 0};
+    for (std::size_t n = 1200; n < 1400; ++n) {
+        sum[0] += rows[n].fx / 200;
+        sum[1] += rows[n].fy / 200;
+        sum[2] += rows[n].fz / 200;
+        EXPECT_EQ(rows[n].contact, 1);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(sum[axis], 0.01 * mean[axis], 0.02 * std::abs(0.01 * mean[1])) << axis;
+    // Before the cutter meets the stock nothing is felt.
+    EXPECT_EQ(rows[50].contact, 0);
+    EXPECT_EQ(rows[50].fy, 0);
+    // The same again from the file.
+    const std::string first = text_of("trace.csv");
+    const Outcome again =
+        feel({"--mode", "cut", "--device", "playback", "--texture", "off", "--bake", "cut.bake"});
+    ASSERT_EQ(again.code, 0);
+    EXPECT_NE(again.out.find("as baked"), std::string::npos) << again.out;
+    EXPECT_EQ(text_of("trace.csv"), first);
+    // Of another job it is not used.
+    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 0.02\n");
+    const Outcome other =
+        feel({"--mode", "cut", "--device", "playback", "--texture", "off", "--bake", "cut.bake"});
+    ASSERT_EQ(other.code, 0);
+    EXPECT_EQ(other.out.find("as baked"), std::string::npos);
+    EXPECT_NE(other.err.find("baked again"), std::string::npos) << other.err;
+    EXPECT_NEAR(trace()[1300].fy, 2 * rows[1300].fy, 1e-5);
+}
+
+TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
+    const auto force_at = [&](double y) {
+        put("stroke.csv",
+            "t_s,x_mm,y_mm,z_mm\n0,15," + std::to_string(y) + ",-2\n2,15," + std::to_string(y) + ",-2\n");
+        EXPECT_EQ(feel({"--mode", "cut", "--device", "playback", "--texture", "off"}).code, 0);
+        double most = 0;
+        for (const Row& r : trace()) most = std::max(most, std::hypot(r.fx, r.fy, r.fz));
+        return most;
+    };
+    // The cutter's side is 3 mm from its axis at y = 10: in full to 2 mm from there, not at all from 10 mm
+    // on.
+    const double near = force_at(14), further = force_at(18), away = force_at(23.5);
+    EXPECT_GT(near, 1);
+    EXPECT_GT(further, 0.1);
+    EXPECT_LT(further, 0.8 * near);
+    EXPECT_EQ(away, 0);
+}
+
+TEST_F(Feel, says_which_devices_there_are) {
+    const Outcome text = run_tribo({"devices"}, folder_.string());
+    EXPECT_EQ(text.code, 0);
+    for (const char* word : {"openhaptics", "forcedimension", "haply", "simulated", "playback", "sound"})
+        EXPECT_NE(text.out.find(word), std::string::npos) << word;
+    const auto json = nlohmann::json::parse(run_tribo({"devices", "--json"}, folder_.string()).out);
+    EXPECT_EQ(json["schema"], "tribo.devices/1");
+    for (const auto& arm : json["haptic"]) {
+        EXPECT_TRUE(arm["available"] == true || !arm["remedy"].get<std::string>().empty());
+    }
+}
+
 TEST_F(Feel, refuses_what_it_cannot_feel) {
     EXPECT_EQ(feel({"--device", "glove"}).code, 3);
     EXPECT_EQ(feel({"--rate", "5"}).code, 2);

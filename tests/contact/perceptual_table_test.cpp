@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "contact/jnd_error.hpp"
+
 namespace tribo::contact {
 namespace {
 
@@ -78,6 +80,23 @@ TEST(PerceptualTable, keeps_a_jump_between_pieces) {
     EXPECT_FALSE(table.look_up(4, {&value, 1}, cursor));
     ASSERT_TRUE(table.look_up(5.5, {&value, 1}, cursor));
     EXPECT_EQ(value, 4);
+}
+
+// Rolloff 1/r from 5 cm to 5 m, and the pitch of a tool that passes a listener at 10 m/s in 0.2 m: the other
+// users.
+TEST(PerceptualTable, serves_rolloff_and_doppler_too) {
+    const JndProfile profile;
+    const DenseFunction rolloff = sampled(0.05, 5, 20'001, [](double r) { return 1 / r; });
+    const PerceptualTable loudness = build_perceptual_table(rolloff, level_error(profile));
+    EXPECT_LE(worst_error_jnd(loudness, rolloff, level_error(profile)), kInaudibleJnd * 1.001);
+    EXPECT_GE(uniform_knots(rolloff, level_error(profile)), 5 * loudness.knots());
+    const DenseFunction passing = sampled(-2, 2, 20'001, [](double t_s) {
+        const double along = 10 * t_s, away = std::sqrt(along * along + 0.04);
+        return 1 / (1 + 10 / 343.0 * along / away);
+    });
+    const PerceptualTable pitch = build_perceptual_table(passing, pitch_error(profile));
+    EXPECT_LE(worst_error_jnd(pitch, passing, pitch_error(profile)), kInaudibleJnd * 1.001);
+    EXPECT_GE(uniform_knots(passing, pitch_error(profile)), 5 * pitch.knots());
 }
 
 RC_GTEST_PROP(PerceptualTable, stays_within_the_error_for_any_function_and_any_cursor, ()) {

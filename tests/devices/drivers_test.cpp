@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Arms through libraries that export what the vendors' do.
+#include <chrono>
+#include <cmath>
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "devices/force_dimension.hpp"
+#include "devices/openhaptics.hpp"
+#include "fakes/fake_arm.hpp"
+
+namespace tribo::devices {
+namespace {
+
+using haptics::DeviceState;
+using test::FakeArm;
+
+// The library's own state; loading it again gives the same one, so every test begins by resetting it.
+class Driver {
+  public:
+    explicit Driver(const char* path) : handle_(::dlopen(path, RTLD_NOW | RTLD_LOCAL)) {
+        EXPECT_NE(handle_, nullptr) << ::dlerror();
+        arm = reinterpret_cast<FakeArm* (*)()>(::dlsym(handle_, "fake_arm"))();
+        for (int n = 0; n < 3; ++n) arm->position[n] = arm->velocity[n] = arm->force[n] = 0;
+        arm->buttons = arm->error = arm->calibration = arm->watchdog = arm->stall_ms = 0;
+        arm->plugged = true;
+        arm->version = 3;
+        arm->calibrated = arm->forces_on = arm->open = false;
+    }
+    ~Driver() { ::dlclose(handle_); }
+    FakeArm* arm = nullptr;
+
+  private:
+    void* handle_;
+};
+
+// Reads until `state` comes, for at most two seconds.
+bool comes(haptics::Device& device, haptics::HandReading& reading, DeviceState state) {
+    for (int n = 0; n < 2000; ++n) {
+        if (device.read(reading) == state) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+TEST(OpenHaptics, reads_the_hand_and_sets_forces_in_the_stocks_axes) {
+    Driver driver(FAKE_HD);
+    driver.arm->position[0] = 10;
+    driver.arm->position[1] = 20;
+    driver.arm->position[2] = 30;
+    driver.arm->velocity[1] = 5;
+    driver.arm->buttons = 1;
+    driver.arm->calibration = 1;
+    OpenHapticsOptions options;
+    options.library = FAKE_HD;
+    options.mounting.origin_mm = {0, 0, 100};
+    auto device = open_openhaptics(options);
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    EXPECT_EQ((*device)->limits().max_force_n, 3.3);
+    EXPECT_EQ((*device)->limits().max_stiffness_n_per_mm, 0.4);
+    EXPECT_TRUE(driver.arm->calibrated);
+    EXPECT_TRUE(driver.arm->forces_on);
+    haptics::HandReading reading;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    EXPECT_EQ(reading.position_mm, (Vec3{10, -30, 120}));
+    EXPECT_EQ(reading.velocity_mm_per_s, (Vec3{0, 0, 5}));
+    EXPECT_EQ(reading.stylus, (Vec3{0, 0, 1}));
+    EXPECT_EQ(reading.buttons, 1U);
+    // A force up is the arm's +y; it is kept up by writing it again.
+    for (int n = 0; n < 2000 && driver.arm->force[1] != 1.5; ++n) {
+        (*device)->write({0, 0.25, 1.5});
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    EXPECT_EQ(driver.arm->force[1], 1.5);
+    EXPECT_EQ(driver.arm->force[2], -0.25);
+    // A servo that falls silent: the driver's own thread lets go.
+    for (int n = 0; n < 2000 && driver.arm->force[1] != 0; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(driver.arm->force[1], 0);
+    device->reset();
+    EXPECT_FALSE(driver.arm->open);
+}
+
+TEST(OpenHaptics, tells_silence_errors_and_unplugging_apart) {
+    Driver driver(FAKE_HD);
+    OpenHapticsOptions options;
+    options.library = FAKE_HD;
+    auto device = open_openhaptics(options);
+    ASSERT_TRUE(device.has_value());
+    haptics::HandReading reading;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    driver.arm->stall_ms = 50;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::silent));
+    driver.arm->stall_ms = 0;
+    driver.arm->error = 0x200;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::refused));
+    EXPECT_EQ((*device)->trouble(), "warm motors");
+    driver.arm->error = 0x302;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::gone));
+    EXPECT_EQ((*device)->trouble(), "communication error");
+}
+
+TEST(OpenHaptics, says_what_to_do_where_there_is_no_driver_no_arm_or_another_version) {
+    OpenHapticsOptions options;
+    options.library = "/nowhere/libHD.so";
+    auto device = open_openhaptics(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("/nowhere/libHD.so"), std::string::npos);
+    EXPECT_NE(device.error().remedy.find("OpenHaptics"), std::string::npos);
+
+    options.library = FAKE_HD_OLD;
+    device = open_openhaptics(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("has no hdScheduleAsynchronous"), std::string::npos);
+
+    Driver driver(FAKE_HD);
+    options.library = FAKE_HD;
+    options.device = "Left Arm";
+    EXPECT_FALSE(open_openhaptics(options).has_value());
+    options.device = "";
+    driver.arm->plugged = false;
+    device = open_openhaptics(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("communication error"), std::string::npos);
+    EXPECT_NE(device.error().remedy.find("/dev/hidraw"), std::string::npos);
+    driver.arm->plugged = true;
+    driver.arm->calibration = 2;
+    device = open_openhaptics(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().remedy.find("inkwell"), std::string::npos);
+}
+
+TEST(ForceDimension, reads_metres_and_sets_newtons_in_the_stocks_axes) {
+    Driver driver(FAKE_DRD);
+    driver.arm->position[0] = 0.01;
+    driver.arm->position[1] = 0.02;
+    driver.arm->position[2] = 0.03;
+    driver.arm->velocity[0] = 0.1;
+    ForceDimensionOptions options;
+    options.library = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    EXPECT_EQ((*device)->limits().max_force_n, 12);
+    EXPECT_EQ(driver.arm->watchdog, 40);
+    haptics::HandReading reading;
+    ASSERT_EQ((*device)->read(reading), DeviceState::ready);
+    // Right is the arm's y, away from the user its -x.
+    EXPECT_NEAR(distance(reading.position_mm, {20, -10, 30}), 0, 1e-12);
+    EXPECT_NEAR(distance(reading.velocity_mm_per_s, {0, -100, 0}), 0, 1e-12);
+    EXPECT_EQ((*device)->write({1, 2, 3}), DeviceState::ready);
+    EXPECT_EQ(driver.arm->force[0], -2);
+    EXPECT_EQ(driver.arm->force[1], 1);
+    EXPECT_EQ(driver.arm->force[2], 3);
+    device->reset();
+    EXPECT_EQ(driver.arm->force[2], 0);
+    EXPECT_FALSE(driver.arm->forces_on);
+}
+
+TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
+    Driver driver(FAKE_DRD);
+    ForceDimensionOptions options;
+    options.library = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value());
+    driver.arm->error = 1;  // TIMEGUARD: too early
+    EXPECT_EQ((*device)->write({0, 0, 1}), DeviceState::ready);
+    driver.arm->error = 2;  // motor saturated
+    EXPECT_EQ((*device)->write({0, 0, 1}), DeviceState::refused);
+    driver.arm->error = -1;
+    haptics::HandReading reading;
+    EXPECT_EQ((*device)->read(reading), DeviceState::silent);
+    driver.arm->error = 0;
+    EXPECT_EQ((*device)->read(reading), DeviceState::ready);
+    driver.arm->open = false;  // unplugged
+    for (int n = 0; n < 30; ++n) (*device)->read(reading);
+    EXPECT_EQ((*device)->read(reading), DeviceState::gone);
+    EXPECT_NE((*device)->trouble().find("not connected"), std::string::npos);
+}
+
+TEST(ForceDimension, says_what_to_do_where_there_is_no_driver_no_arm_or_another_version) {
+    ForceDimensionOptions options;
+    options.library = "/nowhere/libdrd.so";
+    EXPECT_FALSE(open_force_dimension(options).has_value());
+    options.library = FAKE_DRD_OLD;
+    auto device = open_force_dimension(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("has no dhdSetWatchdog"), std::string::npos);
+    Driver driver(FAKE_DRD);
+    options.library = FAKE_DRD;
+    driver.arm->version = 2;
+    device = open_force_dimension(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("version 2.17"), std::string::npos);
+    driver.arm->version = 3;
+    driver.arm->plugged = false;
+    device = open_force_dimension(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().remedy.find("1451"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tribo::devices

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// The Inverse3 through a server that speaks the documented messages.
+#include "devices/haply.hpp"
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <functional>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>  // before Beast: 1.74 leaves it out
+
+namespace tribo::devices {
+namespace {
+
+namespace beast = boost::beast;
+using tcp = boost::asio::ip::tcp;
+using haptics::DeviceState;
+
+// One client: says hello, then answers every message by `reply` until that gives nothing; then closes.
+class Service {
+  public:
+    using Reply = std::function<std::string(const std::string&)>;
+    Service(std::string hello, Reply reply) : hello_(std::move(hello)), reply_(std::move(reply)) {
+        thread_ = std::thread([this] { serve(); });
+    }
+    ~Service() {
+        if (!accepted_) {  // wakes accept()
+            beast::error_code ignored;
+            tcp::socket socket(context_);
+            socket.connect({boost::asio::ip::address_v4::loopback(), port()}, ignored);
+        }
+        thread_.join();
+    }
+    std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+
+  private:
+    void serve() {
+        beast::error_code error;
+        tcp::socket socket(context_);
+        acceptor_.accept(socket, error);
+        accepted_ = true;
+        beast::websocket::stream<tcp::socket> ws(std::move(socket));
+        ws.accept(error);
+        if (error) return;
+        ws.text(true);
+        if (!hello_.empty()) ws.write(boost::asio::buffer(hello_), error);
+        beast::flat_buffer buffer;
+        while (!error) {
+            ws.read(buffer, error);
+            if (error) return;
+            const std::string answer = reply_(beast::buffers_to_string(buffer.data()));
+            buffer.consume(buffer.size());
+            if (answer.empty()) {
+                ws.next_layer().close(error);
+                return;
+            }
+            ws.write(boost::asio::buffer(answer), error);
+        }
+    }
+    boost::asio::io_context context_;
+    tcp::acceptor acceptor_{context_, {boost::asio::ip::address_v4::loopback(), 0}};
+    std::string hello_;
+    Reply reply_;
+    std::atomic<bool> accepted_{false};
+    std::thread thread_;
+};
+
+std::string state_at(double x, double y, double z) {
+    nlohmann::json json;
+    json["inverse3"] = {{{"device_id", "0A"},
+                         {"state",
+                          {{"cursor_position", {{"x", x}, {"y", y}, {"z", z}}},
+                           {"cursor_velocity", {{"x", 0.0}, {"y", 0.0}, {"z", 0.05}}}}}}};
+    json["wireless_verse_grip"] = {{{"device_id", "1B"},
+                                    {"state",
+                                     {{"orientation", {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}},
+                                      {"buttons", {{"a", true}, {"b", false}, {"c", true}}}}}}};
+    return json.dump();
+}
+
+HaplyOptions at(const Service& service) {
+    HaplyOptions options;
+    options.port = service.port();
+    options.timeout_ms = 500;
+    return options;
+}
+
+bool comes(haptics::Device& device, haptics::HandReading& reading, DeviceState state) {
+    for (int n = 0; n < 8000; ++n) {
+        if (device.read(reading) == state) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+TEST(Haply, takes_states_and_answers_each_with_the_newest_force) {
+    std::atomic<double> seen_z{0};
+    std::atomic<bool> well_formed{true};
+    Service service(state_at(0.01, 0.02, 0.03), [&](const std::string& text) {
+        const auto json = nlohmann::json::parse(text, nullptr, false);
+        if (!json.is_object() || json["inverse3"][0]["device_id"] != "0A") {
+            well_formed = false;
+        } else {
+            seen_z = json["inverse3"][0]["commands"]["set_cursor_force"]["values"]["z"].get<double>();
+        }
+        return state_at(0.01, 0.02, 0.04);
+    });
+    auto device = open_haply(at(service));
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    haptics::HandReading reading;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    for (int n = 0; n < 4000 && (seen_z != 1.25 || reading.position_mm.z < 39); ++n) {
+        (*device)->write({0, 0, 1.25});
+        (*device)->read(reading);
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    EXPECT_EQ(seen_z, 1.25);
+    EXPECT_NEAR(distance(reading.position_mm, {10, 20, 40}), 0, 1e-9);
+    EXPECT_NEAR(reading.velocity_mm_per_s.z, 50, 1e-9);
+    EXPECT_EQ(reading.buttons, 5U);
+    // The servo falls silent: zero is sent, not the old force.
+    for (int n = 0; n < 4000 && seen_z != 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(seen_z, 0);
+    EXPECT_TRUE(well_formed);
+    device->reset();
+}
+
+TEST(Haply, is_gone_when_the_service_closes) {
+    std::atomic<int> left{5};
+    Service service(state_at(0, 0, 0),
+                    [&](const std::string&) { return left-- > 0 ? state_at(0, 0, 0.001) : std::string(); });
+    auto device = open_haply(at(service));
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    haptics::HandReading reading;
+    EXPECT_TRUE(comes(**device, reading, DeviceState::gone));
+    EXPECT_FALSE((*device)->trouble().empty());
+}
+
+TEST(Haply, is_silent_while_a_reply_is_late) {
+    Service service(state_at(0, 0, 0), [&](const std::string&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        return state_at(0, 0, 0.001);
+    });
+    auto device = open_haply(at(service));
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    haptics::HandReading reading;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    EXPECT_TRUE(comes(**device, reading, DeviceState::silent));
+    EXPECT_TRUE(comes(**device, reading, DeviceState::ready));
+}
+
+TEST(Haply, says_what_to_do_where_there_is_no_service_no_arm_or_another_version) {
+    const auto echo = [](const std::string&) { return std::string("{}"); };
+    HaplyOptions nobody;
+    nobody.port = 1;
+    auto device = open_haply(nobody);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().remedy.find("Inverse Service"), std::string::npos);
+    {
+        Service service(R"({"inverse3": []})", echo);
+        device = open_haply(at(service));
+        ASSERT_FALSE(device.has_value());
+        EXPECT_NE(device.error().cause.find("knows of no Inverse3"), std::string::npos);
+    }
+    {
+        Service service(R"({"devices": {"version": 1}})", echo);
+        device = open_haply(at(service));
+        ASSERT_FALSE(device.has_value());
+        EXPECT_NE(device.error().cause.find("another version"), std::string::npos);
+    }
+    {
+        Service service("", echo);
+        device = open_haply(at(service));
+        ASSERT_FALSE(device.has_value());
+        EXPECT_NE(device.error().cause.find("says nothing"), std::string::npos);
+    }
+}
+
+TEST(Haply, takes_no_damaged_message_for_a_state) {
+    HaplyState state;
+    EXPECT_TRUE(read_haply_state(state_at(1, 2, 3), state));
+    EXPECT_EQ(state.id, "0A");
+    for (const char* bad :
+         {"", "{", "[]", "null", "{\"inverse3\": 5}", "{\"inverse3\": [5]}",
+          "{\"inverse3\": [{\"device_id\": 5}]}", "{\"inverse3\": [{\"device_id\": \"0A\"}]}",
+          "{\"inverse3\": [{\"device_id\": \"0A\", \"state\": {\"cursor_position\": {\"x\": 1}}}]}",
+          "{\"inverse3\": [{\"device_id\": \"0A\", \"state\": {\"cursor_position\": "
+          "{\"x\": 1, \"y\": \"a\", \"z\": 1}}}]}",
+          "{\"inverse3\": [{\"device_id\": \"9Z\", \"state\": {\"cursor_position\": "
+          "{\"x\": 1, \"y\": 1, \"z\": 1}}}]}"}) {
+        EXPECT_FALSE(read_haply_state(bad, state)) << bad;
+    }
+    EXPECT_EQ(state.position_m, (Vec3{1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace tribo::devices
