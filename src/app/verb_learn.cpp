@@ -13,6 +13,7 @@
 #include "app/options.hpp"
 #include "app/verbs.hpp"
 #include "base/decimal.hpp"
+#include "io/learning_report.hpp"
 #include "io/material_json.hpp"
 #include "io/sound_file.hpp"
 #include "noise/learning.hpp"
@@ -26,6 +27,7 @@ struct Call {
     double width_mm = 0, stiffness = 4, viscosity = 0.3;
     double highpass_hz = noise::LearningOptions{}.highpass_hz;
     int order = 0;
+    bool report = false;
 };
 
 struct Source {
@@ -153,6 +155,22 @@ void print(const formats::Material& m, const noise::Learned& learned) {
                 m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
 }
 
+// One voice for each model, by the first recording that it was learned from.
+io::FileResult<void> write_report(const Call& call, const formats::Material& m, const noise::Learned& learned,
+                                  const Sounds& sounds) {
+    std::vector<io::ReportedVoice> voices(m.voices.models.size());
+    for (std::size_t n = learned.recordings.size(); n-- > 0;) {
+        const auto model = static_cast<std::size_t>(learned.recordings[n].model);
+        const auto prepared = noise::prepare(sounds.recordings[n], call.highpass_hz);
+        if (!prepared) return std::unexpected(io::Failure(prepared.error()));
+        if (prepared->sample_rate_hz != m.voices.models[model].spectrum.sample_rate_hz) continue;
+        voices[model] = {sounds.recordings[n].name, m.voices.models[model],
+                         noise::quality_of(m.voices.models[model], *prepared, call.highpass_hz)};
+    }
+    const std::string file = std::filesystem::path(call.out).replace_extension(".html").string();
+    return io::write_file(file, io::learning_report(m, learned, voices));
+}
+
 int learn(const Call& call) {
     io::FileResult<Sounds> sounds = read_sounds(call);
     if (!sounds) return report(sounds.error());
@@ -170,6 +188,11 @@ int learn(const Call& call) {
     const formats::Material material = material_of(call, *learned, *sounds);
     if (const auto written = io::write_file(call.out, io::material_json(material)); !written) {
         return report(written.error());
+    }
+    if (call.report) {
+        if (const auto written = write_report(call, material, *learned, *sounds); !written) {
+            return report(written.error());
+        }
     }
     print(material, *learned);
     return kDone;
@@ -205,6 +228,8 @@ void add_learn(CLI::App& program, int& exit_code) {
                      "Remove sound below: 50 Hz if absent, 0 for the mean alone")
         ->check(CLI::Range(0.0, 1000.0))
         ->type_name("HZ");
+    verb->add_flag("--report", call->report,
+                   "Write a page beside the material (M.html): spectra, measures, both sounds to compare");
     verb->add_option("--name", call->name, "The file's name if absent")->type_name("TEXT");
     verb->add_option("--note", call->note, "Anything that readers of the file should know")
         ->type_name("TEXT");

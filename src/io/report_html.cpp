@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <span>
 #include <string_view>
 
+#include "io/html_parts.hpp"
 #include "io/json.hpp"
 #include "io/report_page.hpp"
 
@@ -18,29 +20,6 @@ namespace {
 constexpr std::size_t kMostRows = 12'000;  // more than the plots have pixels
 constexpr std::size_t kMostNotices = 30;
 constexpr double kGapShare = 0.5;  // of a row's duration; a longer pause is a gap between cuts
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 // Significant digits, but no exponent for what a person would write out.
 std::string number(double value, int digits = 4) {
@@ -63,52 +42,6 @@ std::string time_text(double seconds) {
         std::snprintf(text.data(), text.size(), "%ld:%02ld", s / 60, s % 60);
     }
     return std::string(text.data()) + (s >= 3600 ? " <small>h</small>" : " <small>min</small>");
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) {
-            return i + k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k]))
-                                        : 0U;
-        };
-        const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (std::size_t k = 0; k < 4; ++k) {
-            out += i + k > bytes.size() ? '=' : kLetters[bits >> (18 - 6 * k) & 63];
-        }
-    }
-    return out;
-}
-
-void append_little_endian(std::string& bytes, std::uint32_t value, int count) {
-    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xFF);
-}
-
-// A stereo WAV file of 16 bits (RIFF, PCM).
-std::string wav_16(const std::vector<float>& stereo, double rate_hz) {
-    const std::size_t most = 2 * static_cast<std::size_t>(kReportSoundS * rate_hz);
-    const std::size_t samples = std::min(stereo.size() / 2 * 2, most);
-    const auto rate = static_cast<std::uint32_t>(std::lround(rate_hz));
-    const auto length = static_cast<std::uint32_t>(2 * samples);
-    std::string wav = "RIFF";
-    append_little_endian(wav, 36 + length, 4);
-    wav += "WAVEfmt ";
-    append_little_endian(wav, 16, 4);
-    append_little_endian(wav, 1, 2);  // PCM
-    append_little_endian(wav, 2, 2);  // channels
-    append_little_endian(wav, rate, 4);
-    append_little_endian(wav, 4 * rate, 4);
-    append_little_endian(wav, 4, 2);
-    append_little_endian(wav, 16, 2);
-    wav += "data";
-    append_little_endian(wav, length, 4);
-    for (std::size_t i = 0; i < samples; ++i) {
-        const float full = std::clamp(stereo[i], -1.0F, 1.0F);
-        append_little_endian(wav, static_cast<std::uint32_t>(std::lround(full * 32767.0F)) & 0xFFFF, 2);
-    }
-    return wav;
 }
 
 std::string card(const std::string& label, const std::string& value, const std::string& note = "") {
@@ -188,8 +121,10 @@ std::string audio(const ReportSound& sound) {
     if (sound.stereo.empty()) return "";
     const double heard =
         std::min(kReportSoundS, 0.5 * static_cast<double>(sound.stereo.size()) / sound.rate_hz);
+    const auto most = 2 * static_cast<std::size_t>(kReportSoundS * sound.rate_hz);
+    const auto heard_part = std::span(sound.stereo).first(std::min(sound.stereo.size() / 2 * 2, most));
     std::string html = "<audio controls preload=\"metadata\" src=\"data:audio/wav;base64," +
-                       base64(wav_16(sound.stereo, sound.rate_hz)) + "\"></audio>\n";
+                       base64(wav_bytes_16(heard_part, 2, sound.rate_hz)) + "\"></audio>\n";
     if (heard < sound.seconds - 0.01) {
         html += "<p class=\"hint\">Plays " + number(heard, 3) + " s from " + number(sound.heard_from_s, 4) +
                 " s on; sound.wav has all " + number(sound.seconds, 4) + " s.</p>\n";

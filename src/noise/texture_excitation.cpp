@@ -52,7 +52,7 @@ void normalize(TextureModel& texture) {
 }
 
 TextureExcitation::TextureExcitation(const TextureModel& texture, double sample_rate_hz, std::uint64_t seed)
-    : sample_rate_hz_(sample_rate_hz), key_(CounterNoise(seed).bits(1)) {
+    : key_(CounterNoise(seed).bits(1)) {
     std::array<double, kMostBands - 1> corners{};
     int count = 0;
     // Bands that the sample rate does not carry are left out.

@@ -31,7 +31,6 @@ class TextureExcitation {
     double next_size();
 
     int bands_ = 1, lengths_ = 0, sizes_ = 0;
-    double sample_rate_hz_ = 48000;
     std::array<std::array<float, kLevelSteps>, kMostBands> amplitude_{};  // tables, as amplitudes
     std::array<double, kMostLengths> length_mm_{}, weight_{};
     std::array<std::array<double, kMostLengths>, kMostBands + 1>

@@ -133,7 +133,9 @@ double deviation(const std::vector<double>& x) {
 std::vector<double> gaussianized(const std::vector<double>& levels) {
     std::vector<std::size_t> order(levels.size());
     for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return levels[a] < levels[b]; });
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+        return levels[a] != levels[b] ? levels[a] < levels[b] : a < b;
+    });
     std::vector<double> g(levels.size());
     for (std::size_t n = 0; n < order.size(); ++n) {
         g[order[n]] = normal_quantile((static_cast<double>(n) + 0.5) / static_cast<double>(order.size()));
@@ -377,13 +379,11 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
 
     // Memory: of the bands whose frames are short, together.
     std::vector<double> together;
-    double together_weight = 0;
     for (std::size_t b = 2; b < own.bands.size(); ++b) {
         const std::vector<double> g = gaussianized(own.bands[b].fine);
         together.resize(b == 2 ? g.size() : std::min(g.size(), together.size()));
         const double weight = own.bands[b].power * shrinks[b];
         for (std::size_t n = 0; n < together.size(); ++n) together[n] += weight * g[n];
-        together_weight += weight;
     }
     texture.weights = memory_shares(together, kFrameS);
     for (const double s : kMemoryS) texture.lengths_mm.push_back(s * speed_mm_per_s);
