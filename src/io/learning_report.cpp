@@ -115,7 +115,7 @@ std::string figures(const noise::VoiceQuality& q) {
     html += row("Held-out spectral distance",
                 {fixed(q.held_out_db, 2), fixed(q.held_out_plain_db, 2), fixed(q.halves_db, 2)},
                 "dB, fitted on one half, held against the other");
-    html += row("Level error", {fixed(q.level_error_db, 2), "", ""}, "dB, ten seconds played");
+    html += row("Level error", {fixed(q.level_error_db, 2), "", ""}, "dB, a minute played");
     return html + "</table>\n";
 }
 
@@ -134,7 +134,7 @@ std::string section(const ReportedVoice& v) {
         "</p>\n<div class=\"pair\"><figure>" +
         plot(q.hz, spectra, 50, std::min(20000.0, 0.5 * q.sample_rate_hz)) + legend(spectra) +
         "<figcaption>Power spectrum, dB of full scale, over Hz.</figcaption></figure>\n<figure>" +
-        plot(q.modulation.hz, modulation, 4, 200) + legend(modulation) +
+        plot(q.modulation.hz, modulation, 5, 200) + legend(modulation) +
         "<figcaption>Modulation spectrum: how strongly the envelope fluctuates, dB, over "
         "Hz.</figcaption></figure></div>\n" +
         figures(q) + "<div class=\"pair\"><div>" + player("Recording", q.original, q.sample_rate_hz) +
@@ -157,11 +157,12 @@ std::string learning_report(const formats::Material& material, const noise::Lear
         "svg polyline{fill:none;stroke-width:1.4}table{margin:12px 0}.legend{font-size:13px;"
         "margin:4px 0;color:var(--soft)}</style></head><body>\n<header><p class=\"mark\">Tribo</p><h1>" +
         name + "</h1><p class=\"subtitle\">" + std::to_string(material.voices.models.size()) +
-        " voices of order " + std::to_string(learned.order) + ", " + escaped(material.method) +
-        ", high-pass " + fixed(material.highpass_hz, 0) + " Hz; level " +
-        fixed(material.voices.law.level_db, 1) + " dB at 100 mm/s and 1 N, " +
-        fixed(material.voices.law.db_per_decade_speed, 1) + " dB per decade of speed, " +
-        fixed(material.voices.law.db_per_decade_force, 1) + " of force</p></header>\n";
+        (material.voices.models.size() == 1 ? " voice" : " voices") + " of order " +
+        std::to_string(learned.order) + ", " + escaped(material.method) + ", high-pass " +
+        fixed(material.highpass_hz, 0) + " Hz; level " + fixed(material.voices.law.level_db, 1) +
+        " dB at 100 mm/s and 1 N, " + fixed(material.voices.law.db_per_decade_speed, 1) +
+        " dB per decade of speed, " + fixed(material.voices.law.db_per_decade_force, 1) +
+        " of force</p></header>\n";
     if (!material.note.empty()) html += "<div class=\"notice\">" + escaped(material.note) + "</div>\n";
     for (const Warning& w : learned.warnings)
         html += "<div class=\"notice\">" + escaped(w.message()) + "</div>\n";
@@ -170,7 +171,7 @@ std::string learning_report(const formats::Material& material, const noise::Lear
         for (std::size_t n = 0; n < learned.held_out_db.size(); ++n)
             orders.push_back(static_cast<double>(n + 1));
         html +=
-            "<section><h2>Order</h2><figure>" +
+            "<section><h2>Order</h2><figure style=\"max-width:560px\">" +
             plot(orders, {{"held out", "--mean", &learned.held_out_db}}, 1,
                  static_cast<double>(orders.size())) +
             "<figcaption>Prediction error on sound that was not fitted, dB of its power, over the number of "

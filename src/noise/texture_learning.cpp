@@ -171,8 +171,9 @@ std::vector<double> level_table(std::vector<double> levels, double shrink) {
     return table;
 }
 
-// Shares of the memories that explain an autocorrelation best: projected coordinate descent.
-std::vector<double> memory_shares(const std::vector<double>& g, double frame_s) {
+// Shares of the memories that explain an autocorrelation best: projected coordinate descent. What it leaves
+// of the share of the variance that is not the frames' own noise (`real`) is forgotten within a frame.
+std::vector<double> memory_shares(const std::vector<double>& g, double frame_s, double real) {
     constexpr std::array<std::size_t, 10> kLags{1, 2, 3, 5, 8, 12, 20, 32, 50, 80};
     std::vector<double> w(kMemoryS.size(), 0.25);
     const auto basis = [&](std::size_t lag, std::size_t m) {
@@ -196,6 +197,8 @@ std::vector<double> memory_shares(const std::vector<double>& g, double frame_s) 
     }
     double sum = 0;
     for (const double v : w) sum += v;
+    w[0] += std::max(real - sum, 0.0);
+    sum = std::max(sum, real);
     for (double& v : w) v = sum > 0 ? v / sum : 1.0 / static_cast<double>(w.size());
     return w;
 }
@@ -379,13 +382,16 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
 
     // Memory: of the bands whose frames are short, together.
     std::vector<double> together;
+    double real = 0, weights = 0;
     for (std::size_t b = 2; b < own.bands.size(); ++b) {
         const std::vector<double> g = gaussianized(own.bands[b].fine);
         together.resize(b == 2 ? g.size() : std::min(g.size(), together.size()));
         const double weight = own.bands[b].power * shrinks[b];
         for (std::size_t n = 0; n < together.size(); ++n) together[n] += weight * g[n];
+        real += weight * shrinks[b] * shrinks[b];
+        weights += weight;
     }
-    texture.weights = memory_shares(together, kFrameS);
+    texture.weights = memory_shares(together, kFrameS, real / std::max(weights, 1e-300));
     for (const double s : kMemoryS) texture.lengths_mm.push_back(s * speed_mm_per_s);
 
     double coherence = 0;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kBlockS = 0.25;
 constexpr int kPlainOrder = 50;
 constexpr double kPlayedS = 10;
+constexpr double kLevelS = 60;  // the level of a textured voice wanders: a long mean
 constexpr double kEnvelopeS = 0.002;
 constexpr std::size_t kSpectrumFrame = 1024;
 
@@ -143,12 +144,13 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     const std::vector<double> gaussian = played(model, false, std::min(seconds, kPlayedS), 1);
     const std::vector<double> voice = played(model, true, std::min(seconds, kPlayedS), 1);
     double power = 0;
-    for (const double v : played(model, true, kPlayedS, 2)) power += v * v / (kPlayedS * rate);
+    const std::vector<double> long_voice = played(model, true, kLevelS, 2);
+    for (const double v : long_voice) power += v * v / static_cast<double>(long_voice.size());
     q.level_error_db = db(power) - model.level_db;
     q.kurtosis = {kurtosis(sound), kurtosis(gaussian), kurtosis(voice)};
     q.deviation_db = {level_deviation_db(sound, rate), level_deviation_db(gaussian, rate),
                       level_deviation_db(voice, rate)};
-    for (double hz = 4; hz < 210; hz *= std::sqrt(2.0)) q.modulation.hz.push_back(hz);
+    for (double hz = 5.6; hz < 210; hz *= std::sqrt(2.0)) q.modulation.hz.push_back(hz);
     q.modulation.original_db = modulation_db(sound, rate, q.modulation.hz);
     q.modulation.gaussian_db = modulation_db(gaussian, rate, q.modulation.hz);
     q.modulation.voice_db = modulation_db(voice, rate, q.modulation.hz);

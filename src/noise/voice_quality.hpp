@@ -24,7 +24,7 @@ struct VoiceQuality {
     // Hz to 20 kHz. Beside it the same for a plain Yule-Walker fit of order 50, and what the two halves
     // differ by themselves.
     double held_out_db = 0, held_out_plain_db = 0, halves_db = 0;
-    double level_error_db = 0;  // of ten seconds played, against the level that was learned
+    double level_error_db = 0;  // of a minute played, against the level that was learned
     Trio kurtosis, deviation_db;
     std::vector<double> hz, original_db, model_db;  // spectra
     ModulationSpectrum modulation;
