@@ -119,42 +119,97 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
     fourier_.inverse(work_);
 
     EarResponses out;
-    for (int k = 0; k < kHeadTaps; ++k) {
-        const double after = k - (kHeadTaps - kFadeTaps);
-        const double fade = after <= 0 ? 1 : 0.5 + 0.5 * math::cos(math::kPi * after / kFadeTaps);
-        out.taps[0][static_cast<std::size_t>(k)] =
-            static_cast<float>(fade * work_[static_cast<std::size_t>(k)].real());
-        out.taps[1][static_cast<std::size_t>(k)] =
-            static_cast<float>(fade * work_[static_cast<std::size_t>(k)].imag());
+    for (std::size_t ear = 0; ear < 2; ++ear) {
+        const auto spectrum = ear == 0 ? left : right;
+        double whole = 0, kept = 0;
+        std::array<double, kHeadTaps> taps;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double v = ear == 0 ? work_[k].real() : work_[k].imag();
+            whole += v * v;
+            if (k >= kHeadTaps) continue;
+            const double after = static_cast<double>(k) - (kHeadTaps - kFadeTaps);
+            taps[k] = after <= 0 ? v : v * (0.5 + 0.5 * math::cos(math::kPi * after / kFadeTaps));
+            kept += taps[k] * taps[k];
+        }
+        // What was cut off is missing in the level.
+        const double gain = kept > 0 ? std::sqrt(whole / kept) : 1;
+        for (double& v : taps) v *= gain;
+        keep_level(spectrum, taps);
+        for (std::size_t k = 0; k < kHeadTaps; ++k) out.taps[ear][k] = static_cast<float>(taps[k]);
+        out.delay_s[ear] = delay_behind(spectrum, taps, phase_[ear]);
     }
-    out.delay_s = {delay_behind(left, 0), delay_behind(right, 1)};
     return out;
 }
 
+Complex MinimumPhase::response(const std::array<double, kHeadTaps>& taps, double hz) const {
+    double sine, cosine;
+    math::sincos(math::kTwoPi * hz / sample_rate_hz_, sine, cosine);
+    const Complex turn{cosine, -sine};
+    Complex sum = 0;
+    for (std::size_t k = kHeadTaps; k-- > 0;) sum = product(sum, turn) + taps[k];
+    return sum;
+}
+
+// 128 taps see 375 Hz as one; at 1 kHz, where levels are compared, they are put right by a short ring of that
+// frequency, in phase with what is there.
+void MinimumPhase::keep_level(std::span<const Complex> spectrum, std::array<double, kHeadTaps>& taps) const {
+    constexpr double kHz = 1000, kRingTaps = 24;
+    const double place = kHz / bin_hz(), share = place - std::floor(place);
+    const auto at = static_cast<std::size_t>(place);
+    const double wanted =
+        (1 - share) * std::sqrt(squared(spectrum[at])) + share * std::sqrt(squared(spectrum[at + 1]));
+    const Complex is = response(taps, kHz);
+    const double size = std::sqrt(squared(is));
+    if (!(size > 0)) return;
+    const double more = std::clamp(wanted / size, 0.5, 2.0) - 1;
+    const Complex missing{more * is.real(), more * is.imag()};
+    // ring(k) = e^(-k / kRingTaps) Re(a e^(i w k)) has the transform (a sum e^(-k/r) + conj(a) mirror) / 2.
+    std::array<double, kHeadTaps> fall;
+    double sum = 0;
+    for (std::size_t k = 0; k < kHeadTaps; ++k)
+        sum += fall[k] = math::exp(-static_cast<double>(k) / kRingTaps);
+    const Complex mirror = response(fall, 2 * kHz);
+    Complex a{2 * missing.real() / sum, 2 * missing.imag() / sum};
+    for (int round = 0; round < 8; ++round) {
+        const Complex m = product({a.real(), -a.imag()}, mirror);
+        a = {(2 * missing.real() - m.real()) / sum, (2 * missing.imag() - m.imag()) / sum};
+    }
+    for (std::size_t k = 0; k < kHeadTaps; ++k) {
+        double sine, cosine;
+        math::sincos(math::kTwoPi * kHz / sample_rate_hz_ * static_cast<double>(k), sine, cosine);
+        taps[k] += fall[k] * (a.real() * cosine - a.imag() * sine);
+    }
+}
+
 // The delay that makes filter and spectrum most alike: the peak of their cross-correlation over the band.
-double MinimumPhase::delay_behind(std::span<const Complex> spectrum, std::size_t ear) const {
+double MinimumPhase::delay_behind(std::span<const Complex> spectrum,
+                                  const std::array<double, kHeadTaps>& taps,
+                                  const std::vector<double>& whole_phase) {
     constexpr double kFromHz = 300, kToHz = 1500;
     const auto first = static_cast<std::size_t>(kFromHz / bin_hz());
     const auto last = static_cast<std::size_t>(kToHz / bin_hz());
-    // A straight line through the unwrapped phase that is left ...
-    const auto excess = [&](std::size_t k) {
-        return math::atan2(spectrum[k].imag(), spectrum[k].real()) - phase_[ear][k];
-    };
+    // A straight line through the unwrapped phase that the whole filter of minimum phase leaves ...
+    const auto phase_of = [&](std::size_t k) { return math::atan2(spectrum[k].imag(), spectrum[k].real()); };
     double turn_sum = 0, weight_sum = 0;
     for (std::size_t k = first; k < last; ++k) {
-        double step = excess(k + 1) - excess(k);
+        double step = (phase_of(k + 1) - whole_phase[k + 1]) - (phase_of(k) - whole_phase[k]);
         step -= math::kTwoPi * std::floor(step / math::kTwoPi + 0.5);
         const double weight = squared(spectrum[k]);
         turn_sum += weight * step;
         weight_sum += weight;
     }
     double delay = weight_sum > 0 ? -turn_sum / weight_sum / (math::kTwoPi * bin_hz()) : 0;
-    // ... leads to the peak, and Newton's method up to it.
+    // ... leads to the peak for the filter as it was cut, and Newton's method up to it.
+    excess_.clear();
+    for (std::size_t k = first; k <= last; ++k) {
+        const Complex filter = response(taps, bin_hz() * static_cast<double>(k));
+        excess_.push_back(phase_of(k) - math::atan2(filter.imag(), filter.real()));
+    }
     for (int round = 0; round < 6; ++round) {
         double slope = 0, bend = 0;
         for (std::size_t k = first; k <= last; ++k) {
             const double w = math::kTwoPi * bin_hz() * static_cast<double>(k);
-            const double off = excess(k) + w * delay, weight = squared(spectrum[k]);
+            const double off = excess_[k - first] + w * delay, weight = squared(spectrum[k]);
             slope -= weight * w * math::sin(off);
             bend -= weight * w * w * math::cos(off);
         }

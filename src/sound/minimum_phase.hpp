@@ -42,18 +42,24 @@ class MinimumPhase {
     std::size_t bins() const { return fourier_.size() / 2 + 1; }
     double bin_hz() const { return sample_rate_hz_ / static_cast<double>(fourier_.size()); }
 
-    // Filters of the magnitudes of both spectra (bins() values each, of any phase), cut to kHeadTaps, and the
-    // delay by which each spectrum lags behind its filter between 300 and 1500 Hz, where ears compare phases.
+    // Filters of the magnitudes of both spectra (bins() values each, of any phase), cut to kHeadTaps with
+    // their level as a whole and at 1 kHz kept, and the delay by which each spectrum lags behind its filter
+    // between 300 and 1500 Hz, where ears compare phases.
     EarResponses split(std::span<const std::complex<double>> left,
                        std::span<const std::complex<double>> right);
 
   private:
-    double delay_behind(std::span<const std::complex<double>> spectrum, std::size_t ear) const;
+    using Taps = std::array<double, kHeadTaps>;
+    std::complex<double> response(const Taps& taps, double hz) const;
+    void keep_level(std::span<const std::complex<double>> spectrum, Taps& taps) const;
+    double delay_behind(std::span<const std::complex<double>> spectrum, const Taps& taps,
+                        const std::vector<double>& whole_phase);
 
     double sample_rate_hz_;
     FourierTransform fourier_;
     std::vector<std::complex<double>> work_;
-    std::array<std::vector<double>, 2> phase_;  // of the filters, bin by bin
+    std::array<std::vector<double>, 2> phase_;  // of the filters before they are cut, bin by bin
+    std::vector<double> excess_;                // phase, over the band
 };
 
 }  // namespace tribo::sound
