@@ -8,10 +8,14 @@ namespace {
 
 // Distances at nodes are floats: off by less than this share of a cell.
 constexpr double kRounding = 1e-3;
-// A surface point found is one if the field is this close to zero there, mm.
+// Nearer by less than this is not nearer, mm.
 constexpr double kOnSurface = 1e-5;
+// A surface point that one brick's shapes make is one if the field is this close to zero there, in cells: where
+// two bricks meet their lists may differ by a shape whose share is thinner than a cell.
+constexpr double kAgree = 0.02;
 // Bricks on each side that a search for the nearest surface looks at.
 constexpr int kMostRings = 3;
+constexpr int kMostSearches = 8;
 
 double distance_to(const Box3& box, Vec3 p) {
     return length({std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
@@ -136,7 +140,7 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     const Brick& brick = (*pool)[ref];
     const auto clears = [&](ShapeId id) {
         return id == 0 ? blank().distance_mm(p) >= radius_mm
-                       : shape(id).distance_below(p, -radius_mm) <= -radius_mm;
+                       : shape(id).distance_below(p, -radius_mm) < -radius_mm;
     };
     const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
     if (likely != Brick::kUnlisted && clears(brick.shapes[likely])) return true;
@@ -150,6 +154,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
     // a smooth piece does.
     const BrickCoord here = brick_at(p), there = brick_at(hint_mm);
+    contact::SurfaceSample lower{0, {0, 0, 1}, 0};
     for (const BrickCoord b : {here, there}) {
         if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
         const contact::SurfaceSample s = OneBrick(*this, bricks.get(b)).sample(p);
@@ -158,27 +163,30 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
             if (b == here) return s;
             continue;
         }
-        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kOnSurface) return s;
+        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kAgree * cell_mm) return s;
+        if (s.distance_mm > lower.distance_mm) lower = s;
     }
-    // At a cusp: the nearest surface point of each brick that may hold one. Where none is found though the
-    // brick could not show that it is clear, its bound stands.
-    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0}, doubt = best;
-    const auto search = [&](BrickRef ref, Vec3 start, double least) {
+    // At a cusp: the nearest surface point of each brick that may hold one. Where none is found though a
+    // brick could not show that it is clear, the bound stands.
+    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
+    bool doubt = false;
+    const auto search = [&](BrickRef ref, Vec3 start) {
         const OneBrick brick(*this, ref);
         const contact::SurfaceSample found = contact::nearest_from(brick, p, start);
         // What one brick's shapes leave may be air by another's.
-        if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kOnSurface) {
+        if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kAgree * cell_mm) {
             if (found.distance_mm < best.distance_mm) best = found;
-            if (found.distance_mm < within_mm) return;
+            return;
         }
-        contact::SurfaceSample bound = brick.sample(p);
-        bound.distance_mm = std::max(bound.distance_mm, least);
-        if (bound.distance_mm < doubt.distance_mm) doubt = bound;
+        doubt = true;
     };
     if (bricks.contains(there) && bricks.get(there) != kAir) {
-        search(bricks.get(there), hint_mm, 0);
-        doubt.distance_mm = within_mm;  // that brick comes again
+        search(bricks.get(there), hint_mm);
     }
+    // Nothing is nearer than `lower`.
+    if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
+    doubt = false;
+    int searches = 0;
     const auto reach = [&](double from, double at) {
         return std::clamp(static_cast<int>(std::floor((at - from) * per_cell / kBrickCells)), -kMostRings,
                           kMostRings);
@@ -194,17 +202,22 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
                 if (ref == kAir) continue;
                 const Box3 space = box(b);
                 const double least = distance_to(space, p);
-                const double bound = std::min(best.distance_mm, doubt.distance_mm) - kOnSurface;
+                const double bound = best.distance_mm - kOnSurface;
                 if (least >= bound || is_clear(ref, p, bound)) continue;
                 // What is in the box lies further from p than from the box's point nearest to p, at a right
                 // angle or more.
                 const Vec3 start = clamped(space, p);
                 if (is_clear(ref, start, std::sqrt(bound * bound - least * least))) continue;
-                search(ref, start, least);
+                if (++searches <= kMostSearches) {
+                    search(ref, start);
+                } else {
+                    doubt = true;
+                }
             }
         }
     }
-    return doubt.distance_mm < best.distance_mm ? doubt : best;
+    // A search without result where something was found may be of what other bricks' shapes took away.
+    return doubt && best.distance_mm >= within_mm ? lower : best;
 }
 
 bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
