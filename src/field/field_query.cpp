@@ -10,12 +10,12 @@ namespace {
 constexpr double kRounding = 1e-3;
 // Nearer by less than this is not nearer, mm.
 constexpr double kOnSurface = 1e-5;
-// A surface point that one brick's shapes make is one if the field is this close to zero there, in cells: where
-// two bricks meet their lists may differ by a shape whose share is thinner than a cell.
+// A surface point that one brick's shapes make is one if the field is this close to zero there, in cells:
+// where two bricks meet their lists may differ by a shape whose share is thinner than a cell.
 constexpr double kAgree = 0.02;
 // Bricks on each side that a search for the nearest surface looks at.
 constexpr int kMostRings = 3;
-constexpr int kMostSearches = 8;
+constexpr int kMostSearches = 4, kMostLooked = 12;
 
 double distance_to(const Box3& box, Vec3 p) {
     return length({std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
@@ -186,38 +186,47 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     // Nothing is nearer than `lower`.
     if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
     doubt = false;
-    int searches = 0;
+    // Bricks from the nearest on, which are the likeliest.
+    const Vec3 corner = lattice(here).node(0, 0, 0);
     const auto reach = [&](double from, double at) {
         return std::clamp(static_cast<int>(std::floor((at - from) * per_cell / kBrickCells)), -kMostRings,
                           kMostRings);
     };
-    const Vec3 corner = lattice(here).node(0, 0, 0);
-    const double r = best.distance_mm;
-    for (int k = reach(corner.z, p.z - r); k <= reach(corner.z, p.z + r); ++k) {
-        for (int j = reach(corner.y, p.y - r); j <= reach(corner.y, p.y + r); ++j) {
-            for (int i = reach(corner.x, p.x - r); i <= reach(corner.x, p.x + r); ++i) {
-                const BrickCoord b{here.i + i, here.j + j, here.k + k};
-                if (!bricks.contains(b)) continue;
-                const BrickRef ref = bricks.get(b);
-                if (ref == kAir) continue;
-                const Box3 space = box(b);
-                const double least = distance_to(space, p);
-                const double bound = best.distance_mm - kOnSurface;
-                if (least >= bound || is_clear(ref, p, bound)) continue;
-                // What is in the box lies further from p than from the box's point nearest to p, at a right
-                // angle or more.
-                const Vec3 start = clamped(space, p);
-                if (is_clear(ref, start, std::sqrt(bound * bound - least * least))) continue;
-                if (++searches <= kMostSearches) {
-                    search(ref, start);
-                } else {
-                    doubt = true;
+    double last = -1;
+    int last_place = 0, searches = 0;
+    for (int looked = 0; looked < kMostLooked; ++looked) {
+        const double bound = best.distance_mm - kOnSurface;
+        double least = bound;
+        int place = 0, least_place = 0;
+        BrickCoord nearest_brick{};
+        for (int k = reach(corner.z, p.z - bound); k <= reach(corner.z, p.z + bound); ++k) {
+            for (int j = reach(corner.y, p.y - bound); j <= reach(corner.y, p.y + bound); ++j) {
+                for (int i = reach(corner.x, p.x - bound); i <= reach(corner.x, p.x + bound); ++i) {
+                    place = (k * 16 + j) * 16 + i;
+                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
+                    if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
+                    const double d = distance_to(box(b), p);
+                    if (d < last || (d == last && place <= last_place) || d >= least) continue;
+                    least = d;
+                    least_place = place;
+                    nearest_brick = b;
                 }
             }
         }
+        if (least >= bound) return doubt && best.distance_mm >= within_mm ? lower : best;
+        last = least;
+        last_place = least_place;
+        const BrickRef ref = bricks.get(nearest_brick);
+        if (is_clear(ref, p, bound)) continue;
+        // What is in the box lies further from p than from the box's point nearest to p, at a right angle or
+        // more.
+        const Vec3 start = clamped(box(nearest_brick), p);
+        if (is_clear(ref, start, std::sqrt(bound * bound - least * least))) continue;
+        if (++searches > kMostSearches) break;
+        search(ref, start);
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
-    return doubt && best.distance_mm >= within_mm ? lower : best;
+    return best.distance_mm >= within_mm ? lower : best;
 }
 
 bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
