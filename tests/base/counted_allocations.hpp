@@ -2,13 +2,12 @@
 // Counts what a test program allocates. Defines operator new: one source of a program includes it.
 #pragma once
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
 
-namespace tribo::test {
+#include "base/allocation_count.hpp"
 
-inline std::atomic<long> allocations{0};
+namespace tribo::test {
 
 inline void* counted(std::size_t size) {
     ++allocations;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "base/counted_allocations.hpp"
+#include "base/allocation_count.hpp"
 #include "field/box_shape.hpp"
 #include "field/field_reader.hpp"
 #include "field/mesh_shape.hpp"
