@@ -13,6 +13,12 @@
 #include "io/mapped_file.hpp"
 
 namespace tribo::app {
+namespace {
+
+// Radius of a fingertip, where --probe-mm says no other.
+constexpr double kFingerMm = 8;
+
+}  // namespace
 
 FeelSource::FeelSource(const FeelCall& call, const formats::Job& job, double surface_n_per_mm, double start_s,
                        const haptics::DeviceLimits& limits)
@@ -69,7 +75,14 @@ void FeelSource::inspect() {
     contact.friction_kinetic = job_.haptics.friction_kinetic.value_or(contact.friction_static);
     contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
     contact.tick_s = 1 / call_.rate_hz;
-    source_ = std::make_unique<session::InspectSource>(milled_->stock(), contact);
+    haptics::ProbeShape probe;
+    if (job_.haptics.probe == formats::ProbeKind::ray) probe = haptics::ProbeShape::ray();
+    if (job_.haptics.probe == formats::ProbeKind::cylinder) {
+        // The radius is the finger's, not that of the points on it.
+        probe = haptics::ProbeShape::cylinder(call_.probe_mm > 0 ? call_.probe_mm : kFingerMm);
+        contact.probe_radius_mm = 0;
+    }
+    source_ = std::make_unique<session::InspectSource>(milled_->stock(), contact, std::move(probe));
 }
 
 void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {

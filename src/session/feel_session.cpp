@@ -18,7 +18,10 @@ constexpr double kFreeSlew = 20;
 
 haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, double now_s,
                                              double /*tick_s*/) noexcept {
-    const haptics::Contact contact = contact_.update(hand.position_mm);
+    const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
+    if (probe_.size() > 1) probe_.turned(hand.stylus, balls);
+    const haptics::Contact contact =
+        probe_.size() > 1 ? contact_.update(hand.position_mm, balls) : contact_.update(hand.position_mm);
     haptics::RenderedForce felt;
     felt.contact_n = contact.force_n;
     felt.touching = contact.in_contact;

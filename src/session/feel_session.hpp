@@ -2,6 +2,7 @@
 // What a hand feels of a milled part and of its cut: the sources of force that a servo asks, made from a run.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "contact/force_table.hpp"
 #include "haptics/force_field.hpp"
 #include "haptics/force_scaling.hpp"
+#include "haptics/probe_shape.hpp"
 #include "haptics/safety.hpp"
 #include "haptics/servo.hpp"
 #include "session/cut_record.hpp"
@@ -19,14 +21,17 @@ namespace tribo::session {
 class InspectSource final : public haptics::ForceSource {
   public:
     // `surface` must outlive this and stay as it is.
-    InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options)
-        : contact_(surface, options) {}
+    InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options,
+                  haptics::ProbeShape probe = {})
+        : contact_(surface, options), probe_(std::move(probe)) {}
 
     haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
                                   double tick_s) noexcept override;
 
   private:
     haptics::FieldContact contact_;
+    haptics::ProbeShape probe_;
+    std::array<Vec3, haptics::ProbeGap::kMostBalls> balls_{};
 };
 
 // Where the cutter is at a time of the program. Real-time safe; any thread.
