@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The paper's look-up table ("Haptic and aural rendering of a virtual milling process", 4.1): force samples
 // over the rotation of the tool, entry and exit angle, helix and feed per tooth, straight in between. Built
-// to be compared: the closed form (force.hpp) is smaller, exact and about as fast, and is what everything
-// else here uses (docs/servo.md has the figures).
+// to be compared (bench/servo.cpp): everything else here uses the closed form (force.hpp), which is exact and
+// needs no table.
 #pragma once
 
 #include <array>

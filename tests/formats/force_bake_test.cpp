@@ -42,7 +42,7 @@ void expect_same(const contact::ForceTable& a, const contact::ForceTable& b) {
 TEST(ForceBake, comes_back_the_same_in_place_and_from_any_address) {
     const contact::ForceTable table = some_table();
     ASSERT_GT(table.table().knots(), 10U);
-    ASSERT_EQ(table.pieces().size(), 2U);
+    ASSERT_GE(table.pieces().size(), 2U);
     const std::string bytes = write_force_bake(table, 0x1234567890abcdef);
     for (std::size_t shift = 0; shift < 2; ++shift) {
         // An odd address cannot be used in place.
