@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds what users get: build/release/tribo with its libraries, the modules build/wasm/*.wasm, and the site in
-# build/web/site where there is a Node.js.
+# Builds what users get: build/release/tribo with its libraries, the modules build/wasm/*.wasm, and the pages in build/web
+# where there is a Node.js.
 source "$(dirname "$0")/environment.sh"
 
 cmake --preset release >/dev/null

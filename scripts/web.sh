@@ -1,19 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# web.sh build|test: the web component and the static site, out of build/wasm/touch.wasm. Without a Node.js that is new
-# enough `build` says so and leaves them out.
+# web.sh build|test: the web component, the static site (build/web/site, out of build/wasm/touch.wasm) and the live view's
+# page (build/web/viewer). Without a Node.js that is new enough `build` says so and leaves them out.
 source "$(dirname "$0")/environment.sh"
 
 if ! command -v npm >/dev/null ||
     ! node -e 'const [a, b] = process.versions.node.split(".").map(Number); process.exit(a > 20 || (a === 20 && b >= 19) ? 0 : 1)'; then
     [ "$1" = build ] || fail "the web tests need Node.js 20.19 or newer and npm"
-    echo "no Node.js 20.19 or npm: the touch page is left out (\`make test\` installs both)"
+    echo "no Node.js 20.19 or npm: the pages of \`tribo live\` and \`tribo site\` are left out (\`make test\` installs both)"
     exit 0
 fi
-cd web/touch
-if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then
-    npm ci --loglevel=error --no-audit --no-fund
-fi
-npm run --silent build
-npm run --silent site
-if [ "$1" = test ]; then npm run --silent check && npm test --silent; fi
+
+installed() { [ -e node_modules/.package-lock.json ] && [ ! package-lock.json -nt node_modules/.package-lock.json ]; }
+for package in touch viewer; do
+    cd "web/$package"
+    installed || npm ci --loglevel=error --no-audit --no-fund
+    npm run --silent build
+    if [ "$1" = test ]; then npm run --silent check && npm test --silent; fi
+    cd ../..
+done
