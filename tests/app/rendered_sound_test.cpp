@@ -66,11 +66,13 @@ TEST(RenderedSound, has_the_tooths_tone_from_a_cuts_first_chip_to_its_last) {
     }
     ASSERT_EQ(cuts.size(), 2u);
 
+    constexpr double kSilent = 1e-9;  // what still rings by then is 180 dB below full scale
     constexpr double kFade = 0.02, kTurns = 0.04;  // amplitudes follow their excitation in 13 ms
     for (const Cut& cut : cuts) {
         for (const double from : {cut.from + kFade, cut.to - kTurns}) {
             const double tone = amplitude(wave, 200, from, from + kTurns);
-            EXPECT_GT(tone, 0.02) << from;
+            // The shipped head responses are 10 dB down at 200 Hz, as their loudspeaker was.
+            EXPECT_GT(tone, 0.005) << from;
             // A spindle that runs up, or a sound that fades, would smear the line over its neighbours.
             for (const double beside : {50, 100, 150, 250, 300}) {
                 EXPECT_LT(amplitude(wave, beside, from, from + kTurns), 0.03 * tone)
@@ -80,7 +82,7 @@ TEST(RenderedSound, has_the_tooths_tone_from_a_cuts_first_chip_to_its_last) {
         for (const double silent : {cut.from - kTurns, cut.to + kFade}) {
             const auto first = static_cast<std::size_t>(silent * kRate) * 2;
             for (std::size_t n = first; n < std::min(first + 2 * 900, wave.size()); ++n) {
-                ASSERT_EQ(wave[n], 0) << static_cast<double>(n) / 2 / kRate;
+                ASSERT_LT(std::abs(wave[n]), kSilent) << static_cast<double>(n) / 2 / kRate;
             }
         }
     }
