@@ -25,4 +25,4 @@ for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
   console.log(`${file.padEnd(16)} ${bytes} bytes gzip`);
 }
 console.log(`${"together".padEnd(16)} ${total} bytes gzip`);
-if (total > 40_000) throw new Error("the component is larger than 40 kB");
+if (total > 50_000) throw new Error("the component is larger than 50 kB");
