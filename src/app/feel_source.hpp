@@ -24,7 +24,7 @@ class FeelSource {
     haptics::ForceSource& source() { return *source_; }
     // What there is to say about the table.
     void print() const;
-    const std::optional<io::FeelStats::ForceTableFigures>& table_figures() const { return figures_; }
+    const std::optional<io::ForceTableFigures>& table_figures() const { return figures_; }
 
   private:
     io::FileResult<contact::ForceTableOptions> table_options() const;
@@ -46,7 +46,7 @@ class FeelSource {
     std::unique_ptr<haptics::ForceSource> source_;
     std::size_t knots_ = 0, table_bytes_ = 0, texture_records_ = 0;
     bool from_bake_ = false;
-    std::optional<io::FeelStats::ForceTableFigures> figures_;
+    std::optional<io::ForceTableFigures> figures_;
 };
 
 }  // namespace tribo::app

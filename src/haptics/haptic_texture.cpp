@@ -34,8 +34,9 @@ TextureMap::TextureMap(std::vector<contact::TextureRecord> records, double reach
     entries_.reserve(records_.size());
     for (std::size_t n = 0; n < records_.size(); ++n)
         entries_.push_back({cell_of(records_[n].place_mm, 0, 0, 0), static_cast<std::uint32_t>(n)});
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
+    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.record < b.record;
+    });
 }
 
 std::uint64_t TextureMap::cell_of(Vec3 p, int dx, int dy, int dz) const {

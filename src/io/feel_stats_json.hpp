@@ -13,6 +13,13 @@ struct DurationFigures {
     double p50_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
 };
 
+// What a table of forces along the path costs.
+struct ForceTableFigures {
+    std::size_t pieces = 0, knots = 0, bytes = 0;
+    double worst_jnd = 0;           // by a dense check
+    std::size_t uniform_knots = 0;  // of a table of even spacing with the same worst error
+};
+
 struct FeelStats {
     std::string version, device, mode;
     std::uint64_t ticks = 0;
@@ -28,11 +35,6 @@ struct FeelStats {
         std::uint32_t count = 0;
     };
     // Of cut mode, where the table was made in this run.
-    struct ForceTableFigures {
-        std::size_t pieces = 0, knots = 0, bytes = 0;
-        double worst_jnd = 0;           // by a dense check
-        std::size_t uniform_knots = 0;  // of a table of even spacing with the same worst error
-    };
     std::optional<ForceTableFigures> table;
     std::vector<FaultCount> faults;  // that happened
     std::vector<std::string> notes;  // what the system did not grant, in words

@@ -66,7 +66,7 @@ TEST(RenderedSound, has_the_tooths_tone_from_a_cuts_first_chip_to_its_last) {
     }
     ASSERT_EQ(cuts.size(), 2u);
 
-    constexpr double kSilent = 1e-9;  // what still rings by then is 180 dB below full scale
+    constexpr double kSilent = 1e-9;               // what still rings by then is 180 dB below full scale
     constexpr double kFade = 0.02, kTurns = 0.04;  // amplitudes follow their excitation in 13 ms
     for (const Cut& cut : cuts) {
         for (const double from : {cut.from + kFade, cut.to - kTurns}) {
