@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts what a test program allocates. Defines operator new: one source of a program includes it.
+// Counts what a test program allocates. Defines operator new: one source of a program includes it. Under the
+// thread sanitizer, which has its own operator new, nothing is counted.
 #pragma once
 
 #include <cstdlib>
@@ -17,6 +18,13 @@ inline void* counted(std::size_t size) {
 
 }  // namespace tribo::test
 
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define TRIBO_NOT_COUNTED
+#endif
+#endif
+
+#ifndef TRIBO_NOT_COUNTED
 void* operator new(std::size_t size) {
     return tribo::test::counted(size);
 }
@@ -35,3 +43,4 @@ void operator delete(void* p, std::size_t) noexcept {
 void operator delete[](void* p, std::size_t) noexcept {
     std::free(p);
 }
+#endif
