@@ -24,28 +24,6 @@ void blend(std::span<const double> a, std::span<const double> b, double t, std::
         out[c] = as_stored(a[c]) + t * (as_stored(b[c]) - as_stored(a[c]));
 }
 
-// The error between two samples taken as knots.
-class Span {
-  public:
-    Span(const DenseFunction& f, const ErrorInJnd& error, double most)
-        : f_(f), error_(error), most_(most), shown_(f.channels) {}
-
-    bool fits(std::size_t from, std::size_t to) {
-        for (std::size_t n = from; n <= to; ++n) {
-            const double width = f_.at[to] - f_.at[from];
-            blend(f_.row(from), f_.row(to), width > 0 ? (f_.at[n] - f_.at[from]) / width : 0, shown_);
-            if (!(error_(f_.row(n), shown_) <= most_)) return false;
-        }
-        return true;
-    }
-
-  private:
-    const DenseFunction& f_;
-    const ErrorInJnd& error_;
-    double most_;
-    std::vector<double> shown_;
-};
-
 // Values of the dense function itself at `at`, between samples n and n + 1.
 void truth_at(const DenseFunction& f, std::size_t n, double at, std::span<double> out) {
     if (n + 1 >= f.size()) {
@@ -56,6 +34,36 @@ void truth_at(const DenseFunction& f, std::size_t n, double at, std::span<double
     const auto a = f.row(n), b = f.row(n + 1);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = a[c] + t * (b[c] - a[c]);
 }
+
+// Places within an interval of samples at which a table is held to its error.
+constexpr int kPlaces = 8;
+
+// The error between two samples taken as knots.
+class Span {
+  public:
+    Span(const DenseFunction& f, const ErrorInJnd& error, double most)
+        : f_(f), error_(error), most_(most), truth_(f.channels), shown_(f.channels) {}
+
+    // Looks between the samples too: a force that passes near zero there turns about.
+    bool fits(std::size_t from, std::size_t to) {
+        const double width = f_.at[to] - f_.at[from];
+        for (std::size_t n = from; n < to; ++n) {
+            for (int k = 0; k < kPlaces; ++k) {
+                const double at = f_.at[n] + (f_.at[n + 1] - f_.at[n]) * k / kPlaces;
+                truth_at(f_, n, at, truth_);
+                blend(f_.row(from), f_.row(to), (at - f_.at[from]) / width, shown_);
+                if (!(error_(truth_, shown_) <= most_)) return false;
+            }
+        }
+        return true;
+    }
+
+  private:
+    const DenseFunction& f_;
+    const ErrorInJnd& error_;
+    double most_;
+    std::vector<double> truth_, shown_;
+};
 
 // Knots of one spacing over a piece; their number, and whether they stay within the error.
 class UniformPiece {

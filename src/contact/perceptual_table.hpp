@@ -88,13 +88,13 @@ class PerceptualTable {
 bool parts_are_sound(const PerceptualTable::Parts& parts);
 
 // Knots at samples of the function, each as far from the last as the error between them, as stored, stays
-// within `most_jnd` at every sample passed over.
+// within `most_jnd` at every sample passed over and at eight places between each two.
 PerceptualTable build_perceptual_table(const DenseFunction& function, const ErrorInJnd& error,
                                        double most_jnd = kInaudibleJnd);
 
 // The worst error at `per_interval` places within every interval of samples, and at the samples.
 double worst_error_jnd(const PerceptualTable& table, const DenseFunction& function, const ErrorInJnd& error,
-                       int per_interval = 4);
+                       int per_interval = 8);
 
 // How many knots a table with one spacing throughout takes for an error within `most_jnd`: the widest spacing
 // that reaches it, found by bisection. Jumps are given to it: it too is split into the pieces.

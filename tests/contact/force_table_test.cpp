@@ -128,6 +128,22 @@ TEST(ForceTable, splits_where_the_cut_pauses_jumps_or_the_spindle_changes) {
     EXPECT_LE(worst_error_jnd(table.table(), function.dense, force_error(options), 8), 0.5 * 1.001);
 }
 
+// Between two rows whose forces point apart the force passes near zero and turns about: no knots far apart
+// may skip that.
+TEST(ForceTable, stays_within_half_a_jnd_where_a_force_turns_about) {
+    std::vector<ForceStretch> cut = swelling_cut(6000, 2, 200, 0.0);
+    for (std::size_t n = 0; n < cut.size(); ++n) {
+        const double way =
+            3 * std::sin(0.9 * static_cast<double>(n));  // newtons at the tool, 0.03 at the hand
+        cut[n].spectrum.harmonics[0].x = way;
+        cut[n].spectrum.harmonics[0].y = 0.4 * std::cos(1.7 * static_cast<double>(n));
+    }
+    const ForceTableOptions options;
+    const ForceFunction function = force_function(cut, options);
+    const ForceTable table = build_force_table(function, options);
+    EXPECT_LE(worst_error_jnd(table.table(), function.dense, force_error(options), 16), 0.5 * 1.05);
+}
+
 TEST(ForceTable, holds_nothing_where_nothing_was_cut) {
     const ForceTable table = build_force_table(force_function({}, {}), {});
     ForceTable::Cursor cursor;
