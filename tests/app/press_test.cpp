@@ -42,7 +42,7 @@ std::vector<float> heights(const Scratch& scratch, int frame) {
     std::snprintf(name, sizeof name, "out/frame_%04d.f32", frame);
     const std::string bytes = scratch.get(name);
     std::vector<float> values(bytes.size() / sizeof(float));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
     return values;
 }
 
