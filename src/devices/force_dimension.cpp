@@ -124,9 +124,9 @@ class ForceDimension final : public haptics::Device {
 }  // namespace
 
 Result<std::unique_ptr<haptics::Device>> open_force_dimension(const ForceDimensionOptions& options) {
-    auto library = options.library.empty()
+    auto library = options.driver.empty()
                        ? SharedLibrary::open({"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so"})
-                       : SharedLibrary::open({options.library});
+                       : SharedLibrary::open({options.driver});
     if (!library) {
         Error error = library.error();
         error.remedy = "install the Force Dimension SDK, or name the folder of libdrd.so in LD_LIBRARY_PATH";

@@ -13,8 +13,7 @@
 namespace tribo::devices {
 
 struct ForceDimensionOptions {
-    std::string
-        library;  // path; empty: libdrd.so.3, libdrd.so, libdhd.so.3, libdhd.so where the loader looks
+    std::string driver;  // path; empty: libdrd.so.3, libdrd.so, libdhd.so.3, libdhd.so where the loader looks
     Mounting mounting;
 };
 

@@ -187,8 +187,8 @@ class OpenHaptics final : public haptics::Device {
 }  // namespace
 
 Result<std::unique_ptr<haptics::Device>> open_openhaptics(const OpenHapticsOptions& options) {
-    auto library = options.library.empty() ? SharedLibrary::open({"libHD.so", "libHD.so.3"})
-                                           : SharedLibrary::open({options.library});
+    auto library = options.driver.empty() ? SharedLibrary::open({"libHD.so", "libHD.so.3"})
+                                          : SharedLibrary::open({options.driver});
     if (!library) {
         Error error = library.error();
         error.remedy =

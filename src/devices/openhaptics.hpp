@@ -13,7 +13,7 @@
 namespace tribo::devices {
 
 struct OpenHapticsOptions {
-    std::string library;                    // path; empty: libHD.so and libHD.so.3 where the loader looks
+    std::string driver;                     // path; empty: libHD.so and libHD.so.3 where the loader looks
     std::string device = "Default Device";  // as the vendor's set-up named it; never empty (HD's NULL
                                             // failed for many)
     Mounting mounting;

@@ -53,7 +53,7 @@ TEST(OpenHaptics, reads_the_hand_and_sets_forces_in_the_stocks_axes) {
     driver.arm->buttons = 1;
     driver.arm->calibration = 1;
     OpenHapticsOptions options;
-    options.library = FAKE_HD;
+    options.driver = FAKE_HD;
     options.mounting.origin_mm = {0, 0, 100};
     auto device = open_openhaptics(options);
     ASSERT_TRUE(device.has_value()) << device.error().text();
@@ -85,7 +85,7 @@ TEST(OpenHaptics, reads_the_hand_and_sets_forces_in_the_stocks_axes) {
 TEST(OpenHaptics, tells_silence_errors_and_unplugging_apart) {
     Driver driver(FAKE_HD);
     OpenHapticsOptions options;
-    options.library = FAKE_HD;
+    options.driver = FAKE_HD;
     auto device = open_openhaptics(options);
     ASSERT_TRUE(device.has_value());
     haptics::HandReading reading;
@@ -103,19 +103,19 @@ TEST(OpenHaptics, tells_silence_errors_and_unplugging_apart) {
 
 TEST(OpenHaptics, says_what_to_do_where_there_is_no_driver_no_arm_or_another_version) {
     OpenHapticsOptions options;
-    options.library = "/nowhere/libHD.so";
+    options.driver = "/nowhere/libHD.so";
     auto device = open_openhaptics(options);
     ASSERT_FALSE(device.has_value());
     EXPECT_NE(device.error().cause.find("/nowhere/libHD.so"), std::string::npos);
     EXPECT_NE(device.error().remedy.find("OpenHaptics"), std::string::npos);
 
-    options.library = FAKE_HD_OLD;
+    options.driver = FAKE_HD_OLD;
     device = open_openhaptics(options);
     ASSERT_FALSE(device.has_value());
     EXPECT_NE(device.error().cause.find("has no hdScheduleAsynchronous"), std::string::npos);
 
     Driver driver(FAKE_HD);
-    options.library = FAKE_HD;
+    options.driver = FAKE_HD;
     options.device = "Left Arm";
     EXPECT_FALSE(open_openhaptics(options).has_value());
     options.device = "";
@@ -138,7 +138,7 @@ TEST(ForceDimension, reads_metres_and_sets_newtons_in_the_stocks_axes) {
     driver.arm->position[2] = 0.03;
     driver.arm->velocity[0] = 0.1;
     ForceDimensionOptions options;
-    options.library = FAKE_DRD;
+    options.driver = FAKE_DRD;
     auto device = open_force_dimension(options);
     ASSERT_TRUE(device.has_value()) << device.error().text();
     EXPECT_EQ((*device)->limits().max_force_n, 12);
@@ -160,7 +160,7 @@ TEST(ForceDimension, reads_metres_and_sets_newtons_in_the_stocks_axes) {
 TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
     Driver driver(FAKE_DRD);
     ForceDimensionOptions options;
-    options.library = FAKE_DRD;
+    options.driver = FAKE_DRD;
     auto device = open_force_dimension(options);
     ASSERT_TRUE(device.has_value());
     driver.arm->error = 1;  // TIMEGUARD: too early
@@ -180,14 +180,14 @@ TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
 
 TEST(ForceDimension, says_what_to_do_where_there_is_no_driver_no_arm_or_another_version) {
     ForceDimensionOptions options;
-    options.library = "/nowhere/libdrd.so";
+    options.driver = "/nowhere/libdrd.so";
     EXPECT_FALSE(open_force_dimension(options).has_value());
-    options.library = FAKE_DRD_OLD;
+    options.driver = FAKE_DRD_OLD;
     auto device = open_force_dimension(options);
     ASSERT_FALSE(device.has_value());
     EXPECT_NE(device.error().cause.find("has no dhdSetWatchdog"), std::string::npos);
     Driver driver(FAKE_DRD);
-    options.library = FAKE_DRD;
+    options.driver = FAKE_DRD;
     driver.arm->version = 2;
     device = open_force_dimension(options);
     ASSERT_FALSE(device.has_value());
