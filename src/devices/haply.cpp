@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "devices/snapshot.hpp"
+#include "base/hand_over.hpp"
 #include "devices/tick_clock.hpp"
 #include "net/websocket_client.hpp"
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <atomic>
 
+#include "base/hand_over.hpp"
 #include "devices/shared_library.hpp"
-#include "devices/snapshot.hpp"
 #include "devices/tick_clock.hpp"
 
 namespace tribo::devices {

@@ -8,35 +8,65 @@ constexpr double kKgToNs2PerMm = 1e-3;
 
 }  // namespace
 
+HandBody::HandBody(Vec3 position_mm, double tick_s, const HandModel& model)
+    : tick_s_(tick_s),
+      mass_(model.mass_kg * kKgToNs2PerMm),
+      stiffness_(model.stiffness_n_per_mm),
+      damping_(model.damping_n_s_per_mm),
+      position_(position_mm) {}
+
+// Implicit Euler for spring and damper (stable at any tick), the force as it stands over the tick:
+//   m (v' - v) = dt (F + k (s' - x - dt v') + b (u' - v')),   x' = x + dt v'.
+void HandBody::step(Vec3 aim_mm, Vec3 aim_mm_per_s, Vec3 force_n) noexcept {
+    const Vec3 push = force_n + stiffness_ * (aim_mm - position_) + damping_ * aim_mm_per_s;
+    velocity_ =
+        (mass_ * velocity_ + tick_s_ * push) / (mass_ + tick_s_ * damping_ + tick_s_ * tick_s_ * stiffness_);
+    position_ += tick_s_ * velocity_;
+}
+
 SimulatedHand::SimulatedHand(Stroke stroke, double tick_s, const HandModel& model)
     : stroke_(std::move(stroke)),
       tick_s_(tick_s),
       now_s_(stroke_.start_s()),
-      mass_(model.mass_kg * kKgToNs2PerMm),
-      stiffness_(model.stiffness_n_per_mm),
-      damping_(model.damping_n_s_per_mm),
-      position_(stroke_.at(now_s_).position_mm) {}
+      body_(stroke_.at(now_s_).position_mm, tick_s, model) {}
 
-// Implicit Euler for spring and damper (stable at any tick), the force as it stands over the tick:
-//   m (v' - v) = dt (F + k (s' - x - dt v') + b (u' - v')),   x' = x + dt v'.
 DeviceState SimulatedHand::read(HandReading& reading) noexcept {
     if (sequence_ > 0) {
         now_s_ = stroke_.start_s() + static_cast<double>(sequence_) * tick_s_;
         const Stroke::At aim = stroke_.at(now_s_);
-        const Vec3 push =
-            force_ + stiffness_ * (aim.position_mm - position_) + damping_ * aim.velocity_mm_per_s;
-        velocity_ = (mass_ * velocity_ + tick_s_ * push) /
-                    (mass_ + tick_s_ * damping_ + tick_s_ * tick_s_ * stiffness_);
-        position_ += tick_s_ * velocity_;
+        body_.step(aim.position_mm, aim.velocity_mm_per_s, force_);
     }
-    ++sequence_;
-    reading.position_mm = position_;
-    reading.velocity_mm_per_s = velocity_;
-    reading.sequence = sequence_;
+    reading.position_mm = body_.position_mm();
+    reading.velocity_mm_per_s = body_.velocity_mm_per_s();
+    reading.sequence = ++sequence_;
     return DeviceState::ready;
 }
 
 DeviceState SimulatedHand::write(Vec3 force_n) noexcept {
+    force_ = force_n;
+    return DeviceState::ready;
+}
+
+LedHand::LedHand(Vec3 start_mm, double tick_s, const HandModel& model)
+    : goal_(start_mm), tick_s_(tick_s), aim_(start_mm), body_(start_mm, tick_s, model) {}
+
+void LedHand::lead_to(Vec3 aim_mm) {
+    if (is_finite(aim_mm)) goal_.publish(aim_mm);
+}
+
+DeviceState LedHand::read(HandReading& reading) noexcept {
+    const Vec3 way = goal_.read() - aim_;
+    const double far = length(way), step = kAimMmPerS * tick_s_;
+    const Vec3 moved = far > step ? step / far * way : way;
+    aim_ += moved;
+    body_.step(aim_, moved / tick_s_, force_);
+    reading.position_mm = body_.position_mm();
+    reading.velocity_mm_per_s = body_.velocity_mm_per_s();
+    reading.sequence = ++sequence_;
+    return DeviceState::ready;
+}
+
+DeviceState LedHand::write(Vec3 force_n) noexcept {
     force_ = force_n;
     return DeviceState::ready;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Hands without an arm: one that yields to what it feels, and one that goes exactly where it was told.
+// Hands without an arm: two that yield to what they feel, along a stroke or led from outside, and one that
+// goes exactly where it was told.
 #pragma once
 
+#include "base/hand_over.hpp"
 #include "haptics/device.hpp"
 #include "haptics/stroke.hpp"
 
@@ -14,6 +16,19 @@ struct HandModel {
     double mass_kg = 0.25;
     double stiffness_n_per_mm = 0.3;
     double damping_n_s_per_mm = 0.02;
+};
+
+// The mass between the pull of the hand's aim and the force that it feels.
+class HandBody {
+  public:
+    HandBody(Vec3 position_mm, double tick_s, const HandModel& model);
+    void step(Vec3 aim_mm, Vec3 aim_mm_per_s, Vec3 force_n) noexcept;
+    Vec3 position_mm() const { return position_; }
+    Vec3 velocity_mm_per_s() const { return velocity_; }
+
+  private:
+    double tick_s_, mass_, stiffness_, damping_;  // s, N s^2/mm, N/mm, N s/mm
+    Vec3 position_, velocity_;
 };
 
 // Deterministic: time comes from outside, a tick at a time.
@@ -33,8 +48,33 @@ class SimulatedHand final : public Device {
   private:
     Stroke stroke_;
     double tick_s_, now_s_;
-    double mass_, stiffness_, damping_;  // N s^2/mm, N/mm, N s/mm
-    Vec3 position_, velocity_, force_;
+    HandBody body_;
+    Vec3 force_;
+    std::uint64_t sequence_ = 0;
+};
+
+// Led by a pointer of whatever kind, whose places come when they come: the hand's aim goes there at
+// kAimMmPerS at most, as a mouse may jump and a hand may not.
+class LedHand final : public Device {
+  public:
+    static constexpr double kAimMmPerS = 500;
+
+    LedHand(Vec3 start_mm, double tick_s, const HandModel& model = {});
+
+    // From one other thread, at any time; not finite: nothing changes.
+    void lead_to(Vec3 aim_mm);
+
+    const DeviceLimits& limits() const override { return kSimulatedLimits; }
+    bool has_motors() const override { return false; }
+    DeviceState read(HandReading& reading) noexcept override;
+    DeviceState write(Vec3 force_n) noexcept override;
+
+  private:
+    Snapshot<Vec3> goal_;
+    double tick_s_;
+    Vec3 aim_;
+    HandBody body_;
+    Vec3 force_;
     std::uint64_t sequence_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/simulated_hand.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "haptics/device_log.hpp"
@@ -44,6 +46,24 @@ TEST(SimulatedHand, yields_to_a_steady_force_by_force_over_stiffness) {
     EXPECT_NEAR(reading.position_mm.z, 3 + 0.6 / model.stiffness_n_per_mm, 1e-6);
     EXPECT_NEAR(length(reading.velocity_mm_per_s), 0, 1e-6);
     EXPECT_EQ(reading.position_mm.x, 1);
+}
+
+TEST(LedHand, comes_to_where_it_is_led_and_yields_there) {
+    const HandModel model;
+    LedHand hand({0, 0, 5}, 1e-3, model);
+    HandReading reading;
+    hand.lead_to({100, 0, 5});
+    hand.lead_to({std::nan(""), 0, 0});
+    double fastest = 0;
+    for (int n = 0; n < 3000; ++n) {
+        ASSERT_EQ(hand.read(reading), DeviceState::ready);
+        ASSERT_EQ(reading.sequence, static_cast<std::uint64_t>(n + 1));
+        fastest = std::max(fastest, length(reading.velocity_mm_per_s));
+        hand.write({0, 0, 0.9});
+    }
+    EXPECT_NEAR(reading.position_mm.x, 100, 1e-6);
+    EXPECT_NEAR(reading.position_mm.z, 5 + 0.9 / model.stiffness_n_per_mm, 1e-6);
+    EXPECT_LT(fastest, 1.3 * LedHand::kAimMmPerS);  // far below what the servo's guard allows a hand
 }
 
 TEST(SimulatedHand, follows_a_stroke_with_no_lag_at_even_speed_and_stays_finite_at_any_tick) {

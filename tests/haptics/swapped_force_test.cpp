@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "devices/swapped_force.hpp"
+#include "haptics/swapped_force.hpp"
 
 #include <atomic>
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace tribo::devices {
+namespace tribo::haptics {
 namespace {
 
 // A steady force over ten seconds, cut into pieces so that tables differ in size.
@@ -45,4 +45,4 @@ TEST(SwappedForce, plays_whole_tables_while_others_are_swapped_in) {
 }
 
 }  // namespace
-}  // namespace tribo::devices
+}  // namespace tribo::haptics

@@ -1,46 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "devices/snapshot.hpp"
+#include "devices/servo_thread.hpp"
 
-#include <array>
+#include <chrono>
 #include <gtest/gtest.h>
 #include <thread>
-
-#include "devices/servo_thread.hpp"
+#include <vector>
 
 namespace tribo::devices {
 namespace {
-
-struct Numbers {
-    std::array<std::uint64_t, 64> all{};
-};
-
-TEST(Snapshot, never_shows_half_of_a_state_nor_an_older_one) {
-    constexpr std::uint64_t last = 50'000;
-    Snapshot<Numbers> snapshot;
-    std::thread writer([&] {
-        for (std::uint64_t n = 1; n <= last; ++n) {
-            snapshot.back().all.fill(n);
-            snapshot.publish();
-        }
-    });
-    std::uint64_t newest = 0;
-    while (newest < last) {
-        const Numbers& seen = snapshot.read();
-        for (const std::uint64_t n : seen.all) ASSERT_EQ(n, seen.all[0]);
-        ASSERT_GE(seen.all[0], newest);
-        newest = seen.all[0];
-    }
-    writer.join();
-}
-
-TEST(Snapshot, gives_the_first_state_until_there_is_another) {
-    Snapshot<int> snapshot(7);
-    EXPECT_EQ(snapshot.read(), 7);
-    snapshot.publish(8);
-    snapshot.publish(9);
-    EXPECT_EQ(snapshot.read(), 9);
-    EXPECT_EQ(snapshot.read(), 9);
-}
 
 TEST(ServoThread, ticks_at_multiples_of_its_period_and_stops_when_told) {
     std::vector<double> times;

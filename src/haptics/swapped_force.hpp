@@ -4,22 +4,24 @@
 // freed by the thread that brings the next but one, never by the servo's.
 #pragma once
 
+#include "base/hand_over.hpp"
 #include "contact/force_table.hpp"
-#include "devices/snapshot.hpp"
 #include "haptics/force_field.hpp"
 #include "haptics/force_scaling.hpp"
 
-namespace tribo::devices {
+namespace tribo::haptics {
 
-class SwappedForce final : public haptics::CuttingForce {
+class SwappedForce final : public CuttingForce {
   public:
     explicit SwappedForce(double rate_hz) : rate_hz_(rate_hz) {}
 
     // From one thread, at any time.
-    void replace(contact::ForceTable table, const haptics::ForceScaling& scaling) {
+    void replace(contact::ForceTable table, const ForceScaling& scaling) {
         tables_.back() = {std::move(table), scaling, ++sequence_};
         tables_.publish();
     }
+    // The servo's: how fast the times of the table go by, in their seconds per second; > 0. Real-time safe.
+    void set_pace(double pace) noexcept { pace_ = pace; }
     // The servo's. Real-time safe.
     Vec3 force_n(double at_s) noexcept override {
         const Entry& now = tables_.read();
@@ -28,20 +30,20 @@ class SwappedForce final : public haptics::CuttingForce {
             playing_ = now.sequence;
         }
         Vec3 force;
-        return now.table.force_at(at_s, rate_hz_, cursor_, force) ? now.scaling.apply(force) : Vec3{};
+        return now.table.force_at(at_s, rate_hz_ / pace_, cursor_, force) ? now.scaling.apply(force) : Vec3{};
     }
 
   private:
     struct Entry {
         contact::ForceTable table;
-        haptics::ForceScaling scaling;
+        ForceScaling scaling;
         std::uint64_t sequence = 0;
     };
     Snapshot<Entry> tables_;
     std::uint64_t sequence_ = 0;  // the writer's
-    double rate_hz_;
+    double rate_hz_, pace_ = 1;
     std::uint64_t playing_ = 0;
     contact::ForceTable::Cursor cursor_;
 };
 
-}  // namespace tribo::devices
+}  // namespace tribo::haptics
