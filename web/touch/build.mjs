@@ -12,7 +12,21 @@ const banner = "// Tribo, MIT licence";
 
 await rm(`${here}dist`, { recursive: true, force: true });
 await mkdir(`${here}dist`, { recursive: true });
-const common = { bundle: true, format: "esm", target: "es2022", minify: true, legalComments: "none", banner: { js: banner } };
+/** Shaders and style sheets lie in the source as text, with comments and indentation; the page needs neither. */
+const texts = {
+  name: "texts",
+  setup(builder) {
+    builder.onLoad({ filter: /(shader|shadow)\.ts$/ }, async ({ path }) => ({
+      loader: "ts",
+      contents: (await readFile(path, "utf8")).replace(/`[^`$]*`/g, (text) =>
+        text.replace(/\/\/.*|\/\*[^]*?\*\//g, "").replace(/\s*\n\s*/g, "\n").replace(/ *([{};,=*+<>?]) */g, "$1").replace(/: /g, ":")),
+    }));
+  },
+};
+const common = {
+  bundle: true, format: "esm", target: "es2022", minify: true, legalComments: "none", banner: { js: banner },
+  plugins: [texts],
+};
 await build({ ...common, entryPoints: { "tribo-touch": `${here}src/index.ts` }, outdir: `${here}dist` });
 await build({ ...common, entryPoints: { element: `${here}src/element.ts`, worklet: `${here}src/worklet.ts` }, outdir: `${here}dist` });
 await copyFile(`${wasm}/touch.wasm`, `${here}dist/touch.wasm`);
@@ -25,4 +39,4 @@ for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
   console.log(`${file.padEnd(16)} ${bytes} bytes gzip`);
 }
 console.log(`${"together".padEnd(16)} ${total} bytes gzip`);
-if (total > 50_000) throw new Error("the component is larger than 50 kB");
+if (total > 38_500) throw new Error("the component has grown: 38.5 kB is the most that it may take");
