@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# web.sh build|test: the web component, the static site (build/web/site, out of build/wasm/touch.wasm) and the live view's
+# web.sh build|test: the web component, the static site (build/web/site, out of touch.wasm and learn.wasm of build/wasm) and the live view's
 # page (build/web/viewer). Without a Node.js that is new enough `build` says so and leaves them out.
 source "$(dirname "$0")/environment.sh"
 

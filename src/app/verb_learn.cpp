@@ -96,30 +96,6 @@ double rounded(double value, double step) {
     return std::round(value / step) / std::round(1 / step);
 }
 
-// As many digits as matter, so that files stay short and readable.
-void round_digits(noise::MaterialVoices& voices) {
-    const auto all = [](std::vector<double>& values, double step) {
-        for (double& v : values) v = rounded(v, step);
-    };
-    for (noise::VoiceModel& v : voices.models) {
-        v.level_db = rounded(v.level_db, 1e-3);
-        all(v.spectrum.reflection, 1e-8);
-        if (!v.texture) continue;
-        for (std::vector<double>& table : v.texture->levels_db) all(table, 1e-2);
-        v.texture->coherence = rounded(v.texture->coherence, 1e-4);
-        all(v.texture->lengths_mm, 1e-5);
-        all(v.texture->weights, 1e-5);
-        v.texture->grains.per_mm = rounded(v.texture->grains.per_mm, 1e-6);
-        v.texture->grains.share = rounded(v.texture->grains.share, 1e-5);
-        v.texture->grains.scatter = rounded(v.texture->grains.scatter, 1e-4);
-        all(v.texture->grains.sizes, 1e-4);
-        all(v.texture->grains.shape, 1e-5);
-    }
-    voices.law.level_db = rounded(voices.law.level_db, 1e-3);
-    voices.law.db_per_decade_speed = rounded(voices.law.db_per_decade_speed, 1e-3);
-    voices.law.db_per_decade_force = rounded(voices.law.db_per_decade_force, 1e-3);
-}
-
 formats::Material material_of(const Call& call, const noise::Learned& learned, const Sounds& sounds) {
     formats::Material m;
     m.name = call.name.empty() ? std::filesystem::path(call.out).stem().string() : call.name;
@@ -131,7 +107,7 @@ formats::Material material_of(const Call& call, const noise::Learned& learned, c
     m.method = call.method;
     m.highpass_hz = call.highpass_hz;
     m.voices = learned.voices;
-    round_digits(m.voices);
+    formats::round_digits(m.voices);
     m.sources.resize(m.voices.models.size());
     for (std::size_t n = 0; n < sounds.sources.size(); ++n) {
         const noise::LearnedRecording& r = learned.recordings[n];

@@ -42,4 +42,7 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
+// Leaves as many digits as matter, so that files stay short and readable. Allocates nothing.
+void round_digits(noise::MaterialVoices& voices);
+
 }  // namespace tribo::formats

@@ -25,11 +25,11 @@ await rm(out, { recursive: true, force: true });
 await mkdir(join(out, "materials"), { recursive: true });
 for (const file of ["index.html", "touch.css"]) await copyFile(join(here, file), join(out, file));
 for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) await copyFile(join(here, "../dist", file), join(out, file));
-await build({
-  entryPoints: [join(here, "page.ts")], outfile: join(out, "page.js"), bundle: true, format: "esm", target: "es2022", minify: true,
-  // The component is the page's neighbour, not a part of it.
-  banner: { js: 'import "./tribo-touch.js";' },
-});
+const wasm = process.env.TRIBO_WASM_DIR ?? join(root, "build/wasm"), common = { bundle: true, format: "esm", target: "es2022", minify: true };
+await copyFile(join(wasm, "learn.wasm"), join(out, "learn.wasm"));
+// The component is the page's neighbour, not a part of it.
+await build({ ...common, entryPoints: [join(here, "page.ts")], outdir: out, external: ["./make.js"], banner: { js: 'import "./tribo-touch.js";' } });
+await build({ ...common, entryPoints: [join(here, "make.ts"), join(here, "learner.ts")], outdir: out });
 const listed = [];
 for (const path of await materialFiles(examples)) {
   const material = JSON.parse(await readFile(path, "utf8"));

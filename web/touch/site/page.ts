@@ -53,6 +53,23 @@ function choose(material: Listed): void {
   byId("note").textContent = material.note;
 }
 
+/** One more choice among the materials. */
+function offer(material: Listed, chosen: boolean): void {
+  const label = document.createElement("label"), input = document.createElement("input");
+  input.type = "radio";
+  input.name = "material";
+  input.checked = chosen;
+  input.addEventListener("change", () => choose(material));
+  label.append(input, material.name);
+  byId("materials").append(label);
+  if (chosen) choose(material);
+}
+
+async function learnHere(): Promise<void> {
+  const { start: begin } = await import("./make.js");
+  begin(({ file, name }) => offer({ file, name, note: "made on this page" }, true), () => pictures[0]!);
+}
+
 async function start(): Promise<void> {
   pictures[0]!.addEventListener("load", own);
   stiffness.addEventListener("input", turn);
@@ -63,17 +80,10 @@ async function start(): Promise<void> {
     byId("measured").textContent = `${depth_mm.toFixed(2)} mm, ${force_n.toFixed(1)} N, ${speed_mm_per_s.toFixed(0)} mm/s`;
   });
   const list = (await (await fetch("materials.json")).json()) as Listed[];
-  const choices = byId("materials");
-  list.forEach((material, i) => {
-    const label = document.createElement("label"), input = document.createElement("input");
-    input.type = "radio";
-    input.name = "material";
-    input.checked = i === 0;
-    input.addEventListener("change", () => choose(material));
-    label.append(input, material.name);
-    choices.append(label);
-  });
-  if (list[0] !== undefined) choose(list[0]);
+  list.forEach((material, i) => offer(material, i === 0));
+  // Learning and what belongs to it is loaded for those who want it.
+  byId("own").addEventListener("toggle", () => void learnHere(), { once: true });
+  byId("own").addEventListener("dragenter", () => byId("own").setAttribute("open", ""));
 }
 
 void start();

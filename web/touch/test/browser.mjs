@@ -6,12 +6,12 @@ import { chromium } from "playwright-core";
 const kChromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
 export const hasBrowser = kChromium !== undefined;
 
-export function launch() {
+export function launch(...more) {
   return chromium.launch({
     executablePath: kChromium,
     headless: true,
     args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-      "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--autoplay-policy=no-user-gesture-required", "--js-flags=--expose-gc"],
+      "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--autoplay-policy=no-user-gesture-required", "--js-flags=--expose-gc", ...more],
   });
 }
 

@@ -56,6 +56,18 @@ const made = {
   "/noimage.json": () => JSON.stringify(material({ image: "gone.png" })),
 };
 
+/** The built touch page under /site/, without its materials. */
+export async function servePage(site) {
+  const built = new URL("../../../build/web/site/", import.meta.url);
+  for (const file of ["index.html", "touch.css", "page.js", "make.js", "learner.js", "learn.wasm", "tribo-touch.js", "worklet.js", "touch.wasm"]) {
+    site.pages.set(`/site/${file}`, await readFile(new URL(file, built)));
+  }
+  site.pages.set("/site/materials.json", JSON.stringify([{ file: "a.json", name: "Sponge", note: "made up" }, { file: "b.json", name: "Paper", note: "" }]));
+  site.pages.set("/site/a.json", JSON.stringify(material()));
+  site.pages.set("/site/b.json", JSON.stringify(material({ name: "Paper", stiffness_n_per_mm: 7, viscosity_n_s_per_mm: 0.3 })));
+  site.pages.set("/site/sponge.png", png(320, 240, (x, y) => [200 + (x % 16), 180, 120 + (y % 16)]));
+}
+
 /** Serves until close(); `blocked` is a set of paths that answer 404 as long as they are in it. */
 export async function serve() {
   const blocked = new Set(), pages = new Map(), requests = [];
