@@ -1,63 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "app/live.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
-#include <deque>
-#include <mutex>
 #include <spawn.h>
-#include <thread>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/live_show.hpp"
 #include "app/render_job.hpp"
 #include "app/threads.hpp"
-#include "app/web_files.hpp"
-#include "io/live_message.hpp"
-#include "net/server.hpp"
-#include "session/live_memory.hpp"
-#include "session/live_mill.hpp"
+#include "devices/device_search.hpp"
+#include "io/jnd_profile_toml.hpp"
 
 extern char** environ;
 
 namespace tribo::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* kSubprotocol = "tribo.live.1";
-constexpr auto kFrameTime = std::chrono::microseconds(16'667);
-// Of a frame's time, how much may go into milling: the rest is for the picture.
-constexpr auto kMillingTime = std::chrono::microseconds(9'000);
-// A clock that did not run for longer than this (a laptop asleep) jumps no further.
-constexpr double kLongestStepS = 0.1;
-
-// What the server's thread has for the mill's, which alone answers.
-struct Event {
-    enum class Kind { came, lost, message } kind;
-    net::ClientId client;
-    std::string text = {};
-};
-
-class Inbox {
-  public:
-    void put(const Event& event) {
-        const std::lock_guard lock(mutex_);
-        events_.push_back(event);
-    }
-    std::deque<Event> take_all() {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(events_, {});
-    }
-
-  private:
-    std::mutex mutex_;
-    std::deque<Event> events_;
-};
-
-net::Bytes shared(std::span<const std::uint8_t> frame) {
-    return std::make_shared<const std::vector<std::uint8_t>>(frame.begin(), frame.end());
-}
 
 void open_browser(const std::string& url) {
     std::string program = "xdg-open", argument = url;
@@ -67,85 +28,34 @@ void open_browser(const std::string& url) {
         std::fprintf(stderr, "no browser could be opened; open the address by hand\n");
 }
 
-class Show {
-  public:
-    Show(session::LiveMill& mill, std::string job, Warnings warnings)
-        : mill_(mill), job_(std::move(job)), warnings_(std::move(warnings)) {}
+// The arm that the call names; null: the simulated hand, and where "auto" found no arm, why.
+Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const Box3& blank) {
+    if (call.device == "simulated") return nullptr;
+    const Vec3 middle = blank.centre();
+    auto arm = devices::open_arm(call.device, {{middle.x, middle.y, blank.max.z}});
+    if (!arm && call.device == "auto") return nullptr;
+    return arm;
+}
 
-    net::ServerHandlers handlers(const WebFiles& files) {
-        net::ServerHandlers h;
-        h.page = [&files](std::string_view path, bool gzip) { return files.page(path, gzip); };
-        h.came = [this](net::ClientId id) { inbox_.put({Event::Kind::came, id}); };
-        h.lost = [this](net::ClientId id) { inbox_.put({Event::Kind::lost, id}); };
-        h.message = [this](net::ClientId id, std::string_view text) {
-            inbox_.put({Event::Kind::message, id, std::string(text)});
-        };
-        return h;
-    }
-
-    // Until the user ends it.
-    Result<void> run(net::Server& server) {
-        auto before = Clock::now(), next = before;
-        while (!interrupted()) {
-            for (const Event& event : inbox_.take_all()) answer(event, server);
-            const auto now = Clock::now();
-            const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
-            before = now;
-            const auto may_go_on = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
-            const auto frames = [&](std::span<const std::uint8_t> frame) {
-                memory_.take(frame);
-                server.send_all(shared(frame));
-            };
-            if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
-            next = std::max(next + kFrameTime, Clock::now());
-            std::this_thread::sleep_until(next);
-        }
-        return {};
-    }
-
-  private:
-    void answer(const Event& event, net::Server& server) {
-        switch (event.kind) {
-            case Event::Kind::came:
-                server.send_text(event.client, io::live_server_info(TRIBO_VERSION, job_, warnings_));
-                replay(event.client, server);
-                break;
-            case Event::Kind::lost:
-                server.send_text(event.client, io::live_lost());
-                break;
-            case Event::Kind::message:
-                if (const auto command = io::parse_live_command(event.text)) {
-                    obey(*command, event.client, server);
-                } else {
-                    server.send_text(event.client, io::live_refusal(command.error()));
-                }
-                break;
-        }
-    }
-    void replay(net::ClientId to, net::Server& server) {
-        memory_.replay([&](std::span<const std::uint8_t> frame) { server.send(to, shared(frame)); });
-    }
-    void obey(const io::LiveCommand& command, net::ClientId from, net::Server& server) {
-        switch (command.op) {
-            case io::LiveOp::play:
-                return mill_.play(true);
-            case io::LiveOp::pause:
-                return mill_.play(false);
-            case io::LiveOp::speed:
-                return mill_.set_speed(command.value);
-            case io::LiveOp::seek:
-                return mill_.set_clock(command.value);
-            case io::LiveOp::resync:
-                return replay(from, server);
-        }
-    }
-
-    session::LiveMill& mill_;
-    std::string job_;
-    Warnings warnings_;
-    session::LiveMemory memory_;
-    Inbox inbox_;
-};
+LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
+                             const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
+    LiveShowOptions options;
+    options.info.version = TRIBO_VERSION;
+    options.info.job = call.job;
+    options.info.warnings = loaded.warnings;
+    options.profile = profile;
+    options.settings.helix_deg = loaded.setup.cutters.front().helix_deg;
+    options.settings.force_scale = loaded.job.haptics.force_scale;
+    options.settings.jnd = contact::ForceTableOptions{}.most_jnd;
+    options.settings.material = loaded.material.name;
+    const formats::JobHaptics& h = loaded.job.haptics;
+    haptics::ContactOptions& contact = options.feel.contact;
+    contact.stiffness_n_per_mm =
+        std::min(h.stiffness_n_per_mm.value_or(contact.stiffness_n_per_mm), limits.max_stiffness_n_per_mm);
+    contact.friction_kinetic = h.friction_kinetic.value_or(0);
+    contact.friction_static = std::max(h.friction_static.value_or(0), contact.friction_kinetic);
+    return options;
+}
 
 }  // namespace
 
@@ -167,20 +77,37 @@ int live(const LiveCall& call) {
     const auto files = WebFiles::read(root);
     if (!files) return report(files.error());
 
+    contact::JndProfile profile;
+    if (const std::string& file = first->job.haptics.profile; !file.empty()) {
+        const auto read = io::read_jnd_profile(file);
+        if (!read) return report(read.error());
+        profile = *read;
+    }
+    auto arm = open_device(call, first->setup.blank->bounds_mm());
+    if (!arm) {
+        report(arm.error());
+        return kRefused;
+    }
+    LiveShowOptions show_how =
+        show_options(call, *first, profile, *arm ? (*arm)->limits() : haptics::kSimulatedLimits);
+
     // Set back, the program begins again as its files are by then.
-    Warnings warnings = first->warnings;
-    std::optional<session::MillSetup> ready = std::move(first->setup);
-    const auto make_setup = [&]() -> Result<session::MillSetup> {
-        if (ready) return *std::exchange(ready, std::nullopt);
+    const auto load_again = [render]() -> Result<session::MillSetup> {
         auto again = load_job(render, session::LiveMill::kPieceMm);
         if (!again) return std::unexpected(Error(again.error()));
         return std::move(again->setup);
+    };
+    show_how.make_setup = load_again;
+    std::optional<session::MillSetup> ready = std::move(first->setup);
+    const auto make_setup = [&]() -> Result<session::MillSetup> {
+        if (ready) return *std::exchange(ready, std::nullopt);
+        return load_again();
     };
     auto mill = session::LiveMill::create(
         make_setup, parallel_for_over(call.threads > 0 ? call.threads : available_threads()));
     if (!mill) return report(mill.error());
 
-    Show show(**mill, call.job, std::move(warnings));
+    LiveShow show(**mill, std::move(show_how), *std::move(arm));
     net::ServerOptions options;
     options.port = call.port;
     options.subprotocol = kSubprotocol;

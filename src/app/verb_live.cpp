@@ -24,6 +24,9 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_option("--threads", call->threads, "Threads to use; all processors if absent")
         ->check(CLI::Range(1, kMaxThreads))
         ->type_name("N");
+    verb->add_option("--device", call->device,
+                     "auto, simulated, or the arm's name as `tribo devices` says it")
+        ->capture_default_str();
     verb->callback([call, &exit_code] { exit_code = live(*call); });
 }
 

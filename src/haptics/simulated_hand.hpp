@@ -66,6 +66,8 @@ class LedHand final : public Device {
 
     const DeviceLimits& limits() const override { return kSimulatedLimits; }
     bool has_motors() const override { return false; }
+    // It does, but no person's hand moves with it: there is nobody to keep energy from.
+    bool yields() const override { return false; }
     DeviceState read(HandReading& reading) noexcept override;
     DeviceState write(Vec3 force_n) noexcept override;
 

@@ -399,6 +399,14 @@ void Server::send_text(ClientId to, std::string text) {
     parts_->to_client(to, [text = std::move(text)](Client& client) { client.send_text(text); });
 }
 
+void Server::send_text_all(const std::string& text) {
+    asio::post(parts_->context, [this, text] {
+        for (const auto& [id, weak] : parts_->shared.clients) {
+            if (const auto client = weak.lock()) client->send_text(text);
+        }
+    });
+}
+
 void Server::send(ClientId to, Bytes data) {
     parts_->to_client(to, [data = std::move(data)](Client& client) { client.send(data); });
 }

@@ -60,6 +60,7 @@ class Server {
     std::uint16_t port() const;
     // Control: never dropped. A client that lets a thousand of them wait is cut off.
     void send_text(ClientId to, std::string text);
+    void send_text_all(const std::string& text);
     // Data: to one client or to all, dropped oldest first where a client does not keep up.
     void send(ClientId to, Bytes data);
     void send_all(const Bytes& data);

@@ -23,38 +23,64 @@ void CutRecord::add(const MillRow& row) {
                           row.values.tip_mm, row.frame, row.feed, row.cutter, row.engagement});
 }
 
-std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
-                                                   const CutChange& change, const ParallelFor& parallel) {
+namespace {
+
+// Calls visit(n, stretch, engaged model) for the stretches from the first on, shared among threads.
+template <class Visit>
+void each_engaged(const CutRecord& record, const MillSetup& setup, const CutChange& change, std::size_t first,
+                  const ParallelFor& parallel, const Visit& visit) {
     std::vector<milling::Cutter> cutters = setup.cutters;
     if (change.helix_deg) {
         for (milling::Cutter& cutter : cutters) cutter.helix_deg = *change.helix_deg;
     }
     const milling::CuttingCoefficients coefficients = change.coefficients.value_or(setup.coefficients);
-    const double per_tooth = change.feed_factor / change.speed_factor, per_second = 1 / change.feed_factor;
-    const auto rows = record.stretches();
-    std::vector<contact::ForceStretch> out(rows.size());
+    const auto stretches = record.stretches().subspan(first);
     parallel(kShares, [&](std::size_t share) {
         std::vector<milling::ForceModel> models;
         for (const milling::Cutter& cutter : cutters) models.emplace_back(cutter, coefficients);
-        const std::size_t last = rows.size() * (share + 1) / kShares;
-        for (std::size_t n = rows.size() * share / kShares; n < last; ++n) {
-            const CutStretch& row = rows[n];
-            milling::ForceModel& model = models[row.cutter];
-            model.engage(row.engagement, {per_tooth * row.feed.feed_per_tooth_mm,
-                                          per_tooth * row.feed.axial_feed_per_tooth_mm});
-            contact::ForceStretch& s = out[n];
-            model.spectrum(setup.harmonics, s.spectrum);
-            s.start_s = per_second * row.start_s;
-            s.end_s = per_second * row.end_s;
-            s.rate_rad_per_s = change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi;
-            // Where nothing is changed the phase is the session's own, which counts speeds of all moves.
-            s.phase_rad = change.feed_factor == 1 && change.speed_factor == 1 ? row.phase_rad
-                                                                              : s.rate_rad_per_s * s.start_s;
-            s.x = row.frame.x;
-            s.y = row.frame.y;
-            s.z = row.frame.z;
+        const std::size_t last = stretches.size() * (share + 1) / kShares;
+        for (std::size_t n = stretches.size() * share / kShares; n < last; ++n) {
+            const CutStretch& s = stretches[n];
+            milling::ForceModel& model = models[s.cutter];
+            model.engage(s.engagement, {change.chip_factor() * s.feed.feed_per_tooth_mm,
+                                        change.chip_factor() * s.feed.axial_feed_per_tooth_mm});
+            visit(n, s, model);
         }
     });
+}
+
+}  // namespace
+
+std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
+                                                   const CutChange& change, const ParallelFor& parallel) {
+    const double per_second = 1 / change.feed_factor;
+    std::vector<contact::ForceStretch> out(record.stretches().size());
+    const auto visit = [&](std::size_t n, const CutStretch& row, milling::ForceModel& model) {
+        contact::ForceStretch& s = out[n];
+        model.spectrum(setup.harmonics, s.spectrum);
+        s.start_s = per_second * row.start_s;
+        s.end_s = per_second * row.end_s;
+        s.rate_rad_per_s = change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi;
+        s.phase_rad = change.angle_factor() * row.phase_rad;
+        s.x = row.frame.x;
+        s.y = row.frame.y;
+        s.z = row.frame.z;
+    };
+    each_engaged(record, setup, change, 0, parallel, visit);
+    return out;
+}
+
+std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
+                                         const CutChange& change, std::size_t first,
+                                         const ParallelFor& parallel) {
+    std::vector<StretchForce> out(record.stretches().size() - first);
+    const auto visit = [&](std::size_t n, const CutStretch& row, milling::ForceModel& model) {
+        const milling::ForcePeaks peaks = model.peaks();
+        const milling::ToolFrame& f = row.frame;
+        out[n] = {peaks.mean_n.x * f.x + peaks.mean_n.y * f.y + peaks.mean_n.z * f.z, peaks.peak_force_n,
+                  1e-3 * peaks.mean_torque_nmm};
+    };
+    each_engaged(record, setup, change, first, parallel, visit);
     return out;
 }
 

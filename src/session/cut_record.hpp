@@ -40,6 +40,10 @@ struct CutChange {
     double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle
     std::optional<milling::CuttingCoefficients> coefficients{};
     std::optional<double> helix_deg{};
+
+    // The times of a program go by faster by the feed, its spindle angle by the speed.
+    double angle_factor() const { return speed_factor / feed_factor; }
+    double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
 };
 
 // The spectra of a record with something changed, on all threads; times are those of the program at the
@@ -48,6 +52,15 @@ struct CutChange {
 std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
                                                    const CutChange& change = {},
                                                    const ParallelFor& parallel = serial_for);
+
+// The force over a turn of the stretches from the `first` on, with something changed.
+struct StretchForce {
+    Vec3 mean_n;  // stock frame
+    double peak_force_n = 0, mean_torque_nm = 0;
+};
+std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
+                                         const CutChange& change, std::size_t first = 0,
+                                         const ParallelFor& parallel = serial_for);
 
 // Tells records of different jobs apart: everything that the force along the path depends on.
 std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);

@@ -10,15 +10,18 @@
 namespace tribo::session {
 namespace {
 
-// Appends little-endian values to a frame that begins with the header: kind, version, two zeros, four zeros,
+// Of a rows frame.
+constexpr std::uint64_t kAnew = 1;
+
+// Appends little-endian values to a frame that begins with the header: kind, version, flags, five zeros,
 // time.
 class Frame {
   public:
-    Frame(LiveFrame kind, double t_s, std::vector<std::uint8_t>& out) : out_(out) {
+    Frame(LiveFrame kind, double t_s, std::vector<std::uint8_t>& out, bool flag = false) : out_(out) {
         out_.clear();
         out_.push_back(static_cast<std::uint8_t>(kind));
         out_.push_back(kLiveFrameVersion);
-        bits(0, 6);
+        bits(flag ? kAnew : 0, 6);
         bits(std::bit_cast<std::uint64_t>(t_s), 8);
     }
 
@@ -125,8 +128,8 @@ void write_state_frame(const LiveState& s, std::vector<std::uint8_t>& out) {
     f.u32((s.cutting ? 1U : 0U) | (s.playing ? 2U : 0U) | (s.rapid ? 4U : 0U));
 }
 
-void write_rows_frame(std::span<const LiveRow> rows, std::vector<std::uint8_t>& out) {
-    Frame f(LiveFrame::rows, rows.empty() ? 0 : rows.front().t_s, out);
+void write_rows_frame(std::span<const LiveRow> rows, bool anew, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::rows, rows.empty() ? 0 : rows.front().t_s, out, anew);
     f.u32(count(rows.size()));
     f.reserve(56 * rows.size());
     for (const LiveRow& r : rows) {
@@ -149,6 +152,34 @@ void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vec
     f.i32(kind);
     f.i32(line);
     f.vec3(tip_mm);
+}
+
+void write_finger_frame(const LiveTouch& t, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::finger, t.t_s, out);
+    f.vec3(t.probe_mm);
+    f.vec3(t.proxy_mm);
+    f.vec3(t.force_n);
+    f.f32(t.slip_mm_per_s);
+    f.u32((t.contact ? 1U : 0U) | (t.cutting_force ? 2U : 0U) | (t.cut_mode ? 4U : 0U) |
+          (t.stopped ? 8U : 0U) | (t.hand ? 16U : 0U));
+}
+
+void write_servo_frame(double t_s, const LiveServo& s, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::servo, t_s, out);
+    for (const std::uint32_t n : {s.ticks, s.late, s.fault}) f.u32(n);
+    for (const double v : {s.rate_hz, s.force_limit_n, s.largest_force_n}) f.f32(v);
+    for (const double v : s.lateness_us) f.f32(v);
+    for (const double v : s.cpu_us) f.f32(v);
+}
+
+void write_texture_frame(double t_s, const contact::TextureRecord* texture, double press_mm,
+                         double stiffness_n_per_mm, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::texture, t_s, out);
+    if (texture == nullptr) return;
+    for (const contact::TexturedTriangle& t : texture->triangles()) {
+        for (const Vec3& corner : t.corners_mm) f.vec3(corner);
+        f.vec3(stiffness_n_per_mm * ((press_mm + t.height_mm) * t.normal - press_mm * texture->normal));
+    }
 }
 
 }  // namespace tribo::session

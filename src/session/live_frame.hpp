@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/mesh.hpp"
+#include "contact/texture_record.hpp"
 #include "milling/cutter.hpp"
 #include "motion/program.hpp"
 
@@ -19,7 +20,16 @@ namespace tribo::session {
 // The number that a viewer must know; changes with the layout of any frame.
 inline constexpr std::uint8_t kLiveFrameVersion = 1;
 
-enum class LiveFrame : std::uint8_t { job = 1, chunk = 2, state = 3, rows = 4, collision = 5 };
+enum class LiveFrame : std::uint8_t {
+    job = 1,
+    chunk = 2,
+    state = 3,
+    rows = 4,
+    collision = 5,
+    finger = 7,
+    servo = 8,
+    texture = 9,
+};
 
 // Takes one whole frame; the bytes are valid during the call only.
 using FrameSink = std::function<void(std::span<const std::uint8_t>)>;
@@ -55,6 +65,22 @@ struct LivePathPoint {
     bool rapid = false;  // of the way that ends here
 };
 
+// The hand's finger, and what it feels.
+struct LiveTouch {
+    double t_s = 0;  // of the program
+    Vec3 probe_mm, proxy_mm;
+    Vec3 force_n;  // on the hand
+    double slip_mm_per_s = 0;
+    bool contact = false, cutting_force = true, cut_mode = true, stopped = false, hand = false;
+};
+
+// How the servo does. Durations in us: median, 99 %, 99.9 %, most.
+struct LiveServo {
+    std::uint32_t ticks = 0, late = 0, fault = 0;  // fault as haptics::Fault
+    double rate_hz = 0, force_limit_n = 0, largest_force_n = 0;
+    std::array<double, 4> lateness_us{}, cpu_us{};
+};
+
 struct LiveJob {
     double duration_s = 0, cell_mm = 0;
     Box3 blank_mm;
@@ -68,8 +94,15 @@ void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out);
 void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
                        std::vector<std::uint8_t>& out);
 void write_state_frame(const LiveState& state, std::vector<std::uint8_t>& out);
-void write_rows_frame(std::span<const LiveRow> rows, std::vector<std::uint8_t>& out);
+// `anew`: what rows were told before is void.
+void write_rows_frame(std::span<const LiveRow> rows, bool anew, std::vector<std::uint8_t>& out);
 // `kind` as in milling::CollisionKind.
 void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out);
+void write_finger_frame(const LiveTouch& touch, std::vector<std::uint8_t>& out);
+void write_servo_frame(double t_s, const LiveServo& servo, std::vector<std::uint8_t>& out);
+// The eight triangles and the force that each adds when pressed `press_mm` deep into stiffness
+// `stiffness_n_per_mm`; null: there are none.
+void write_texture_frame(double t_s, const contact::TextureRecord* texture, double press_mm,
+                         double stiffness_n_per_mm, std::vector<std::uint8_t>& out);
 
 }  // namespace tribo::session

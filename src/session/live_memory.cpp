@@ -6,7 +6,7 @@
 namespace tribo::session {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 16, kCoordBytes = 12;
+constexpr std::size_t kHeaderBytes = 16, kFlagsAt = 2, kCoordBytes = 12;
 
 }  // namespace
 
@@ -25,13 +25,15 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
             chunks_[coord] = std::move(copy);
             break;
         }
-        case LiveFrame::state:
-            state_ = std::move(copy);
-            break;
         case LiveFrame::rows:
-        case LiveFrame::collision:
-            others_.push_back(std::move(copy));
+            if (frame[kFlagsAt] != 0) rows_.clear();
+            rows_.push_back(std::move(copy));
             break;
+        case LiveFrame::collision:
+            collisions_.push_back(std::move(copy));
+            break;
+        default:
+            newest_[frame[0]] = std::move(copy);
     }
 }
 
@@ -39,8 +41,9 @@ void LiveMemory::replay(const FrameSink& frames) const {
     if (job_.empty()) return;
     frames(job_);
     for (const auto& [coord, frame] : chunks_) frames(frame);
-    for (const Frame& frame : others_) frames(frame);
-    if (!state_.empty()) frames(state_);
+    for (const Frame& frame : rows_) frames(frame);
+    for (const Frame& frame : collisions_) frames(frame);
+    for (const auto& [kind, frame] : newest_) frames(frame);
 }
 
 }  // namespace tribo::session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Keeps of a stream of live frames what a viewer that comes later needs to see the same: the job, the newest
-// of each chunk, all rows and collisions, the last state.
+// of each chunk, all rows and collisions, the newest of every other kind.
 #pragma once
 
 #include <array>
@@ -20,9 +20,10 @@ class LiveMemory {
 
   private:
     using Frame = std::vector<std::uint8_t>;
-    Frame job_, state_;
+    Frame job_;
     std::map<std::array<std::uint8_t, 12>, Frame> chunks_;  // by their coordinates' bytes
-    std::vector<Frame> others_;                             // rows and collisions
+    std::vector<Frame> rows_, collisions_;
+    std::map<std::uint8_t, Frame> newest_;  // by kind
 };
 
 }  // namespace tribo::session

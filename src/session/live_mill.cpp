@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/math.hpp"
 #include "motion/path.hpp"
@@ -61,16 +62,32 @@ Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, Paralle
 Result<void> LiveMill::begin() {
     auto setup = make_setup_();
     if (!setup) return std::unexpected(setup.error());
+    if (watcher_) watcher_(nullptr);
     session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
     path_ = path_points(*session_);
     rows_.clear();
     felt_.clear();
+    record_ = {};
     rows_told_ = collisions_told_ = 0;
     shown_s_ = 0;
     begun_anew_ = true;
     set_back_ = false;
+    if (watcher_) watcher_(session_.get());
     return {};
+}
+
+void LiveMill::watch(std::function<void(MillSession*)> watcher) {
+    watcher_ = std::move(watcher);
+    if (watcher_) watcher_(session_.get());
+}
+
+void LiveMill::set_change(const CutChange& change) {
+    change_ = change;
+    work_out_forces(0);
+    rows_told_ = 0;
+    rows_anew_ = !rows_.empty();
+    last_state_.clear();
 }
 
 void LiveMill::play(bool on) {
@@ -91,13 +108,34 @@ void LiveMill::set_clock(double t_s) {
 
 void LiveMill::add_row(const MillRow& row) {
     const milling::ForceRow& v = row.values;
-    const milling::ToolFrame& f = row.frame;
-    rows_.push_back({v.t_s, row.end_s, v.tip_mm, length(v.mean_n), row.peaks.peak_force_n, v.mean_torque_nm,
-                     v.entry_deg * math::kRadPerDeg, v.exit_deg * math::kRadPerDeg, v.axial_depth_mm,
-                     row.feed.feed_per_tooth_mm, static_cast<std::uint32_t>(v.line)});
+    LiveRow told;
+    told.t_s = v.t_s;
+    told.end_s = row.end_s;
+    told.tip_mm = v.tip_mm;
+    told.entry_rad = v.entry_deg * math::kRadPerDeg;
+    told.exit_rad = v.exit_deg * math::kRadPerDeg;
+    told.axial_depth_mm = v.axial_depth_mm;
+    told.line = static_cast<std::uint32_t>(v.line);
+    rows_.push_back(told);
     const double before = felt_.empty() ? 0 : felt_.back().removed_mm3;
-    felt_.push_back({v.mean_n.x * f.x + v.mean_n.y * f.y + v.mean_n.z * f.z, row.spindle_angle_rad,
-                     v.spindle_rpm / 60 * math::kTwoPi, before + v.removed_mm3});
+    felt_.push_back({{}, 0, 0, before + v.removed_mm3});
+    record_.add(row);
+}
+
+// What follows from the change, of the rows from `first` on.
+void LiveMill::work_out_forces(std::size_t first) {
+    const auto forces = stretch_forces(record_, session_->setup(), change_, first, parallel_);
+    for (std::size_t n = first; n < rows_.size(); ++n) {
+        const StretchForce& force = forces[n - first];
+        const CutStretch& s = record_.stretches()[n];
+        rows_[n].mean_force_n = length(force.mean_n);
+        rows_[n].peak_force_n = force.peak_force_n;
+        rows_[n].mean_torque_nm = force.mean_torque_nm;
+        rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.feed_per_tooth_mm;
+        felt_[n].force_n = force.mean_n;
+        felt_[n].spindle_angle_rad = change_.angle_factor() * s.phase_rad;
+        felt_[n].spindle_rad_per_s = change_.angle_factor() * s.spindle_rpm / 60 * math::kTwoPi;
+    }
 }
 
 Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on, const FrameSink& frames) {
@@ -105,11 +143,13 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
         if (auto begun = begin(); !begun) return begun;
     }
     // The clock runs on from where the part is.
-    const double target = playing_ ? std::min(clock_s_ + speed_ * dt_s, duration_s()) : clock_s_;
+    const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
+    const std::size_t rows_before = rows_.size();
     MillSinks sinks;
     sinks.row = [this](const MillRow& row) { add_row(row); };
     sinks.progress = [&](double) { return may_go_on(); };
     session_->run_to(target, sinks);
+    work_out_forces(rows_before);
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
     if (clock_s_ >= duration_s()) playing_ = false;
     if (begun_anew_) {
@@ -143,7 +183,7 @@ void LiveMill::show_part(const Box3& box_mm, const FrameSink& frames) {
 void LiveMill::show_rows(const FrameSink& frames) {
     while (rows_told_ < rows_.size()) {
         const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
-        write_rows_frame({rows_.data() + rows_told_, now}, frame_);
+        write_rows_frame({rows_.data() + rows_told_, now}, std::exchange(rows_anew_, false), frame_);
         frames(frame_);
         rows_told_ += now;
     }
@@ -172,8 +212,8 @@ LiveState LiveMill::state() const {
     s.line = static_cast<std::uint32_t>(setup.moves[n].line);
     s.cutter = static_cast<std::uint32_t>(setup.cutter_of_move[n]);
     s.rapid = setup.moves[n].kind == motion::MoveKind::rapid;
-    s.spindle_rpm = setup.rpm_of_move[n];
-    s.feed_mm_per_min = 60 * schedule.moves[n].speed_mm_per_s(s.t_s);
+    s.spindle_rpm = change_.speed_factor * setup.rpm_of_move[n];
+    s.feed_mm_per_min = change_.feed_factor * 60 * schedule.moves[n].speed_mm_per_s(s.t_s);
     s.milled_s = session_->milled_s();
     s.speed = speed_;
     s.playing = playing_;

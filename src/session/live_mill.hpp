@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/result.hpp"
+#include "session/cut_record.hpp"
 #include "session/live_frame.hpp"
 #include "session/mill_session.hpp"
 #include "session/part_picture.hpp"
@@ -27,12 +28,20 @@ class LiveMill {
     double duration_s() const { return session_->duration_s(); }
     double clock_s() const { return clock_s_; }
     bool playing() const { return playing_; }
+    LiveState state() const;
     const MillSession& session() const { return *session_; }
 
     // At the end, play begins anew.
     void play(bool on);
     void set_speed(double seconds_per_second);  // > 0, at most kFastest; else nothing changes
     void set_clock(double t_s);                 // clamped to the program; not a number: nothing changes
+    // Overrides of feed and spindle, another material or helix: rows so far are told anew, the clock of the
+    // program as it was written runs faster by the feed's.
+    void set_change(const CutChange& change);
+    const CutChange& change() const { return change_; }
+    double pace() const { return playing_ ? speed_ * change_.feed_factor : 0; }
+    // Told the session that mills from now on, and null before it goes.
+    void watch(std::function<void(MillSession*)> watcher);
 
     // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `may_go_on` says so (asked
     // every few moves), then tells what is new (LiveMemory keeps it for who comes later). The clock waits for
@@ -44,11 +53,11 @@ class LiveMill {
         : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)) {}
     Result<void> begin();
     void add_row(const MillRow& row);
+    void work_out_forces(std::size_t first_row);
     void show_job(const FrameSink& frames);
     void show_part(const Box3& box_mm, const FrameSink& frames);
     void show_rows(const FrameSink& frames);
     void show_state(const FrameSink& frames);
-    LiveState state() const;
 
     MakeSetup make_setup_;
     ParallelFor parallel_;
@@ -62,6 +71,10 @@ class LiveMill {
         double removed_mm3 = 0;  // up to and with this row
     };
     std::vector<Felt> felt_;  // one per row
+    CutRecord record_;        // likewise
+    CutChange change_;
+    bool rows_anew_ = false;
+    std::function<void(MillSession*)> watcher_;
     std::size_t rows_told_ = 0, collisions_told_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;

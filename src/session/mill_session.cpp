@@ -273,6 +273,9 @@ const motion::Schedule& MillSession::schedule() const {
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;
 }
+std::unique_ptr<field::FieldReader> MillSession::read_stock() {
+    return std::make_unique<field::FieldReader>(run_->stock_);
+}
 const MillTotals& MillSession::totals() const {
     return run_->totals_;
 }

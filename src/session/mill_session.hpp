@@ -11,7 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "contact/force_spectrum.hpp"
-#include "field/carved_field.hpp"
+#include "field/field_reader.hpp"
 #include "milling/coefficients.hpp"
 #include "milling/cutter.hpp"
 #include "milling/force.hpp"
@@ -101,6 +101,9 @@ class MillSession {
     // When each of setup().moves is where.
     const motion::Schedule& schedule() const;
     const field::CarvedField& stock() const;
+    // The stock for another thread while this one mills: one at a time, gone before the session. Made and
+    // destroyed on the milling thread (field/field_reader.hpp).
+    std::unique_ptr<field::FieldReader> read_stock();
     const MillTotals& totals() const;
     const MillSetup& setup() const;
 

@@ -64,7 +64,7 @@ class Viewer {
     int jobs = 0;
     double duration_s = 0, state_s = 0, force_n = 0;
     std::uint32_t flags = 0, line = 0, path_points = 0;
-    std::vector<double> row_times;
+    std::vector<double> row_times, row_forces;
 
   private:
     void take(std::span<const std::uint8_t> frame) {
@@ -89,6 +89,8 @@ class Viewer {
             case LiveFrame::collision:
                 at_ += 20;
                 break;
+            default:
+                ADD_FAILURE() << "not the mill's";
         }
         EXPECT_EQ(at_, frame.size());
     }
@@ -108,6 +110,7 @@ class Viewer {
         ++jobs;
         chunks_.clear();
         row_times.clear();
+        row_forces.clear();
         duration_s = f64();
         f32();
         EXPECT_EQ(vec3(), kBlank.min);
@@ -159,10 +162,16 @@ class Viewer {
         flags = u32();
     }
     void rows() {
+        if (frame_[2] != 0) {
+            row_times.clear();
+            row_forces.clear();
+        }
         const std::uint32_t count = u32();
         for (std::uint32_t n = 0; n < count; ++n) {
             row_times.push_back(f64());
-            at_ += 48;
+            at_ += 16;
+            row_forces.push_back(f32());
+            at_ += 28;
         }
     }
 
@@ -274,6 +283,50 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     ASSERT_TRUE(live->tick(1, always, [&](std::span<const std::uint8_t>) { told = true; }));
     EXPECT_FALSE(told);
     memory.take(std::array<std::uint8_t, 3>{1, 2, 3});
+}
+
+// Overrides change what was cut and what will be as if the program had been written so.
+TEST(LiveMill, TellsTheForcesOfAChangedCut) {
+    const auto changed = []() -> Result<MillSetup> {
+        auto s = slot();
+        for (motion::Move& move : s->moves) move.feed_mm_per_min *= 1.5;
+        for (double& rpm : s->rpm_of_move) rpm *= 0.5;
+        for (milling::Cutter& cutter : s->cutters) cutter.helix_deg = 45;
+        s->coefficients = milling::find_material("steel")->coefficients;
+        return s;
+    };
+    MillSession alone(*changed(), serial_for);
+    std::vector<double> forces;
+    MillSinks sinks;
+    sinks.row = [&](const MillRow& row) { forces.push_back(length(row.values.mean_n)); };
+    alone.run(sinks);
+
+    auto live = *LiveMill::create(slot, serial_for);
+    Viewer viewer;
+    LiveMemory memory;
+    const FrameSink both = [&](std::span<const std::uint8_t> frame) {
+        memory.take(frame);
+        viewer.sink()(frame);
+    };
+    live->play(true);
+    while (live->clock_s() < 0.5 * live->duration_s()) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    CutChange change;
+    change.feed_factor = 1.5;
+    change.speed_factor = 0.5;
+    change.helix_deg = 45;
+    change.coefficients = milling::find_material("steel")->coefficients;
+    live->set_change(change);
+    const double before = live->clock_s();
+    ASSERT_TRUE(live->tick(0.1, always, both));
+    EXPECT_NEAR(live->clock_s() - before, 0.15, 1e-12);
+    while (live->playing()) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    EXPECT_EQ(viewer.jobs, 1);
+    ASSERT_EQ(viewer.row_forces.size(), forces.size());
+    for (std::size_t n = 0; n < forces.size(); ++n)
+        ASSERT_NEAR(viewer.row_forces[n], forces[n], 1e-5 * forces[n] + 1e-4) << n;
+    Viewer latecomer;
+    memory.replay(latecomer.sink());
+    EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What `tribo live` shows to everybody who watches: the part while it is milled, the finger and what it
+// feels, and the answers to what pages ask for.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+
+#include "app/force_builder.hpp"
+#include "app/web_files.hpp"
+#include "devices/servo_thread.hpp"
+#include "io/live_message.hpp"
+#include "net/server.hpp"
+#include "session/live_finger.hpp"
+#include "session/live_memory.hpp"
+#include "session/live_mill.hpp"
+
+namespace tribo::app {
+
+// From the server's thread to the show's, which alone answers.
+class LiveInbox {
+  public:
+    struct Event {
+        enum class Kind { came, lost, message } kind;
+        net::ClientId client;
+        std::string text = {};
+    };
+    void put(const Event& event);
+    std::deque<Event> take_all();
+
+  private:
+    std::mutex mutex_;
+    std::deque<Event> events_;
+};
+
+struct LiveShowOptions {
+    io::LiveServerInfo info;  // materials and device are added here
+    io::LiveSettings settings;
+    contact::JndProfile profile;
+    session::LiveFeelOptions feel;
+    std::function<Result<session::MillSetup>()> make_setup;  // on any thread
+};
+
+class LiveShow {
+  public:
+    // `arm`: null for the simulated hand.
+    LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm);
+    ~LiveShow();
+
+    net::ServerHandlers handlers(const WebFiles& files);
+    // Until the user ends it.
+    Result<void> run(net::Server& server);
+
+  private:
+    void answer(const LiveInbox::Event& event, net::Server& server);
+    Result<void> obey(const io::LiveCommand& command, net::ClientId from, net::Server& server);
+    void replay(net::ClientId to, net::Server& server);
+    Result<void> recut(const io::LiveSettings& wanted);
+    void ask_for_force();
+    void use_force();
+    void take_built();
+    void show_servo(net::Server& server, const session::FrameSink& frames);
+    session::LiveScene scene() const;
+
+    session::LiveMill& mill_;
+    LiveShowOptions options_;
+    io::LiveSettings settings_, told_;
+    session::LiveMemory memory_;
+    LiveInbox inbox_;
+    session::LiveFinger finger_;
+    ForceBuilder builder_;
+    contact::ForceTable table_;
+    std::unique_ptr<devices::ServoThread> servo_;
+    int pictures_ = 0;
+    bool arm_gone_ = false;
+    std::vector<std::uint8_t> frame_;
+};
+
+}  // namespace tribo::app

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// The finger of the live view: what a led hand feels of the blank, of the cut, and of its switches.
+#include "session/live_finger.hpp"
+
+#include <bit>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "field/box_shape.hpp"
+#include "milling/materials.hpp"
+#include "motion/path.hpp"
+#include "session/feel_ahead.hpp"
+#include "session/live_mill.hpp"
+
+namespace tribo::session {
+namespace {
+
+constexpr double kRateHz = 1000;
+
+// A slot along x at y = 10, 2 mm deep, from 0.25 s on; 12.5 mm/s.
+Result<MillSetup> slot() {
+    MillSetup s;
+    milling::Cutter cutter;
+    cutter.diameter_mm = 8;
+    cutter.length_mm = 20;
+    s.cutters = {cutter};
+    s.coefficients = milling::find_material("al7075-t6")->coefficients;
+    const Box3 blank{{0, 0, -8}, {40, 20, 0}};
+    s.blank = std::make_unique<field::BoxShape>(blank);
+    s.blank_volume_mm3 = blank.volume();
+    s.cell_mm = 0.5;
+    motion::Move move;
+    move.feed_mm_per_min = 750;
+    move.start.tip_mm = {-5, 10, -2};
+    move.end.tip_mm = {45, 10, -2};
+    for (motion::Move& piece : motion::in_pieces(move, LiveMill::kPieceMm)) {
+        s.moves.push_back(piece);
+        s.cutter_of_move.push_back(0);
+        s.rpm_of_move.push_back(6000);
+    }
+    return s;
+}
+
+bool always() {
+    return true;
+}
+
+void drop(std::span<const std::uint8_t>) {}
+
+// Mill, picture and servo in one thread: a picture, then the ticks until the next.
+class Bench {
+  public:
+    Bench() : live(*LiveMill::create(slot, serial_for)), finger({}, nullptr, {20, 10, 5}) {
+        live->watch([this](MillSession* session) { finger.feel().set_session(session); });
+    }
+    ~Bench() { finger.feel().set_session(nullptr); }
+
+    void run(double seconds, double pictures_per_s = 60) {
+        for (int n = 0; n < std::lround(pictures_per_s * seconds); ++n) {
+            ASSERT_TRUE(live->tick(1 / pictures_per_s, always, drop));
+            scene.program_s = live->clock_s();
+            scene.pace = live->pace();
+            finger.show(scene, live->state().tool.tip_mm, [this](auto frame) { take(frame); });
+            pictures_ += 1 / pictures_per_s;
+            while (ticks_ / kRateHz < pictures_) ASSERT_TRUE(finger.tick(ticks_++ / kRateHz));
+        }
+        finger.show(scene, live->state().tool.tip_mm, [this](auto frame) { take(frame); });
+    }
+
+    std::unique_ptr<LiveMill> live;
+    LiveFinger finger;
+    LiveScene scene;
+    Vec3 probe, proxy, force;
+    std::uint32_t flags = 0;
+    int textures = 0;
+
+  private:
+    void take(std::span<const std::uint8_t> frame) {
+        const auto f32 = [&](std::size_t at) {
+            std::uint32_t bits = 0;
+            for (std::size_t n = 0; n < 4; ++n) bits |= std::uint32_t{frame[16 + at + n]} << (8 * n);
+            return bits;
+        };
+        const auto vec3 = [&](std::size_t at) {
+            const auto v = [&](std::size_t k) { return static_cast<double>(std::bit_cast<float>(f32(k))); };
+            return Vec3{v(at), v(at + 4), v(at + 8)};
+        };
+        if (frame[0] == static_cast<std::uint8_t>(LiveFrame::texture)) {
+            EXPECT_TRUE(frame.size() == 16 || frame.size() == 16 + 8 * 48);
+            textures += frame.size() > 16 ? 1 : 0;
+            return;
+        }
+        ASSERT_EQ(frame[0], static_cast<std::uint8_t>(LiveFrame::finger));
+        ASSERT_EQ(frame.size(), 60u);
+        probe = vec3(0);
+        proxy = vec3(12);
+        force = vec3(24);
+        flags = f32(40);
+    }
+
+    double pictures_ = 0;
+    int ticks_ = 0;
+};
+
+// Two springs in a row: the hand's, drawn 1 mm below the surface, and the surface's.
+TEST(LiveFinger, RestsOnTheSurfaceWithTheForceOfItsSprings) {
+    Bench bench;
+    bench.scene.cut_mode = false;
+    bench.finger.lead({20, 4, -1}, true);
+    bench.run(2);
+    const double hand = haptics::HandModel{}.stiffness_n_per_mm, surface = 0.5;
+    EXPECT_NEAR(bench.force.z, hand * surface / (hand + surface), 1e-3);
+    EXPECT_NEAR(bench.probe.z, -hand / (hand + surface), 2e-3);
+    EXPECT_NEAR(bench.proxy.z, 0, 1e-6);
+    EXPECT_EQ(bench.flags, 1u + 2 + 16);
+}
+
+TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
+    Bench bench;
+    bench.scene.cut_mode = false;
+    bench.finger.lead({20, 10, -3}, true);
+    bench.run(1);
+    EXPECT_NEAR(bench.proxy.z, 0, 1e-6);
+    bench.live->play(true);
+    bench.run(1.1 * bench.live->duration_s());
+    EXPECT_NEAR(bench.proxy.z, -2, 1e-6);  // the slot's floor
+    EXPECT_NEAR(bench.force.z, 1 * 0.3 * 0.5 / 0.8, 1e-3);
+}
+
+// The table that a servo plays is the cut's: the mean over turns of what the hand feels is the row's mean
+// force, scaled, while the finger is at the cutter.
+TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
+    FeelAhead ahead(*slot(), serial_for);
+    ASSERT_TRUE(ahead.run(always));
+    Bench bench;
+    bench.finger.feel().set_force(ahead.table({}, {}), {});
+    bench.finger.feel().set_textures(ahead.textures());
+    bench.live->play(true);
+    bench.run(1);
+    bench.finger.lead(bench.live->state().tool.tip_mm + Vec3{8, 0, 8}, true);  // where the tool will be
+    bench.run(0.5);
+    Vec3 sum;
+    constexpr int count = 200;  // ticks: twenty turns
+    for (int n = 0; n < count; ++n) {
+        bench.run(1 / kRateHz, kRateHz);
+        sum += bench.force;
+    }
+    const Vec3 cut = bench.live->state().force_n;
+    ASSERT_GT(length(cut), 50);
+    EXPECT_NEAR(length(sum / count - 0.01 * cut), 0, 0.05 * 0.01 * length(cut));
+    EXPECT_GT(bench.textures, 0);
+
+    bench.scene.cutting_force = false;
+    bench.run(0.2);
+    EXPECT_EQ(length(bench.force), 0);
+    bench.scene.cutting_force = true;
+    bench.finger.lead({20, 10, 60}, true);
+    bench.run(0.5);
+    EXPECT_EQ(length(bench.force), 0);
+}
+
+TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
+    Bench bench;
+    bench.scene.cut_mode = false;
+    bench.finger.lead({20, 4, -1}, true);
+    bench.run(1);
+    ASSERT_GT(bench.force.z, 0.1);
+    bench.finger.stop(bench.scene);
+    bench.scene.stopped = true;
+    bench.run(2.0 / 60);
+    EXPECT_EQ(length(bench.force), 0);
+    // Released, the surface stays away until the finger has left it.
+    bench.scene.stopped = false;
+    bench.run(0.5);
+    EXPECT_EQ(length(bench.force), 0);
+    bench.finger.lead({20, 4, 2}, true);
+    bench.run(0.5);
+    bench.finger.lead({20, 4, -1}, true);
+    bench.run(1);
+    EXPECT_GT(bench.force.z, 0.1);
+    // Nobody there: nothing is felt, and nothing is told.
+    bench.finger.lead({}, false);
+    bench.run(0.2);
+    EXPECT_EQ(bench.flags & 16, 0u);
+    EXPECT_EQ(length(bench.force), 0);
+}
+
+TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
+    Bench bench;
+    bench.scene.cut_mode = false;
+    bench.finger.lead({20, 4, -1}, true);
+    bench.run(1);
+    // A quarter of a second without a scene: the guard takes the force away.
+    for (int n = 0; n < 300; ++n) bench.finger.tick(1.1 + n / kRateHz);
+    bench.finger.show(bench.scene, {}, drop);
+    EXPECT_EQ(bench.finger.servo().fault, static_cast<std::uint32_t>(haptics::Fault::simulation_stalled));
+}
+
+}  // namespace
+}  // namespace tribo::session
