@@ -22,6 +22,9 @@ const InterpolatorTable& interpolator_table();
 
 // Taps of a head response, at any sample rate.
 inline constexpr int kHeadTaps = 128;
+// Of a response that moves the first taps glide, frame by frame; the later ones, which hold little of the
+// sound, stand still for half a quantum at a time.
+inline constexpr int kGlidingTaps = 64, kStandingFrames = 32;
 
 // c0 + t (c1 + t c2), t = frame / 64.
 struct Course {
@@ -32,8 +35,9 @@ struct EarKernels {
     // out[n] = gain(n) * the line at n - delay(n), n = 0 ... 63. line[0] is frame 0 of the quantum less the
     // whole part of the delay; delay's c0 is in [0, 1), and it changes by at most 3 per frame.
     void (*read)(const float* line, const InterpolatorTable& table, Course delay, Course gain, float* out);
-    // out[n] += sum over k of h[k] x[n - k], k < taps (a multiple of 16, at most kHeadTaps); tap k runs
-    // linearly from from[k] at frame 0 to to[k] at frame 64. x[-127] is readable.
+    // out[n] += sum over k of h[k] x[n - k], k < taps (a multiple of 16, at most kHeadTaps); the first
+    // kGlidingTaps run linearly from from[k] at frame 0 to to[k] at frame 64, the others are where that line
+    // is at frame 16, and from frame 32 on at frame 48. x[-127] is readable.
     void (*convolve)(const float* x, const float* from, const float* to, int taps, float* out);
     // The same with a response that stands still.
     void (*convolve_still)(const float* x, const float* h, int taps, float* out);

@@ -38,20 +38,26 @@ TRIBO_LANES F8 sums(const F8* p) {
 }
 
 void read(const float* line, const InterpolatorTable& table, Course delay, Course gain, float* out) {
+    // Where each frame reads, first for all of them: sums then need not wait for addresses.
+    alignas(32) int from[kFrames], row[kFrames];
     for (int frame = 0; frame < kFrames; frame += kLanes) {
-        const F8 t = time_of(frame);
-        const F8 place = (splat(static_cast<float>(frame)) + kEach) - at(delay, t);
+        const F8 place = (splat(static_cast<float>(frame)) + kEach) - at(delay, time_of(frame));
         I8 whole = __builtin_convertvector(place, I8);
         whole += __builtin_convertvector(whole, F8) > place;  // a mask is -1 where it holds
-        const F8 row = (place - __builtin_convertvector(whole, F8)) * splat(float{kInterpolatorRows});
-        const I8 nearest = __builtin_convertvector(row + splat(0.5f), I8);
+        const F8 share = (place - __builtin_convertvector(whole, F8)) * splat(float{kInterpolatorRows});
+        const I8 nearest = __builtin_convertvector(share + splat(0.5f), I8) * kInterpolatorTaps;
+        std::memcpy(from + frame, &whole, sizeof whole);
+        std::memcpy(row + frame, &nearest, sizeof nearest);
+    }
+    const float* first = line - (kInterpolatorAhead - 1);
+    for (int frame = 0; frame < kFrames; frame += kLanes) {
         F8 products[kLanes];
         for (int n = 0; n < kLanes; ++n) {
-            const float* x = line + whole[n] - (kInterpolatorAhead - 1);
-            const float* c = table.data() + nearest[n] * kInterpolatorTaps;
+            const float* x = first + from[frame + n];
+            const float* c = table.data() + row[frame + n];
             products[n] = load(c) * load(x) + load(c + 8) * load(x + 8);
         }
-        store(out + frame, at(gain, t) * sums(products));
+        store(out + frame, at(gain, time_of(frame)) * sums(products));
     }
 }
 
@@ -83,14 +89,28 @@ TRIBO_LANES void put(float* p, Wide v) {
     std::memcpy(p, &v, sizeof v);
 }
 
+// sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees
+// 8 frames on, so two taps are worth one walk through x.
+template <int kBlocks>
+TRIBO_LANES void add_taps(const float* x, const float* h, int from, int to, Wide* sum) {
+    constexpr int kOn = kLanes / kWide;
+    for (int first = from; first < to; first += 2 * kLanes) {
+        for (int k = first; k < first + kLanes; ++k) {
+            const Wide c = all(h[k]), later = all(h[k + kLanes]);
+            for (int b = -kOn; b < kBlocks; ++b) {
+                const Wide v = kept(x - k + kWide * b);
+                if (b >= 0) sum[b] += c * v;
+                if (b + kOn < kBlocks) sum[b + kOn] += later * v;
+            }
+        }
+    }
+}
+
 void convolve_still(const float* x, const float* h, int taps, float* out) {
     constexpr int kBlocks = 8;
     for (int frame = 0; frame < kFrames; frame += kWide * kBlocks) {
         Wide sum[kBlocks]{};
-        for (int k = 0; k < taps; ++k) {
-            const Wide c = all(h[k]);
-            for (int b = 0; b < kBlocks; ++b) sum[b] += c * wide(x + frame + kWide * b - k);
-        }
+        add_taps<kBlocks>(x + frame, h, 0, taps, sum);
         for (int b = 0; b < kBlocks; ++b) {
             float* o = out + frame + kWide * b;
             put(o, wide(o) + sum[b]);
@@ -100,14 +120,20 @@ void convolve_still(const float* x, const float* h, int taps, float* out) {
 
 void convolve(const float* x, const float* from, const float* to, int taps, float* out) {
     constexpr int kBlocks = 4;
-    alignas(32) float way[kHeadTaps], time[kFrames];
+    const int gliding = taps < kGlidingTaps ? taps : kGlidingTaps;
+    alignas(32) float way[kHeadTaps], late[kHeadTaps], time[kFrames];
     for (int k = 0; k < taps; k += kLanes) store(way + k, load(to + k) - load(from + k));
     for (int n = 0; n < kFrames; n += kLanes) store(time + n, time_of(n));
     for (int frame = 0; frame < kFrames; frame += kWide * kBlocks) {
+        if (frame % kStandingFrames == 0) {
+            const F8 middle = splat((static_cast<float>(frame) + 0.5f * kStandingFrames) / kFrames);
+            for (int k = gliding; k < taps; k += kLanes)
+                store(late + k, load(from + k) + middle * load(way + k));
+        }
         Wide start[kBlocks]{}, moved[kBlocks]{};
-        // Taps k and k + 8 together: what one sees at a frame the other sees 8 frames on.
+        // Taps k and k + 8 together, as above.
         constexpr int kOn = kLanes / kWide;
-        for (int first = 0; first < taps; first += 2 * kLanes) {
+        for (int first = 0; first < gliding; first += 2 * kLanes) {
             for (int k = first; k < first + kLanes; ++k) {
                 const Wide c = all(from[k]), d = all(way[k]);
                 const Wide later_c = all(from[k + kLanes]), later_d = all(way[k + kLanes]);
@@ -125,9 +151,11 @@ void convolve(const float* x, const float* from, const float* to, int taps, floa
                 }
             }
         }
+        for (int b = 0; b < kBlocks; ++b) start[b] += wide(time + frame + kWide * b) * moved[b];
+        add_taps<kBlocks>(x + frame, late, gliding, taps, start);
         for (int b = 0; b < kBlocks; ++b) {
-            const int n = frame + kWide * b;
-            put(out + n, wide(out + n) + (start[b] + wide(time + n) * moved[b]));
+            float* o = out + frame + kWide * b;
+            put(o, wide(o) + start[b]);
         }
     }
 }

@@ -27,12 +27,6 @@ double angle_of(double y, double x) {
     return y < 0 ? -half : half;
 }
 
-double energy(const HeadTaps& taps) {
-    double sum = 0;
-    for (const float t : taps) sum += static_cast<double>(t) * static_cast<double>(t);
-    return sum;
-}
-
 }  // namespace
 
 Head::Head(double sample_rate_hz, int taps) : sample_rate_hz_(sample_rate_hz), taps_(taps) {
@@ -84,10 +78,6 @@ void Head::finish() {
         }
         for (int c = 0; c < kColumns; ++c) node(row, c) = mean;
     }
-    const EarResponses& front = node(kRows / 2, 0);
-    const double level = std::sqrt(0.5 * (energy(front.taps[0]) + energy(front.taps[1])));
-    const auto gain = static_cast<float>(level > 0 ? 1 / level : 1);
-
     // Means over the sphere: a row counts by the cosine of its elevation.
     double delay = 0, area = 0;
     MinimumPhase phase(sample_rate_hz_);
@@ -97,10 +87,7 @@ void Head::finish() {
     for (int r = 0; r < kRows; ++r) {
         const double share = math::cos(math::kRadPerDeg * (kStepDeg * r - 90));
         for (int c = 0; c < kColumns; ++c) {
-            EarResponses& n = node(r, c);
-            for (HeadTaps& taps : n.taps) {
-                for (float& t : taps) t *= gain;
-            }
+            const EarResponses& n = node(r, c);
             delay += share * 0.5 * (n.delay_s[0] + n.delay_s[1]);
             area += share;
             // The sum of a transform's squares over both ears is that of left + i right, k and size - k.

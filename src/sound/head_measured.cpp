@@ -18,6 +18,13 @@ using Complex = std::complex<double>;
 constexpr std::size_t kMostDirections = 100000;
 constexpr int kMostTaps = 16384;
 constexpr std::size_t kNeighbours = 14;  // among which the triangle around a direction is looked for
+// Where a set's level is taken: low enough that a head hardly disturbs the field (a rigid sphere by 0.1 dB on
+// average), high enough that loudspeakers still play.
+constexpr double kLevelFromHz = 200, kLevelToHz = 400;
+// Below this sets tell of their loudspeaker, not of the head.
+constexpr double kBassHz = 200;
+// How often what the grid leaves of the measurements is put onto it again.
+constexpr int kRefinements = 12;
 
 struct Weighted {
     std::size_t index = 0;
@@ -79,7 +86,7 @@ std::vector<Weighted> around(const std::vector<Vec3>& all, Vec3 d) {
     return corners;
 }
 
-// The spectrum of a response at frequencies of another sample rate: a long transform, and lines between its
+// The spectrum of a response at frequencies of another sample rate: a long transform, and cubics between its
 // bins.
 class Resampled {
   public:
@@ -112,15 +119,19 @@ class Resampled {
             const double place = std::min(bin_hz_ * static_cast<double>(k), 0.49 * rate_) / own_hz;
             const auto whole = static_cast<std::size_t>(place);
             const double t = place - static_cast<double>(whole);
+            const std::array<double, 4> weight = cubic_weights(t);
             for (int ear = 0; ear < 2; ++ear) {
-                const Complex a = ear_at(whole, ear), b = ear_at(whole + 1, ear);
-                spectra[ear][k] = {(1 - t) * a.real() + t * b.real(), (1 - t) * a.imag() + t * b.imag()};
+                Complex sum;
+                for (std::size_t n = 0; n < 4; ++n) {
+                    sum += weight[n] * ear_at((whole + work_.size() + n - 1) % work_.size(), ear);
+                }
+                spectra[ear][k] = sum;
             }
         }
     }
 
   private:
-    // Bins an eighth of a response's own or finer: a line between two follows the turning phase.
+    // Bins an eighth of a response's own or finer: a cubic through four follows the turning phase.
     static int log2_size(const HrirSet& set) {
         int log2 = 12;
         while ((1 << log2) < 8 * set.taps) ++log2;
@@ -137,6 +148,64 @@ class Resampled {
     FourierTransform fourier_;
     std::vector<Complex> work_;
 };
+
+void add(const EarResponses& what, double times, EarResponses& to) {
+    for (std::size_t ear = 0; ear < 2; ++ear) {
+        to.delay_s[ear] += times * what.delay_s[ear];
+        for (std::size_t k = 0; k < kHeadTaps; ++k)
+            to.taps[ear][k] += static_cast<float>(times) * what.taps[ear][k];
+    }
+}
+
+double squared(Complex z) {
+    return z.real() * z.real() + z.imag() * z.imag();
+}
+
+// What a set has to be multiplied by to have the level of the free field: 0 dB on average of the logarithms
+// over directions and ears.
+double gain_to_free_field(const HrirSet& set) {
+    constexpr int kTones = 9;
+    std::array<Complex, kTones> turn;
+    for (int n = 0; n < kTones; ++n) {
+        const double hz = kLevelFromHz + (kLevelToHz - kLevelFromHz) * n / (kTones - 1);
+        double sine, cosine;
+        math::sincos(math::kTwoPi * hz / set.sample_rate_hz, sine, cosine);
+        turn[static_cast<std::size_t>(n)] = {cosine, -sine};
+    }
+    const auto taps = static_cast<std::size_t>(set.taps);
+    double logs = 0, sounding = 0;
+    for (std::size_t first = 0; first < set.responses.size(); first += taps) {
+        double power = 0;
+        for (const Complex by : turn) {
+            double re = 0, im = 0;
+            for (std::size_t k = taps; k-- > 0;) {
+                const double was = re;
+                re = was * by.real() - im * by.imag() + static_cast<double>(set.responses[first + k]);
+                im = was * by.imag() + im * by.real();
+            }
+            power += (re * re + im * im) / kTones;
+        }
+        if (!(power > 0)) continue;
+        logs += math::log(power);
+        ++sounding;
+    }
+    return sounding > 0 ? math::exp(-0.5 * logs / sounding) : 1;
+}
+
+// The free field's level at 0 Hz, reached along a line in the logarithm of the magnitude (Xie 2009 and others
+// extend measurements likewise).
+void extend_bass(std::vector<Complex>& spectrum, double bin_hz) {
+    const auto top = static_cast<std::size_t>(kBassHz / bin_hz) + 1;
+    const double size = std::sqrt(squared(spectrum[top]));
+    if (!(size > 0)) return;
+    const double log = math::log(size);
+    for (std::size_t k = 0; k < top; ++k) {
+        const double wanted = math::exp(log * static_cast<double>(k) / static_cast<double>(top));
+        const double is = std::sqrt(squared(spectrum[k]));
+        spectrum[k] = is > 0 ? Complex{spectrum[k].real() * (wanted / is), spectrum[k].imag() * (wanted / is)}
+                             : Complex{wanted, 0};
+    }
+}
 
 }  // namespace
 
@@ -178,6 +247,7 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
     if (auto ok = check_hrirs(set); !ok) return std::unexpected(ok.error());
     MinimumPhase phase(sample_rate_hz);
     Resampled resampled(set, phase);
+    const double gain = gain_to_free_field(set);
     std::vector<EarResponses> by_direction;
     std::vector<Complex> spectra[2];
     for (std::size_t n = 0; n < set.directions.size(); ++n) {
@@ -185,6 +255,10 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
         const float* left = set.responses.data() + 2 * n * taps;
         std::size_t peak[2];
         resampled.at(left, left + taps, taps, spectra, peak);
+        for (std::vector<Complex>& spectrum : spectra) {
+            for (Complex& v : spectrum) v *= gain;
+            extend_bass(spectrum, phase.bin_hz());
+        }
         by_direction.push_back(phase.split(spectra[0], spectra[1]));
         for (std::size_t ear = 0; ear < 2; ++ear) {
             by_direction.back().delay_s[ear] +=
@@ -192,17 +266,24 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
         }
     }
     const auto head = std::shared_ptr<Head>(new Head(sample_rate_hz, kHeadTaps));
+    std::vector<std::vector<Weighted>> corners;
     for (int r = 0; r < kRows; ++r) {
-        for (int c = 0; c < kColumns; ++c) {
-            EarResponses& node = head->node(r, c);
-            for (const Weighted& w : around(set.directions, grid_direction(r, c))) {
-                const EarResponses& from = by_direction[w.index];
-                for (std::size_t ear = 0; ear < 2; ++ear) {
-                    node.delay_s[ear] += w.weight * from.delay_s[ear];
-                    for (std::size_t k = 0; k < kHeadTaps; ++k)
-                        node.taps[ear][k] += static_cast<float>(w.weight) * from.taps[ear][k];
-                }
-            }
+        for (int c = 0; c < kColumns; ++c) corners.push_back(around(set.directions, grid_direction(r, c)));
+    }
+    // Twice interpolated, a measurement between the grid's directions would come out blurred: what is missing
+    // there is put onto the grid until the grid gives the measurements back.
+    std::vector<EarResponses> missing = std::move(by_direction);
+    const std::vector<EarResponses> wanted = missing;
+    for (int round = 0;; ++round) {
+        for (std::size_t n = 0; n < corners.size(); ++n) {
+            for (const Weighted& w : corners[n]) add(missing[w.index], w.weight, head->nodes_[n]);
+        }
+        if (round == kRefinements) break;
+        EarResponses heard;
+        for (std::size_t n = 0; n < wanted.size(); ++n) {
+            head->hear(2 * set.directions[n], heard);
+            missing[n] = wanted[n];
+            add(heard, -1, missing[n]);
         }
     }
     head->finish();

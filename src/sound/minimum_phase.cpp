@@ -26,7 +26,48 @@ double squared(Complex a) {
     return a.real() * a.real() + a.imag() * a.imag();
 }
 
+Complex conjugate(Complex a) {
+    return {a.real(), -a.imag()};
+}
+
+// A product of one spectrum and the other's conjugate, at an angular frequency.
+struct Cross {
+    double w;
+    Complex c;
+};
+
+// What two spectra have in common when one is shifted by t against the other.
+double alike(const std::vector<Cross>& cross, double t) {
+    double sum = 0;
+    for (const auto& [w, c] : cross) {
+        double sine, cosine;
+        math::sincos(w * t, sine, cosine);
+        sum += c.real() * cosine + c.imag() * sine;
+    }
+    return sum;
+}
+
+// The peak that is reached from t uphill, within 10 ns.
+double peak_near(const std::vector<Cross>& cross, double t) {
+    double best = alike(cross, t);
+    for (double step = 32e-6; step > 1e-8;) {
+        const double before = alike(cross, t - step), after = alike(cross, t + step);
+        if (best < before || best < after) {
+            t += before > after ? -step : step;
+            best = std::max(before, after);
+        } else {
+            step /= 2;
+        }
+    }
+    return t;
+}
+
 }  // namespace
+
+std::array<double, 4> cubic_weights(double t) {
+    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+            (t + 1) * t * (t - 1) / 6};
+}
 
 FourierTransform::FourierTransform(int log2_size) {
     assert(log2_size >= 1 && log2_size <= 20);
@@ -72,7 +113,6 @@ MinimumPhase::MinimumPhase(double sample_rate_hz)
                : sample_rate_hz > 48000 ? 12
                                         : 11) {
     work_.resize(fourier_.size());
-    for (std::vector<double>& p : phase_) p.resize(bins());
 }
 
 // By the cepstrum (Oppenheim and Schafer, Discrete-Time Signal Processing, section 13.3): the logarithm of
@@ -103,8 +143,6 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
         const Complex a = work_[k], b = work_[k == 0 ? 0 : n - k];
         const Complex log_left{0.5 * (a.real() + b.real()), 0.5 * (a.imag() - b.imag())};
         const Complex log_right{0.5 * (a.imag() + b.imag()), 0.5 * (b.real() - a.real())};
-        phase_[0][k] = log_left.imag();
-        phase_[1][k] = log_right.imag();
         Complex h[2];
         for (int ear = 0; ear < 2; ++ear) {
             const Complex l = ear == 0 ? log_left : log_right;
@@ -119,10 +157,11 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
     fourier_.inverse(work_);
 
     EarResponses out;
+    std::array<Taps, 2> both;
     for (std::size_t ear = 0; ear < 2; ++ear) {
         const auto spectrum = ear == 0 ? left : right;
         double whole = 0, kept = 0;
-        std::array<double, kHeadTaps> taps;
+        Taps& taps = both[ear];
         for (std::size_t k = 0; k < n; ++k) {
             const double v = ear == 0 ? work_[k].real() : work_[k].imag();
             whole += v * v;
@@ -131,17 +170,22 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
             taps[k] = after <= 0 ? v : v * (0.5 + 0.5 * math::cos(math::kPi * after / kFadeTaps));
             kept += taps[k] * taps[k];
         }
-        // What was cut off is missing in the level.
-        const double gain = kept > 0 ? std::sqrt(whole / kept) : 1;
-        for (double& v : taps) v *= gain;
-        keep_level(spectrum, taps);
+        // What was cut off is missing in the level; each correction disturbs the other a little.
+        for (int round = 0; round < 3 && kept > 0; ++round) {
+            const double gain = std::sqrt(whole / kept);
+            for (double& v : taps) v *= gain;
+            keep_level(spectrum, taps);
+            kept = 0;
+            for (const double v : taps) kept += v * v;
+        }
         for (std::size_t k = 0; k < kHeadTaps; ++k) out.taps[ear][k] = static_cast<float>(taps[k]);
-        out.delay_s[ear] = delay_behind(spectrum, taps, phase_[ear]);
+        out.delay_s[ear] = delay_behind(spectrum, taps);
     }
+    keep_arrival_offset(left, right, both, out.delay_s);
     return out;
 }
 
-Complex MinimumPhase::response(const std::array<double, kHeadTaps>& taps, double hz) const {
+Complex MinimumPhase::response(const Taps& taps, double hz) const {
     double sine, cosine;
     math::sincos(math::kTwoPi * hz / sample_rate_hz_, sine, cosine);
     const Complex turn{cosine, -sine};
@@ -152,12 +196,15 @@ Complex MinimumPhase::response(const std::array<double, kHeadTaps>& taps, double
 
 // 128 taps see 375 Hz as one; at 1 kHz, where levels are compared, they are put right by a short ring of that
 // frequency, in phase with what is there.
-void MinimumPhase::keep_level(std::span<const Complex> spectrum, std::array<double, kHeadTaps>& taps) const {
+void MinimumPhase::keep_level(std::span<const Complex> spectrum, Taps& taps) const {
     constexpr double kHz = 1000, kRingTaps = 24;
     const double place = kHz / bin_hz(), share = place - std::floor(place);
     const auto at = static_cast<std::size_t>(place);
-    const double wanted =
-        (1 - share) * std::sqrt(squared(spectrum[at])) + share * std::sqrt(squared(spectrum[at + 1]));
+    // A line between two bins would miss a notch by some tenths of a decibel.
+    const std::array<double, 4> weight = cubic_weights(share);
+    double power = 0;
+    for (std::size_t n = 0; n < 4; ++n) power += weight[n] * squared(spectrum[at + n - 1]);
+    const double wanted = std::sqrt(std::max(power, 0.0));
     const Complex is = response(taps, kHz);
     const double size = std::sqrt(squared(is));
     if (!(size > 0)) return;
@@ -181,42 +228,51 @@ void MinimumPhase::keep_level(std::span<const Complex> spectrum, std::array<doub
     }
 }
 
-// The delay that makes filter and spectrum most alike: the peak of their cross-correlation over the band.
-double MinimumPhase::delay_behind(std::span<const Complex> spectrum,
-                                  const std::array<double, kHeadTaps>& taps,
-                                  const std::vector<double>& whole_phase) {
-    constexpr double kFromHz = 300, kToHz = 1500;
-    const auto first = static_cast<std::size_t>(kFromHz / bin_hz());
-    const auto last = static_cast<std::size_t>(kToHz / bin_hz());
-    // A straight line through the unwrapped phase that the whole filter of minimum phase leaves ...
-    const auto phase_of = [&](std::size_t k) { return math::atan2(spectrum[k].imag(), spectrum[k].real()); };
-    double turn_sum = 0, weight_sum = 0;
-    for (std::size_t k = first; k < last; ++k) {
-        double step = (phase_of(k + 1) - whole_phase[k + 1]) - (phase_of(k) - whole_phase[k]);
-        step -= math::kTwoPi * std::floor(step / math::kTwoPi + 0.5);
-        const double weight = squared(spectrum[k]);
-        turn_sum += weight * step;
-        weight_sum += weight;
+// Where ears compare phases.
+std::size_t MinimumPhase::first_compared() const {
+    return static_cast<std::size_t>(300 / bin_hz()) + 1;
+}
+std::size_t MinimumPhase::last_compared() const {
+    return static_cast<std::size_t>(1500 / bin_hz());
+}
+
+// The delay that makes filter and spectrum most alike, as their magnitudes are alike: the highest of all
+// peaks is the right one.
+double MinimumPhase::delay_behind(std::span<const Complex> spectrum, const Taps& taps) const {
+    constexpr double kReach = 1e-3, kStep = 1e-4;
+    std::vector<Cross> cross;
+    for (std::size_t k = first_compared(); k <= last_compared(); ++k) {
+        const double hz = bin_hz() * static_cast<double>(k);
+        cross.push_back({math::kTwoPi * hz, product(conjugate(spectrum[k]), response(taps, hz))});
     }
-    double delay = weight_sum > 0 ? -turn_sum / weight_sum / (math::kTwoPi * bin_hz()) : 0;
-    // ... leads to the peak for the filter as it was cut, and Newton's method up to it.
-    excess_.clear();
-    for (std::size_t k = first; k <= last; ++k) {
-        const Complex filter = response(taps, bin_hz() * static_cast<double>(k));
-        excess_.push_back(phase_of(k) - math::atan2(filter.imag(), filter.real()));
+    double best = 0, most = alike(cross, 0);
+    for (double t = -kReach; t < kReach; t += kStep) {
+        const double here = alike(cross, t);
+        if (!(here > most)) continue;
+        best = t;
+        most = here;
     }
-    for (int round = 0; round < 6; ++round) {
-        double slope = 0, bend = 0;
-        for (std::size_t k = first; k <= last; ++k) {
-            const double w = math::kTwoPi * bin_hz() * static_cast<double>(k);
-            const double off = excess_[k - first] + w * delay, weight = squared(spectrum[k]);
-            slope -= weight * w * math::sin(off);
-            bend -= weight * w * w * math::cos(off);
-        }
-        if (!(bend < 0)) break;
-        delay -= slope / bend;
+    return peak_near(cross, best);
+}
+
+// Each ear's own best delay leaves an offset between the ears that is some microseconds off where the cut
+// filters differ from the spectra. Both cross-correlations are laid with their peaks upon each other.
+void MinimumPhase::keep_arrival_offset(std::span<const Complex> left, std::span<const Complex> right,
+                                       const std::array<Taps, 2>& taps,
+                                       std::array<double, 2>& delay_s) const {
+    const double offset = delay_s[1] - delay_s[0];
+    std::vector<Cross> wanted, found;
+    for (std::size_t k = first_compared(); k <= last_compared(); ++k) {
+        const double hz = bin_hz() * static_cast<double>(k), w = math::kTwoPi * hz;
+        wanted.push_back({w, product(left[k], conjugate(right[k]))});
+        found.push_back({w, product(response(taps[0], hz), conjugate(response(taps[1], hz)))});
     }
-    return delay;
+    const double apart = peak_near(found, 0);
+    const double off = peak_near(wanted, offset + apart) - (offset + apart);
+    constexpr double kMostOff = 100e-6;  // more is no peak of the same wave
+    if (!(std::abs(off) < kMostOff)) return;
+    delay_s[0] -= 0.5 * off;
+    delay_s[1] += 0.5 * off;
 }
 
 }  // namespace tribo::sound

@@ -26,6 +26,9 @@ class FourierTransform {
     std::vector<std::size_t> reversed_;
 };
 
+// Weights of the values at -1, 0, 1 and 2 for the cubic through them at 0 <= t <= 1.
+std::array<double, 4> cubic_weights(double t);
+
 using HeadTaps = std::array<float, kHeadTaps>;
 
 // The responses of both ears to one direction.
@@ -44,7 +47,8 @@ class MinimumPhase {
 
     // Filters of the magnitudes of both spectra (bins() values each, of any phase), cut to kHeadTaps with
     // their level as a whole and at 1 kHz kept, and the delay by which each spectrum lags behind its filter
-    // between 300 and 1500 Hz, where ears compare phases.
+    // between 300 and 1500 Hz, where ears compare phases: together they keep the arrival offset, the peak of
+    // the ears' cross-correlation over that band.
     EarResponses split(std::span<const std::complex<double>> left,
                        std::span<const std::complex<double>> right);
 
@@ -52,14 +56,16 @@ class MinimumPhase {
     using Taps = std::array<double, kHeadTaps>;
     std::complex<double> response(const Taps& taps, double hz) const;
     void keep_level(std::span<const std::complex<double>> spectrum, Taps& taps) const;
-    double delay_behind(std::span<const std::complex<double>> spectrum, const Taps& taps,
-                        const std::vector<double>& whole_phase);
+    double delay_behind(std::span<const std::complex<double>> spectrum, const Taps& taps) const;
+    void keep_arrival_offset(std::span<const std::complex<double>> left,
+                             std::span<const std::complex<double>> right, const std::array<Taps, 2>& taps,
+                             std::array<double, 2>& delay_s) const;
+    std::size_t first_compared() const;
+    std::size_t last_compared() const;
 
     double sample_rate_hz_;
     FourierTransform fourier_;
     std::vector<std::complex<double>> work_;
-    std::array<std::vector<double>, 2> phase_;  // of the filters before they are cut, bin by bin
-    std::vector<double> excess_;                // phase, over the band
 };
 
 }  // namespace tribo::sound

@@ -51,7 +51,8 @@ RC_GTEST_PROP(EarKernels, convolve_like_the_sum_that_they_stand_for, ()) {
     for (std::size_t n = 0; n < 64; ++n) {
         double sum = 0;
         for (std::size_t k = 0; k < kHeadTaps; ++k) {
-            const double t = static_cast<double>(n) / 64;
+            // The later taps stand still for half a quantum.
+            const double t = k < kGlidingTaps ? static_cast<double>(n) / 64 : n < 32 ? 0.25 : 0.75;
             sum += ((1 - t) * static_cast<double>(from[k]) + t * static_cast<double>(to[k])) *
                    static_cast<double>(x[128 + n - k]);
         }

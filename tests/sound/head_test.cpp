@@ -157,13 +157,29 @@ TEST(MeasuredHead, takes_delays_and_levels_from_the_responses_at_any_rate) {
         for (const Vec3 d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-0.5, 0.5, std::sqrt(0.5)}, Vec3{0, 0, -1}}) {
             EarResponses heard;
             (*head)->hear(3 * d, heard);
-            EXPECT_NEAR(heard.delay_s[1] - heard.delay_s[0], -24 * d.x / rate + 1e-4, 3e-6);
-            double level[2] = {0, 0};
-            for (std::size_t k = 0; k < kHeadTaps; ++k) {
-                level[0] += static_cast<double>(heard.taps[0][k]);
-                level[1] += static_cast<double>(heard.taps[1][k]);
+            // Of the filters and the delays together, as ears compare phases.
+            double phase = 0, power = 0;
+            for (double hz = 300; hz <= 1500; hz += 50) {
+                const auto both = response(**head, d, hz);
+                const double w = 2 * kPi * hz, late = -24 * d.x / rate + 1e-4;
+                const Complex apart = both[0] * std::conj(both[1]) * std::polar(1.0, -w * late);
+                phase += w * apart.imag();
+                power += w * w * apart.real();
             }
-            EXPECT_NEAR(level[1] / level[0], (1 + 0.5 * d.x) / (1 - 0.5 * d.x), 2e-3);
+            EXPECT_NEAR(phase / power, 0, 3e-6);
+            const auto level = [&](std::size_t ear, double hz) {
+                Complex sum;
+                for (std::size_t k = 0; k < kHeadTaps; ++k) {
+                    sum += static_cast<double>(heard.taps[ear][k]) *
+                           std::polar(1.0, -2 * kPi * hz / kRate * static_cast<double>(k));
+                }
+                return std::abs(sum);
+            };
+            for (const double hz : {1000.0, 4000.0, 12000.0}) {
+                EXPECT_NEAR(level(1, hz) / level(0, hz), (1 + 0.5 * d.x) / (1 - 0.5 * d.x), 5e-3) << hz;
+            }
+            // Far below, no head is in the way (these would go on: -6 to 3.5 dB).
+            for (const std::size_t ear : {0u, 1u}) EXPECT_NEAR(test::decibel(level(ear, 20)), 0, 2);
         }
     }
 }
