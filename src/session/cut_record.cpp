@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "session/cut_record.hpp"
 
+#include <cmath>
+
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "milling/force.hpp"
@@ -19,8 +21,16 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 }  // namespace
 
 void CutRecord::add(const MillRow& row) {
-    stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.values.spindle_rpm,
-                          row.values.tip_mm, row.frame, row.feed, row.cutter, row.engagement});
+    stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.spindle_turns,
+                          row.values.spindle_rpm, row.values.tip_mm, row.frame, row.feed, row.cutter,
+                          row.engagement});
+}
+
+double changed_phase_rad(const CutStretch& stretch, const CutChange& change) {
+    const double factor = change.angle_factor();
+    if (factor == 1) return stretch.phase_rad;
+    const double turns = factor * (stretch.turns + stretch.phase_rad / math::kTwoPi);
+    return math::kTwoPi * (turns - std::floor(turns));
 }
 
 namespace {
@@ -61,7 +71,7 @@ std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, cons
         s.start_s = per_second * row.start_s;
         s.end_s = per_second * row.end_s;
         s.rate_rad_per_s = change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi;
-        s.phase_rad = change.angle_factor() * row.phase_rad;
+        s.phase_rad = changed_phase_rad(row, change);
         s.x = row.frame.x;
         s.y = row.frame.y;
         s.z = row.frame.z;

@@ -17,6 +17,7 @@ namespace tribo::session {
 struct CutStretch {
     double start_s = 0, end_s = 0;  // of the program as written
     double phase_rad = 0;           // spindle angle at start_s
+    double turns = 0;               // whole turns before that angle
     double spindle_rpm = 0;
     Vec3 tip_mm;  // in the middle
     milling::ToolFrame frame;
@@ -45,6 +46,9 @@ struct CutChange {
     double angle_factor() const { return speed_factor / feed_factor; }
     double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
 };
+
+// The spindle's angle where a stretch begins with something changed; whole turns are left out.
+double changed_phase_rad(const CutStretch& stretch, const CutChange& change);
 
 // The spectra of a record with something changed, on all threads; times are those of the program at the
 // changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know

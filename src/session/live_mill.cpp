@@ -133,7 +133,7 @@ void LiveMill::work_out_forces(std::size_t first) {
         rows_[n].mean_torque_nm = force.mean_torque_nm;
         rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.feed_per_tooth_mm;
         felt_[n].force_n = force.mean_n;
-        felt_[n].spindle_angle_rad = change_.angle_factor() * s.phase_rad;
+        felt_[n].spindle_angle_rad = changed_phase_rad(s, change_);
         felt_[n].spindle_rad_per_s = change_.angle_factor() * s.spindle_rpm / 60 * math::kTwoPi;
     }
 }

@@ -83,7 +83,7 @@ class MillSession::Run {
   private:
     struct Row {
         std::size_t move = 0, cutter = 0;
-        double start_s = 0, end_s = 0, angle_rad = 0;
+        double start_s = 0, end_s = 0, angle_rad = 0, turns = 0;
         milling::FeedPerTooth feed;
         milling::ForcePeaks peaks;
         contact::ForceSpectrum spectrum;
@@ -144,7 +144,9 @@ class MillSession::Run {
             row_start = row_end;
         }
         angle_rad_ += rpm / 60 * math::kTwoPi * (end - start);
-        angle_rad_ -= math::kTwoPi * std::floor(angle_rad_ / math::kTwoPi);
+        const double turns = std::floor(angle_rad_ / math::kTwoPi);
+        angle_rad_ -= math::kTwoPi * turns;
+        turns_ += turns;
         now_s_ = end;
     }
 
@@ -156,6 +158,7 @@ class MillSession::Run {
         row.cutter = cutter;
         row.start_s = start;
         row.end_s = end;
+        row.turns = turns_;
         row.angle_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
         std::swap(row.cut, cut);  // both keep their room
         const double speed = end > start ? row.cut.length_mm / (end - start) : 0;
@@ -212,7 +215,7 @@ class MillSession::Run {
         values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
         values.removed_mm3 = row.cut.removed_mm3;
         sinks.row({values, row.cut.engagement, row.spectrum, row.cut.pose.frame, row.feed, p, row.cutter,
-                   row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0});
+                   row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0, row.turns});
     }
 
     void add_collision(const MillCollision& c) {
@@ -248,7 +251,7 @@ class MillSession::Run {
     double last_share_ = 1;           // of its path
     std::vector<double> cutting_at_;  // seconds by cutter
     std::size_t next_move_ = 0;
-    double limit_s_ = 0, angle_rad_ = 0, force_seconds_ = 0;
+    double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
 };
 
 MillSession::MillSession(MillSetup setup, ParallelFor parallel)

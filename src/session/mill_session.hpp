@@ -56,6 +56,7 @@ struct MillRow {
     double end_s = 0;              // values.t_s is the start
     double spindle_angle_rad = 0;  // at the start
     double chip_mm3_per_s = 0;     // feed times chip area
+    double spindle_turns = 0;      // whole turns before that angle, since the program began
 };
 
 struct MillCollision {

@@ -2,10 +2,14 @@
 // The finger of the live view: what a led hand feels of the blank, of the cut, and of its switches.
 #include "session/live_finger.hpp"
 
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <complex>
 #include <gtest/gtest.h>
+#include <thread>
 
+#include "base/math.hpp"
 #include "field/box_shape.hpp"
 #include "milling/materials.hpp"
 #include "motion/path.hpp"
@@ -183,6 +187,79 @@ TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
     bench.run(0.2);
     EXPECT_EQ(bench.flags & 16, 0u);
     EXPECT_EQ(length(bench.force), 0);
+}
+
+// At equal times of the program the tooth's phase in the force felt is that of the spindle that is shown.
+TEST(LiveFinger, FeelsTheTeethWhereTheSpindleShowsThem) {
+    FeelAhead ahead(*slot(), serial_for);
+    ASSERT_TRUE(ahead.run(always));
+    for (const double feed_factor : {1.0, 1.7}) {
+        CutChange change;
+        change.feed_factor = feed_factor;
+        change.speed_factor = 0.8;
+        const contact::ForceTable table = ahead.table(change, {});
+        auto live = *LiveMill::create(slot, serial_for);
+        live->set_change(change);
+        const milling::Cutter cutter = slot()->cutters[0];
+        milling::ForceModel model(cutter, slot()->coefficients);
+        milling::Engagement full;  // a slot 2 mm deep
+        full.bands = {{0, 2, 0, math::kPi}};
+        const double feed_per_tooth = 750.0 / 6000 / cutter.flutes * change.chip_factor();
+        model.engage(full, {feed_per_tooth, 0});
+        for (const double t : {1.5, 2.0, 2.5}) {
+            live->set_clock(t);
+            ASSERT_TRUE(live->tick(0, always, drop));
+            const double shown = live->state().spindle_angle_rad;
+            // Tooth harmonics of both over a turn, the table's by its clock, the model's by the angle shown.
+            const double turn_s = 60 / 6000.0 / change.angle_factor();
+            std::complex<double> felt, cut;
+            constexpr int steps = 720;
+            for (int n = 0; n < steps; ++n) {
+                const double share = static_cast<double>(n) / steps;
+                contact::ForceTable::Cursor cursor;
+                Vec3 force;
+                ASSERT_TRUE(table.force_at(t + share * turn_s, 1e6, cursor, force));
+                const auto wave = std::polar(1.0, -cutter.flutes * math::kTwoPi * share);
+                felt += force.x * wave;
+                cut += model.at(shown + math::kTwoPi * share).force_n.x * wave;
+            }
+            EXPECT_NEAR(std::abs(felt / cut), 1, 0.05);
+            EXPECT_NEAR(std::arg(felt / cut), 0, 5 * math::kRadPerDeg);
+        }
+    }
+}
+
+// A servo on a thread of its own while the part is cut, begun again and taken away: for the sanitizer.
+TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
+    auto live = *LiveMill::create(slot, serial_for);
+    LiveFinger finger({}, nullptr, {20, 10, 5});
+    live->watch([&](MillSession* session) { finger.feel().set_session(session); });
+    std::atomic<bool> over{false};
+    std::thread servo([&] {
+        for (int n = 0; !over.load(); ++n) finger.tick(n / kRateHz);
+    });
+    finger.lead({20, 10, -3}, true);
+    live->play(true);
+    live->set_speed(4);
+    LiveScene scene;
+    bool begun_again = false;
+    while (live->playing()) {
+        ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
+        scene.program_s = live->clock_s();
+        scene.pace = live->pace();
+        finger.show(scene, live->state().tool.tip_mm, drop);
+        if (!begun_again && live->clock_s() > 0.8 * live->duration_s()) {
+            begun_again = true;
+            live->set_clock(0.5);
+        }
+    }
+    EXPECT_TRUE(begun_again);
+    live->watch({});
+    finger.feel().set_session(nullptr);
+    live.reset();
+    over = true;
+    servo.join();
+    EXPECT_GT(finger.servo().ticks, 0u);
 }
 
 TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
