@@ -23,6 +23,11 @@ namespace {
 using F8 = float __attribute__((vector_size(32)));
 using I8 = int __attribute__((vector_size(32)));
 using S8 = short __attribute__((vector_size(16)));
+#if defined(__wasm_simd128__)
+// Half as many: what WebAssembly has registers for. Loops that keep many values do better with these there.
+using F4 = float __attribute__((vector_size(16)));
+using I4 = int __attribute__((vector_size(16)));
+#endif
 
 // What a comparison of two T gives.
 template <class T>
@@ -183,44 +188,59 @@ TRIBO_LANES F8 next(F8 v) {
     return __builtin_shufflevector(v, v, 1, 2, 3, 4, 5, 6, 7, 7);
 }
 
-// table[index] of each lane; by single loads, which are no slower than a gather instruction.
-TRIBO_LANES F8 gather(const float* table, I8 index) {
-    return F8{table[index[0]], table[index[1]], table[index[2]], table[index[3]],
-              table[index[4]], table[index[5]], table[index[6]], table[index[7]]};
+// The integers beside the floats F.
+template <class F>
+using BitsOf = decltype(F{} < F{});
+
+// f in every lane of F.
+template <class F>
+TRIBO_LANES F all(float f) {
+    return f - F{};
 }
 // a where the mask holds, else 0.
-TRIBO_LANES F8 keep(I8 m, F8 a) {
-    return reinterpret_cast<F8>(m & reinterpret_cast<I8>(a));
+template <class F>
+TRIBO_LANES F keep(BitsOf<F> m, F a) {
+    return reinterpret_cast<F>(m & reinterpret_cast<BitsOf<F>>(a));
 }
 // |a|, of a zero always the positive one.
-TRIBO_LANES F8 magnitude(F8 a) {
-    const int sign = 0x7fffffff;
-    return reinterpret_cast<F8>(reinterpret_cast<I8>(a) & I8{sign, sign, sign, sign, sign, sign, sign, sign});
-}
-// 1 / sqrt(a) for normal a > 0, within 5e-6 of it: half the exponent, then Newton twice. Faster than the
-// instructions for both where there are four lanes.
-TRIBO_LANES F8 inverse_sqrt(F8 a) {
-    const F8 half = a * splat(0.5f);
-    F8 y = reinterpret_cast<F8>(0x5f3759df - (reinterpret_cast<I8>(a) >> 1));
-    y *= splat(1.5f) - half * y * y;
-    y *= splat(1.5f) - half * y * y;
-    return y;
+template <class F>
+TRIBO_LANES F magnitude(F a) {
+    return reinterpret_cast<F>(reinterpret_cast<BitsOf<F>>(a) & 0x7fffffff);
 }
 
 // 2^x for x in -126..126, within 4e-7 of it.
-TRIBO_LANES F8 exp2(F8 x) {
+template <class F>
+TRIBO_LANES F exp2(F x) {
     // Adding it leaves the nearest whole number in the lowest bits.
-    const F8 shift = splat(0x1.8p23f);
-    const F8 shifted = x + shift, part = x - (shifted - shift), part2 = part * part;
+    const F shift = all<F>(0x1.8p23f);
+    const F shifted = x + shift, part = x - (shifted - shift), part2 = part * part;
     // Chebyshev, degree 5; in pairs, so that little waits for the step before.
-    const F8 low = splat(1.0f) + splat(0.6931472067f) * part;
-    const F8 middle = splat(0.2402210736f) + splat(5.550327214e-2f) * part;
-    const F8 high = splat(9.676037098e-3f) + splat(1.340043217e-3f) * part;
-    const F8 power = (low + middle * part2) + high * (part2 * part2);
+    const F low = all<F>(1.0f) + all<F>(0.6931472067f) * part;
+    const F middle = all<F>(0.2402210736f) + all<F>(5.550327214e-2f) * part;
+    const F high = all<F>(9.676037098e-3f) + all<F>(1.340043217e-3f) * part;
+    const F power = (low + middle * part2) + high * (part2 * part2);
     const int mantissa_bits = 23;
-    return reinterpret_cast<F8>(reinterpret_cast<I8>(power) +
-                                (reinterpret_cast<I8>(shifted) << mantissa_bits));
+    return reinterpret_cast<F>(reinterpret_cast<BitsOf<F>>(power) +
+                               (reinterpret_cast<BitsOf<F>>(shifted) << mantissa_bits));
 }
+
+#if defined(__wasm_simd128__)
+TRIBO_LANES F4 min(F4 a, F4 b) {
+    return reinterpret_cast<F4>(wasm_f32x4_pmin(reinterpret_cast<v128_t>(a), reinterpret_cast<v128_t>(b)));
+}
+TRIBO_LANES F4 max(F4 a, F4 b) {
+    return reinterpret_cast<F4>(wasm_f32x4_pmax(reinterpret_cast<v128_t>(a), reinterpret_cast<v128_t>(b)));
+}
+TRIBO_LANES F4 sqrt(F4 a) {
+    return reinterpret_cast<F4>(wasm_f32x4_sqrt(reinterpret_cast<v128_t>(a)));
+}
+TRIBO_LANES bool any(I4 m) {
+    return wasm_v128_any_true(reinterpret_cast<v128_t>(m));
+}
+TRIBO_LANES void store(float* p, F4 v) {
+    std::memcpy(p, &v, sizeof v);
+}
+#endif
 
 // A mask for lanes of 16 bits.
 TRIBO_LANES S8 narrow(I8 m) {
@@ -239,8 +259,9 @@ TRIBO_LANES S8 load(const std::uint16_t* p) {
 TRIBO_LANES void store(std::uint16_t* p, S8 v) {
     std::memcpy(p, &v, sizeof v);
 }
-TRIBO_LANES F8 load(const float* p) {
-    F8 v;
+template <class F = F8>
+TRIBO_LANES F load(const float* p) {
+    F v;
     std::memcpy(&v, p, sizeof v);
     return v;
 }

@@ -15,6 +15,29 @@ constexpr float kStillMm = 1e-6F;
 // A free tile whose nodes are all this near to rest is put there.
 constexpr float kRestMm = 1e-6F;
 
+// A row of nodes through an ellipse: node x at (u0 + x du, v0 + x dv) in half axes.
+class Chord {
+  public:
+    Chord(double u0, double du, double v0, double dv)
+        : square_(du * du + dv * dv), half_(u0 * du + v0 * dv), rest_(u0 * u0 + v0 * v0) {}
+
+    // Columns of 0 .. columns - 1 that hold all nodes nearer than `radius`, in eights, and some more; {0, 0}:
+    // none.
+    ColumnRange within(double radius, int columns) const {
+        const double inside = half_ * half_ - square_ * (rest_ - radius * radius);
+        if (!(radius > 0) || !(inside > 0)) return {};
+        const double middle = -half_ / square_, side = std::sqrt(inside) / square_;
+        const auto column = [columns](double x) {
+            return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(columns)));
+        };
+        const int first = column(middle - side - 1) / 8 * 8, last = (column(middle + side + 2) + 7) / 8 * 8;
+        return first < last ? ColumnRange{first, last} : ColumnRange{};
+    }
+
+  private:
+    double square_, half_, rest_;
+};
+
 // The share of the way to P / K that one step covers.
 double share_of(const Material& m, double duration_s, TimeScheme scheme) {
     const double k = m.stiffness_n_per_mm, nu = m.viscosity_n_s_per_mm;
@@ -45,11 +68,14 @@ Sheet::Sheet(SheetSize size) : size_(size) {
     tiles_y_ = (size.height + kTileHeight - 1) / kTileHeight;
     padded_ = tiles_x_ * kTileWidth;
     stride_ = padded_ + 2 * kGuard;
-    const auto floats = static_cast<std::size_t>(stride_ * size.height);
-    heights_.resize(floats);
-    pressures_.resize(floats);
+    resize(heights_);
+    resize(pressures_);
     flags_.resize(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_));
     set_material({});
+}
+
+void Sheet::resize(Plane& p) {
+    p.values.resize(static_cast<std::size_t>(p.skew + stride_ * size_.height));
 }
 
 int Sheet::rows_of(int tile_row) const {
@@ -73,7 +99,7 @@ void Sheet::set_material(const Material& material) {
 void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const Material, 256> palette) {
     const auto width = static_cast<std::size_t>(size_.width);
     assert(levels.size() == width * static_cast<std::size_t>(size_.height));
-    levels_.assign(heights_.size(), 0);
+    levels_.assign(heights_.values.size(), 0);
     for (int y = 0; y < size_.height; ++y) {
         const auto row = levels.subspan(static_cast<std::size_t>(y) * width, width);
         std::uint8_t* at = levels_.data() + kGuard + y * stride_;
@@ -89,15 +115,20 @@ void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const 
     wake_all();
 }
 
+// All of it but what the first contact is going to write over.
 void Sheet::clear_pressure() {
+    const bool over = !options_.as_published && !contacts_.empty();
+    const NodeRect kept = over ? tiles_under(contacts_.front(), kReach) : NodeRect{};
     for (int ty = 0; ty < tiles_y_; ++ty) {
         for (int tx = 0; tx < tiles_x_; ++tx) {
             std::uint8_t& flag = flags(tx, ty);
             if (!(flag & kPressed)) continue;
+            flag = static_cast<std::uint8_t>((flag & ~kPressed) | kMoving);
+            const bool inside = tx >= kept.x && tx < kept.x + kept.width && ty >= kept.y;
+            if (inside && ty < kept.y + kept.height) continue;
             for (int y = ty * kTileHeight; y < ty * kTileHeight + rows_of(ty); ++y) {
                 std::fill_n(plane(pressures_, y) + tx * kTileWidth, kTileWidth, 0.0F);
             }
-            flag = static_cast<std::uint8_t>((flag & ~kPressed) | kMoving);
         }
     }
 }
@@ -120,29 +151,47 @@ NodeRect Sheet::tiles_under(const Contact& c, double reach) const {
     return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void Sheet::press_default(const Contact& c) {
+void Sheet::press_default(const Contact& c, bool over) {
     const NodeRect tiles = tiles_under(c, kReach);
     double sine = 0, cosine = 0;
     math::sincos(c.angle_rad, sine, cosine);
     const double spacing = size_.spacing_mm;
+    const double dx0 = (tiles.x * kTileWidth + 0.5) * spacing - c.x_mm;
+    const double ux = cosine / c.half_width_mm, vx = -sine / c.half_height_mm;
+    const int columns = tiles.width * kTileWidth;
     PressRow row;
-    row.spacing = static_cast<float>(spacing);
-    row.dx0 = static_cast<float>((tiles.x * kTileWidth + 0.5) * spacing - c.x_mm);
-    row.dx_last = static_cast<float>((size_.width - 0.5) * spacing - c.x_mm);
-    row.ux = static_cast<float>(cosine / c.half_width_mm);
-    row.vx = static_cast<float>(-sine / c.half_height_mm);
+    row.du = static_cast<float>(ux * spacing);
+    row.dv = static_cast<float>(vx * spacing);
+    row.over = over;
     row.force_n = static_cast<float>(c.force_n);
     row.law = share_law(options_.shape);
     const SheetKernels& kernels = sheet_kernels();
+    for (int ty = tiles.y; ty < tiles.y + tiles.height; ++ty) {
+        int first = columns, last = 0;
+        for (int y = ty * kTileHeight; y < ty * kTileHeight + rows_of(ty); ++y) {
+            const double dy = (y + 0.5) * spacing - c.y_mm;
+            const double u0 = ux * dx0 + sine * dy / c.half_width_mm;
+            const double v0 = vx * dx0 + cosine * dy / c.half_height_mm;
+            row.u0 = static_cast<float>(u0);
+            row.v0 = static_cast<float>(v0);
+            const Chord chord(u0, ux * spacing, v0, vx * spacing);
+            row.reached = chord.within(kReach, columns);
+            row.within = chord.within(row.law.edge, columns);
+            if (row.within.last == 0) row.within = {row.reached.last, row.reached.last};
+            kernels.press(plane(pressures_, y) + tiles.x * kTileWidth, columns, row);
+            first = std::min(first, row.reached.first);
+            last = std::max(last, row.reached.last);
+        }
+        for (int tx = first / kTileWidth; tx * kTileWidth < last; ++tx) {
+            flags(tiles.x + tx, ty) |= kPressed | kMoving;
+        }
+    }
+    // Nodes beyond the image do as its last column does.
+    if (tiles.x + tiles.width < tiles_x_ || padded_ == size_.width) return;
     for (int y = tiles.y * kTileHeight; y < std::min(size_.height, (tiles.y + tiles.height) * kTileHeight);
          ++y) {
-        const double dy = (y + 0.5) * spacing - c.y_mm;
-        row.u0 = static_cast<float>(sine * dy / c.half_width_mm);
-        row.v0 = static_cast<float>(cosine * dy / c.half_height_mm);
-        kernels.press(plane(pressures_, y) + tiles.x * kTileWidth, tiles.width * kTileWidth, row);
-    }
-    for (int ty = tiles.y; ty < tiles.y + tiles.height; ++ty) {
-        for (int tx = tiles.x; tx < tiles.x + tiles.width; ++tx) flags(tx, ty) |= kPressed | kMoving;
+        float* end = plane(pressures_, y) + size_.width;
+        std::fill(end, end + (padded_ - size_.width), end[-1]);
     }
 }
 
@@ -169,14 +218,14 @@ void Sheet::press(std::span<const Contact> contacts, const PressOptions& options
         if (touches(c) && !options.as_published) touching_.back().held_s = 0;
     }
     if (touching_ == contacts_ && options == options_) return;
-    clear_pressure();
     std::swap(contacts_, touching_);
     options_ = options;
+    clear_pressure();
     for (const Contact& c : contacts_) {
         if (options.as_published) {
             press_published(c);
         } else {
-            press_default(c);
+            press_default(c, &c == contacts_.data());
         }
     }
 }
@@ -238,8 +287,8 @@ bool Sheet::step(double duration_s, TimeScheme scheme) {
 
 void Sheet::reset() {
     contacts_.clear();
-    std::fill(pressures_.begin(), pressures_.end(), 0.0F);
-    std::fill(heights_.begin(), heights_.end(), 0.0F);
+    std::fill(pressures_.values.begin(), pressures_.values.end(), 0.0F);
+    std::fill(heights_.values.begin(), heights_.values.end(), 0.0F);
     std::fill(flags_.begin(), flags_.end(), kRedraw | kRelight);
 }
 
@@ -253,7 +302,7 @@ NormalRows Sheet::normal_rows(int row, int rows, int columns) const {
             rows,
             row > 0,
             row + rows < size_.height,
-            static_cast<float>(0.5 / size_.spacing_mm)};
+            static_cast<float>(std::clamp(2 * size_.spacing_mm, 1e-9, 1e9))};
 }
 
 void Sheet::relight_run(int tile_x, int tiles, int tile_y) {
@@ -277,8 +326,8 @@ void Sheet::relight_run(int tile_x, int tiles, int tile_y) {
 }
 
 void Sheet::update_normals() {
-    normals_x_.resize(heights_.size());
-    normals_y_.resize(heights_.size());
+    resize(normals_x_);
+    resize(normals_y_);
     for (int ty = 0; ty < tiles_y_; ++ty) {
         for (int tx = 0; tx < tiles_x_;) {
             int tiles = 0;

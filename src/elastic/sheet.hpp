@@ -92,10 +92,20 @@ class Sheet {
     // Rows start kGuard floats into the plane, and as many stand free between them.
     static constexpr std::ptrdiff_t kGuard = 8;
 
-    float* plane(std::vector<float>& values, int row) { return values.data() + kGuard + row * stride_; }
-    const float* plane(const std::vector<float>& values, int row) const {
-        return values.data() + kGuard + row * stride_;
+    // A number for each node. Processors hold a store back behind loads whose addresses agree in the lowest
+    // twelve bits; so that node i of one plane is not at such an address of another, planes begin `skew`
+    // floats into their memory: normals in WebAssembly took more than twice as long without.
+    struct Plane {
+        std::ptrdiff_t skew;
+        std::vector<float> values{};
+    };
+    static constexpr std::ptrdiff_t kSkew = 256;
+
+    float* plane(Plane& p, int row) { return p.values.data() + p.skew + kGuard + row * stride_; }
+    const float* plane(const Plane& p, int row) const {
+        return p.values.data() + p.skew + kGuard + row * stride_;
     }
+    void resize(Plane& p);
     int rows_of(int tile_row) const;
     std::uint8_t& flags(int tile_x, int tile_y) {
         return flags_[static_cast<std::size_t>(tile_y * tiles_x_ + tile_x)];
@@ -103,7 +113,7 @@ class Sheet {
     void wake_all();
     void clear_pressure();
     NodeRect tiles_under(const Contact& contact, double reach) const;
-    void press_default(const Contact& contact);
+    void press_default(const Contact& contact, bool over);
     void press_published(const Contact& contact);
     void step_run(int tile_x, int tiles, int tile_y, const float* shares);
     void settle(int tile_x, int tile_y, const TileMotion& motion);
@@ -113,7 +123,7 @@ class Sheet {
     SheetSize size_;
     int tiles_x_ = 0, tiles_y_ = 0, padded_ = 0;
     std::ptrdiff_t stride_ = 0;
-    std::vector<float> heights_, pressures_, normals_x_, normals_y_;
+    Plane heights_{0}, pressures_{kSkew}, normals_x_{2 * kSkew}, normals_y_{3 * kSkew};
     std::vector<std::uint8_t> flags_;   // of tiles
     std::vector<std::uint8_t> levels_;  // empty: one material
     std::array<Material, 256> palette_{};

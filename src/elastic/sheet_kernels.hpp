@@ -41,14 +41,20 @@ struct NormalRows {
     int columns = 0;  // a multiple of 8
     int rows = 0;
     bool has_above = false, has_below = false;  // whether there is a row beyond the first and the last
-    float per_mm = 0;                           // 1 / (2 node spacing)
+    float rise_mm = 0;                          // 2 node spacings, 1e-9 .. 1e9
 };
 
-// The pressure of one contact over a row of nodes.
+// Columns first .. last - 1, multiples of 8 except where the row ends; empty: first = last.
+struct ColumnRange {
+    int first = 0, last = 0;
+};
+
+// The pressure of one contact over a row of nodes. Node x is at (u0 + x du, v0 + x dv), in half axes.
 struct PressRow {
-    float dx0 = 0, spacing = 0;            // of the first node from the contact's centre; mm
-    float dx_last = 0;                     // nodes further right count as being here
-    float ux = 0, u0 = 0, vx = 0, v0 = 0;  // u = ux dx + u0, v = vx dx + v0: in half axes
+    float u0 = 0, du = 0, v0 = 0, dv = 0;
+    ColumnRange reached;  // holds all nodes within the reach
+    ColumnRange within;   // holds all nodes within the contact's edge; inside `reached`
+    bool over = false;    // what stood there is replaced, not added to
     float force_n = 0;
     ShareLaw law;
 };
@@ -58,7 +64,7 @@ struct SheetKernels {
                  TileMotion* motion);
     void (*step_mapped)(float* e, const float* p, std::ptrdiff_t stride, int tiles, int rows, MappedStep law,
                         TileMotion* motion);
-    // x and y of the unit normals (-dE/dx, -dE/dy, 1) / length, within 5e-6; central differences, at the
+    // x and y of the unit normals (-dE/dx, -dE/dy, 1) / length; central differences, at the
     // border of the image with the border's own value for the one beyond it.
     void (*normals)(const float* e, float* nx, float* ny, NormalRows rows);
     void (*press)(float* p, int columns, PressRow row);

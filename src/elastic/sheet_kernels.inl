@@ -8,49 +8,62 @@ namespace {
 
 using namespace simd;
 
+#if defined(__wasm_simd128__)
+using F = F4;
+#else
+using F = F8;
+#endif
+using I = BitsOf<F>;
+constexpr int kLanes = sizeof(F) / sizeof(float);
+
 struct TileLanes {
-    F8 way;
-    I8 changed;
+    F way;
+    I changed;
 };
 
-TRIBO_LANES float largest(F8 v) {
+TRIBO_LANES float largest(F v) {
     float most = v[0];
-    for (int n = 1; n < 8; ++n) most = v[n] > most ? v[n] : most;
+    for (int n = 1; n < kLanes; ++n) most = v[n] > most ? v[n] : most;
     return most;
 }
 
 // Eight nodes by eq. 3: towards P / K by the share of the way that one step covers.
-TRIBO_LANES void advance(float* e, const float* p, F8 compliance, F8 share, TileLanes& tile) {
-    const F8 before = load(e);
-    const F8 way = load(p) * compliance - before, reached = before + way * share;
-    const F8 after = keep(magnitude(reached) >= splat(kLeastMm), reached);
+TRIBO_LANES void advance(float* e, const float* p, F compliance, F share, TileLanes& tile) {
+    const F before = load<F>(e);
+    const F way = load<F>(p) * compliance - before, reached = before + way * share;
+    const F after = keep(magnitude(reached) >= all<F>(kLeastMm), reached);
     store(e, after);
     tile.way = max(tile.way, magnitude(way));
-    tile.changed |= reinterpret_cast<I8>(after) ^ reinterpret_cast<I8>(before);
+    tile.changed |= reinterpret_cast<I>(after) ^ reinterpret_cast<I>(before);
 }
 
 TRIBO_LANES void report(const TileLanes* lanes, int tiles, TileMotion* motion) {
-    for (int t = 0; t < tiles; ++t) motion[t] = {largest(lanes[t].way), any(lanes[t].changed != I8{})};
+    for (int t = 0; t < tiles; ++t) motion[t] = {largest(lanes[t].way), any(lanes[t].changed != I{})};
 }
 
 void step(float* e, const float* p, std::ptrdiff_t stride, int tiles, int rows, UniformStep law,
           TileMotion* motion) {
     TileLanes lanes[kMostRunTiles] = {};
-    const F8 compliance = splat(law.compliance_mm_per_n), share = splat(law.share);
+    const F compliance = all<F>(law.compliance_mm_per_n), share = all<F>(law.share);
     for (int y = 0; y < rows; ++y) {
         for (int t = 0; t < tiles; ++t) {
             const std::ptrdiff_t at = y * stride + t * kTileWidth;
             TileLanes tile = lanes[t];
-            advance(e + at, p + at, compliance, share, tile);
-            advance(e + at + 8, p + at + 8, compliance, share, tile);
+#pragma GCC unroll 4
+            for (int x = 0; x < kTileWidth; x += kLanes) {
+                advance(e + at + x, p + at + x, compliance, share, tile);
+            }
             lanes[t] = tile;
         }
     }
     report(lanes, tiles, motion);
 }
 
-TRIBO_LANES I8 wide(const std::uint8_t* level) {
-    return I8{level[0], level[1], level[2], level[3], level[4], level[5], level[6], level[7]};
+// table[level] of each lane; by single loads, which are no slower than a gather instruction.
+TRIBO_LANES F looked_up(const float* table, const std::uint8_t* level) {
+    F v;
+    for (int n = 0; n < kLanes; ++n) v[n] = table[level[n]];
+    return v;
 }
 
 void step_mapped(float* e, const float* p, std::ptrdiff_t stride, int tiles, int rows, MappedStep law,
@@ -58,11 +71,10 @@ void step_mapped(float* e, const float* p, std::ptrdiff_t stride, int tiles, int
     TileLanes lanes[kMostRunTiles] = {};
     for (int y = 0; y < rows; ++y) {
         for (int t = 0; t < tiles; ++t) {
-            for (int half = 0; half < kTileWidth; half += 8) {
-                const std::ptrdiff_t at = y * stride + t * kTileWidth + half;
-                const I8 level = wide(law.levels + at);
-                advance(e + at, p + at, gather(law.compliance_mm_per_n, level), gather(law.share, level),
-                        lanes[t]);
+            for (int x = 0; x < kTileWidth; x += kLanes) {
+                const std::ptrdiff_t at = y * stride + t * kTileWidth + x;
+                advance(e + at, p + at, looked_up(law.compliance_mm_per_n, law.levels + at),
+                        looked_up(law.share, law.levels + at), lanes[t]);
             }
         }
     }
@@ -70,46 +82,68 @@ void step_mapped(float* e, const float* p, std::ptrdiff_t stride, int tiles, int
 }
 
 void normals(const float* e, float* nx, float* ny, NormalRows area) {
-    const F8 per_mm = splat(area.per_mm), one = splat(1.0f);
+    const F rise2 = all<F>(area.rise_mm * area.rise_mm);
     for (int y = 0; y < area.rows; ++y) {
         const std::ptrdiff_t row = y * area.stride;
         const std::ptrdiff_t above = y > 0 || area.has_above ? row - area.stride : row;
         const std::ptrdiff_t below = y < area.rows - 1 || area.has_below ? row + area.stride : row;
-        for (int x = 0; x < area.columns; x += 8) {
-            const F8 gx = (load(e + row + x - 1) - load(e + row + x + 1)) * per_mm;
-            const F8 gy = (load(e + above + x) - load(e + below + x)) * per_mm;
-            const F8 scale = inverse_sqrt(gx * gx + gy * gy + one);
+#pragma GCC unroll 4
+        for (int x = 0; x < area.columns; x += kLanes) {
+            const F gx = load<F>(e + row + x - 1) - load<F>(e + row + x + 1);
+            const F gy = load<F>(e + above + x) - load<F>(e + below + x);
+            const F scale = all<F>(1.0f) / sqrt(gx * gx + gy * gy + rise2);
             store(nx + row + x, gx * scale);
             store(ny + row + x, gy * scale);
         }
     }
 }
 
-constexpr F8 kSteps{0, 1, 2, 3, 4, 5, 6, 7};
+// 0, 1, 2 ...
+TRIBO_LANES F counted() {
+    F v;
+    for (int n = 0; n < kLanes; ++n) v[n] = static_cast<float>(n);
+    return v;
+}
+
+// The nodes of `range`; `mixed`: some may lie within the contact's edge, else none does.
+template <bool mixed>
+TRIBO_LANES void press_range(float* p, ColumnRange range, const PressRow& row) {
+    const F du = all<F>(row.du), u0 = all<F>(row.u0), dv = all<F>(row.dv), v0 = all<F>(row.v0);
+    const ShareLaw& law = row.law;
+    const F edge = all<F>(law.edge), origin = all<F>(law.origin);
+    const F inner_rate = all<F>(law.inner_rate), outer_rate = all<F>(law.outer_rate);
+    const F reach2 = all<F>(static_cast<float>(kReach * kReach));
+    const float scale = static_cast<float>(-row.force_n / (kReach * kReach * kReach * kReach));
+    const F base = all<F>(law.inner_base * scale);
+    const F outer = all<F>(law.outer * scale), inner_rise = all<F>((law.inner - law.outer) * scale);
+    const F before = row.over ? F{} : all<F>(1.0f);
+    F steps = counted() + all<F>(static_cast<float>(range.first));
+#pragma GCC unroll 4
+    for (int x = range.first; x < range.last; x += kLanes, steps += all<F>(kLanes)) {
+        const F u = steps * du + u0, v = steps * dv + v0;
+        const F rho2 = min(u * u + v * v, reach2);
+        const F rho = sqrt(rho2), window = reach2 - rho2, beyond = rho - origin;
+        F share;
+        if constexpr (mixed) {
+            // The lesser exponent is that of the side where rho is.
+            const I inside = rho < edge;
+            const F power = exp2(min(inner_rate * beyond, outer_rate * beyond));
+            share = keep(inside, base) + (outer + keep(inside, inner_rise)) * power;
+        } else {
+            share = outer * exp2(outer_rate * beyond);
+        }
+        store(p + x, load<F>(p + x) * before + share * (window * window));
+    }
+}
 
 void press(float* p, int columns, PressRow row) {
-    const F8 last = splat(row.dx_last), spacing = splat(row.spacing), dx0 = splat(row.dx0);
-    const F8 ux = splat(row.ux), u0 = splat(row.u0), vx = splat(row.vx), v0 = splat(row.v0);
-    const ShareLaw& law = row.law;
-    const F8 edge = splat(law.edge), origin = splat(law.origin);
-    const F8 inner_rate = splat(law.inner_rate), outer_rate = splat(law.outer_rate);
-    const F8 reach2 = splat(static_cast<float>(kReach * kReach));
-    const float scale = static_cast<float>(-row.force_n / (kReach * kReach * kReach * kReach));
-    const F8 base = splat(law.inner_base * scale);
-    const F8 outer = splat(law.outer * scale), inner_rise = splat((law.inner - law.outer) * scale);
-    F8 steps = kSteps;
-    for (int x = 0; x < columns; x += 8, steps += splat(8.0f)) {
-        const F8 dx = min(steps * spacing + dx0, last);
-        const F8 u = ux * dx + u0, v = vx * dx + v0;
-        const F8 rho2 = min(u * u + v * v, reach2);
-        if (!any(rho2 < reach2)) continue;
-        const F8 rho = sqrt(rho2), window = reach2 - rho2;
-        const I8 inside = rho < edge;
-        // The lesser exponent is that of the side where rho is.
-        const F8 beyond = rho - origin, power = exp2(min(inner_rate * beyond, outer_rate * beyond));
-        const F8 share = keep(inside, base) + (outer + keep(inside, inner_rise)) * power;
-        store(p + x, load(p + x) + share * (window * window));
+    if (row.over) {
+        for (int x = 0; x < row.reached.first; x += kLanes) store(p + x, F{});
+        for (int x = row.reached.last; x < columns; x += kLanes) store(p + x, F{});
     }
+    press_range<false>(p, {row.reached.first, row.within.first}, row);
+    press_range<true>(p, row.within, row);
+    press_range<false>(p, {row.within.last, row.reached.last}, row);
 }
 
 constexpr SheetKernels kKernels{step, step_mapped, normals, press};

@@ -275,8 +275,11 @@ TEST(SheetKernels, all_builds_give_the_same_bits) {
             share[i] = static_cast<float>(i) / 256;
         }
         std::array<TileMotion, 2> motion;
-        PressRow row{-9.3F, 0.7F, 12, 0.3F, 0.4F, -0.2F, 0.1F, 2.5F, share_law(ContactShape::area)};
-        for (int y = 0; y < 16; ++y) kernels.press(pressures.data() + 8 + y * kStride, 32, row);
+        PressRow row{-9.3F, 0.3F, 0.1F, 0.4F, {8, 32}, {16, 24}, false, 2.5F, share_law(ContactShape::area)};
+        for (int y = 0; y < 16; ++y) {
+            row.over = y % 2 == 1;
+            kernels.press(pressures.data() + 8 + y * kStride, 32, row);
+        }
         kernels.step(heights.data() + 8, pressures.data() + 8, kStride, 2, 16, {0.7F, 0.13F}, motion.data());
         kernels.step_mapped(heights.data() + 8, pressures.data() + 8, kStride, 2, 16,
                             {levels.data() + 8, compliance.data(), share.data()}, motion.data());
