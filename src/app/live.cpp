@@ -3,30 +3,18 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <spawn.h>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/live_server.hpp"
 #include "app/live_show.hpp"
 #include "app/render_job.hpp"
 #include "app/threads.hpp"
 #include "devices/device_search.hpp"
 #include "io/jnd_profile_toml.hpp"
 
-extern char** environ;
-
 namespace tribo::app {
 namespace {
-
-constexpr const char* kSubprotocol = "tribo.live.1";
-
-void open_browser(const std::string& url) {
-    std::string program = "xdg-open", argument = url;
-    char* const arguments[] = {program.data(), argument.data(), nullptr};
-    pid_t child = 0;
-    if (::posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0)
-        std::fprintf(stderr, "no browser could be opened; open the address by hand\n");
-}
 
 // The arm that the call names; null: the simulated hand, and where "auto" found no arm, why.
 Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const Box3& blank) {
@@ -60,6 +48,7 @@ LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
 }  // namespace
 
 int live(const LiveCall& call) {
+    if (call.job.empty()) return live_without_job(call);
     RenderCall render;
     render.job = call.job;
     render.resolution_mm = call.resolution_mm;
@@ -69,12 +58,7 @@ int live(const LiveCall& call) {
     if (auto fits = check_memory(render, *first); !fits) return report(fits.error());
     report(first->warnings);
 
-    const std::string root = call.web_root.empty() ? WebFiles::folder_of("viewer") : call.web_root;
-    if (root.empty()) {
-        return report(io::Failure({"", 0, 0, "this build has no page to show",
-                                   "build it with Node.js there, or name a folder with --web-root"}));
-    }
-    const auto files = WebFiles::read(root);
+    const auto files = live_page(call);
     if (!files) return report(files.error());
 
     contact::JndProfile profile;
@@ -108,20 +92,11 @@ int live(const LiveCall& call) {
     if (!mill) return report(mill.error());
 
     LiveShow show(**mill, std::move(show_how), *std::move(arm));
-    net::ServerOptions options;
-    options.port = call.port;
-    options.subprotocol = kSubprotocol;
-    auto server = net::Server::start(options, show.handlers(*files));
-    if (!server) {
-        report(server.error());
-        return kRefused;
-    }
-    const std::string url = "http://127.0.0.1:" + std::to_string((*server)->port()) + "/";
-    std::printf("%s is live at %s (Ctrl-C ends it)\n", call.job.c_str(), url.c_str());
-    std::fflush(stdout);
-    if (call.open) open_browser(url);
-    const auto done = show.run(**server);
-    server->reset();
+    int exit_code = kDone;
+    auto server = open_live_server(call, call.job, show.handlers(*files), exit_code);
+    if (!server) return exit_code;
+    const auto done = show.run(*server);
+    server.reset();
     if (!done) return report(done.error());
     return interrupted_exit_code();
 }

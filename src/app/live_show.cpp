@@ -71,7 +71,9 @@ net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
     using Event = LiveInbox::Event;
     net::ServerHandlers h;
     h.page = [&files](std::string_view path, bool gzip) { return files.page(path, gzip); };
-    h.came = [this](net::ClientId id) { inbox_.put({Event::Kind::came, id}); };
+    h.came = [this](net::ClientId id, const net::Arrival& arrival) {
+        inbox_.put({Event::Kind::came, id, {}, arrival});
+    };
     h.lost = [this](net::ClientId id) { inbox_.put({Event::Kind::lost, id}); };
     h.message = [this](net::ClientId id, std::string_view text) {
         inbox_.put({Event::Kind::message, id, std::string(text)});
@@ -149,6 +151,8 @@ void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
     using Kind = LiveInbox::Event::Kind;
     switch (event.kind) {
         case Kind::came:
+            options_.info.resume = event.arrival.resume;
+            options_.info.resumed = event.arrival.resumed;
             server.send_text(event.client, io::live_server_info(options_.info));
             server.send_text(event.client, io::live_settings(settings_));
             replay(event.client, server);
@@ -158,8 +162,11 @@ void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
             break;
         case Kind::message: {
             const auto command = io::parse_live_command(event.text);
-            auto obeyed = command ? obey(*command, event.client, server) : std::unexpected(command.error());
-            if (!obeyed) server.send_text(event.client, io::live_refusal(obeyed.error()));
+            if (!command) {
+                server.refuse(event.client, io::live_refusal(command.error()));
+            } else if (auto obeyed = obey(*command, event.client, server); !obeyed) {
+                server.send_text(event.client, io::live_refusal(obeyed.error()));
+            }
             break;
         }
     }

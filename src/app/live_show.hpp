@@ -24,7 +24,8 @@ class LiveInbox {
     struct Event {
         enum class Kind { came, lost, message } kind;
         net::ClientId client;
-        std::string text = {};
+        std::string text = {};      // of a message
+        net::Arrival arrival = {};  // of one who came
     };
     void put(const Event& event);
     std::deque<Event> take_all();

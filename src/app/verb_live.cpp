@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: MIT
-// `tribo live JOB`: the flags.
+// `tribo live [JOB]`: the flags.
 #include <memory>
 
 #include "app/live.hpp"
 #include "app/options.hpp"
 #include "app/threads.hpp"
 #include "app/verbs.hpp"
+#include "net/addresses.hpp"
 
 namespace tribo::app {
 
 void add_live(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<LiveCall>();
     CLI::App* verb = program.add_subcommand("live", "Mill a job before the eyes of a browser");
-    verb->add_option("JOB", call->job, "Job file (TOML)")->required();
+    verb->add_option("JOB", call->job,
+                     "Job file (TOML); without one the bench is empty and mills what is "
+                     "dropped into the page");
     verb->add_option("--port", call->port, "Port to serve on; 0 takes any that is free")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
+    verb->add_option("--listen", call->listen, "Address to serve on; 0.0.0.0 lets other machines in")
+        ->check([](const std::string& text) {
+            return net::is_address(text) ? "" : "'" + text + "' is no address in digits, such as 0.0.0.0";
+        })
+        ->type_name("ADDR")
+        ->capture_default_str();
+    CLI::Option* certificate =
+        verb->add_option("--tls-cert", call->tls_certificate, "Certificate for https, in PEM")
+            ->type_name("FILE");
+    CLI::Option* key = verb->add_option("--tls-key", call->tls_key, "Its key, in PEM")->type_name("FILE");
+    certificate->needs(key);
+    key->needs(certificate);
     verb->add_flag("--open", call->open, "Open the page in a browser");
     verb->add_option("--web-root", call->web_root, "Folder of the built page")->type_name("DIR");
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")

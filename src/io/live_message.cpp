@@ -122,14 +122,18 @@ std::string live_server_info(const LiveServerInfo& info) {
     Json json;
     json["op"] = "serverInfo";
     json["version"] = info.version;
-    json["job"] = info.job;
     json["warnings"] = Json::array();
     for (const Warning& warning : info.warnings) json["warnings"].push_back(warning.message());
-    json["materials"] = info.materials;
-    json["device"] = {{"name", info.device},
-                      {"max_force_n", info.max_force_n},
-                      {"rate_hz", info.rate_hz},
-                      {"arm", info.arm}};
+    if (!info.job.empty()) {
+        json["job"] = info.job;
+        json["materials"] = info.materials;
+        json["device"] = {{"name", info.device},
+                          {"max_force_n", info.max_force_n},
+                          {"rate_hz", info.rate_hz},
+                          {"arm", info.arm}};
+    }
+    json["resume"] = info.resume;
+    json["resumed"] = info.resumed;
     return dump(json);
 }
 

@@ -62,12 +62,15 @@ inline constexpr std::array kLiveNumbers{
 Result<LiveCommand> parse_live_command(std::string_view text);
 
 struct LiveServerInfo {
-    std::string version, job;
+    std::string version;
+    std::string job;  // empty: there is none, and no materials and no device
     Warnings warnings;
     std::vector<std::string> materials;
     std::string device;
     double max_force_n = 0, rate_hz = 0;
-    bool arm = false;  // motors move a person's hand
+    bool arm = false;      // motors move a person's hand
+    std::string resume;    // the token with which this client may come back
+    bool resumed = false;  // it came back
 };
 
 // What a page is told first.

@@ -6,9 +6,15 @@
 #include <unistd.h>
 
 #include "app/program.hpp"
+#include "net/certificates.hpp"
+#include "net/raw_client.hpp"
 
 namespace tribo::test {
 namespace {
+
+using net::test::RawClient;
+
+constexpr const char* kProtocol = "tribo.live.1";
 
 constexpr const char* kJob =
     "[stock]\nbox_mm = [[0,0,-5],[20,10,0]]\n[cutter]\nkind = \"flat\"\ndiameter_mm = 6\nflutes = 2\n"
@@ -44,6 +50,162 @@ TEST_F(Live, says_what_is_missing) {
     run = live({"--port", "0", "--web-root", "."});
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(run.err.find("p.nc:2"), std::string::npos) << run.err;
+}
+
+// The address that was printed first, in its parts.
+struct Address {
+    std::string scheme, host, token;
+    std::uint16_t port = 0;
+};
+Address address_in(const std::string& out) {
+    Address a;
+    const std::size_t at = out.find(" live at ") + 9, slashes = out.find("://", at);
+    if (at < 9 || slashes == std::string::npos) return a;
+    const std::size_t colon = out.find(':', slashes + 3), end = out.find_first_of(" \n", slashes);
+    a.scheme = out.substr(at, slashes - at);
+    a.host = out.substr(slashes + 3, colon - slashes - 3);
+    a.port = static_cast<std::uint16_t>(std::stoi(out.substr(colon + 1)));
+    const std::size_t token = out.find("?token=", slashes);
+    if (token < end) a.token = out.substr(token + 7, end - token - 7);
+    return a;
+}
+
+TEST_F(Live, serves_an_empty_bench_without_a_job) {
+    RunningTribo engine({"live", "--port", "0", "--web-root", "."}, scratch_.path());
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    ASSERT_EQ(at.host, "127.0.0.1");
+    EXPECT_EQ(at.token, "");
+    RawClient client(at.port);
+    ASSERT_TRUE(client.join(kProtocol));
+    const auto info = client.frame();
+    ASSERT_TRUE(info);
+    EXPECT_NE(info->payload.find("serverInfo"), std::string::npos);
+    EXPECT_EQ(info->payload.find("\"job\""), std::string::npos);
+    client.send_frame(1, R"({"op":"play"})");
+    const auto refusal = client.frame();
+    ASSERT_TRUE(refusal);
+    EXPECT_NE(refusal->payload.find("no job is open"), std::string::npos);
+    EXPECT_EQ(engine.stop().code, 130);
+}
+
+TEST_F(Live, comes_back_whole_after_a_resume) {
+    RunningTribo engine({"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", "."},
+                        scratch_.path());
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    // Texts and kinds of frames up to the state, which ends what a newcomer gets.
+    const auto greeting = [](RawClient& client) {
+        std::string info;
+        std::vector<int> kinds;
+        while (kinds.empty() || kinds.back() != 3) {
+            const auto frame = client.frame();
+            if (!frame) break;
+            if (frame->opcode == 1 && info.empty()) info = frame->payload;
+            if (frame->opcode == 2) kinds.push_back(frame->payload.front());
+        }
+        return std::pair(info, kinds);
+    };
+    RawClient first(at.port);
+    ASSERT_TRUE(first.join(kProtocol));
+    const auto [info, kinds] = greeting(first);
+    EXPECT_NE(info.find(R"("resumed":false)"), std::string::npos) << info;
+    ASSERT_GT(kinds.size(), 2u);
+    EXPECT_EQ(kinds.front(), 1);
+    const std::string resume = info.substr(info.find(R"("resume":")") + 10, 32);
+    RawClient second(at.port);
+    ASSERT_TRUE(second.upgrade("/live?resume=" + resume, kProtocol, second.origin(), second.host())
+                    .starts_with("HTTP/1.1 101"));
+    const auto [info_again, kinds_again] = greeting(second);
+    EXPECT_NE(info_again.find(R"("resumed":true)"), std::string::npos) << info_again;
+    EXPECT_EQ(kinds_again, kinds);
+    EXPECT_EQ(first.closing().code, 4000);
+    RawClient third(at.port);
+    EXPECT_TRUE(third.upgrade("/live?resume=" + resume, kProtocol, third.origin(), third.host())
+                    .starts_with("HTTP/1.1 403"));
+}
+
+TEST_F(Live, asks_for_a_token_and_warns_where_other_machines_may_come) {
+    RunningTribo engine({"live", "--port", "0", "--web-root", ".", "--listen", "0.0.0.0"}, scratch_.path());
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    EXPECT_EQ(at.scheme, "http");
+    EXPECT_EQ(at.token.size(), 32u);
+    const auto answer = [&](const std::string& target, const std::string& host) {
+        RawClient client(at.port);
+        return client.upgrade(target, kProtocol, "http://" + host, host);
+    };
+    const std::string here = "127.0.0.1:" + std::to_string(at.port);
+    EXPECT_TRUE(answer("/live?token=" + at.token, here).starts_with("HTTP/1.1 101"));
+    EXPECT_TRUE(answer("/live", here).starts_with("HTTP/1.1 403"));
+    EXPECT_TRUE(answer("/live?token=" + std::string(32, '0'), here).starts_with("HTTP/1.1 403"));
+    EXPECT_TRUE(answer("/live?token=" + at.token, "evil.example").starts_with("HTTP/1.1 403"));
+    char name[256] = {};
+    ::gethostname(name, sizeof name - 1);
+    EXPECT_TRUE(answer("/live?token=" + at.token, std::string(name) + ":" + std::to_string(at.port))
+                    .starts_with("HTTP/1.1 101"));
+    const Outcome end = engine.stop();
+    EXPECT_NE(end.err.find("neither sound nor virtual reality"), std::string::npos) << end.err;
+}
+
+TEST_F(Live, speaks_tls) {
+    const auto pair = net::test::make_certificate();
+    scratch_.put("c.pem", pair.certificate);
+    scratch_.put("k.pem", pair.key);
+    RunningTribo engine({"live", "--port", "0", "--web-root", ".", "--listen", "0.0.0.0", "--tls-cert",
+                         "c.pem", "--tls-key", "k.pem"},
+                        scratch_.path());
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    EXPECT_EQ(at.scheme, "https");
+    EXPECT_EQ(at.host, "localhost");
+    RawClient client(at.port, RawClient::Over::tls);
+    ASSERT_TRUE(client.connected());
+    EXPECT_TRUE(client.upgrade("/live?token=" + at.token, kProtocol, client.origin(), client.host())
+                    .starts_with("HTTP/1.1 101"));
+    const Outcome end = engine.stop();
+    EXPECT_EQ(end.err, "");
+}
+
+TEST_F(Live, refuses_keys_that_do_not_serve_and_addresses_that_are_not_its_own) {
+    const auto pair = net::test::make_certificate(), other = net::test::make_certificate();
+    const auto expired = net::test::make_certificate("DNS:localhost", -9, -1);
+    scratch_.put("c.pem", pair.certificate);
+    scratch_.put("k.pem", pair.key);
+    scratch_.put("other.pem", other.key);
+    scratch_.put("expired.pem", expired.certificate);
+    scratch_.put("expired-k.pem", expired.key);
+    scratch_.put("junk.pem", "junk");
+    const struct {
+        std::vector<std::string> more;
+        int code;
+        const char* says;
+    } cases[] = {
+        {{"--tls-cert", "c.pem"}, 2, "--tls-key"},
+        {{"--tls-key", "k.pem"}, 2, "--tls-cert"},
+        {{"--tls-cert", "none.pem", "--tls-key", "k.pem"}, 2, "none.pem: error"},
+        {{"--tls-cert", "c.pem", "--tls-key", "."}, 2, "folder"},
+        {{"--tls-cert", "junk.pem", "--tls-key", "k.pem"}, 2, "junk.pem: error"},
+        {{"--tls-cert", "c.pem", "--tls-key", "other.pem"}, 2, "other.pem: error"},
+        {{"--tls-cert", "expired.pem", "--tls-key", "expired-k.pem"}, 2, "expired on"},
+        {{"--listen", "somewhere"}, 2, "somewhere"},
+        {{"--listen", "192.0.2.77"}, 3, "192.0.2.77"},  // of TEST-NET-1: nobody's
+    };
+    for (const auto& c : cases) {
+        std::vector<std::string> arguments{"live", "--port", "0", "--web-root", "."};
+        arguments.insert(arguments.end(), c.more.begin(), c.more.end());
+        const Outcome run = run_tribo(arguments, scratch_.path());
+        EXPECT_EQ(run.code, c.code) << run.err;
+        EXPECT_NE(run.err.find(c.says), std::string::npos) << run.err;
+        EXPECT_EQ(run.out, "");
+    }
+}
+
+TEST_F(Live, says_where_it_is_when_no_browser_can_be_opened) {
+    std::string display;
+    for (char** entry = environ; *entry != nullptr; ++entry) display += std::string(*entry) + "\n";
+    if (display.find("DISPLAY=") != std::string::npos) GTEST_SKIP() << "there is a screen here";
+    const Outcome run =
+        run_tribo({"live", "--port", "0", "--web-root", ".", "--open"}, scratch_.path(), 1000);
+    EXPECT_EQ(run.code, 130);
+    EXPECT_NE(run.out.find("http://127.0.0.1:"), std::string::npos);
+    EXPECT_NE(run.err.find("open the address by hand"), std::string::npos) << run.err;
 }
 
 TEST_F(Live, says_that_its_port_is_taken) {

@@ -19,4 +19,24 @@ struct Outcome {
 Outcome run_tribo(const std::vector<std::string>& arguments, const std::string& folder = ".",
                   int interrupt_after_ms = 0, int signal = 2);
 
+// The program while it runs; what it was not told to end it ends at the end of its own.
+class RunningTribo {
+  public:
+    RunningTribo(std::vector<std::string> arguments, const std::string& folder);
+    ~RunningTribo();
+    RunningTribo(const RunningTribo&) = delete;
+    RunningTribo& operator=(const RunningTribo&) = delete;
+
+    // What stands on stdout once it holds `mark`, or after half a minute whatever there is.
+    std::string out_with(const std::string& mark) const;
+    std::string err() const { return scratch_.get("err"); }
+    int pid() const { return pid_; }
+    // Sends the signal and waits.
+    Outcome stop(int signal = 2);
+
+  private:
+    Scratch scratch_;  // output goes to files: no pipe can fill up
+    int pid_ = -1;
+};
+
 }  // namespace tribo::test

@@ -83,10 +83,18 @@ TEST(LiveMessage, TheServerSaysWhatItShows) {
     info.device = "hand";
     info.max_force_n = 3.5;
     info.rate_hz = 1000;
+    info.resume = "f00d";
     EXPECT_EQ(
         live_server_info(info),
-        R"({"op":"serverInfo","version":"1.2.3","job":"a \"b\".toml","warnings":["p.nc:3: warning: look"],)"
-        R"("materials":["al"],"device":{"name":"hand","max_force_n":3.5,"rate_hz":1000.0,"arm":false}})");
+        R"({"op":"serverInfo","version":"1.2.3","warnings":["p.nc:3: warning: look"],"job":"a \"b\".toml",)"
+        R"("materials":["al"],"device":{"name":"hand","max_force_n":3.5,"rate_hz":1000.0,"arm":false},)"
+        R"("resume":"f00d","resumed":false})");
+    LiveServerInfo bench;
+    bench.version = "1.2.3";
+    bench.resume = "f00d";
+    bench.resumed = true;
+    EXPECT_EQ(live_server_info(bench),
+              R"({"op":"serverInfo","version":"1.2.3","warnings":[],"resume":"f00d","resumed":true})");
 }
 
 TEST(LiveMessage, TheSettingsAreSaid) {

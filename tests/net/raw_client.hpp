@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// HTTP and WebSocket by hand on a plain socket, so that a test can also send what no library would.
+// HTTP and WebSocket by hand on a socket, plain or in TLS, so that a test can also send what no library
+// would.
 #pragma once
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cstdint>
+#include <memory>
+#include <netinet/tcp.h>
+#include <openssl/ssl.h>
 #include <optional>
 #include <string>
 #include <sys/socket.h>
@@ -13,15 +18,24 @@ namespace tribo::net::test {
 
 class RawClient {
   public:
-    explicit RawClient(std::uint16_t port) : port_(port), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    enum class Over { plain, tls };
+    explicit RawClient(std::uint16_t port, Over over = Over::plain)
+        : port_(port), socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
         const timeval patience{20, 0};
         ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
         ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+        const int on = 1;
+        ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_port = htons(port);
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
         connected_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+        if (!connected_ || over == Over::plain) return;
+        context_.reset(SSL_CTX_new(TLS_client_method()));
+        tls_.reset(SSL_new(context_.get()));
+        SSL_set_fd(tls_.get(), socket_);
+        connected_ = SSL_connect(tls_.get()) == 1;
     }
     RawClient(const RawClient&) = delete;
     RawClient& operator=(const RawClient&) = delete;
@@ -34,7 +48,9 @@ class RawClient {
     bool send(const std::string& bytes) {
         std::size_t done = 0;
         while (done < bytes.size()) {
-            const ssize_t n = ::send(socket_, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL);
+            const char* from = bytes.data() + done;
+            const ssize_t n = tls_ ? SSL_write(tls_.get(), from, static_cast<int>(bytes.size() - done))
+                                   : ::send(socket_, from, bytes.size() - done, MSG_NOSIGNAL);
             if (n <= 0) return false;
             done += static_cast<std::size_t>(n);
         }
@@ -54,10 +70,10 @@ class RawClient {
 
     std::string bytes(std::size_t count) {
         std::string text;
-        while (text.size() < count) {
-            const auto c = byte();
-            if (!c) break;
-            text += static_cast<char>(*c);
+        while (text.size() < count && more()) {
+            const std::size_t some = std::min(count - text.size(), in_.size() - at_);
+            text.append(in_, at_, some);
+            at_ += some;
         }
         return text;
     }
@@ -80,8 +96,9 @@ class RawClient {
         return header();
     }
     bool join(const std::string& protocol) {
-        return upgrade("/live", protocol, "http://" + host(), host()).starts_with("HTTP/1.1 101");
+        return upgrade("/live", protocol, origin(), host()).starts_with("HTTP/1.1 101");
     }
+    std::string origin() const { return (tls_ ? "https://" : "http://") + host(); }
 
     // One masked frame (RFC 6455 5.2); opcode 1 text, 2 binary, 8 close.
     bool send_frame(int opcode, const std::string& payload) {
@@ -89,8 +106,9 @@ class RawClient {
         if (payload.size() < 126) {
             frame += static_cast<char>(0x80 | payload.size());
         } else {
-            frame += static_cast<char>(0x80 | 127);
-            for (int shift = 56; shift >= 0; shift -= 8)
+            const bool two = payload.size() < 65536;
+            frame += static_cast<char>(0x80 | (two ? 126 : 127));
+            for (int shift = two ? 8 : 56; shift >= 0; shift -= 8)
                 frame += static_cast<char>(payload.size() >> shift & 0xff);
         }
         const std::string mask = "\x11\x22\x33\x44";
@@ -103,6 +121,20 @@ class RawClient {
         int opcode = 0;
         std::string payload;
     };
+    // The code and the words with which the other side closes, after what else it sends; 0 where it just
+    // goes.
+    struct Closing {
+        int code = 0;
+        std::string why;
+    };
+    Closing closing() {
+        while (const auto one = frame()) {
+            if (one->opcode != 8 || one->payload.size() < 2) continue;
+            const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(one->payload[n]); };
+            return {byte(0) << 8 | byte(1), one->payload.substr(2)};
+        }
+        return {};
+    }
     std::optional<Frame> frame() {
         const std::string head = bytes(2);
         if (head.size() < 2) return std::nullopt;
@@ -119,18 +151,28 @@ class RawClient {
 
   private:
     std::optional<unsigned char> byte() {
-        if (at_ == in_.size()) {
-            in_.resize(65536);
-            const ssize_t n = ::recv(socket_, in_.data(), in_.size(), 0);
-            in_.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
-            at_ = 0;
-            if (n <= 0) return std::nullopt;
-        }
+        if (!more()) return std::nullopt;
         return static_cast<unsigned char>(in_[at_++]);
     }
+    // Whether there is something to take; waits for it.
+    bool more() {
+        if (at_ < in_.size()) return true;
+        in_.resize(65536);
+        const ssize_t n = tls_ ? SSL_read(tls_.get(), in_.data(), static_cast<int>(in_.size()))
+                               : ::recv(socket_, in_.data(), in_.size(), 0);
+        in_.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+        at_ = 0;
+        return n > 0;
+    }
 
+    struct Free {
+        void operator()(SSL_CTX* p) const { SSL_CTX_free(p); }
+        void operator()(SSL* p) const { SSL_free(p); }
+    };
     std::uint16_t port_;
     int socket_;
+    std::unique_ptr<SSL_CTX, Free> context_;
+    std::unique_ptr<SSL, Free> tls_;
     bool connected_ = false;
     std::string in_;
     std::size_t at_ = 0;

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <gtest/gtest.h>
+#include <map>
 #include <mutex>
 
 #include "net/raw_client.hpp"
@@ -29,7 +30,13 @@ class Told {
             if (path == "/a.js" && gzip) return Page{"text/javascript", "zipped", "gzip"};
             return std::nullopt;
         };
-        handlers.came = [this](ClientId id) { note("came", id); };
+        handlers.came = [this](ClientId id, const Arrival& arrival) {
+            {
+                const std::lock_guard lock(mutex_);
+                arrivals_[id] = arrival;
+            }
+            note("came", id);
+        };
         handlers.went = [this](ClientId id) { note("went", id); };
         handlers.lost = [this](ClientId id) { note("lost", id); };
         handlers.message = [this](ClientId id, std::string_view text) { note(std::string(text), id); };
@@ -55,6 +62,11 @@ class Told {
         return id;
     }
 
+    Arrival arrival(ClientId id) {
+        const std::lock_guard lock(mutex_);
+        return arrivals_[id];
+    }
+
     std::unique_ptr<Server> server;
 
   private:
@@ -66,6 +78,7 @@ class Told {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<std::pair<std::string, ClientId>> events_;
+    std::map<ClientId, Arrival> arrivals_;
 };
 
 TEST(Server, gives_pages_and_keeps_the_connection) {
@@ -78,7 +91,11 @@ TEST(Server, gives_pages_and_keeps_the_connection) {
     EXPECT_NE(page.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
     const std::string script = client.get("/a.js", "Accept-Encoding: gzip, deflate\r\n");
     EXPECT_NE(script.find("Content-Encoding: gzip"), std::string::npos) << script;
-    EXPECT_TRUE(client.get("/../../etc/passwd").starts_with("HTTP/1.1 404"));
+    for (const char* path :
+         {"/../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "//etc/passwd", "/./", "http://x/", "/\\..\\etc"}) {
+        RawClient other(told.server->port());
+        EXPECT_FALSE(other.get(path).starts_with("HTTP/1.1 200")) << path;
+    }
 }
 
 TEST(Server, refuses_other_methods_and_foreign_names) {
@@ -124,6 +141,47 @@ TEST(Server, lets_in_only_its_own_page_with_the_protocol_and_the_token) {
     }
 }
 
+TEST(Server, lets_a_client_come_back_once_with_its_resume_token) {
+    ServerOptions options;
+    options.token = "secret";
+    Told told(options);
+    const auto knock = [&](RawClient& client, const std::string& target, const std::string& name) {
+        const std::string host = name + ":" + std::to_string(told.server->port());
+        return client.upgrade(target, kProtocol, "http://" + host, host);
+    };
+    std::string resume;
+    ClientId first = 0;
+    RawClient before(told.server->port());
+    ASSERT_TRUE(knock(before, "/live?token=secret", "127.0.0.1").starts_with("HTTP/1.1 101"));
+    first = told.wait("came");
+    EXPECT_FALSE(told.arrival(first).resumed);
+    resume = told.arrival(first).resume;
+    EXPECT_EQ(resume.size(), 32u);
+    // In the place of the token; who came before is told to go.
+    RawClient after(told.server->port());
+    ASSERT_TRUE(knock(after, "/live?resume=" + resume, "127.0.0.1").starts_with("HTTP/1.1 101"));
+    EXPECT_EQ(told.wait("went"), first);
+    EXPECT_EQ(before.closing().code, 4000);
+    const ClientId second = told.wait("came");
+    EXPECT_TRUE(told.arrival(second).resumed);
+    EXPECT_NE(told.arrival(second).resume, resume);
+    // Used, even beside the right token.
+    for (const char* more : {"", "&token=secret"}) {
+        RawClient again(told.server->port());
+        const std::string answer = knock(again, "/live?resume=" + resume + more, "127.0.0.1");
+        EXPECT_TRUE(answer.starts_with("HTTP/1.1 403")) << answer;
+        EXPECT_NE(again.bytes(80).find("used before"), std::string::npos);
+    }
+    // Of a page of another origin, though this server goes by that name too.
+    RawClient foreign(told.server->port());
+    EXPECT_TRUE(knock(foreign, "/live?resume=" + told.arrival(second).resume, "localhost")
+                    .starts_with("HTTP/1.1 403"));
+    EXPECT_NE(foreign.bytes(80).find("another origin"), std::string::npos);
+    RawClient unknown(told.server->port());
+    EXPECT_TRUE(knock(unknown, "/live?resume=0123456789abcdef0123456789abcdef", "127.0.0.1")
+                    .starts_with("HTTP/1.1 403"));
+}
+
 TEST(Server, carries_messages_both_ways) {
     Told told;
     RawClient client(told.server->port());
@@ -145,6 +203,19 @@ TEST(Server, carries_messages_both_ways) {
     EXPECT_TRUE(frame->payload == std::string(100'000, '\7'));
 }
 
+TEST(Server, sends_a_newcomer_nothing_before_its_greeting) {
+    Told told;
+    RawClient client(told.server->port());
+    ASSERT_TRUE(client.join(kProtocol));
+    const ClientId id = told.wait("came");
+    const auto data = [](char c) { return std::make_shared<std::vector<std::uint8_t>>(3, c); };
+    told.server->send_all(data('a'));
+    told.server->send_text(id, "hello");
+    told.server->send_all(data('b'));
+    EXPECT_EQ(client.frame()->payload, "hello");
+    EXPECT_EQ(client.frame()->payload, "bbb");
+}
+
 TEST(Server, tells_when_a_client_goes) {
     Told told;
     ClientId id = 0;
@@ -158,40 +229,137 @@ TEST(Server, tells_when_a_client_goes) {
     told.server->send_text(id, "to nobody");
 }
 
-TEST(Server, cuts_off_who_floods_or_sends_too_much_or_nonsense) {
+TEST(Server, cuts_off_who_floods_saying_so) {
+    ServerOptions options;
+    options.messages_per_s = 20;
+    Told told(options);
+    for (const int opcode : {1, 9}) {  // texts, pings
+        RawClient client(told.server->port());
+        ASSERT_TRUE(client.join(kProtocol));
+        for (int n = 0; n < 200; ++n) client.send_frame(opcode, "x");
+        EXPECT_NE(told.wait("went"), 0u);
+        const auto closing = client.closing();
+        EXPECT_EQ(closing.code, 1008);
+        EXPECT_EQ(closing.why, "too many messages");
+    }
+}
+
+TEST(Server, cuts_off_who_sends_too_much_saying_how_much_is_right) {
     ServerOptions options;
     options.message_bytes = 1000;
-    options.messages_per_s = 20;
     Told told(options);
     {
         RawClient client(told.server->port());
         ASSERT_TRUE(client.join(kProtocol));
-        for (int n = 0; n < 200; ++n) client.send_frame(1, "x");
+        ASSERT_TRUE(client.send_frame(1, std::string(1000, 'x')));
+        EXPECT_NE(told.wait(std::string(1000, 'x')), 0u);
+        client.send_frame(1, std::string(1001, 'x'));
         EXPECT_NE(told.wait("went"), 0u);
+        const auto closing = client.closing();
+        EXPECT_EQ(closing.code, 1009);
+        EXPECT_EQ(closing.why, "a message may have at most 1000 bytes");
     }
+    // In pieces, and with a length that nobody will ever send.
     {
         RawClient client(told.server->port());
         ASSERT_TRUE(client.join(kProtocol));
-        client.send_frame(1, std::string(2000, 'x'));
-        EXPECT_NE(told.wait("went"), 0u);
-        const auto frame = client.frame();
-        ASSERT_TRUE(frame);
-        EXPECT_EQ(frame->opcode, 8);
-    }
-    {
-        RawClient client(told.server->port());
-        ASSERT_TRUE(client.join(kProtocol));
-        client.send("\xff\xff\xff\xff no frame at all");
-        EXPECT_NE(told.wait("went"), 0u);
-    }
-    {
-        RawClient client(told.server->port());
-        ASSERT_TRUE(client.join(kProtocol));
-        client.send_frame(2, "binary");
-        EXPECT_NE(told.wait("went"), 0u);
+        client.send(std::string("\x01\xfe\x03\xe8MASK", 8) + std::string(1000, 'x') +
+                    std::string("\x80\xfe\x03\xe8MASK", 8) + std::string(1000, 'x'));
+        EXPECT_EQ(client.closing().code, 1009);
     }
     RawClient client(told.server->port());
+    ASSERT_TRUE(client.join(kProtocol));
+    client.send(std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff"
+                            "MASK",
+                            14) +
+                std::string(2000, 'x'));
+    EXPECT_EQ(client.closing().code, 1009);
+}
+
+TEST(Server, cuts_off_who_sends_what_is_no_message) {
+    Told told;
+    const auto closing_after = [&](const std::string& bytes) {
+        RawClient::Closing closing;
+        {
+            RawClient client(told.server->port());
+            EXPECT_TRUE(client.join(kProtocol));
+            client.send(bytes);
+            closing = client.closing();
+        }
+        EXPECT_NE(told.wait("went"), 0u);
+        return closing;
+    };
+    EXPECT_EQ(closing_after("\xff\xff\xff\xff no frame at all").code, 1002);
+    EXPECT_EQ(closing_after("\x81\x02hi").code, 1002);                                // not masked
+    EXPECT_EQ(closing_after(std::string("\x81\x82\0\0\0\0\xff\xfe", 8)).code, 1007);  // not UTF-8
+    const auto binary = closing_after(std::string("\x82\x82\0\0\0\0hi", 8));
+    EXPECT_EQ(binary.code, 1003);
+    EXPECT_EQ(binary.why, "messages to the server are text");
+    RawClient client(told.server->port());
     EXPECT_TRUE(client.join(kProtocol));
+}
+
+TEST(Server, cuts_off_who_it_is_told_to) {
+    Told told;
+    RawClient client(told.server->port());
+    ASSERT_TRUE(client.join(kProtocol));
+    const ClientId id = told.wait("came");
+    told.server->cut_off(id, "enough");
+    EXPECT_EQ(told.wait("went"), id);
+    const auto closing = client.closing();
+    EXPECT_EQ(closing.code, 1008);
+    EXPECT_EQ(closing.why, "enough");
+}
+
+TEST(Server, cuts_off_who_makes_no_sense_a_hundred_times) {
+    Told told;
+    RawClient client(told.server->port());
+    ASSERT_TRUE(client.join(kProtocol));
+    const ClientId id = told.wait("came");
+    for (int n = 0; n < Server::kMostRefusals; ++n) told.server->refuse(id, "what?");
+    EXPECT_EQ(told.wait("went"), id);
+    const auto closing = client.closing();
+    EXPECT_EQ(closing.code, 1008);
+    EXPECT_EQ(closing.why, "too many messages that make no sense");
+}
+
+TEST(Server, serves_twelve_while_four_never_read) {
+    ServerOptions options;
+    options.queue_bytes = 1'000'000;
+    Told told(options);
+    std::vector<std::unique_ptr<RawClient>> clients;
+    for (int n = 0; n < 16; ++n) {
+        clients.push_back(std::make_unique<RawClient>(told.server->port()));
+        ASSERT_TRUE(clients.back()->join(kProtocol));
+        told.server->send_text(told.wait("came"), "hello");
+        if (n >= 4) ASSERT_EQ(clients.back()->frame()->payload, "hello");
+    }
+    EXPECT_EQ(told.server->clients(), 16u);
+    // 50 MB to each: more than sockets hold. The twelve take each before the next comes.
+    constexpr int kFrames = 200;
+    for (int n = 0; n < kFrames; ++n) {
+        told.server->send_all(
+            std::make_shared<std::vector<std::uint8_t>>(250'000, static_cast<std::uint8_t>(n)));
+        for (std::size_t c = 4; c < clients.size(); ++c) {
+            const auto frame = clients[c]->frame();
+            ASSERT_TRUE(frame);
+            ASSERT_EQ(frame->payload.size(), 250'000u);
+            ASSERT_EQ(static_cast<std::uint8_t>(frame->payload.front()), n);
+        }
+    }
+    // One of the four begins to read: in order, with a gap, up to the last one.
+    EXPECT_EQ(clients[0]->frame()->payload, "hello");
+    int before = -1, taken = 0;
+    while (before < kFrames - 1) {
+        const auto frame = clients[0]->frame();
+        ASSERT_TRUE(frame);
+        const int n = static_cast<std::uint8_t>(frame->payload.front());
+        EXPECT_GT(n, before);
+        before = n;
+        ++taken;
+    }
+    EXPECT_LT(taken, kFrames);
+    EXPECT_NE(told.wait("lost"), 0u);
 }
 
 TEST(Server, never_waits_for_a_client_that_does_not_read) {
@@ -200,9 +368,11 @@ TEST(Server, never_waits_for_a_client_that_does_not_read) {
     Told told(options);
     RawClient slow(told.server->port()), quick(told.server->port());
     ASSERT_TRUE(slow.join(kProtocol));
-    ASSERT_NE(told.wait("came"), 0u);
+    told.server->send_text(told.wait("came"), "hello");
     ASSERT_TRUE(quick.join(kProtocol));
     const ClientId quick_id = told.wait("came");
+    told.server->send_text(quick_id, "hello");
+    EXPECT_EQ(quick.frame()->payload, "hello");
     // 400 MB: more than any socket holds; were it kept, memory would show it.
     const auto data = std::make_shared<std::vector<std::uint8_t>>(1'000'000);
     for (int n = 0; n < 400; ++n) told.server->send_all(data);

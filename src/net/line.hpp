@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// A connection, in the clear or inside TLS, behind one type: what is built on it is compiled once. For
+// server.cpp alone: everything of Beast is one translation unit.
+#pragma once
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket/teardown.hpp>
+#include <functional>
+#include <string>
+#include <variant>
+
+namespace tribo::net {
+
+class Line {
+  public:
+    using Plain = boost::beast::tcp_stream;
+    using Secure = boost::beast::ssl_stream<Plain>;
+    using executor_type = Plain::executor_type;
+
+    explicit Line(boost::asio::ip::tcp::socket&& socket) : stream_(Plain(std::move(socket))) {}
+
+    bool secure() const { return std::holds_alternative<Secure>(stream_); }
+    // The socket with its deadlines.
+    Plain& next_layer() {
+        Plain* plain = std::get_if<Plain>(&stream_);
+        return plain ? *plain : std::get<Secure>(stream_).next_layer();
+    }
+    executor_type get_executor() { return next_layer().get_executor(); }
+    // This end of it, in digits.
+    std::string own_address() {
+        boost::system::error_code error;
+        const auto end = next_layer().socket().local_endpoint(error);
+        if (error) return {};
+        const auto address = end.address();
+        if (address.is_v6() && address.to_v6().is_v4_mapped())
+            return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).to_string();
+        return address.to_string();
+    }
+
+    // The server's side of TLS, of which `begun` was already read; from here on all goes through it.
+    template <class Buffers, class Handler>
+    void async_secure(boost::asio::ssl::context& context, const Buffers& begun, Handler&& handler) {
+        Plain plain = std::move(std::get<Plain>(stream_));
+        stream_.emplace<Secure>(std::move(plain), context)
+            .async_handshake(Secure::server, begun, std::forward<Handler>(handler));
+    }
+
+    // One type of buffers and of handlers goes on from here, or all below would be compiled for each.
+    template <class Buffers, class Handler>
+    void async_read_some(const Buffers& buffers, Handler&& handler) {
+        read_some(few<boost::asio::mutable_buffer>(buffers), Done(std::forward<Handler>(handler)));
+    }
+    template <class Buffers, class Handler>
+    void async_write_some(const Buffers& buffers, Handler&& handler) {
+        write_some(few<boost::asio::const_buffer>(buffers), Done(std::forward<Handler>(handler)));
+    }
+
+    // What Beast calls to end a WebSocket's connection.
+    template <class Handler>
+    friend void async_teardown(boost::beast::role_type role, Line& line, Handler&& handler) {
+        using boost::beast::websocket::async_teardown;
+        std::move_only_function<void(boost::system::error_code)> done(std::forward<Handler>(handler));
+        if (Secure* secure = std::get_if<Secure>(&line.stream_))
+            return secure->async_shutdown(std::move(done));
+        async_teardown(role, std::get<Plain>(line.stream_), std::move(done));
+    }
+
+  private:
+    using Done = std::move_only_function<void(boost::system::error_code, std::size_t)>;
+    // The head and the body of a message; more goes with the next call.
+    static constexpr std::size_t kBuffers = 4;
+
+    template <class Buffer, class Buffers>
+    static std::array<Buffer, kBuffers> few(const Buffers& buffers) {
+        std::array<Buffer, kBuffers> some;
+        std::size_t n = 0;
+        const auto end = boost::asio::buffer_sequence_end(buffers);
+        for (auto it = boost::asio::buffer_sequence_begin(buffers); it != end && n < kBuffers; ++it) {
+            const Buffer one(*it);
+            if (one.size() > 0) some[n++] = one;
+        }
+        return some;
+    }
+    void read_some(const std::array<boost::asio::mutable_buffer, kBuffers>& buffers, Done done) {
+        std::visit([&](auto& s) { s.async_read_some(buffers, std::move(done)); }, stream_);
+    }
+    void write_some(const std::array<boost::asio::const_buffer, kBuffers>& buffers, Done done) {
+        std::visit([&](auto& s) { s.async_write_some(buffers, std::move(done)); }, stream_);
+    }
+
+    std::variant<Plain, Secure> stream_;
+};
+
+}  // namespace tribo::net
