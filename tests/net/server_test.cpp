@@ -332,7 +332,9 @@ TEST(Server, serves_twelve_while_four_never_read) {
         clients.push_back(std::make_unique<RawClient>(told.server->port()));
         ASSERT_TRUE(clients.back()->join(kProtocol));
         told.server->send_text(told.wait("came"), "hello");
-        if (n >= 4) ASSERT_EQ(clients.back()->frame()->payload, "hello");
+        if (n >= 4) {
+            ASSERT_EQ(clients.back()->frame()->payload, "hello");
+        }
     }
     EXPECT_EQ(told.server->clients(), 16u);
     // 50 MB to each: more than sockets hold. The twelve take each before the next comes.
