@@ -6,7 +6,7 @@ ROOM ?=
 .PHONY: help setup build run test soak bench tidy format install clean
 
 help:
-	@echo "make run      build and mill the main example into out/bowl"
+	@echo "make run      build, mill the main example into out/bowl and, on a terminal, show it live"
 	@echo "make build    build/release/tribo and build/wasm/*.wasm"
 	@echo "make test     every test: g++, clang, WebAssembly"
 	@echo "make soak     sanitizers and fuzzing, BUDGET=short or long"
@@ -24,7 +24,10 @@ build:
 	@scripts/setup.sh run
 	@scripts/build.sh
 
-run: build
+# The page of the live view needs Node.js: fetched only where somebody is there to see it.
+run:
+	@scripts/setup.sh run $$([ -t 0 ] && [ -t 1 ] && echo page)
+	@scripts/build.sh
 	@scripts/run.sh
 
 test:

@@ -22,6 +22,8 @@ set_target_properties(tribo_options PROPERTIES EXPORT_NAME options)
 add_custom_target(product DEPENDS ${products})
 install(TARGETS ${libraries} EXPORT tribo)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tribo FILES_MATCHING PATTERN "*.hpp")
+# The pages, where there was a Node.js to build them (scripts/web.sh): `tribo live` and `tribo site` look for them beside the program.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/../web/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/tribo/web OPTIONAL)
 install(EXPORT tribo NAMESPACE tribo:: FILE tribo-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tribo)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/tribo-config.cmake.in ${PROJECT_BINARY_DIR}/tribo-config.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tribo)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# setup.sh SECTION...: installs the Debian packages of those sections of packages.txt that are missing; with `test`
-# also a Node.js of at least 20.19, unless one is there. Calls apt only when something is missing.
+# setup.sh SECTION...: installs the Debian packages of those sections of packages.txt that are missing; with `test` or
+# `page` also a Node.js of at least 20.19, unless one is there: `page` does without where none can be had. Calls apt only
+# when something is missing.
 source "$(dirname "$0")/environment.sh"
 
 packages_of() {
@@ -36,11 +37,16 @@ for section in "$@"; do mapfile -t -O ${#wanted[@]} wanted < <(packages_of "$sec
 mapfile -t missing < <(missing_of "${wanted[@]}")
 install_packages "${missing[@]}"
 
-if [[ " $* " == *" test "* ]] && ! node_is_new_enough; then
+install_node() {
     command -v npm >/dev/null || install_packages npm
     say "installing Node.js 20 under build/node"
     npm install --loglevel=error --no-audit --no-fund --prefix "$LOCAL_NODE" node@20 >/dev/null ||
         fail "npm could not fetch Node.js 20; install one by hand, at least 20.19, and run this again"
     PATH=$LOCAL_NODE/node_modules/.bin:$PATH
     node_is_new_enough || fail "Node.js 20.19 or newer is needed and npm did not give one"
+}
+if [[ " $* " == *" test "* ]] && ! node_is_new_enough; then
+    install_node
+elif [[ " $* " == *" page "* ]] && ! node_is_new_enough; then
+    (install_node) || echo "going on without Node.js: the pages are left out" >&2
 fi

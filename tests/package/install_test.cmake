@@ -1,5 +1,5 @@
 # Installs a finished build under a staging root, links a project of its own to the package there, runs that and the
-# installed program. BUILD, SOURCE, WORK, CXX, CXX_FLAGS come from the command line.
+# installed program, with its pages where they are built. BUILD, SOURCE, WORK, CXX, CXX_FLAGS come from the command line.
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -21,6 +21,21 @@ file(RENAME ${WORK}/stage/opt/tribo ${prefix})
 run(${prefix}/bin/tribo --version)
 if(NOT said MATCHES "^tribo ${VERSION}")
   message(FATAL_ERROR "tribo --version says: ${said}")
+endif()
+# Its pages, at work.
+if(EXISTS ${BUILD}/../web/viewer/index.html AND EXISTS ${BUILD}/../web/site/index.html)
+  run(${prefix}/bin/tribo site --out ${WORK}/site)
+  if(NOT EXISTS ${WORK}/site/index.html)
+    message(FATAL_ERROR "tribo site of the installation wrote no page")
+  endif()
+  # Until the time is over: 130 as after Ctrl-C.
+  execute_process(COMMAND timeout --preserve-status -s INT 2 ${prefix}/bin/tribo live --port 0 RESULT_VARIABLE code
+                  OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT code EQUAL 130 OR NOT said MATCHES "An empty bench is live at http://127.0.0.1:")
+    message(FATAL_ERROR "tribo live of the installation ended with ${code}:\n${said}")
+  endif()
+else()
+  message(STATUS "the pages are not built here: tribo live and tribo site of the installation were not tried")
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX}
     "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
