@@ -74,5 +74,6 @@ void measure_noise(Report& report, int repeats);
 void measure_sound(Report& report);
 void measure_elastic(Report& report);
 void measure_servo(Report& report);
+void measure_live(Report& report);
 
 }  // namespace tribo::bench

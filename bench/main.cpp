@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
         {"sound", [&] { measure_sound(report); }},
         {"elastic", [&] { measure_elastic(report); }},
         {"servo", [&] { measure_servo(report); }},
+        {"live", [&] { measure_live(report); }},
     };
     bool known = only.empty();
     for (const auto& part : parts) {

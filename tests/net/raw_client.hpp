@@ -41,6 +41,8 @@ class RawClient {
     RawClient& operator=(const RawClient&) = delete;
     ~RawClient() { ::close(socket_); }
 
+    // Ends what another thread waits for.
+    void hang_up() { ::shutdown(socket_, SHUT_RDWR); }
     bool connected() const { return connected_; }
     std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
 
