@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, then every fuzz target
-# for a while from its corpus. What fuzzing finds is left under build/fuzz/crashes/, nothing in the source tree.
+# for a while from its corpus; long also plays the live view for ten minutes. What fuzzing finds is left under
+# build/fuzz/crashes/, nothing in the source tree.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 
@@ -48,9 +49,19 @@ fuzz_all() {
         printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds"
 }
 
+# Ten minutes of live play at full speed, with clients that never read.
+long_play() {
+    configure_and_build release --target test_app &&
+        build/release/tests/test_app --gtest_also_run_disabled_tests --gtest_filter='LiveSoak.DISABLED_*'
+}
+
 test_preset asan
 say "thread sanitizer"
 step "tsan" thread_sanitizer
 say "fuzzing, $fuzz_seconds s a target"
 step "fuzz" fuzz_all
+if [ "${1:-short}" = long ]; then
+    say "long play"
+    step "long play" long_play
+fi
 closing_summary

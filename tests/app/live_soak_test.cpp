@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// `tribo live` played again and again at its highest speed: memory stays flat. The short test takes seconds;
+// the long one is for `make soak BUDGET=long` and brings clients that never read.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "app/program.hpp"
+#include "net/raw_client.hpp"
+
+namespace tribo::test {
+namespace {
+
+using net::test::RawClient;
+using std::chrono::seconds;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kJob =
+    "[stock]\nbox_mm = [[0,0,-5],[40,30,0]]\n[cutter]\nkind = \"ball\"\ndiameter_mm = 6\nflutes = 2\n"
+    "helix_deg = 30\nlength_mm = 15\n[material]\nname = \"al7075-t6\"\n[process]\nspindle_rpm = 6000\n"
+    "feed_mm_per_min = 1200\n[path]\ngcode = \"p.nc\"\n";
+
+std::string zigzag() {
+    std::string text = "G21 G90\nG0 X-5 Y0 Z2\nG1 Z-1\n";
+    for (int n = 0; n <= 15; ++n) {
+        const std::string y = " Y" + std::to_string(2 * n);
+        text += std::string("G1 X") + (n % 2 == 0 ? "45" : "-5") + y + "\nG1" + " Y" +
+                std::to_string(2 * n + 2) + "\n";
+    }
+    return text;
+}
+
+double resident_mb(int pid) {
+    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+    for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1024;
+    }
+    return 0;
+}
+
+// Plays the job through, over and over, and gives the engine's memory every second.
+struct Played {
+    std::vector<double> resident_mb;
+    int rounds = 0;
+};
+Played play(seconds time, int silent_clients) {
+    Scratch scratch;
+    scratch.put("job.toml", kJob);
+    scratch.put("p.nc", zigzag());
+    scratch.put("index.html", "<p>page");
+    RunningTribo engine({"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", "."},
+                        scratch.path());
+    const std::string out = engine.out_with("Ctrl-C");
+    const auto port = static_cast<std::uint16_t>(std::stoi(out.substr(out.find("127.0.0.1:") + 10)));
+    std::vector<std::unique_ptr<RawClient>> silent;
+    for (int n = 0; n < silent_clients; ++n) {
+        silent.push_back(std::make_unique<RawClient>(port));
+        EXPECT_TRUE(silent.back()->join("tribo.live.1"));
+    }
+    RawClient player(port);
+    EXPECT_TRUE(player.join("tribo.live.1"));
+    player.send_frame(1, R"({"op":"speed","value":1000})");
+    player.send_frame(1, R"({"op":"play"})");
+    Played played;
+    const auto begin = Clock::now();
+    auto look = begin + seconds(1);
+    bool asked = true;
+    while (Clock::now() - begin < time) {
+        const auto frame = player.frame();
+        if (!frame) break;
+        if (Clock::now() >= look) {
+            played.resident_mb.push_back(resident_mb(engine.pid()));
+            look += seconds(1);
+        }
+        if (frame->opcode != 2 || frame->payload.front() != 3) continue;
+        // Flags come last (docs/live-protocol.md).
+        const bool playing = (frame->payload[frame->payload.size() - 4] & 2) != 0;
+        if (playing) {
+            asked = false;
+        } else if (!asked) {
+            // At the end: play begins anew.
+            player.send_frame(1, R"({"op":"play"})");
+            asked = true;
+            ++played.rounds;
+        }
+    }
+    EXPECT_EQ(engine.stop().code, 130);
+    return played;
+}
+
+std::string listed(const std::vector<double>& values) {
+    std::ostringstream text;
+    for (const double v : values) text << v << ' ';
+    return text.str();
+}
+
+TEST(LiveSoak, playing_again_and_again_leaves_memory_flat) {
+    const Played played = play(seconds(8), 0);
+    ASSERT_GE(played.resident_mb.size(), 6u);
+    EXPECT_GE(played.rounds, 2);
+    EXPECT_LT(played.resident_mb.back(), played.resident_mb[2] + 12) << listed(played.resident_mb);
+}
+
+TEST(LiveSoak, DISABLED_playing_for_long_leaves_memory_flat) {
+    const Played played = play(std::chrono::minutes(10), 4);
+    ASSERT_GE(played.resident_mb.size(), 500u);
+    // Once what waits for those who never read is full.
+    const auto late = played.resident_mb.begin() + 200;
+    const auto [least, most] = std::minmax_element(late, played.resident_mb.end());
+    std::printf("%d rounds; resident %.1f MB after 10 s, %.1f to %.1f MB from 200 s on, %.1f MB at the end\n",
+                played.rounds, played.resident_mb[9], *least, *most, played.resident_mb.back());
+    EXPECT_LT(played.resident_mb.back(), *late + 12) << listed(played.resident_mb);
+}
+
+}  // namespace
+}  // namespace tribo::test
