@@ -14,6 +14,9 @@
 namespace tribo::app {
 namespace {
 
+// A cut that is shallower than this looks like the blank's own face.
+constexpr double kOnFaceMm = 1e-3;
+
 Vec3 listener(const formats::Job& job, const Box3& blank) {
     if (job.sound.listener_mm) return *job.sound.listener_mm;
     const Vec3 c = blank.centre();
@@ -109,8 +112,6 @@ io::FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const f
         return true;
     });
     if (auto done = stl->finish(); !done) return done;
-    // A cut that is shallower than this looks like the blank's own face.
-    constexpr double kOnFaceMm = 1e-3;
     return io::write_glb(folder_.file("machined.glb"), mesh, [&](const Triangle& t) {
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
             return std::abs(blank.distance_mm(mesh.position(corner))) <= kOnFaceMm;
@@ -135,10 +136,26 @@ io::FileResult<void> RenderOutputs::compare(const session::MillSession& session,
     options.spacing_mm = std::max(
         session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
     const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
+    designed_.emplace(*std::move(designed));
     summary.gouge_max_mm = d.gouge.mm;
     summary.rest_max_mm = d.rest.mm;
     summary.scallop_max_mm = d.scallop.mm;
     return {};
+}
+
+io::ReportPart RenderOutputs::report_part(const session::MillSession& session, const io::Summary& summary,
+                                          const TriangleMesh& mesh) const {
+    io::ReportPart part;
+    part.mesh = io::with_fewer_vertices(mesh, io::kMostPartVertices);
+    const field::Shape& blank = session.stock().blank();
+    for (std::uint32_t n = 0; n < part.mesh.positions.size(); ++n)
+        part.untouched.push_back(std::abs(blank.distance_mm(part.mesh.position(n))) <= kOnFaceMm ? 1 : 0);
+    if (!designed_) return part;
+    // The colours end at what was found where passes were; what was never reached is beyond them.
+    const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));
+    part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kOnFaceMm);
+    part.deviation_mm = surface::deviations_of(part.mesh, *designed_, parallel_);
+    return part;
 }
 
 io::FileResult<void> RenderOutputs::write_report(const session::MillSession& session,
@@ -150,6 +167,7 @@ io::FileResult<void> RenderOutputs::write_report(const session::MillSession& ses
                     (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
     data.summary = summary;
     data.picture_png = io::png_bytes(io::draw_part(mesh));
+    data.part = report_part(session, summary, mesh);
     mesh = {};
     data.rows = io::thin_rows(report_.rows, 4000);
     data.turn = report_.turn(session.setup());

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "io/output_folder.hpp"
 #include "io/summary_json.hpp"
+#include "surface/designed_surface.hpp"
 
 namespace tribo::app {
 
@@ -29,6 +30,8 @@ class RenderOutputs {
   private:
     io::FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
     io::FileResult<void> compare(const session::MillSession& session, io::Summary& summary);
+    io::ReportPart report_part(const session::MillSession& session, const io::Summary& summary,
+                               const TriangleMesh& mesh) const;
     io::FileResult<void> write_report(const session::MillSession& session, const io::Summary& summary,
                                       TriangleMesh mesh);
 
@@ -40,6 +43,7 @@ class RenderOutputs {
     std::optional<PublishedForceFile> published_;
     std::optional<SoundFile> sound_;
     ReportRows report_;
+    std::optional<surface::DesignedSurface> designed_;  // once compared
 };
 
 }  // namespace tribo::app

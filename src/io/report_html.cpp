@@ -132,6 +132,25 @@ std::string audio(const ReportSound& sound) {
     return html;
 }
 
+// The picture, and over it what the script shows in its place.
+std::string picture(const ReportData& data) {
+    const std::string still =
+        "<img alt=\"The part as milled\" src=\"data:image/png;base64," + base64(data.picture_png) + "\">\n";
+    if (!data.part) return still;
+    return "<figure id=\"part-view\">\n" + still +
+           R"(<div class="live" hidden><canvas tabindex="0" role="application" aria-roledescription="3D view"
+aria-label="The part as milled" aria-describedby="part-hint"></canvas></div>
+<div class="choices" role="radiogroup" aria-label="Colour the part by" hidden>
+<label><input type="radio" name="part-colour" value="surface" checked> surface</label>
+<label><input type="radio" name="part-colour" value="deviation"> deviation from the designed surface</label>
+</div>
+<div class="scale" hidden><i></i><span></span><span></span><span></span></div>
+<figcaption class="live" id="part-hint" hidden>Blue: machined. Grey: untouched stock. Yellow: the tool's tip at the row below. Drag
+or arrow keys turn it, two fingers or shift move it, + and - or the wheel after a click come nearer, Home or a double click
+shows all again.</figcaption>
+</figure>)";
+}
+
 // Text of a JSON array with at most `digits` digits a number.
 template <class Items, class Value>
 std::string array_of(const Items& items, int digits, const Value& value) {
@@ -206,6 +225,7 @@ std::string data_json(const ReportData& data) {
                        "],\"rows\":" + rows_json(thin_rows(data.rows, kMostRows));
     if (data.turn && !data.turn->force_n.empty()) json += ",\"turn\":" + turn_json(*data.turn);
     if (data.sound && data.sound->seconds > 0) json += "," + sound_json(*data.sound);
+    if (data.part) json += ",\"part\":" + report_part_json(*data.part);
     json += "}";
     // Inside a script element only "</" could end it; '<' occurs in strings alone.
     std::string safe;
@@ -276,10 +296,12 @@ std::string report_html(const ReportData& data) {
         if (mark == "audio") return data.sound ? audio(*data.sound) : "";
         if (mark == "data") return data_json(data);
         if (mark == "footer") return "Tribo " + escaped(data.summary.version) + ". Units: mm, N, s.";
-        if (mark == "picture" && !data.picture_png.empty()) {
-            return "<img alt=\"The part as milled\" src=\"data:image/png;base64," + base64(data.picture_png) +
-                   "\">";
+        if (mark == "picture" && !data.picture_png.empty()) return picture(data);
+        if (mark == "part" && data.part) {
+            return "<script type=\"text/plain\" id=\"part\">" + base64(report_part_bytes(*data.part)) +
+                   "</script>";
         }
+        if (mark == "view" && data.part) return std::string(kReportView);
         return "";
     });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// report.html: one file that opens offline and shows a render: figures, warnings, force along the program and
-// along the path, one turn of the spindle with its spectrum, the sound and its waveforms, and what it all
-// rests on. The page's own text, style and script stand in report/ and are built in.
+// report.html: one file that opens offline and shows a render: the part in 3D, figures, warnings, force along
+// the program and along the path, one turn of the spindle with its spectrum, the sound and its waveforms, and
+// what it all rests on. The page's own text, style and script stand in report/ and are built in.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "io/report_part.hpp"
 #include "io/summary_json.hpp"
 
 namespace tribo::io {
@@ -49,13 +50,14 @@ struct ReportSound {
     double heard_from_s = 0, rate_hz = 48000;
     std::vector<float> stereo;
 };
-inline constexpr double kReportSoundS = 30;  // a minute of it would weigh 15 MB
+inline constexpr double kReportSoundS = 10;  // 2.6 MB of the 5 that the page may weigh
 
 struct ReportData {
     std::string title, subtitle;
     Summary summary;
-    std::string picture_png;      // bytes of a PNG; empty: no picture
-    std::vector<ReportRow> rows;  // in the order of time
+    std::string picture_png;         // bytes of a PNG; empty: no picture
+    std::optional<ReportPart> part;  // shown in 3D in the picture's place, where the browser can
+    std::vector<ReportRow> rows;     // in the order of time
     std::optional<ReportTurn> turn;
     std::optional<ReportSound> sound;
     std::vector<std::pair<std::string, std::string>> facts;  // what it rests on: name, text

@@ -9,5 +9,6 @@ namespace tribo::io {
 extern const std::string_view kReportPage;  // with {{marks}} to be replaced
 extern const std::string_view kReportStyle;
 extern const std::string_view kReportScript;
+extern const std::string_view kReportView;  // the part in 3D
 
 }  // namespace tribo::io

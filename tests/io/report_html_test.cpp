@@ -71,6 +71,23 @@ TEST(Report, is_one_file_that_needs_no_other) {
     EXPECT_NE(html.find("400 <small>N</small></b><span class=\"band\">200 to 800"), std::string::npos);
 }
 
+TEST(Report, shows_the_part_in_3d_over_its_picture) {
+    ReportData data = example();
+    EXPECT_EQ(report_html(data).find("webgl2"), std::string::npos);
+    data.picture_png = "png";
+    data.part.emplace();
+    data.part->mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    data.part->mesh.triangles = {{0, 1, 2}};
+    data.part->untouched = {0, 1, 0};
+    const std::string html = report_html(data);
+    EXPECT_EQ(embedded(html)["part"]["triangles"], 1);
+    EXPECT_EQ(between(html, "id=\"part\">", "</script>").size(), 36u);  // 27 bytes in base64
+    EXPECT_NE(html.find("webgl2"), std::string::npos);
+    EXPECT_NE(html.find("aria-roledescription=\"3D view\""), std::string::npos);
+    for (const char* outside : {"http:", "https:", "<link", "src=\"/", "@import", "{{"})
+        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+}
+
 TEST(Report, without_cut_turn_or_sound_is_still_a_page) {
     ReportData data;
     data.title = "empty";
