@@ -88,7 +88,7 @@ TEST(ReportPart, its_bytes_give_the_mesh_back) {
     const std::size_t v = part.mesh.positions.size(), t = part.mesh.triangles.size();
     for (std::size_t n = 0; n < v; ++n) {
         part.untouched.push_back(n % 2);
-        part.deviation_mm.push_back(static_cast<float>(n) * 0.01F - 0.2F);
+        part.deviation_mm.push_back(static_cast<float>(n) * 0.005F - 0.2F);
     }
     part.deviation_range_mm = 0.25;
     const auto json = nlohmann::json::parse(report_part_json(part));
