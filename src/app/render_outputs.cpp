@@ -16,6 +16,7 @@ namespace {
 
 // A cut that is shallower than this looks like the blank's own face.
 constexpr double kOnFaceMm = 1e-3;
+constexpr std::size_t kVerticesAtOnce = 4096;
 
 Vec3 listener(const formats::Job& job, const Box3& blank) {
     if (job.sound.listener_mm) return *job.sound.listener_mm;
@@ -146,10 +147,16 @@ io::FileResult<void> RenderOutputs::compare(const session::MillSession& session,
 io::ReportPart RenderOutputs::report_part(const session::MillSession& session, const io::Summary& summary,
                                           const TriangleMesh& mesh) const {
     io::ReportPart part;
-    part.mesh = io::with_fewer_vertices(mesh, io::kMostPartVertices);
     const field::Shape& blank = session.stock().blank();
-    for (std::uint32_t n = 0; n < part.mesh.positions.size(); ++n)
-        part.untouched.push_back(std::abs(blank.distance_mm(part.mesh.position(n))) <= kOnFaceMm ? 1 : 0);
+    part.untouched.resize(mesh.positions.size());
+    parallel_((mesh.positions.size() + kVerticesAtOnce - 1) / kVerticesAtOnce, [&](std::size_t piece) {
+        const std::size_t end = std::min(mesh.positions.size(), (piece + 1) * kVerticesAtOnce);
+        for (std::size_t n = piece * kVerticesAtOnce; n < end; ++n) {
+            const double off = blank.distance_mm(mesh.position(static_cast<std::uint32_t>(n)));
+            part.untouched[n] = std::abs(off) <= kOnFaceMm ? 1 : 0;
+        }
+    });
+    part.mesh = io::with_fewer_vertices(mesh, io::kMostPartVertices, part.untouched);
     if (!designed_) return part;
     // The colours end at what was found where passes were; what was never reached is beyond them.
     const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));

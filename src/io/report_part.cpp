@@ -12,23 +12,26 @@
 namespace tribo::io {
 namespace {
 
-constexpr std::int64_t kCellsAnAxis = 1 << 20;
+constexpr std::int64_t kCellsAnAxis = 1 << 18;
+// So far out of its cell a vertex may lie, of the cell's side.
+constexpr double kOutside = 0.3;
 // From one size of cells to the next, where there were too many.
 constexpr double kCoarser = 1.15;
 
-// The number of a vertex's cell; sorted, they come together.
-std::int64_t cell_of(Vec3 p, Vec3 least, double cell_mm) {
-    std::int64_t key = 0;
+// The number of a vertex's cell and kind; sorted, they come together.
+std::int64_t cell_of(Vec3 p, std::uint8_t kind, Vec3 least, double cell_mm) {
+    std::int64_t key = kind;
     for (int axis = 0; axis < 3; ++axis)
         key = key * kCellsAnAxis + static_cast<std::int64_t>((p[axis] - least[axis]) / cell_mm);
     return key;
 }
 
 // For each vertex the index of its cell among those that hold any, and how many those are.
-std::size_t number_cells(const TriangleMesh& mesh, Vec3 least, double cell_mm,
-                         std::vector<std::uint32_t>& of) {
+std::size_t number_cells(const TriangleMesh& mesh, const std::vector<std::uint8_t>& kinds, Vec3 least,
+                         double cell_mm, std::vector<std::uint32_t>& of) {
     std::vector<std::pair<std::int64_t, std::uint32_t>> keys(mesh.positions.size());
-    for (std::uint32_t n = 0; n < keys.size(); ++n) keys[n] = {cell_of(mesh.position(n), least, cell_mm), n};
+    for (std::uint32_t n = 0; n < keys.size(); ++n)
+        keys[n] = {cell_of(mesh.position(n), kinds[n], least, cell_mm), n};
     std::sort(keys.begin(), keys.end());
     of.resize(keys.size());
     std::size_t cells = 0;
@@ -70,7 +73,9 @@ std::string number(double value) {
 
 }  // namespace
 
-TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most) {
+TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most,
+                                 std::vector<std::uint8_t>& kinds) {
+    assert(kinds.size() == mesh.positions.size());
     if (mesh.positions.size() <= most) return mesh;
     const Box3 box = bounds(mesh);
     const Vec3 size = box.size();
@@ -79,10 +84,10 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most) {
     double cell = std::max(std::sqrt(area_mm2(mesh) / static_cast<double>(std::max<std::size_t>(most, 1))),
                            longest / (kCellsAnAxis - 1));
     std::vector<std::uint32_t> cell_of_vertex;
-    std::size_t cells = number_cells(mesh, box.min, cell, cell_of_vertex);
+    std::size_t cells = number_cells(mesh, kinds, box.min, cell, cell_of_vertex);
     while (cells > most && cell < 2 * longest) {
         cell *= kCoarser;
-        cells = number_cells(mesh, box.min, cell, cell_of_vertex);
+        cells = number_cells(mesh, kinds, box.min, cell, cell_of_vertex);
     }
 
     std::vector<field::Quadric> quadrics(cells);
@@ -98,8 +103,10 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most) {
             quadrics[of[corner]].add(mesh.position(t[corner]), across / area);
     }
     std::vector<Vec3> corner(cells);
+    std::vector<std::uint8_t> kind(cells);
     for (std::uint32_t n = 0; n < cell_of_vertex.size(); ++n) {
         const Vec3 p = (mesh.position(n) - box.min) / cell;
+        kind[cell_of_vertex[n]] = kinds[n];
         corner[cell_of_vertex[n]] = box.min + cell * Vec3{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
     }
     fewer.positions.resize(cells);
@@ -107,7 +114,7 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most) {
         Vec3 place = quadrics[n].count() > 0 ? quadrics[n].solve() : corner[n];
         for (int axis = 0; axis < 3; ++axis) {
             const double inside = (place[axis] - corner[n][axis]) / cell;
-            if (!(inside >= -0.01 && inside <= 1.01)) {
+            if (!(inside >= -kOutside && inside <= 1 + kOutside)) {
                 place = quadrics[n].count() > 0 ? quadrics[n].mean() : corner[n];
                 break;
             }
@@ -115,6 +122,7 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most) {
         fewer.positions[n] = {static_cast<float>(place.x), static_cast<float>(place.y),
                               static_cast<float>(place.z)};
     }
+    kinds = std::move(kind);
     return fewer;
 }
 

@@ -21,10 +21,12 @@ struct ReportPart {
     double deviation_range_mm = 0;        // what the colours' ends mean; above 0 with deviations
 };
 
-// A mesh of the same shape with at most `most` vertices, the same where it has no more. Vertices in a cell of
-// an even grid become one, placed where the planes of their triangles meet, so that edges stay (Lindstrom
-// 2000, with the mean where that point leaves the cell); triangles that keep fewer than three corners go.
-TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most);
+// A mesh of the same shape with at most `most` vertices, the same where it has no more. Vertices of one kind
+// in a cell of an even grid become one, placed where the planes of their triangles meet, so that edges stay
+// (Lindstrom 2000, with the mean where that point lies far from the cell); triangles that keep fewer than
+// three corners go. `kinds`: one a vertex, and so again afterwards.
+TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most,
+                                 std::vector<std::uint8_t>& kinds);
 
 // How the bytes are to be read, as JSON: vertices, triangles, origin (mm), step (mm), and where there are
 // deviations deviation_step and deviation_range (mm).

@@ -49,7 +49,9 @@ TriangleMesh fine_box(std::uint32_t n) {
 
 TEST(ReportPart, a_small_mesh_stays_as_it_is) {
     const TriangleMesh box = fine_box(4);
-    const TriangleMesh same = with_fewer_vertices(box, box.positions.size());
+    std::vector<std::uint8_t> kinds(box.positions.size(), 1);
+    const TriangleMesh same = with_fewer_vertices(box, box.positions.size(), kinds);
+    EXPECT_EQ(kinds, std::vector<std::uint8_t>(box.positions.size(), 1));
     EXPECT_EQ(same.positions, box.positions);
     EXPECT_EQ(same.triangles, box.triangles);
 }
@@ -57,7 +59,13 @@ TEST(ReportPart, a_small_mesh_stays_as_it_is) {
 TEST(ReportPart, a_box_with_fewer_vertices_is_still_that_box_with_its_edges) {
     const TriangleMesh box = fine_box(120);
     ASSERT_GT(box.positions.size(), 80'000u);
-    const TriangleMesh fewer = with_fewer_vertices(box, 5000);
+    // The top is of another kind than the rest.
+    std::vector<std::uint8_t> kinds;
+    for (const Point3f& p : box.positions) kinds.push_back(p[2] == 10 ? 0 : 1);
+    const TriangleMesh fewer = with_fewer_vertices(box, 5000, kinds);
+    ASSERT_EQ(kinds.size(), fewer.positions.size());
+    for (std::size_t n = 0; n < kinds.size(); ++n)
+        EXPECT_EQ(kinds[n], std::abs(fewer.positions[n][2] - 10) < 1e-3 ? 0 : 1);
     EXPECT_LE(fewer.positions.size(), 5000u);
     EXPECT_GT(fewer.positions.size(), 2000u);  // not many fewer than it may have
     EXPECT_NEAR(volume_mm3(fewer), 6000, 1);
@@ -72,14 +80,18 @@ TEST(ReportPart, a_box_with_fewer_vertices_is_still_that_box_with_its_edges) {
 }
 
 TEST(ReportPart, flat_tiny_and_empty_meshes_pass) {
-    EXPECT_TRUE(with_fewer_vertices({}, 10).positions.empty());
+    const auto fewer = [](const TriangleMesh& mesh, std::size_t most) {
+        std::vector<std::uint8_t> kinds(mesh.positions.size());
+        return with_fewer_vertices(mesh, most, kinds).positions.size();
+    };
+    EXPECT_EQ(fewer({}, 10), 0u);
     TriangleMesh point;
     point.positions.assign(100, {1, 2, 3});
-    EXPECT_LE(with_fewer_vertices(point, 10).positions.size(), 10u);
+    EXPECT_LE(fewer(point, 10), 10u);
     TriangleMesh line;
     for (int n = 0; n < 1000; ++n) line.positions.push_back({static_cast<float>(n), 0, 0});
-    EXPECT_LE(with_fewer_vertices(line, 10).positions.size(), 10u);
-    EXPECT_LE(with_fewer_vertices(fine_box(10), 1).positions.size(), 8u);
+    EXPECT_LE(fewer(line, 10), 10u);
+    EXPECT_LE(fewer(fine_box(10), 1), 8u);
 }
 
 TEST(ReportPart, its_bytes_give_the_mesh_back) {

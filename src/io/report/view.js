@@ -38,7 +38,7 @@ function showPart(figure, coded) {
       vec3 base = blank > 0.99 ? stock : machined;
       float lamp = max(dot(n, normalize(to + vec3(-0.3, -0.35, 0.6))), 0.0);
       float sky = 0.5 + 0.5 * n.z;
-      colour = vec4(base * (0.28 + 0.2 * sky + 0.62 * lamp) + 0.08 * pow(lamp, 40.0), 1.0);
+      colour = vec4(base * (0.34 + 0.2 * sky + 0.58 * lamp) + 0.08 * pow(lamp, 40.0), 1.0);
     }`;
   const markShader = [`#version 300 es
     uniform mat4 view; uniform vec3 tip; uniform float size;
@@ -99,13 +99,22 @@ function showPart(figure, coded) {
   const add = (a, b, s = 1) => a.map((v, k) => v + s * b[k]);
   const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  function axes() {
-    const { turn, rise } = eye;
+  function axes({ turn, rise }) {
     const back = [Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise)];
     const right = [-Math.sin(turn), Math.cos(turn), 0];
     return { back, right, up: cross(back, right) };
   }
-  const distance = aspect => 1.02 * radius / (halfView * Math.min(1, aspect)) / eye.near;
+  // So far away that the whole part is seen at the start.
+  const half = top.map(v => 0.5 * part.step * v);
+  function distance(aspect) {
+    const { back, right, up } = axes(start);
+    let far = 0;
+    for (let n = 0; n < 8; ++n) {
+      const c = half.map((v, k) => (n >> k & 1 ? v : -v));
+      far = Math.max(far, dot(back, c) + Math.max(Math.abs(dot(right, c)) / aspect, Math.abs(dot(up, c))) / halfView);
+    }
+    return 1.06 * far / eye.near;
+  }
 
   function draw() {
     wanted = false;
@@ -113,7 +122,7 @@ function showPart(figure, coded) {
     const w = Math.round(canvas.clientWidth * ratio), h = Math.round(canvas.clientHeight * ratio);
     if (w < 1 || h < 1 || gl.isContextLost()) return;
     if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
-    const aspect = w / h, far = distance(aspect), { back, right, up } = axes();
+    const aspect = w / h, far = distance(aspect), { back, right, up } = axes(eye);
     const from = add(eye.target, back, far);
     // Everything of the part lies between these, from wherever it is seen.
     const deep = radius + Math.hypot(...add(centre, eye.target, -1));
@@ -156,7 +165,7 @@ function showPart(figure, coded) {
   };
   const nearer = factor => { eye.near = clamp(eye.near * factor, 0.3, 60); redraw(); };
   const shift = (dx, dy) => {  // in pixels of the canvas
-    const aspect = canvas.clientWidth / canvas.clientHeight, { right, up } = axes();
+    const aspect = canvas.clientWidth / canvas.clientHeight, { right, up } = axes(eye);
     const mm = 2 * halfView * distance(aspect) / canvas.clientHeight;
     eye.target = add(add(eye.target, right, -dx * mm), up, dy * mm);
     redraw();
