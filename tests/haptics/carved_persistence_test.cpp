@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// On milled stock the proxy never falls through and the force never pulls in: feature size x probe x speed x
+// rate, along, across and into the grooves, over a five-axis patch and over the edges of the stock. What is
+// air is told by the cutter's sweeps, not by the field.
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "base/noise_hash.hpp"
+#include "haptics/field_contact.hpp"
+#include "milled_field.hpp"
+
+namespace tribo::haptics {
+namespace {
+
+using namespace test;
+
+constexpr double kProbes[] = {0, 0.05, 0.5, 2};
+constexpr double kSpeeds[] = {1, 30, 300, 1000};  // mm/s
+constexpr double kRates[] = {1000, 3000, 10000};
+// Along the grooves, across them, askew.
+constexpr double kHeadings[] = {0.5 * std::numbers::pi, 0, 0.7};
+
+struct Found {
+    long ticks = 0, contacts = 0;
+    long through = 0;       // proxies in material, or on the other side of it
+    long inward = 0;        // forces that push the probe further in
+    long lost = 0;          // probes in material that nothing holds
+    long unsound = 0;       // numbers that are none
+    double deepest_mm = 0;  // of a proxy in material
+
+    void operator+=(const Found& f) {
+        ticks += f.ticks;
+        contacts += f.contacts;
+        through += f.through;
+        inward += f.inward;
+        lost += f.lost;
+        unsound += f.unsound;
+        deepest_mm = std::max(deepest_mm, f.deepest_mm);
+    }
+};
+
+struct Case {
+    double radius_mm, mm_per_s, rate_hz, heading_rad, friction;
+    std::uint64_t seed;
+};
+
+// How deep a ball stands in material, as far as places all around its lower half tell.
+double ball_depth(const Milled& m, Vec3 centre, double radius) {
+    double deepest = m.depth_mm(centre);
+    if (radius == 0) return deepest;
+    constexpr int kPlaces = 60;
+    for (int n = 0; n < kPlaces; ++n) {
+        // A spiral (Vogel 1979).
+        const double z = -1 + (n + 0.5) / kPlaces * (m.open ? 2 : 1), turn = 2.39996322972865332 * n;
+        const double flat = std::sqrt(1 - z * z);
+        deepest = std::max(
+            deepest, m.depth_mm(centre + radius * Vec3{flat * std::cos(turn), flat * std::sin(turn), z}));
+    }
+    return deepest;
+}
+
+// Back and forth between two bounds.
+double folded(double x, double from, double to) {
+    const double width = to - from, t = std::fmod(std::abs(x - from), 2 * width);
+    return from + (t > width ? 2 * width - t : t);
+}
+
+// Down at a slant from above, then along the heading, a while askew and deeper, a while up again.
+Found stroke(const Milled& m, const Case& c, int ticks) {
+    ContactOptions options;
+    options.probe_radius_mm = c.radius_mm;
+    options.tick_s = 1 / c.rate_hz;
+    options.friction_static = c.friction;
+    options.friction_kinetic = 0.7 * c.friction;
+    FieldContact contact(*m.field, options);
+    const CounterNoise noise(c.seed);
+    const double step = c.mm_per_s / c.rate_hz, top = m.strokes_mm.max.z + c.radius_mm;
+    const double above = std::min(0.3, 40 * step), below = std::min(0.7, 200 * step);
+    // A ball feels a cusp by as much late as the field's search leaves open.
+    const double tolerance = 1e-4 + (c.radius_mm > 0 ? 0.03 * m.field->cell_mm() : 0);
+    const Vec3 size = m.strokes_mm.max - m.strokes_mm.min;
+    double x = m.strokes_mm.min.x + size.x * noise.uniform(0);
+    double y = m.strokes_mm.min.y + size.y * noise.uniform(1), z = top + above;
+    double heading = c.heading_rad, dive = 0.8;
+    Found found;
+    contact.update({folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
+                    folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z + 1});
+    for (int n = 0; n < ticks; ++n) {
+        if (z < top - below) dive = 0;
+        if (n % 50 == 49) {
+            const auto k = static_cast<std::uint64_t>(3 * n);
+            heading = c.heading_rad + (n % 100 == 99 ? 0 : 6.3 * noise.uniform(k));
+            dive = 1.6 * noise.uniform(k + 1) - 0.8;
+        }
+        if (z > top + above) dive = 0.8;
+        const double flat = std::sqrt(1 - dive * dive) * step;
+        x += flat * std::cos(heading);
+        y += flat * std::sin(heading);
+        z -= dive * step;
+        const Vec3 probe{folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
+                         folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z};
+        const Contact felt = contact.update(probe);
+        ++found.ticks;
+        if (!is_finite(felt.force_n) || !is_finite(felt.proxy_mm) || !is_finite(felt.normal)) {
+            ++found.unsound;
+            continue;
+        }
+        const double depth =
+            n % 7 == 0 ? ball_depth(m, felt.proxy_mm, c.radius_mm) : m.depth_mm(felt.proxy_mm);
+        found.deepest_mm = std::max(found.deepest_mm, depth);
+        if (depth > tolerance || (!m.open && felt.proxy_mm.z < m.box_mm.min.z)) ++found.through;
+        if (felt.in_contact) {
+            ++found.contacts;
+            const double rounding = 1e-12;
+            if (dot(felt.force_n, felt.proxy_mm - probe) < -rounding || dot(felt.force_n, felt.normal) < 0 ||
+                (!m.open && c.friction == 0 && felt.force_n.z < -rounding))
+                ++found.inward;
+        } else if (felt.settled && m.depth_mm(probe) > tolerance) {
+            ++found.lost;
+        }
+    }
+    return found;
+}
+
+// All cases on one piece of stock; `share`: one case in so many.
+Found strokes(const Milled& m, std::uint64_t share, int ticks) {
+    Found all;
+    std::uint64_t number = 0;
+    for (const double radius : kProbes) {
+        for (const double speed : kSpeeds) {
+            for (const double rate : kRates) {
+                for (const double heading : kHeadings) {
+                    for (const double friction : {0.0, 0.5}) {
+                        if (number++ % share != 0) continue;
+                        const Found f = stroke(m, {radius, speed, rate, heading, friction, number}, ticks);
+                        if (f.through + f.inward + f.lost + f.unsound > 0) {
+                            std::printf(
+                                "%s: ball %g, %g mm/s, %g Hz, heading %.1f, friction %g: "
+                                "%ld through (%.2g mm), %ld inward, %ld lost of %ld\n",
+                                m.name.c_str(), radius, speed, rate, heading, friction, f.through,
+                                f.deepest_mm, f.inward, f.lost, f.ticks);
+                        }
+                        all += f;
+                    }
+                }
+            }
+        }
+    }
+    return all;
+}
+
+void expect_held(const Milled& m, std::uint64_t share, int ticks) {
+    SCOPED_TRACE(m.name);
+    const Found f = strokes(m, share, ticks);
+    EXPECT_EQ(f.through, 0) << "deepest " << f.deepest_mm << " mm";
+    EXPECT_EQ(f.inward, 0);
+    EXPECT_EQ(f.lost, 0);
+    EXPECT_EQ(f.unsound, 0);
+    EXPECT_GT(f.contacts, f.ticks / 4);
+}
+
+constexpr double kFeatures[] = {0.01, 0.05, 0.2, 0.55, 2};
+
+Milled grooves(double feature, double slender) {
+    return scalloped_plate(feature, slender * feature, std::max(0.5, feature), 20, 0.3 * feature);
+}
+
+// A web of the feature's thickness is left under the grooves.
+Milled web(double thickness) {
+    return scalloped_plate(4 * thickness, 0.4 * thickness, thickness, 12, 0.4 * thickness);
+}
+
+void hold_all(std::uint64_t share, int ticks) {
+    for (const double feature : kFeatures) {
+        for (const double slender : {0.025, 0.25}) expect_held(grooves(feature, slender), share, ticks);
+        expect_held(web(feature), share, ticks);
+        expect_held(scalloped_plate(feature, 0.1 * feature, 2 * feature, 16, 0.3 * feature, true), share,
+                    ticks);
+        expect_held(bare_plate(feature, 12 * feature, 0.4 * feature), share, ticks);
+    }
+    // A grid that is coarser than the grooves, and drops some of them.
+    expect_held(scalloped_plate(0.05, 0.005, 0.5, 80, 0.1), share, ticks);
+    for (const double pitch : {0.3, 1.0}) expect_held(five_axis_patch(pitch, 12, 0.2), share, ticks);
+}
+
+TEST(CarvedPersistence, no_milled_surface_lets_a_probe_through) {
+    hold_all(7, 120);
+}
+
+// Hundreds of thousands of strokes' ticks: for `make soak`.
+TEST(CarvedPersistence, DISABLED_no_milled_surface_lets_a_probe_through_in_the_whole_grid) {
+    hold_all(1, 600);
+}
+
+}  // namespace
+}  // namespace tribo::haptics
