@@ -2,6 +2,7 @@
 #include "field/field_query.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace tribo::field {
 namespace {
@@ -13,15 +14,9 @@ constexpr double kOnSurface = 1e-5;
 // A surface point that one brick's shapes make is one if the field is this close to zero there, in cells:
 // where two bricks meet their lists may differ by a shape whose share is thinner than a cell.
 constexpr double kAgree = 0.02;
-// Bricks on each side that a search for the nearest surface looks at.
-constexpr int kMostRings = 3;
-constexpr int kMostSearches = 4, kMostLooked = 12;
-
-double distance_to(const Box3& box, Vec3 p) {
-    return length({std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
-                   std::max({box.min.y - p.y, p.y - box.max.y, 0.0}),
-                   std::max({box.min.z - p.z, p.z - box.max.z, 0.0})});
-}
+// Bricks on each side that a look for clear air goes through, and one for the nearest surface.
+constexpr int kMostRings = 3, kMostReach = 6;
+constexpr int kMostSearches = 6, kMostLooked = 48;
 
 Vec3 clamped(const Box3& box, Vec3 p) {
     return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
@@ -150,6 +145,79 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     return false;
 }
 
+// The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
+class FieldQuery::Candidates {
+  public:
+    Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
+        const double brick_mm = kBrickCells * field.cell_mm;
+        const Vec3 corner = field.lattice(here).node(0, 0, 0);
+        const auto low = [&](double from, double at) {
+            return std::max(-kMostReach, static_cast<int>(std::floor((at - bound_mm - from) / brick_mm)));
+        };
+        const auto high = [&](double from, double at) {
+            return std::min(kMostReach, static_cast<int>(std::floor((at + bound_mm - from) / brick_mm)));
+        };
+        const auto gap = [&](double from, int n, double at) {
+            return std::max({0.0, from + n * brick_mm - at, at - from - (n + 1) * brick_mm});
+        };
+        const auto face = [&](double from, double at) { return std::min(at - from, from + brick_mm - at); };
+        seen_mm_ =
+            kMostReach * brick_mm + std::min({face(corner.x, p.x), face(corner.y, p.y), face(corner.z, p.z)});
+        const double most = bound_mm * bound_mm;
+        for (int k = low(corner.z, p.z); k <= high(corner.z, p.z); ++k) {
+            const double z = gap(corner.z, k, p.z), zz = z * z;
+            if (zz >= most) continue;
+            for (int j = low(corner.y, p.y); j <= high(corner.y, p.y); ++j) {
+                const double y = gap(corner.y, j, p.y), yz = zz + y * y;
+                if (yz >= most) continue;
+                for (int i = low(corner.x, p.x); i <= high(corner.x, p.x); ++i) {
+                    const double x = gap(corner.x, i, p.x), square = yz + x * x;
+                    if (square >= most) continue;
+                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
+                    if (field.bricks.contains(b) && field.bricks.get(b) != kAir) put({square, b});
+                }
+            }
+        }
+    }
+    // The nearest that was not taken yet, if there is one within `bound_mm`.
+    bool take(double bound_mm, BrickCoord& b, double& distance_mm) {
+        std::size_t least = count_;
+        double square = bound_mm * bound_mm;
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (all_[n].square < square) {
+                square = all_[n].square;
+                least = n;
+            }
+        }
+        if (least == count_) return false;
+        b = all_[least].brick;
+        distance_mm = std::sqrt(square);
+        all_[least] = all_[--count_];
+        return true;
+    }
+    // Up to here nothing is unseen.
+    double seen_mm() const { return seen_mm_; }
+
+  private:
+    struct One {
+        double square;
+        BrickCoord brick;
+    };
+    void put(const One& one) {
+        if (count_ < all_.size()) {
+            all_[count_++] = one;
+            return;
+        }
+        const auto farthest = std::max_element(
+            all_.begin(), all_.end(), [](const One& a, const One& b) { return a.square < b.square; });
+        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest->square, one.square)));
+        if (one.square < farthest->square) *farthest = one;
+    }
+    std::array<One, 64> all_;
+    std::size_t count_ = 0;
+    double seen_mm_ = 0;
+};
+
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_mm) const {
     // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
     // a smooth piece does.
@@ -165,9 +233,9 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         }
         if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kAgree * cell_mm) return s;
         if (s.distance_mm > lower.distance_mm) lower = s;
+        if (here == there) break;
     }
-    // At a cusp: the nearest surface point of each brick that may hold one. Where none is found though a
-    // brick could not show that it is clear, the bound stands.
+    // At a cusp: the nearest surface point of each brick that may hold one.
     contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
     bool doubt = false;
     const auto search = [&](BrickRef ref, Vec3 start) {
@@ -186,47 +254,38 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     // Nothing is nearer than `lower`.
     if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
     doubt = false;
-    // Bricks from the nearest on, which are the likeliest.
-    const Vec3 corner = lattice(here).node(0, 0, 0);
-    const auto reach = [&](double from, double at) {
-        return std::clamp(static_cast<int>(std::floor((at - from) * per_cell / kBrickCells)), -kMostRings,
-                          kMostRings);
-    };
-    double last = -1;
-    int last_place = 0, searches = 0;
-    for (int looked = 0; looked < kMostLooked; ++looked) {
+    // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
+    Candidates bricks_near(*this, here, p, best.distance_mm - kOnSurface);
+    double proven = bricks_near.seen_mm();
+    BrickCoord b;
+    double way = 0;
+    int searches = 0;
+    for (int looked = 0; bricks_near.take(best.distance_mm - kOnSurface, b, way); ++looked) {
         const double bound = best.distance_mm - kOnSurface;
-        double least = bound;
-        int place = 0, least_place = 0;
-        BrickCoord nearest_brick{};
-        for (int k = reach(corner.z, p.z - bound); k <= reach(corner.z, p.z + bound); ++k) {
-            for (int j = reach(corner.y, p.y - bound); j <= reach(corner.y, p.y + bound); ++j) {
-                for (int i = reach(corner.x, p.x - bound); i <= reach(corner.x, p.x + bound); ++i) {
-                    place = (k * 16 + j) * 16 + i;
-                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
-                    if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
-                    const double d = distance_to(box(b), p);
-                    if (d < last || (d == last && place <= last_place) || d >= least) continue;
-                    least = d;
-                    least_place = place;
-                    nearest_brick = b;
-                }
-            }
+        const BrickRef ref = bricks.get(b);
+        if (looked == kMostLooked) {
+            proven = std::min(proven, way);
+            break;
         }
-        if (least >= bound) return doubt && best.distance_mm >= within_mm ? lower : best;
-        last = least;
-        last_place = least_place;
-        const BrickRef ref = bricks.get(nearest_brick);
         if (is_clear(ref, p, bound)) continue;
         // What is in the box lies further from p than from the box's point nearest to p, at a right angle or
         // more.
-        const Vec3 start = clamped(box(nearest_brick), p);
-        if (is_clear(ref, start, std::sqrt(bound * bound - least * least))) continue;
-        if (++searches > kMostSearches) break;
+        const Vec3 start = clamped(box(b), p);
+        if (is_clear(ref, start, std::sqrt(std::max(0.0, bound * bound - way * way)))) continue;
+        if (++searches > kMostSearches) {
+            proven = std::min(proven, way);
+            break;
+        }
         search(ref, start);
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
-    return best.distance_mm >= within_mm ? lower : best;
+    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kAgree * cell_mm)
+        return best;
+    // Not shown to be the nearest: what is known of the distance.
+    if (!doubt && proven > lower.distance_mm) lower = {proven, best.normal, best.piece};
+    const double outside = blank().distance_mm(p);
+    if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
+    return lower;
 }
 
 bool FieldQuery::is_material(Vec3 p, double skin_mm) const {

@@ -71,6 +71,7 @@ struct FieldQuery {
     bool is_material(Vec3 point_mm, double skin_mm) const;
 
   private:
+    class Candidates;
     Vec3 outward(ShapeId id, Vec3 point_mm) const {
         return id == 0 ? blank().gradient(point_mm) : -shape(id).gradient(point_mm);
     }

@@ -17,6 +17,9 @@ constexpr double kSettled = 2e-3;
 constexpr double kOneSide = 0.95;
 // A step that ends this share of its length above the surface has gone over an edge.
 constexpr double kOverEdge = 0.5;
+// Longer than this share of what is left, a step is a leap.
+constexpr double kFarther = 1.25;
+constexpr double kShorter = 0.25;
 // In flight, contact is made where the free ball is smaller than this share of the way to go.
 constexpr double kNear = 0.02;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
@@ -164,7 +167,10 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
     s.settled = s.lost = false;
     const Vec3 from = s.proxy;
     Vec3 last_rest, last_step;
-    double last_length = 0;
+    double last_length = 0, leap = 0;
+    // Of the step that should settle it: less after one that came no nearer to the probe. Cusps and bumps
+    // that are small to the probe's depth turn the way back at each.
+    double share = 1;
     bool moved = false;
     for (int n = 0; n < kMostSlides && budget(6); ++n) {
         const Vec3 way = probe - s.proxy;
@@ -174,14 +180,15 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const double hold = (moved ? options_.friction_kinetic : this->hold()) * s.press_mm;
         if (rest <= hold + kSettled * s.press_mm + kSkin) {
             s.settled = true;
-            if (moved && s.sides.count == 1) return s;
+            if (moved && s.sides.count == 1 && leap <= kLeap * s.press_mm + kSkin) return s;
             // Held: is there still a surface? In a corner: do all its sides hold?
             const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
             s.ball = g.ball;
             if (g.gap_mm > 2 * kSkin) s.lost = !moved;
-            if (g.gap_mm >= -2 * kSkin) return s;
+            if (g.gap_mm >= -2 * kSkin && !(moved && g.gap_mm > 2 * kSkin)) return s;
             s.settled = false;
             moved = true;
+            leap = std::abs(g.gap_mm);
             const Vec3 landed = s.proxy - g.gap_mm * g.normal;
             if (s.sides.count == 1 && dot(g.normal, s.normal) > kOneSide) {
                 s.proxy = landed;
@@ -199,17 +206,22 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
             const Vec3 change = s.rest - last_rest;
             const double up = -dot(last_step, change), down = squared_length(change);
             // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
-            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::clamp(2 * ease_, 1.0, 8.0);
+            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
         }
         const double goal = std::max(0.0, 1 - options_.friction_kinetic * s.press_mm / rest);
-        Vec3 step = limited((s.sides.count == 1 ? ease_ * goal : goal) * s.rest, longest_step);
+        const Vec3 step =
+            limited((s.sides.count == 1 ? share * ease_ * goal : share * goal) * s.rest, longest_step);
         if (moved && distance(s.proxy + step, from) > longest_step) return s;
-        last_rest = s.rest;
         const Vec3 trial = s.proxy + step;
         const ProbeGap::Gap g = gap_.measure(*field_, trial);
         const double size = length(step);
-        moved = true;
         if (g.gap_mm > kOverEdge * size + kSkin) {
+            if (size > kFarther * rest) {
+                // Not an edge under the probe, but one far beyond it.
+                share *= kShorter;
+                last_length = 0;
+                continue;
+            }
             s.proxy = trial;
             s.lost = true;
             return s;
@@ -218,6 +230,7 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const bool bends = dot(g.normal, s.normal) > kOneSide;
         ProbeGap::Gap last = g;
         Vec3 next = landed;
+        contact::HalfSpaces sides;
         if (s.sides.count == 1 && (bends || g.gap_mm >= -kSkin)) {
             // After a leap in height what was nearest from the trial may not be so where it lands.
             for (int k = 0; k < kMostLandings && std::abs(last.gap_mm) > kLeap * size + kSkin && budget(6);
@@ -225,27 +238,35 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
                 last = gap_.measure(*field_, next);
                 next -= last.gap_mm * last.normal;
             }
-            s.sides = {};
-            s.sides.put(side_of(last.normal), kOneSide);
+            sides.put(side_of(last.normal), kOneSide);
         } else if (g.gap_mm < -kSkin) {
             // Another side is in the way: the proxy stands where all of them meet.
             next = corner_of(s, landed, g.normal).nearest(trial);
-            s.sides.put(side_of(g.normal), kOneSide);
+            sides = s.sides;
+            sides.put(side_of(g.normal), kOneSide);
         } else {
             // Along a corner: the sides that the step has not left are still there.
-            contact::HalfSpaces kept;
             for (int i = 0; i < s.sides.count; ++i) {
                 const contact::HalfSpace& h = s.sides.side[static_cast<std::size_t>(i)];
-                if (dot(h.normal, step) > -1e-3 * size) kept.put(h, kOneSide);
+                if (dot(h.normal, step) > -1e-3 * size) sides.put(h, kOneSide);
             }
-            kept.put(side_of(g.normal), kOneSide);
-            s.sides = kept;
+            sides.put(side_of(g.normal), kOneSide);
         }
+        if (size > kSkin && distance(probe, next) > distance(probe, s.proxy) + kLeap * size) {
+            share *= kShorter;
+            last_length = 0;
+            continue;
+        }
+        moved = true;
+        leap = std::abs(last.gap_mm);
+        s.sides = sides;
         s.normal = last.normal;
         s.ball = last.ball;
+        last_rest = s.rest;
         last_step = next - s.proxy;
         last_length = bends && s.sides.count == 1 ? length(last_step) : 0;
-        if (last_length == 0) ease_ = 1;
+        if (last_length == 0) ease_ = std::min(ease_, 1.0);
+        share = 1;
         s.proxy = next;
     }
     // Cut short: on with the next tick, from a place that is in air.

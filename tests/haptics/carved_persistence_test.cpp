@@ -76,7 +76,7 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
     FieldContact contact(*m.field, options);
     const CounterNoise noise(c.seed);
     const double step = c.mm_per_s / c.rate_hz, top = m.strokes_mm.max.z + c.radius_mm;
-    const double above = std::min(0.3, 40 * step), below = std::min(0.7, 200 * step);
+    const double above = std::min(0.3, 40 * step), below = std::min({0.7, 200 * step, m.deepest_mm});
     // A ball feels a cusp by as much late as the field's search leaves open.
     const double tolerance = 1e-4 + (c.radius_mm > 0 ? 0.03 * m.field->cell_mm() : 0);
     const Vec3 size = m.strokes_mm.max - m.strokes_mm.min;
@@ -87,7 +87,7 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
     contact.update({folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
                     folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z + 1});
     for (int n = 0; n < ticks; ++n) {
-        if (z < top - below) dive = 0;
+        if (z < top - below && dive > 0) dive = 0;
         if (n % 50 == 49) {
             const auto k = static_cast<std::uint64_t>(3 * n);
             heading = c.heading_rad + (n % 100 == 99 ? 0 : 6.3 * noise.uniform(k));
@@ -97,7 +97,7 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
         const double flat = std::sqrt(1 - dive * dive) * step;
         x += flat * std::cos(heading);
         y += flat * std::sin(heading);
-        z -= dive * step;
+        z = std::max(z - dive * step, top - below);
         const Vec3 probe{folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
                          folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z};
         const Contact felt = contact.update(probe);
@@ -163,12 +163,12 @@ void expect_held(const Milled& m, std::uint64_t share, int ticks) {
 constexpr double kFeatures[] = {0.01, 0.05, 0.2, 0.55, 2};
 
 Milled grooves(double feature, double slender) {
-    return scalloped_plate(feature, slender * feature, std::max(0.5, feature), 20, 0.3 * feature);
+    return scalloped_plate(feature, slender * feature, std::max(0.5, feature), 40, 0.3 * feature);
 }
 
 // A web of the feature's thickness is left under the grooves.
 Milled web(double thickness) {
-    return scalloped_plate(4 * thickness, 0.4 * thickness, thickness, 12, 0.4 * thickness);
+    return scalloped_plate(4 * thickness, 0.4 * thickness, thickness, 16, 0.4 * thickness);
 }
 
 void hold_all(std::uint64_t share, int ticks) {

@@ -23,6 +23,7 @@ struct Milled {
     Box3 strokes_mm;        // where the probe goes; z from the highest surface there
     double feature_mm = 1;  // smallest size of what was milled
     bool open = false;      // strokes leave the stock over its edges
+    double deepest_mm = 1;  // of a probe under the top: its sides stay further away
     // How deep in material a point is: the exact distance to the air; 0 or less in air.
     std::function<double(Vec3)> depth_mm;
 };
@@ -52,7 +53,8 @@ inline Milled scalloped_plate(double pitch, double height, double thickness, int
     m.feature_mm = std::min(pitch, thickness);
     m.box_mm = {{0, 0, bottom - thickness}, {width, width, 0}};
     m.open = open;
-    const double edge = open ? -0.3 * width : 0.1 * width;
+    const double edge = open ? -0.3 * width : 0.25 * width;
+    m.deepest_mm = 0.125 * width;
     m.strokes_mm = {{edge, edge, bottom - thickness}, {width - edge, width - edge, bottom + height}};
     m.field = std::make_unique<field::CarvedField>(std::make_unique<field::BoxShape>(m.box_mm), cell);
     const milling::Cutter cutter = ball_mill(radius);
@@ -77,6 +79,7 @@ inline Milled bare_plate(double thickness, double edge, double cell) {
     m.feature_mm = thickness;
     m.box_mm = {{0, 0, -thickness}, {edge, edge, 0}};
     m.open = true;
+    m.deepest_mm = 0.125 * edge;
     m.strokes_mm = {{-0.3 * edge, -0.3 * edge, -thickness}, {1.3 * edge, 1.3 * edge, 0}};
     m.field = std::make_unique<field::CarvedField>(std::make_unique<field::BoxShape>(m.box_mm), cell);
     m.depth_mm = [box = m.box_mm](Vec3 p) { return depth_in_box(box, p); };
@@ -128,11 +131,11 @@ inline Milled five_axis_patch(double pitch, double edge, double cell) {
     }
     const double pieces = std::ceil((edge + 2 * kPiece) / kPiece);
     m.depth_mm = [box = m.box_mm, centres = std::move(centres), pitch, pieces](Vec3 p) {
-        // Where the surface is, the pass of the point's x and its neighbours make it, close to the point's y.
+        // Where the surface is, passes within a mm of the point make it, close to the point's y.
         const double per_pass = 250 * pieces, passes = static_cast<double>(centres.size()) / per_pass;
-        const double near = std::round(p.x / pitch) + 2;
+        const double near = std::round(p.x / pitch) + 2, aside = 1 + std::ceil(1 / pitch);
         double least = depth_in_box(box, p);
-        for (double pass = std::max(0.0, near - 1); pass <= std::min(passes - 1, near + 1); ++pass) {
+        for (double pass = std::max(0.0, near - aside); pass <= std::min(passes - 1, near + aside); ++pass) {
             const double middle = (p.y + kPiece) * 250 / kPiece;
             const double from = std::clamp(middle - 100, 0.0, per_pass - 1),
                          to = std::min(from + 200, per_pass);
