@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contact/distance_field.hpp"
 
+#include <cmath>
+
 #include "contact/half_spaces.hpp"
 
 namespace tribo::contact {
@@ -11,6 +13,59 @@ constexpr int kMostRounds = 16;
 constexpr double kOnSurface = 1e-6;
 // Normals of one smooth piece, from one step of the search to the next, agree at least this well.
 constexpr double kAlike = 0.5;
+// Bends are measured over this share of the distance, and are too great from this share of a sphere's on.
+constexpr double kBendStep = 1e-3, kTooBent = 1.01;
+
+struct Foot {
+    SurfaceSample sample;  // not found: a lower bound
+    Vec3 at;
+    bool found = false, smooth = false;
+};
+
+Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
+    HalfSpaces sides;
+    Vec3 q = start_mm;
+    for (int n = 0; n < kMostRounds; ++n) {
+        const SurfaceSample s = field.sample(q);
+        if (s.distance_mm <= kOnSurface && n > 0 && s.distance_mm >= -kOnSurface) {
+            const double way = length(point_mm - q);
+            int held_by = 0;
+            for (int i = 0; i < sides.count; ++i)
+                held_by += sides.side[static_cast<std::size_t>(i)].above(q) > -kOnSurface ? 1 : 0;
+            const bool smooth = held_by == 1;
+            if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, smooth};
+            return {{s.distance_mm, s.normal, s.piece}, q, true, false};
+        }
+        for (int i = 0; i < sides.count; ++i) {
+            HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
+            const SurfaceSample t = field.sample_piece(side.piece, q);
+            if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike)
+                side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
+        }
+        sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
+        q = sides.nearest(point_mm);
+    }
+    return {field.sample(point_mm), q, false, false};
+}
+
+// Where the surface at a foot bends towards the point more than a sphere about the point does: the direction
+// in which it does so most, as long as the bend's radius. Else zero.
+Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
+    const Vec3 n = foot.sample.normal;
+    const double way = foot.sample.distance_mm, h = kBendStep * way;
+    const Vec3 u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), v = cross(n, u);
+    const SurfaceSample here = field.sample_piece(foot.sample.piece, foot.at),
+                        at_u = field.sample_piece(foot.sample.piece, foot.at + h * u),
+                        at_v = field.sample_piece(foot.sample.piece, foot.at + h * v);
+    const Vec3 du = (at_u.normal - here.normal) / h, dv = (at_v.normal - here.normal) / h;
+    // The least eigenvalue of the symmetric 2 x 2 matrix of bends.
+    const double a = dot(du, u), b = 0.5 * (dot(du, v) + dot(dv, u)), c = dot(dv, v);
+    const double least = 0.5 * (a + c) - std::sqrt(0.25 * (a - c) * (a - c) + b * b);
+    if (!(-least * way > kTooBent)) return {};
+    const Vec3 e =
+        std::abs(least - a) > std::abs(least - c) ? b * u + (least - a) * v : (least - c) * u + b * v;
+    return (-1 / least) * normalized(e, u);
+}
 
 }  // namespace
 
@@ -24,24 +79,16 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, Vec3 hint_
 }
 
 SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
-    HalfSpaces sides;
-    Vec3 q = start_mm;
-    SurfaceSample best = field.sample(point_mm);  // a lower bound
-    for (int n = 0; n < kMostRounds; ++n) {
-        const SurfaceSample s = field.sample(q);
-        if (s.distance_mm <= kOnSurface && n > 0 && s.distance_mm >= -kOnSurface) {
-            const double way = length(point_mm - q);
-            if (way > kOnSurface) return {way, (point_mm - q) / way, s.piece};
-            return {s.distance_mm, s.normal, s.piece};
-        }
-        for (int i = 0; i < sides.count; ++i) {
-            HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
-            const SurfaceSample t = field.sample_piece(side.piece, q);
-            if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike)
-                side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
-        }
-        sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
-        q = sides.nearest(point_mm);
+    const Foot foot = foot_from(field, point_mm, start_mm);
+    if (!foot.found || !foot.smooth) return foot.sample;
+    // A point over a hollow that is narrower than its distance has its foot at the bottom, which of all
+    // places there is the furthest: the nearest are up the sides.
+    const Vec3 aside = steepest_bend(field, foot);
+    if (squared_length(aside) == 0) return foot.sample;
+    SurfaceSample best = foot.sample;
+    for (const double side : {-1.0, 1.0}) {
+        const Foot other = foot_from(field, point_mm, foot.at + side * aside);
+        if (other.found && other.sample.distance_mm < best.distance_mm) best = other.sample;
     }
     return best;
 }

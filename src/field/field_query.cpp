@@ -16,21 +16,22 @@ constexpr double kOnSurface = 1e-5;
 constexpr double kAgree = 0.02;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
-constexpr int kMostSearches = 6, kMostLooked = 48;
+constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
 
 Vec3 clamped(const Box3& box, Vec3 p) {
     return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
             std::clamp(p.z, box.min.z, box.max.z)};
 }
 
-// The material as one brick's shapes make it, everywhere.
-class OneBrick final : public contact::DistanceField {
+// The material as the brick around a point makes it, and as one certain brick does where that one is air or
+// there is none: what is far from the surface still has a distance then.
+class NearBrick final : public contact::DistanceField {
   public:
-    OneBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
-    double distance_mm(Vec3 p) const override { return field_.exact(ref_, p).distance_mm; }
+    NearBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
+    double distance_mm(Vec3 p) const override { return field_.exact(around(p), p).distance_mm; }
     Vec3 normal(Vec3 p) const override { return sample(p).normal; }
     contact::SurfaceSample sample(Vec3 p) const override {
-        const FieldQuery::Exact e = field_.exact(ref_, p);
+        const FieldQuery::Exact e = field_.exact(around(p), p);
         return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
                 e.shape};
     }
@@ -39,6 +40,11 @@ class OneBrick final : public contact::DistanceField {
     }
 
   private:
+    BrickRef around(Vec3 p) const {
+        const BrickCoord b = field_.brick_at(p);
+        const BrickRef ref = field_.bricks.contains(b) ? field_.bricks.get(b) : kAir;
+        return ref == kAir ? ref_ : ref;
+    }
     const FieldQuery& field_;
     BrickRef ref_;
 };
@@ -218,6 +224,49 @@ class FieldQuery::Candidates {
     double seen_mm_ = 0;
 };
 
+// The node of a brick at which the surface is close that is nearest to a point: so near that a point of the
+// surface less than `within_mm` away may be there, and further than two cells from each of `but`. Whether
+// there is one.
+bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Vec3> but,
+                              Vec3& place) const {
+    const BrickRef ref = bricks.get(where);
+    if (ref == kUntouched) {
+        place = clamped(box(where), p);
+        return but.empty();
+    }
+    const Brick& brick = (*pool)[ref];
+    const Lattice nodes = lattice(where);
+    const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
+    // Nothing of the surface is further from every node.
+    const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
+    double least = reach * reach;
+    const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
+    const auto high = [&](double at) {
+        return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
+    };
+    bool any = false;
+    for (int c = low(q.z); c <= high(q.z); ++c) {
+        for (int b = low(q.y); b <= high(q.y); ++b) {
+            const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
+            if (yz >= least) continue;
+            for (int a = low(q.x); a <= high(q.x); ++a) {
+                const double d =
+                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
+                const double square = yz + (a - q.x) * (a - q.x);
+                if (d > close || d < -close || square >= least) continue;
+                const Vec3 node = nodes.node(a, b, c);
+                if (std::any_of(but.begin(), but.end(),
+                                [&](Vec3 f) { return squared_length(f - node) < 4 * cell_mm * cell_mm; }))
+                    continue;
+                least = square;
+                place = node;
+                any = true;
+            }
+        }
+    }
+    return any;
+}
+
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_mm) const {
     // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
     // a smooth piece does.
@@ -225,7 +274,8 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     contact::SurfaceSample lower{0, {0, 0, 1}, 0};
     for (const BrickCoord b : {here, there}) {
         if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
-        const contact::SurfaceSample s = OneBrick(*this, bricks.get(b)).sample(p);
+        const Exact e = exact(bricks.get(b), p);
+        const contact::SurfaceSample s{e.distance_mm, outward(e.shape, p), e.shape};
         if (s.distance_mm >= within_mm) return s;
         if (s.distance_mm <= 0) {
             if (b == here) return s;
@@ -239,50 +289,52 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
     bool doubt = false;
     const auto search = [&](BrickRef ref, Vec3 start) {
-        const OneBrick brick(*this, ref);
+        const NearBrick brick(*this, ref);
         const contact::SurfaceSample found = contact::nearest_from(brick, p, start);
         // What one brick's shapes leave may be air by another's.
         if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kAgree * cell_mm) {
             if (found.distance_mm < best.distance_mm) best = found;
-            return;
+            return p - found.distance_mm * found.normal;
         }
         doubt = true;
+        return start;
     };
     if (bricks.contains(there) && bricks.get(there) != kAir) {
-        search(bricks.get(there), hint_mm);
+        (void)search(bricks.get(there), hint_mm);
     }
     // Nothing is nearer than `lower`.
     if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
     doubt = false;
     // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
     Candidates bricks_near(*this, here, p, best.distance_mm - kOnSurface);
-    double proven = bricks_near.seen_mm();
+    const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;
     int searches = 0;
+    contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
     for (int looked = 0; bricks_near.take(best.distance_mm - kOnSurface, b, way); ++looked) {
         const double bound = best.distance_mm - kOnSurface;
         const BrickRef ref = bricks.get(b);
-        if (looked == kMostLooked) {
-            proven = std::min(proven, way);
-            break;
-        }
+        if (looked == kMostLooked) break;
         if (is_clear(ref, p, bound)) continue;
-        // What is in the box lies further from p than from the box's point nearest to p, at a right angle or
-        // more.
-        const Vec3 start = clamped(box(b), p);
-        if (is_clear(ref, start, std::sqrt(std::max(0.0, bound * bound - way * way)))) continue;
-        if (++searches > kMostSearches) {
-            proven = std::min(proven, way);
-            break;
+        if (way < nearest_box.distance_mm)
+            nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
+        // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
+        Vec3 start, feet[kMostStarts];
+        for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {feet, feet + n}, start);
+             ++n) {
+            if (++searches > kMostSearches) break;
+            feet[n] = search(ref, start);
         }
-        search(ref, start);
+        if (searches > kMostSearches) break;
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
     if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kAgree * cell_mm)
         return best;
     // Not shown to be the nearest: what is known of the distance.
-    if (!doubt && proven > lower.distance_mm) lower = {proven, best.normal, best.piece};
+    if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
+    if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)
+        lower = {proven, lower.normal, lower.piece};
     const double outside = blank().distance_mm(p);
     if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
     return lower;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "contact/distance_field.hpp"
 #include "field/brick_index.hpp"
@@ -78,6 +79,8 @@ struct FieldQuery {
     double clear_of_nodes(const Brick& brick, Vec3 point_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
+    bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Vec3> but,
+                      Vec3& place_mm) const;
 };
 
 // All that a field holds, at an address that does not change.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace tribo::haptics {
 namespace {
@@ -19,9 +21,11 @@ constexpr double kOneSide = 0.95;
 constexpr double kOverEdge = 0.5;
 // Longer than this share of what is left, a step is a leap.
 constexpr double kFarther = 1.25;
-constexpr double kShorter = 0.25;
+constexpr double kShorter = 0.25, kShortest = 0.1;
 // In flight, contact is made where the free ball is smaller than this share of the way to go.
 constexpr double kNear = 0.02;
+// ... and smaller than this share of a ball's radius.
+constexpr double kNearBall = 0.1;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
@@ -30,6 +34,7 @@ constexpr int kMostSlides = 8;
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 constexpr int kMostTries = 8;
+constexpr int kMostLinks = 16;  // of a chain of balls, at once
 constexpr int kMostClimbs = 24;
 
 contact::HalfSpace side_of(Vec3 normal) {
@@ -86,7 +91,7 @@ Contact FieldContact::update(Vec3 probe) noexcept {
             fly(probe);
             break;
         case Phase::touching:
-            slide(probe);
+            if (!stuck_ || !freed(probe)) slide(probe);
             break;
     }
     return answer(probe);
@@ -111,6 +116,8 @@ void FieldContact::climb(Vec3 probe) {
 // From the anchor straight to the probe, through balls that hold no material.
 void FieldContact::fly(Vec3 probe) {
     phase_ = Phase::free;
+    // Further away a ball's nearest place is not measured.
+    const double near = gap_.radius_mm() > 0 ? kNearBall * gap_.radius_mm() : 1e30;
     Anchor a = anchor_;
     for (;;) {
         const double way = distance(probe, a.at);
@@ -120,7 +127,7 @@ void FieldContact::fly(Vec3 probe) {
             at_.settled = true;
             return;
         }
-        if (a.radius < std::max(kSkin, kNear * way)) break;
+        if (a.radius < std::max(kSkin, std::min(kNear * way, near))) break;
         anchor_ = a;
         if (!budget(1)) {
             at_.proxy = a.at;
@@ -139,6 +146,7 @@ void FieldContact::fly(Vec3 probe) {
     at_.sides.put(side_of(g.normal), kOneSide);
     anchor_ = {a.at, std::max(a.radius, 0.0)};
     phase_ = Phase::touching;
+    stuck_ = false;
     sticking_ = true;
     ease_ = 1;
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
@@ -215,6 +223,13 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const Vec3 trial = s.proxy + step;
         const ProbeGap::Gap g = gap_.measure(*field_, trial);
         const double size = length(step);
+        if (getenv("TR")) printf("   step at %.4f %.4f %.4f rest %.4g press %.4g size %.4g share %g ease %g sides %d gap %.4g n %.2f %.2f %.2f longest %.4g\n", s.proxy.x,s.proxy.y,s.proxy.z,rest,s.press_mm,size,share,ease_,s.sides.count,g.gap_mm,g.normal.x,g.normal.y,g.normal.z, longest_step);
+        if (g.gap_mm < -kOverEdge * size && s.sides.count == 1 && share > kShortest) {
+            // Deep in material, where neither distance nor side tells of the surface in between.
+            share *= kShorter;
+            last_length = 0;
+            continue;
+        }
         if (g.gap_mm > kOverEdge * size + kSkin) {
             if (size > kFarther * rest) {
                 // Not an edge under the probe, but one far beyond it.
@@ -286,6 +301,8 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
 
 // Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
 bool FieldContact::chain(const Anchor& to) {
+    // What it takes is not left for a shorter way.
+    const long last = gap_.queries() + kMostLinks;
     Anchor a = anchor_;
     for (;;) {
         const double way = distance(to.at, a.at);
@@ -293,7 +310,7 @@ bool FieldContact::chain(const Anchor& to) {
             anchor_ = to;
             return true;
         }
-        if (a.radius < kSkin || !budget(1)) return false;
+        if (a.radius < kSkin || !budget(1) || gap_.queries() >= last) return false;
         a.at += (a.radius / way) * (to.at - a.at);
         a.radius = gap_.clearance_mm(*field_, a.at, distance(to.at, a.at));
     }
@@ -342,11 +359,27 @@ void FieldContact::anchor_here() {
     }
 }
 
+// Of a proxy for which the last tick found no way: if it has come to stand in material (a nearest place was
+// missed before), out again to the air that it is tied to.
+bool FieldContact::freed(Vec3 probe) {
+    const double gg=gap_.measure(*field_, at_.proxy).gap_mm; if (gg >= -2 * kSkin) return false;
+    const double room = gap_.measure(*field_, anchor_.at).gap_mm;
+ printf("freed gap %.5f room %.5f\n", gg, room);    if (room > kSkin) {
+        anchor_.radius = room;
+        fly(probe);
+    } else {
+        phase_ = Phase::climb;
+        climb(probe);
+    }
+    return true;
+}
+
 void FieldContact::slide(Vec3 probe) {
     double longest = 1e30;
     bool settled = false;
     for (int tries = 0; !settled && tries < kMostTries && budget(8); ++tries) {
         const Slide s = slide_from_proxy(probe, longest);
+        if (getenv("TR")) printf("   slid to %.4f %.4f %.4f lost %d settled %d press %.4g q %d anchor %.4f %.4f %.4f r %.5f\n", s.proxy.x,s.proxy.y,s.proxy.z, s.lost, s.settled, s.press_mm, queries(), anchor_.at.x, anchor_.at.y, anchor_.at.z, anchor_.radius);
         if (s.lost) {
             // Over an edge, or the material is gone: through the air from here.
             const double room = gap_.clearance_mm(*field_, s.proxy, distance(probe, s.proxy));
@@ -370,6 +403,7 @@ void FieldContact::slide(Vec3 probe) {
         if (longest < 0.01 * kLowest) break;
     }
     at_.settled = settled;
+    stuck_ = !settled && at_.proxy == last_proxy_;
     if (at_.proxy == last_proxy_) {
         sticking_ = true;
     } else {

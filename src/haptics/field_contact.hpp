@@ -95,6 +95,7 @@ class FieldContact {
     bool tie(const Slide& s);
     bool chain(const Anchor& to);
     void anchor_here();
+    bool freed(Vec3 probe);
     Contact answer(Vec3 probe) const;
     bool budget(int queries) const { return gap_.queries() + queries <= first_query_ + kMostQueries; }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
@@ -105,6 +106,7 @@ class FieldContact {
     long first_query_ = 0;
     Phase phase_ = Phase::begin;
     bool sticking_ = true;
+    bool stuck_ = false;  // the last tick found no way on
     Anchor anchor_;
     Slide at_;  // the contact
     Vec3 last_proxy_;

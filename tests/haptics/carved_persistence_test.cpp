@@ -101,6 +101,7 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
         const Vec3 probe{folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
                          folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z};
         const Contact felt = contact.update(probe);
+        if (n>235 && n<246) {auto sx=m.field->nearest(felt.proxy_mm, 2*c.radius_mm, felt.proxy_mm-c.radius_mm*felt.normal);std::printf("T %d seed %d probe %.4f %.4f %.4f proxy %.4f %.4f %.4f c %d s %d q %d n %.3f %.3f %.3f near %.4f %.3f %.3f %.3f\n", n, (int)c.seed, probe.x,probe.y,probe.z, felt.proxy_mm.x, felt.proxy_mm.y, felt.proxy_mm.z, felt.in_contact, felt.settled, contact.queries(), felt.normal.x, felt.normal.y, felt.normal.z, sx.distance_mm, sx.normal.x, sx.normal.y, sx.normal.z);}
         ++found.ticks;
         if (!is_finite(felt.force_n) || !is_finite(felt.proxy_mm) || !is_finite(felt.normal)) {
             ++found.unsound;
@@ -109,7 +110,10 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
         const double depth =
             n % 7 == 0 ? ball_depth(m, felt.proxy_mm, c.radius_mm) : m.depth_mm(felt.proxy_mm);
         found.deepest_mm = std::max(found.deepest_mm, depth);
-        if (depth > tolerance || (!m.open && felt.proxy_mm.z < m.box_mm.min.z)) ++found.through;
+        if (depth > tolerance || (!m.open && felt.proxy_mm.z < m.box_mm.min.z)) {++found.through; 
+            Vec3 worst; double wd=-1; for (int i=0;i<4000;++i){ double zz=-1+(i+.5)/4000*2, tu=2.39996322972865332*i, fl=std::sqrt(1-zz*zz); Vec3 q=felt.proxy_mm+c.radius_mm*Vec3{fl*std::cos(tu),fl*std::sin(tu),zz}; double dd=m.depth_mm(q); if(dd>wd){wd=dd;worst=q;}}
+            auto s1=m.field->nearest(felt.proxy_mm, 2*c.radius_mm, felt.proxy_mm-c.radius_mm*felt.normal); auto s2=m.field->nearest(felt.proxy_mm, 2*c.radius_mm, worst);
+            std::printf("  tick %d settled %d proxy %.4f %.4f %.4f n %.3f %.3f %.3f deep %.4f at %.4f %.4f %.4f; nearest %.5f (%.3f %.3f %.3f) hinted %.5f (%.3f %.3f %.3f) q %d pen %.3f\n", n, felt.settled, felt.proxy_mm.x,felt.proxy_mm.y,felt.proxy_mm.z, felt.normal.x,felt.normal.y,felt.normal.z, wd, worst.x,worst.y,worst.z, s1.distance_mm, s1.normal.x,s1.normal.y,s1.normal.z, s2.distance_mm, s2.normal.x,s2.normal.y,s2.normal.z, contact.queries(), felt.penetration_mm);}
         if (felt.in_contact) {
             ++found.contacts;
             const double rounding = 1e-12;
@@ -195,3 +199,11 @@ TEST(CarvedPersistence, DISABLED_no_milled_surface_lets_a_probe_through_in_the_w
 
 }  // namespace
 }  // namespace tribo::haptics
+
+namespace tribo::haptics { namespace { TEST(Tmp, x) {
+    const Milled a=grooves(0.55,0.25);
+    const Vec3 p{14.2755,7.3141,1.6953};
+    setenv("TQ","1",1);
+    auto r=a.field->nearest(p,4,p-2*Vec3{.4,0,.9165});
+    std::printf("%g\n", r.distance_mm);
+} } }
