@@ -17,6 +17,8 @@ constexpr double kSkin = 1e-6;
 constexpr double kSettled = 2e-3;
 // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
 constexpr double kOneSide = 0.95;
+// A surface that faces away like this is the other side of a wall, or of a slot.
+constexpr double kOtherSide = -0.5;
 // A step that ends this share of its length above the surface has gone over an edge.
 constexpr double kOverEdge = 0.5;
 // Longer than this share of what is left, a step is a leap.
@@ -34,7 +36,7 @@ constexpr int kMostSlides = 8;
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 constexpr int kMostTries = 8;
-constexpr int kMostLinks = 16;  // of a chain of balls, at once
+constexpr int kMostLinks = 24;  // of a chain of balls, at once
 constexpr int kMostClimbs = 24;
 
 contact::HalfSpace side_of(Vec3 normal) {
@@ -224,8 +226,9 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const ProbeGap::Gap g = gap_.measure(*field_, trial);
         const double size = length(step);
         if (getenv("TR")) printf("   step at %.4f %.4f %.4f rest %.4g press %.4g size %.4g share %g ease %g sides %d gap %.4g n %.2f %.2f %.2f longest %.4g\n", s.proxy.x,s.proxy.y,s.proxy.z,rest,s.press_mm,size,share,ease_,s.sides.count,g.gap_mm,g.normal.x,g.normal.y,g.normal.z, longest_step);
-        if (g.gap_mm < -kOverEdge * size && s.sides.count == 1 && share > kShortest) {
-            // Deep in material, where neither distance nor side tells of the surface in between.
+        if (s.sides.count == 1 && share > kShortest &&
+            (g.gap_mm < -kOverEdge * size || dot(g.normal, s.normal) < kOtherSide)) {
+            // Deep in material or through it, where nothing tells of the surface in between.
             share *= kShorter;
             last_length = 0;
             continue;
@@ -322,7 +325,7 @@ bool FieldContact::tie(const Slide& s) {
     for (int n = 0; n < s.sides.count; ++n) up -= s.sides.side[static_cast<std::size_t>(n)].normal;
     up = normalized(up, s.normal);
     double height =
-        std::clamp(std::max(0.75 * distance(s.proxy, at_.proxy), 0.5 * height_), kLowest, kHighest);
+        std::clamp(std::max(1.5 * distance(s.proxy, at_.proxy), 0.5 * height_), kLowest, kHighest);
     for (int tries = 0; tries < 3 && budget(1); ++tries) {
         const Vec3 at = s.proxy + height * up;
         const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
@@ -339,6 +342,8 @@ bool FieldContact::tie(const Slide& s) {
             height_ = height;
             return true;
         }
+        // A long way is left to shorter steps.
+        if (!budget(kMostQueries / 2)) return false;
         height = std::max(kLowest, 0.25 * height);
     }
     return false;
@@ -395,6 +400,7 @@ void FieldContact::slide(Vec3 probe) {
             at_ = s;
             settled = s.settled;
             if (longest > 1e29) break;
+            longest *= 2;
             continue;
         }
         // No way there was proved: in smaller steps, from where the proxy is.
