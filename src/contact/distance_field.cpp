@@ -22,12 +22,13 @@ struct Foot {
     bool found = false, smooth = false;
 };
 
-Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
+Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     HalfSpaces sides;
     Vec3 q = start_mm;
+    bool there = false;  // the nearest point of all sides, not one on the way to it
     for (int n = 0; n < kMostRounds; ++n) {
         const SurfaceSample s = field.sample(q);
-        if (s.distance_mm <= kOnSurface && n > 0 && s.distance_mm >= -kOnSurface) {
+        if (there && std::abs(s.distance_mm) <= kOnSurface) {
             const double way = length(point_mm - q);
             int held_by = 0;
             for (int i = 0; i < sides.count; ++i)
@@ -43,7 +44,10 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
                 side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
         }
         sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
-        q = sides.nearest(point_mm);
+        const Vec3 next = sides.nearest(point_mm);
+        const double step = distance(next, q);
+        there = step <= longest_mm;
+        q = there ? next : q + (longest_mm / step) * (next - q);
     }
     return {field.sample(point_mm), q, false, false};
 }
@@ -78,8 +82,8 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, Vec3 hint_
     return hinted.distance_mm < below.distance_mm ? hinted : below;
 }
 
-SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
-    const Foot foot = foot_from(field, point_mm, start_mm);
+SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
+    const Foot foot = foot_from(field, point_mm, start_mm, longest_mm);
     if (!foot.found || !foot.smooth) return foot.sample;
     // A point over a hollow that is narrower than its distance has its foot at the bottom, which of all
     // places there is the furthest: the nearest are up the sides.
@@ -87,7 +91,7 @@ SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start
     if (squared_length(aside) == 0) return foot.sample;
     SurfaceSample best = foot.sample;
     for (const double side : {-1.0, 1.0}) {
-        const Foot other = foot_from(field, point_mm, foot.at + side * aside);
+        const Foot other = foot_from(field, point_mm, foot.at + side * aside, longest_mm);
         if (other.found && other.sample.distance_mm < best.distance_mm) best = other.sample;
     }
     return best;

@@ -51,7 +51,8 @@ class DistanceField {
 // The surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting planes: the
 // material near it is the intersection of half-spaces, one for each piece met, each renewed where the last
 // answer lay. Exact on edges and corners. Real-time safe, at most 16 rounds of a sample and the pieces met;
-// where that is not enough, a lower bound of the distance.
-SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm);
+// where that is not enough, a lower bound of the distance. It goes there in steps of at most `longest_mm`:
+// pieces that bend must be met where they meet each other.
+SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9);
 
 }  // namespace tribo::contact

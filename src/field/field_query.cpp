@@ -17,6 +17,8 @@ constexpr double kAgree = 0.02;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// Steps of a search along the surface, in cells.
+constexpr double kLongestCells = 2;
 
 Vec3 clamped(const Box3& box, Vec3 p) {
     return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
@@ -290,7 +292,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     bool doubt = false;
     const auto search = [&](BrickRef ref, Vec3 start) {
         const NearBrick brick(*this, ref);
-        const contact::SurfaceSample found = contact::nearest_from(brick, p, start);
+        const contact::SurfaceSample found = contact::nearest_from(brick, p, start, kLongestCells * cell_mm);
         // What one brick's shapes leave may be air by another's.
         if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kAgree * cell_mm) {
             if (found.distance_mm < best.distance_mm) best = found;
@@ -320,11 +322,12 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
         // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
-        Vec3 start, feet[kMostStarts];
-        for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {feet, feet + n}, start);
+        Vec3 start, seen[2 * kMostStarts];
+        for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {seen, seen + 2 * n}, start);
              ++n) {
             if (++searches > kMostSearches) break;
-            feet[n] = search(ref, start);
+            seen[2 * n] = start;
+            seen[2 * n + 1] = search(ref, start);
         }
         if (searches > kMostSearches) break;
     }

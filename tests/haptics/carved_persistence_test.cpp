@@ -200,6 +200,34 @@ TEST(CarvedPersistence, DISABLED_no_milled_surface_lets_a_probe_through_in_the_w
 }  // namespace
 }  // namespace tribo::haptics
 
-namespace tribo::haptics { namespace { TEST(Tmp, x) {
-    expect_held(web(0.01), 7, 120);
+namespace tribo::haptics { namespace { 
+void hints(const Milled& m, double r) {
+    const CounterNoise noise(5); std::uint64_t k=0; auto u=[&]{return noise.uniform(k++);};
+    int bad=0, total=0; double worst=0;
+    const Vec3 lo=m.strokes_mm.min-Vec3{0.1,0.1,0.1}*r, size=m.strokes_mm.max-m.strokes_mm.min;
+    for (int n=0;n<4000;++n) {
+        Vec3 p{lo.x+size.x*u(), lo.y+size.y*u(), m.strokes_mm.max.z + r*(1.3*u()-0.5)};
+        double ds[12]; Vec3 hs[12]; double least=1e9; double got_n[12][3];
+        for (int h=0;h<12;++h) { double z=-1+1.*u(), tu=6.28*u(), fl=std::sqrt(1-z*z); Vec3 hint=p+r*Vec3{fl*std::cos(tu),fl*std::sin(tu),z}; if(h==0) hint=p; hs[h]=hint; auto q=m.field->nearest(p,2*r,hint); ds[h]=q.distance_mm; got_n[h][0]=q.normal.x;got_n[h][1]=q.normal.y;got_n[h][2]=q.normal.z; least=std::min(least,q.distance_mm);}
+        if (least<=0) continue;
+        for (int h=0;h<12;++h) {++total; if (ds[h]>least+0.03*m.field->cell_mm()+1e-4) {++bad; if (bad<12) std::printf("p %.4f %.4f %.4f hint %.4f %.4f %.4f: %.4f (%.2f %.2f %.2f) least %.4f\n",p.x,p.y,p.z,hs[h].x,hs[h].y,hs[h].z,ds[h],got_n[h][0],got_n[h][1],got_n[h][2],least); worst=std::max(worst,ds[h]-least);}}
+    }
+    std::printf("%s r %g: bad %d of %d worst %g\n", m.name.c_str(), r, bad,total,worst);
+}
+TEST(Tmp, x) {
+    hints(scalloped_plate(0.2, 0.02, 0.4, 16, 0.06, true), 0.5);
+    hints(grooves(0.55, 0.25), 2);
+    hints(scalloped_plate(0.05, 0.005, 0.1, 16, 0.015, true), 0.5);
+}
+TEST(Tmp, y) {
+    auto a=scalloped_plate(0.2, 0.02, 0.4, 16, 0.06, true);
+    setenv("TQ","1",1);
+    Vec3 p{2.3045,-0.0957,0.2863};
+    a.field->nearest(p, 1, p); std::printf("\n");
+    p={3.7429,2.6543,0.2362};
+    a.field->nearest(p, 1, {3.2733,2.8260,0.2299});std::printf("\n");
+    p={13.7257,15.8709,0.0645};
+    auto b=grooves(0.55,0.25);
+    b.field->nearest(p, 4, {14.1778,17.0569,-1.4811});
+    unsetenv("TQ");
 } } }
