@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace tribo::haptics {
 namespace {
@@ -225,7 +223,6 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         const Vec3 trial = s.proxy + step;
         const ProbeGap::Gap g = gap_.measure(*field_, trial);
         const double size = length(step);
-        if (getenv("TR")) printf("   step at %.4f %.4f %.4f rest %.4g press %.4g size %.4g share %g ease %g sides %d gap %.4g n %.2f %.2f %.2f longest %.4g\n", s.proxy.x,s.proxy.y,s.proxy.z,rest,s.press_mm,size,share,ease_,s.sides.count,g.gap_mm,g.normal.x,g.normal.y,g.normal.z, longest_step);
         if (s.sides.count == 1 && share > kShortest &&
             (g.gap_mm < -kOverEdge * size || dot(g.normal, s.normal) < kOtherSide)) {
             // Deep in material or through it, where nothing tells of the surface in between.
@@ -367,9 +364,9 @@ void FieldContact::anchor_here() {
 // Of a proxy for which the last tick found no way: if it has come to stand in material (a nearest place was
 // missed before), out again to the air that it is tied to.
 bool FieldContact::freed(Vec3 probe) {
-    const double gg=gap_.measure(*field_, at_.proxy).gap_mm; if (gg >= -2 * kSkin) return false;
+    if (gap_.measure(*field_, at_.proxy).gap_mm >= -2 * kSkin) return false;
     const double room = gap_.measure(*field_, anchor_.at).gap_mm;
- printf("freed gap %.5f room %.5f\n", gg, room);    if (room > kSkin) {
+    if (room > kSkin) {
         anchor_.radius = room;
         fly(probe);
     } else {
@@ -384,7 +381,6 @@ void FieldContact::slide(Vec3 probe) {
     bool settled = false;
     for (int tries = 0; !settled && tries < kMostTries && budget(8); ++tries) {
         const Slide s = slide_from_proxy(probe, longest);
-        if (getenv("TR")) printf("   slid to %.4f %.4f %.4f lost %d settled %d press %.4g q %d anchor %.4f %.4f %.4f r %.5f\n", s.proxy.x,s.proxy.y,s.proxy.z, s.lost, s.settled, s.press_mm, queries(), anchor_.at.x, anchor_.at.y, anchor_.at.z, anchor_.radius);
         if (s.lost) {
             // Over an edge, or the material is gone: through the air from here.
             const double room = gap_.clearance_mm(*field_, s.proxy, distance(probe, s.proxy));

@@ -140,8 +140,7 @@ TEST(CarvedContact, goes_on_while_another_thread_carves) {
     }
     carver.join();
     for (int k = 0; k < 50; ++k) c = contact.update({10, 10, -1.6});
-    std::printf("Z force %g %g %g settled %d proxy %.5f %.5f %.5f n %.4f %.4f %.4f q %d pen %.4f field %.3g\n", c.force_n.x,c.force_n.y,c.force_n.z,c.settled,c.proxy_mm.x,c.proxy_mm.y,c.proxy_mm.z,c.normal.x,c.normal.y,c.normal.z,contact.queries(),c.penetration_mm,reader.distance_mm(c.proxy_mm));    EXPECT_NEAR(c.force_n.z, 0.5 * 0.3, 1e-3);
-
+    EXPECT_NEAR(c.force_n.z, 0.5 * 0.3, 1e-3);
 }
 
 TEST(CarvedContact, allocates_nothing) {
