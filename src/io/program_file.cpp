@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <utility>
 
 #include "formats/apt_reader.hpp"
@@ -12,6 +11,7 @@
 #include "formats/keyframes_csv.hpp"
 #include "formats/siemens_text.hpp"
 #include "formats/tool_table.hpp"
+#include "io/file_names.hpp"
 
 namespace tribo::io {
 namespace {
@@ -131,7 +131,7 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
 }  // namespace
 
 std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path) {
-    const std::string extension = lower(std::filesystem::path(path).extension().string());
+    const std::string extension = lower(extension_of(path));
     for (const Extension& known : kExtensions) {
         if (extension == known.text) return known.kind;
     }

@@ -2,21 +2,16 @@
 #include "io/toml_section.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <utility>
+
+#include "base/decimal.hpp"
+#include "io/file_names.hpp"
 
 namespace tribo::io {
 namespace {
 
 std::string in_quotes(std::string_view word) {
     return "'" + std::string(word) + "'";
-}
-
-std::string shown(double value) {
-    std::array<char, 32> buffer = {};
-    std::snprintf(buffer.data(), buffer.size(), "%.15g", value);
-    return buffer.data();
 }
 
 const char* type_name(const toml::node& node) {
@@ -40,7 +35,7 @@ const char* type_name(const toml::node& node) {
 }  // namespace
 
 std::string TomlFile::beside(const std::string& path) const {
-    return (std::filesystem::path(name_).parent_path() / path).string();
+    return file_beside(name_, path);
 }
 
 void TomlFile::fail(const toml::source_region& where, std::string cause, std::string remedy) {
@@ -96,12 +91,13 @@ std::optional<double> TomlSection::number_of(std::string_view key, const toml::n
     }
     const bool low = range.above ? value <= range.min : value < range.min;
     if (low || value > range.max) {
-        std::string wanted = range.above ? "above " + shown(range.min) : "at least " + shown(range.min);
+        std::string wanted =
+            range.above ? "above " + format_decimal(range.min) : "at least " + format_decimal(range.min);
         if (range.max < std::numeric_limits<double>::max()) {
             wanted += std::string(range.min > -std::numeric_limits<double>::max() ? " and " : "") +
-                      "at most " + shown(range.max);
+                      "at most " + format_decimal(range.max);
         }
-        file_.fail(node.source(), in_quotes(key) + " is " + shown(value), "it must be " + wanted);
+        file_.fail(node.source(), in_quotes(key) + " is " + format_decimal(value), "it must be " + wanted);
         return {};
     }
     return value;
@@ -117,8 +113,8 @@ std::optional<int> TomlSection::integer(std::string_view key, int min, int max) 
         number(key, Range{static_cast<double>(min), static_cast<double>(max)});
     if (!value) return {};
     if (*value != std::floor(*value)) {
-        fail(key, in_quotes(key) + " must be a whole number, not " + shown(*value),
-             "try " + shown(std::floor(*value)));
+        fail(key, in_quotes(key) + " must be a whole number, not " + format_decimal(*value),
+             "try " + format_decimal(std::floor(*value)));
         return {};
     }
     return static_cast<int>(*value);

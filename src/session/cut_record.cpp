@@ -23,7 +23,7 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 void CutRecord::add(const MillRow& row) {
     stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.spindle_turns,
                           row.values.spindle_rpm, row.values.tip_mm, row.frame, row.feed, row.cutter,
-                          row.engagement});
+                          row.engagement, row.chip_mm3_per_s});
 }
 
 double changed_phase_rad(const CutStretch& stretch, const CutChange& change) {
@@ -35,16 +35,15 @@ double changed_phase_rad(const CutStretch& stretch, const CutChange& change) {
 
 namespace {
 
-// Calls visit(n, stretch, engaged model) for the stretches from the first on, shared among threads.
+// Calls visit(n, stretch, engaged model) for the stretches, shared among threads.
 template <class Visit>
-void each_engaged(const CutRecord& record, const MillSetup& setup, const CutChange& change, std::size_t first,
+void each_engaged(std::span<const CutStretch> stretches, const MillSetup& setup, const CutChange& change,
                   const ParallelFor& parallel, const Visit& visit) {
     std::vector<milling::Cutter> cutters = setup.cutters;
     if (change.helix_deg) {
         for (milling::Cutter& cutter : cutters) cutter.helix_deg = *change.helix_deg;
     }
     const milling::CuttingCoefficients coefficients = change.coefficients.value_or(setup.coefficients);
-    const auto stretches = record.stretches().subspan(first);
     parallel(kShares, [&](std::size_t share) {
         std::vector<milling::ForceModel> models;
         for (const milling::Cutter& cutter : cutters) models.emplace_back(cutter, coefficients);
@@ -61,10 +60,11 @@ void each_engaged(const CutRecord& record, const MillSetup& setup, const CutChan
 
 }  // namespace
 
-std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
-                                                   const CutChange& change, const ParallelFor& parallel) {
+std::vector<contact::ForceStretch> force_stretches(std::span<const CutStretch> stretches,
+                                                   const MillSetup& setup, const CutChange& change,
+                                                   const ParallelFor& parallel) {
     const double per_second = 1 / change.feed_factor;
-    std::vector<contact::ForceStretch> out(record.stretches().size());
+    std::vector<contact::ForceStretch> out(stretches.size());
     const auto visit = [&](std::size_t n, const CutStretch& row, milling::ForceModel& model) {
         contact::ForceStretch& s = out[n];
         model.spectrum(setup.harmonics, s.spectrum);
@@ -76,7 +76,7 @@ std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, cons
         s.y = row.frame.y;
         s.z = row.frame.z;
     };
-    each_engaged(record, setup, change, 0, parallel, visit);
+    each_engaged(stretches, setup, change, parallel, visit);
     return out;
 }
 
@@ -90,7 +90,18 @@ std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetu
         out[n] = {peaks.mean_n.x * f.x + peaks.mean_n.y * f.y + peaks.mean_n.z * f.z, peaks.peak_force_n,
                   1e-3 * peaks.mean_torque_nmm};
     };
-    each_engaged(record, setup, change, first, parallel, visit);
+    each_engaged(record.stretches().subspan(first), setup, change, parallel, visit);
+    return out;
+}
+
+std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
+                                                    const CutChange& change, std::size_t first,
+                                                    std::size_t count) {
+    std::vector<contact::ForceSpectrum> out(count);
+    const auto visit = [&](std::size_t n, const CutStretch&, milling::ForceModel& model) {
+        model.spectrum(setup.harmonics, out[n]);
+    };
+    each_engaged(record.stretches().subspan(first, count), setup, change, serial_for, visit);
     return out;
 }
 

@@ -24,6 +24,7 @@ struct CutStretch {
     milling::FeedPerTooth feed;
     std::size_t cutter = 0;
     milling::Engagement engagement;
+    double chip_mm3_per_s = 0;
 };
 
 // Collects rows: hand add() to MillSinks::row.
@@ -53,9 +54,14 @@ double changed_phase_rad(const CutStretch& stretch, const CutChange& change);
 // The spectra of a record with something changed, on all threads; times are those of the program at the
 // changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know
 // them).
-std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
-                                                   const CutChange& change = {},
+std::vector<contact::ForceStretch> force_stretches(std::span<const CutStretch> stretches,
+                                                   const MillSetup& setup, const CutChange& change = {},
                                                    const ParallelFor& parallel = serial_for);
+inline std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
+                                                          const CutChange& change = {},
+                                                          const ParallelFor& parallel = serial_for) {
+    return force_stretches(record.stretches(), setup, change, parallel);
+}
 
 // The force over a turn of the stretches from the `first` on, with something changed.
 struct StretchForce {
@@ -65,6 +71,11 @@ struct StretchForce {
 std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
                                          const CutChange& change, std::size_t first = 0,
                                          const ParallelFor& parallel = serial_for);
+
+// The spectra of `count` stretches from the `first` on.
+std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
+                                                    const CutChange& change, std::size_t first,
+                                                    std::size_t count);
 
 // Tells records of different jobs apart: everything that the force along the path depends on.
 std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);

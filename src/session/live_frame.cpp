@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/math.hpp"
+
 namespace tribo::session {
 namespace {
 
@@ -53,6 +55,30 @@ std::uint32_t count(std::size_t n) {
     return static_cast<std::uint32_t>(n);
 }
 
+void write_mesh(const TriangleMesh& mesh, Frame& f) {
+    assert(mesh.positions.size() <= 65536);
+    const Box3 box = bounds(mesh);
+    const Vec3 size = mesh.positions.empty() ? Vec3{} : box.size();
+    const Vec3 origin = mesh.positions.empty() ? Vec3{} : box.min;
+    const double longest = std::max({size.x, size.y, size.z});
+    const double step = longest > 0 ? longest / 65535 : 1;
+    f.u32(count(mesh.positions.size()));
+    f.u32(count(mesh.triangles.size()));
+    f.vec3(origin);
+    f.f32(step);
+    f.reserve(6 * mesh.positions.size() + 6 * mesh.triangles.size() + 8);
+    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
+        const Vec3 p = (mesh.position(static_cast<std::uint32_t>(n)) - origin) / step;
+        for (int axis = 0; axis < 3; ++axis)
+            f.u16(static_cast<std::uint32_t>(std::clamp(p[axis] + 0.5, 0.0, 65535.0)));
+    }
+    f.pad();
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) f.u16(v);
+    }
+    f.pad();
+}
+
 }  // namespace
 
 void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out) {
@@ -85,29 +111,14 @@ void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out) {
 
 void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
                        std::vector<std::uint8_t>& out) {
-    assert(mesh.positions.size() <= 65536);
-    const Box3 box = bounds(mesh);
-    const Vec3 size = mesh.positions.empty() ? Vec3{} : box.size();
-    const Vec3 origin = mesh.positions.empty() ? Vec3{} : box.min;
-    const double longest = std::max({size.x, size.y, size.z});
-    const double step = longest > 0 ? longest / 65535 : 1;
     Frame f(LiveFrame::chunk, t_s, out);
     for (const std::int32_t c : chunk) f.i32(c);
-    f.u32(count(mesh.positions.size()));
-    f.u32(count(mesh.triangles.size()));
-    f.vec3(origin);
-    f.f32(step);
-    f.reserve(6 * mesh.positions.size() + 6 * mesh.triangles.size() + 8);
-    for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-        const Vec3 p = (mesh.position(static_cast<std::uint32_t>(n)) - origin) / step;
-        for (int axis = 0; axis < 3; ++axis)
-            f.u16(static_cast<std::uint32_t>(std::clamp(p[axis] + 0.5, 0.0, 65535.0)));
-    }
-    f.pad();
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t v : t) f.u16(v);
-    }
-    f.pad();
+    write_mesh(mesh, f);
+}
+
+void write_designed_frame(const TriangleMesh& mesh, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::designed, 0, out);
+    write_mesh(mesh, f);
 }
 
 void write_state_frame(const LiveState& s, std::vector<std::uint8_t>& out) {
@@ -152,6 +163,39 @@ void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vec
     f.i32(kind);
     f.i32(line);
     f.vec3(tip_mm);
+}
+
+void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::sound, pieces.empty() ? 0 : pieces.front().t_s, out);
+    f.u32(count(pieces.size()));
+    for (const LiveSoundPiece& p : pieces) {
+        f.f64(p.t_s);
+        f.f32(p.end_s - p.t_s);
+        f.vec3(p.tip_mm);
+        f.f32(std::fmod(p.spindle_angle_rad, math::kTwoPi));
+        f.f32(p.spindle_rad_per_s);
+        f.f32(p.pace);
+        f.f32(p.chip_mm3_per_s);
+        f.i32(p.spectrum.order_step);
+        f.u32(count(p.spectrum.harmonics.size()));
+        for (const contact::ForceHarmonic& h : p.spectrum.harmonics) {
+            for (const auto& channel : {h.x, h.y, h.z}) {
+                f.f32(channel.real());
+                f.f32(channel.imag());
+            }
+        }
+    }
+}
+
+void write_listening_frame(const LiveListening& l, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::listening, 0, out);
+    f.vec3(l.listener_mm);
+    f.f32(l.distance_factor);
+    f.f32(l.gain_db);
+    for (const sound::BodyMode& mode : l.body.modes) {
+        f.f32(mode.hz);
+        f.f32(mode.damping);
+    }
 }
 
 void write_finger_frame(const LiveTouch& t, std::vector<std::uint8_t>& out) {

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "base/mesh.hpp"
+#include "contact/force_spectrum.hpp"
 #include "contact/texture_record.hpp"
 #include "milling/cutter.hpp"
 #include "motion/program.hpp"
+#include "sound/body.hpp"
 
 namespace tribo::session {
 
@@ -26,9 +28,12 @@ enum class LiveFrame : std::uint8_t {
     state = 3,
     rows = 4,
     collision = 5,
+    sound = 6,
     finger = 7,
     servo = 8,
     texture = 9,
+    listening = 10,
+    designed = 11,
 };
 
 // Takes one whole frame; the bytes are valid during the call only.
@@ -81,6 +86,24 @@ struct LiveServo {
     std::array<double, 4> lateness_us{}, cpu_us{};
 };
 
+// A piece of the cut as the ear needs it: all that makes a contact::ContactSample of a moment in it.
+struct LiveSoundPiece {
+    double t_s = 0, end_s = 0;  // of the program as it was written
+    Vec3 tip_mm;
+    double spindle_angle_rad = 0;  // at t_s
+    double spindle_rad_per_s = 0;  // as it turns
+    double pace = 1;               // seconds of the program as it was written per second
+    double chip_mm3_per_s = 0;
+    contact::ForceSpectrum spectrum;  // torque is not told
+};
+
+// Who listens, and what rings along; as the job says.
+struct LiveListening {
+    Vec3 listener_mm;
+    double distance_factor = 1, gain_db = 0;
+    sound::Body body{};
+};
+
 struct LiveJob {
     double duration_s = 0, cell_mm = 0;
     Box3 blank_mm;
@@ -93,11 +116,15 @@ void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out);
 // Vertices are rounded to 1/65535 of the longest edge of the mesh's box. At most 65,536 of them.
 void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
                        std::vector<std::uint8_t>& out);
+// A piece of the designed surface, as a chunk is written. At most 65,536 vertices.
+void write_designed_frame(const TriangleMesh& mesh, std::vector<std::uint8_t>& out);
 void write_state_frame(const LiveState& state, std::vector<std::uint8_t>& out);
 // `anew`: what rows were told before is void.
 void write_rows_frame(std::span<const LiveRow> rows, bool anew, std::vector<std::uint8_t>& out);
 // `kind` as in milling::CollisionKind.
 void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out);
+void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::uint8_t>& out);
+void write_listening_frame(const LiveListening& listening, std::vector<std::uint8_t>& out);
 void write_finger_frame(const LiveTouch& touch, std::vector<std::uint8_t>& out);
 void write_servo_frame(double t_s, const LiveServo& servo, std::vector<std::uint8_t>& out);
 // The eight triangles and the force that each adds when pressed `press_mm` deep into stiffness

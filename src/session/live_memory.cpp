@@ -7,6 +7,8 @@ namespace tribo::session {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 16, kFlagsAt = 2, kCoordBytes = 12;
+// Of the sound only the end matters: the clock is never far behind what is milled.
+constexpr std::size_t kSoundFrames = 64;
 
 }  // namespace
 
@@ -29,6 +31,13 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
             if (frame[kFlagsAt] != 0) rows_.clear();
             rows_.push_back(std::move(copy));
             break;
+        case LiveFrame::designed:
+            designed_.push_back(std::move(copy));
+            break;
+        case LiveFrame::sound:
+            sounds_.push_back(std::move(copy));
+            if (sounds_.size() > kSoundFrames) sounds_.pop_front();
+            break;
         case LiveFrame::collision:
             collisions_.push_back(std::move(copy));
             break;
@@ -40,9 +49,11 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
 void LiveMemory::replay(const FrameSink& frames) const {
     if (job_.empty()) return;
     frames(job_);
+    for (const Frame& frame : designed_) frames(frame);
     for (const auto& [coord, frame] : chunks_) frames(frame);
     for (const Frame& frame : rows_) frames(frame);
     for (const Frame& frame : collisions_) frames(frame);
+    for (const Frame& frame : sounds_) frames(frame);
     for (const auto& [kind, frame] : newest_) frames(frame);
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Keeps of a stream of live frames what a viewer that comes later needs to see the same: the job, the newest
-// of each chunk, all rows and collisions, the newest of every other kind.
+// of each chunk, all rows and collisions, the designed surface, the end of the sound, the newest of
+// every other kind.
 #pragma once
 
 #include <array>
+#include <deque>
 #include <map>
 #include <vector>
 
@@ -22,7 +24,8 @@ class LiveMemory {
     using Frame = std::vector<std::uint8_t>;
     Frame job_;
     std::map<std::array<std::uint8_t, 12>, Frame> chunks_;  // by their coordinates' bytes
-    std::vector<Frame> rows_, collisions_;
+    std::vector<Frame> rows_, collisions_, designed_;
+    std::deque<Frame> sounds_;
     std::map<std::uint8_t, Frame> newest_;  // by kind
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/math.hpp"
@@ -15,6 +16,8 @@ namespace {
 constexpr int kCurvePoints = 4;
 // Rows in one frame: what a viewer takes in without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096;
+constexpr std::size_t kPiecesPerFrame = 64;
+constexpr std::size_t kTrianglesPerFrame = 20'000;
 
 std::vector<LivePathPoint> path_points(const MillSession& session) {
     std::vector<LivePathPoint> points;
@@ -53,8 +56,10 @@ Box3 swept_box(const MillSession& session, double from_s, double to_s) {
 
 }  // namespace
 
-Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel) {
-    std::unique_ptr<LiveMill> live(new LiveMill(std::move(make_setup), std::move(parallel)));
+Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel,
+                                                   LiveExtras extras) {
+    std::unique_ptr<LiveMill> live(
+        new LiveMill(std::move(make_setup), std::move(parallel), std::move(extras)));
     if (auto begun = live->begin(); !begun) return std::unexpected(begun.error());
     return live;
 }
@@ -69,7 +74,7 @@ Result<void> LiveMill::begin() {
     rows_.clear();
     felt_.clear();
     record_ = {};
-    rows_told_ = collisions_told_ = 0;
+    rows_told_ = pieces_told_ = collisions_told_ = 0;
     shown_s_ = 0;
     begun_anew_ = true;
     set_back_ = false;
@@ -86,6 +91,8 @@ void LiveMill::set_change(const CutChange& change) {
     change_ = change;
     work_out_forces(0);
     rows_told_ = 0;
+    // What is behind the clock is heard no more.
+    while (pieces_told_ > 0 && rows_[pieces_told_ - 1].end_s > clock_s_) --pieces_told_;
     rows_anew_ = !rows_.empty();
     last_state_.clear();
 }
@@ -161,6 +168,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
         show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
     }
     show_rows(frames);
+    show_sound(frames);
     show_state(frames);
     return {};
 }
@@ -170,6 +178,59 @@ void LiveMill::show_job(const FrameSink& frames) {
     write_job_frame(
         {duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters, path_}, frame_);
     frames(frame_);
+    write_listening_frame(listening(), frame_);
+    frames(frame_);
+    if (extras_.designed) show_designed(frames);
+}
+
+LiveListening LiveMill::listening() const {
+    if (extras_.listening) return *extras_.listening;
+    LiveListening l;
+    const Box3 blank = session_->stock().blank().bounds_mm();
+    l.listener_mm = blank.centre();
+    l.listener_mm.z = blank.max.z;
+    const milling::Cutter& cutter = session_->setup().cutters.front();
+    l.body = sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(""));
+    return l;
+}
+
+void LiveMill::show_designed(const FrameSink& frames) {
+    const TriangleMesh& whole = *extras_.designed;
+    for (std::size_t first = 0; first < whole.triangles.size(); first += kTrianglesPerFrame) {
+        const std::size_t last = std::min(first + kTrianglesPerFrame, whole.triangles.size());
+        TriangleMesh piece;
+        std::map<std::uint32_t, std::uint32_t> kept;
+        for (std::size_t n = first; n < last; ++n) {
+            Triangle triangle;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::uint32_t old = whole.triangles[n][corner];
+                const auto [at, added] = kept.try_emplace(old, static_cast<std::uint32_t>(kept.size()));
+                if (added) piece.positions.push_back(whole.positions[old]);
+                triangle[corner] = at->second;
+            }
+            piece.triangles.push_back(triangle);
+        }
+        write_designed_frame(piece, frame_);
+        frames(frame_);
+    }
+}
+
+void LiveMill::show_sound(const FrameSink& frames) {
+    std::vector<LiveSoundPiece> pieces;
+    while (pieces_told_ < rows_.size()) {
+        const std::size_t now = std::min(kPiecesPerFrame, rows_.size() - pieces_told_);
+        const auto forces = stretch_spectra(record_, session_->setup(), change_, pieces_told_, now);
+        pieces.clear();
+        for (std::size_t n = 0; n < now; ++n) {
+            const CutStretch& s = record_.stretches()[pieces_told_ + n];
+            const double rad_per_s = change_.speed_factor * s.spindle_rpm / 60 * math::kTwoPi;
+            pieces.push_back({s.start_s, s.end_s, s.tip_mm, changed_phase_rad(s, change_), rad_per_s,
+                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s, forces[n]});
+        }
+        write_sound_frame(pieces, frame_);
+        frames(frame_);
+        pieces_told_ += now;
+    }
 }
 
 void LiveMill::show_part(const Box3& box_mm, const FrameSink& frames) {

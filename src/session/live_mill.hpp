@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base/result.hpp"
 #include "session/cut_record.hpp"
@@ -15,6 +16,12 @@
 
 namespace tribo::session {
 
+// What a viewer is told besides the mill itself.
+struct LiveExtras {
+    std::optional<LiveListening> listening{};  // none: from the centre of the blank's top
+    std::shared_ptr<const TriangleMesh> designed{};
+};
+
 class LiveMill {
   public:
     // Makes the same setup each time: the clock was set back, and the part begins again. Its moves should be
@@ -23,13 +30,16 @@ class LiveMill {
     static constexpr double kPieceMm = 2;
     static constexpr double kFastest = 1000;  // seconds of the program per second
 
-    static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel);
+    static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel,
+                                                    LiveExtras extras = {});
 
     double duration_s() const { return session_->duration_s(); }
     double clock_s() const { return clock_s_; }
     bool playing() const { return playing_; }
     LiveState state() const;
     const MillSession& session() const { return *session_; }
+    // What was cut so far.
+    const CutRecord& record() const { return record_; }
 
     // At the end, play begins anew.
     void play(bool on);
@@ -49,18 +59,22 @@ class LiveMill {
     Result<void> tick(double dt_s, const std::function<bool()>& may_go_on, const FrameSink& frames);
 
   private:
-    LiveMill(MakeSetup make_setup, ParallelFor parallel)
-        : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)) {}
+    LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
+        : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)), extras_(std::move(extras)) {}
     Result<void> begin();
     void add_row(const MillRow& row);
     void work_out_forces(std::size_t first_row);
     void show_job(const FrameSink& frames);
     void show_part(const Box3& box_mm, const FrameSink& frames);
     void show_rows(const FrameSink& frames);
+    void show_sound(const FrameSink& frames);
+    void show_designed(const FrameSink& frames);
+    LiveListening listening() const;
     void show_state(const FrameSink& frames);
 
     MakeSetup make_setup_;
     ParallelFor parallel_;
+    LiveExtras extras_;
     std::unique_ptr<MillSession> session_;
     std::unique_ptr<PartPicture> picture_;
     std::vector<LivePathPoint> path_;
@@ -70,8 +84,9 @@ class LiveMill {
         double spindle_angle_rad = 0, spindle_rad_per_s = 0;
         double removed_mm3 = 0;  // up to and with this row
     };
-    std::vector<Felt> felt_;  // one per row
-    CutRecord record_;        // likewise
+    std::vector<Felt> felt_;       // one per row
+    CutRecord record_;             // likewise
+    std::size_t pieces_told_ = 0;  // of the sound
     CutChange change_;
     bool rows_anew_ = false;
     std::function<void(MillSession*)> watcher_;

@@ -18,6 +18,10 @@ extern "C" _Noreturn void abort() {
     __builtin_trap();
 }
 
+extern "C" _Noreturn void __cxa_pure_virtual() {
+    __builtin_trap();
+}
+
 namespace {
 
 void* allocate(std::size_t bytes, std::size_t alignment) {

@@ -64,7 +64,8 @@ class Viewer {
     int jobs = 0;
     double duration_s = 0, state_s = 0, force_n = 0;
     std::uint32_t flags = 0, line = 0, path_points = 0;
-    std::vector<double> row_times, row_forces;
+    std::vector<double> row_times, row_forces, sound_times;
+    Vec3 listener;
 
   private:
     void take(std::span<const std::uint8_t> frame) {
@@ -89,6 +90,13 @@ class Viewer {
             case LiveFrame::collision:
                 at_ += 20;
                 break;
+            case LiveFrame::sound:
+                sound();
+                break;
+            case LiveFrame::listening:
+                listener = vec3();
+                at_ += 24;
+                break;
             default:
                 ADD_FAILURE() << "not the mill's";
         }
@@ -111,6 +119,7 @@ class Viewer {
         chunks_.clear();
         row_times.clear();
         row_forces.clear();
+        sound_times.clear();
         duration_s = f64();
         f32();
         EXPECT_EQ(vec3(), kBlank.min);
@@ -175,6 +184,18 @@ class Viewer {
         }
     }
 
+    void sound() {
+        const std::uint32_t count = u32();
+        for (std::uint32_t n = 0; n < count; ++n) {
+            sound_times.push_back(f64());
+            at_ += 32;
+            EXPECT_EQ(u32(), 2u);  // orders a harmonic: two flutes alike
+            const std::uint32_t harmonics = u32();
+            EXPECT_EQ(harmonics, 17u);  // the mean and 16
+            at_ += 24 * harmonics;
+        }
+    }
+
     std::span<const std::uint8_t> frame_;
     std::size_t at_ = 0;
     std::map<std::array<std::uint32_t, 3>, TriangleMesh> chunks_;
@@ -205,6 +226,8 @@ TEST(LiveMill, ShowsThePartAsItIsCut) {
     sinks.row = [&](const MillRow& row) { times.push_back(row.values.t_s); };
     alone.run(sinks);
     EXPECT_EQ(viewer.row_times, times);
+    EXPECT_EQ(viewer.sound_times, times);
+    EXPECT_EQ(viewer.listener, (Vec3{20, 10, 0}));
     EXPECT_DOUBLE_EQ(alone.totals().removed_mm3, live->session().totals().removed_mm3);
 }
 

@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The line to the engine: frames in, commands out; found again when it is lost.
 
-import { decodeFrame, type Frame } from "./frames.js";
+import { decodeFrame } from "./frames.js";
+import type { Command, Listener, ServerInfo, Settings, Source } from "./source.js";
 
 export const SUBPROTOCOL = "tribo.live.1";
 
-export type Command =
-  | { op: "play" | "pause" | "resync" }
-  | { op: "speed"; value: number }
-  | { op: "seek"; t_s: number };
-
-export interface ServerInfo {
-  op: "serverInfo";
-  version: string;
-  job: string;
-  warnings: string[];
-}
-
-export interface Listener {
-  frame(frame: Frame): void;
-  info(info: ServerInfo): void;
-  // Whether there is a line; `why` is for people.
-  line(open: boolean, why: string): void;
-}
-
 const RETRY_MS = [250, 500, 1000, 2000];
 
-export class Connection {
+export class Connection implements Source {
   private socket: WebSocket | undefined;
   private tries = 0;
+  private closed = false;
+  private resume: string | undefined;
 
   constructor(
     private readonly listener: Listener,
@@ -41,27 +25,46 @@ export class Connection {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }
 
+  close(): void {
+    this.closed = true;
+    this.socket?.close();
+  }
+
   private open(): void {
-    const socket = new WebSocket(this.url, SUBPROTOCOL);
+    if (this.closed) return;
+    const url = new URL(this.url);
+    // A token is good for one line only.
+    if (this.resume) url.searchParams.set("resume", this.resume);
+    this.resume = undefined;
+    const socket = new WebSocket(url, SUBPROTOCOL);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.tries = 0;
       this.listener.line(true, "");
     };
     socket.onmessage = ({ data }) => {
-      if (data instanceof ArrayBuffer) this.listener.frame(decodeFrame(data));
+      if (data instanceof ArrayBuffer) this.listener.frame(decodeFrame(data), data);
       else this.take(JSON.parse(data as string));
     };
     socket.onclose = ({ reason }) => {
+      if (this.closed) return;
       this.listener.line(false, reason || "the engine does not answer");
       setTimeout(() => this.open(), RETRY_MS[Math.min(this.tries++, RETRY_MS.length - 1)]);
     };
     this.socket = socket;
   }
 
-  private take(message: { op: string }): void {
-    if (message.op === "serverInfo") this.listener.info(message as ServerInfo);
-    else if (message.op === "lost") this.send({ op: "resync" });
+  private take(message: { op: string; why?: string; remedy?: string; resume?: string }): void {
+    if (message.op === "serverInfo") {
+      this.resume = message.resume;
+      this.listener.info(message as unknown as ServerInfo);
+    } else if (message.op === "settings") {
+      this.listener.settings(message as unknown as Settings);
+    } else if (message.op === "lost") {
+      this.send({ op: "resync" });
+    } else if (message.op === "refused") {
+      this.listener.refused([message.why, message.remedy].filter(Boolean).join("; "));
+    }
   }
 }
 

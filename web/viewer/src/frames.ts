@@ -67,6 +67,8 @@ export interface Row {
 
 export interface RowsFrame {
   kind: "rows";
+  // All rows before are void.
+  anew: boolean;
   rows: Row[];
 }
 
@@ -78,7 +80,88 @@ export interface CollisionFrame {
   tip: Vec3;
 }
 
-export type Frame = JobFrame | ChunkFrame | StateFrame | RowsFrame | CollisionFrame;
+// A piece of the cut as the ear and the plots of a turn need it.
+export interface Piece {
+  time: number;
+  duration: number;
+  tip: Vec3;
+  angle: number;
+  radPerS: number;
+  // Seconds of the program as written per second.
+  pace: number;
+  chips: number;
+  orderStep: number;
+  // The mean first; each re x, im x, re y, im y, re z, im z, in N, in the tool's frame.
+  harmonics: Float32Array;
+}
+
+export interface SoundFrame {
+  kind: "sound";
+  pieces: Piece[];
+}
+
+export interface FingerFrame {
+  kind: "finger";
+  hand: Vec3;
+  proxy: Vec3;
+  force: Vec3;
+  slip: number;
+  contact: boolean;
+  on: boolean;
+  cutMode: boolean;
+  stopped: boolean;
+  // Whether there is a hand.
+  present: boolean;
+}
+
+export interface ServoFrame {
+  kind: "servo";
+  ticks: number;
+  late: number;
+  fault: string; // empty: none
+  rate: number;
+  limit: number;
+  largest: number;
+  // Median, 99 %, 99.9 %, most; in microseconds.
+  lateness: number[];
+  cpu: number[];
+}
+
+export interface TextureFrame {
+  kind: "texture";
+  // Three corners and a force each.
+  triangles: { corners: [Vec3, Vec3, Vec3]; force: Vec3 }[];
+}
+
+export interface ListeningFrame {
+  kind: "listening";
+  listener: Vec3;
+}
+
+export interface DesignedFrame {
+  kind: "designed";
+  positions: Float32Array;
+  indices: Uint16Array;
+}
+
+// A kind that this page does not know; a newer engine may send some.
+export interface OtherFrame {
+  kind: "other";
+}
+
+export type Frame =
+  | JobFrame
+  | ChunkFrame
+  | StateFrame
+  | RowsFrame
+  | CollisionFrame
+  | SoundFrame
+  | FingerFrame
+  | ServoFrame
+  | TextureFrame
+  | ListeningFrame
+  | DesignedFrame
+  | OtherFrame;
 
 const COLLISIONS = [
   "rapid through stock",
@@ -87,6 +170,8 @@ const COLLISIONS = [
   "tool in fixture",
   "holder in fixture",
 ];
+
+const FAULTS = ["", "the device is silent", "the simulation stalled", "the clock jumped", "a force was no number", "too fast"];
 
 class Reader {
   at = 16;
@@ -110,6 +195,9 @@ class Reader {
   vec3(): Vec3 {
     return [this.f32(), this.f32(), this.f32()];
   }
+  left(): number {
+    return this.view.byteLength - this.at;
+  }
 }
 
 // Throws a RangeError on a frame that is cut off, an Error on one of another version.
@@ -129,15 +217,33 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
     case 4: {
       const rows: Row[] = [];
       for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
-      return { kind: "rows", rows };
+      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows };
     }
     case 5: {
       const what = COLLISIONS[r.i32()] ?? "collision";
       const line = r.i32();
       return { kind: "collision", time, what, line, tip: r.vec3() };
     }
+    case 6: {
+      const pieces: Piece[] = [];
+      for (let n = r.u32(); n > 0; --n) pieces.push(decodePiece(r));
+      return { kind: "sound", pieces };
+    }
+    case 7:
+      return decodeFinger(r);
+    case 8:
+      return decodeServo(r);
+    case 9: {
+      const triangles: TextureFrame["triangles"] = [];
+      while (r.left() >= 48) triangles.push({ corners: [r.vec3(), r.vec3(), r.vec3()], force: r.vec3() });
+      return { kind: "texture", triangles };
+    }
+    case 10:
+      return { kind: "listening", listener: r.vec3() };
+    case 11:
+      return { kind: "designed", ...decodeMesh(r, buffer) };
     default:
-      throw new Error(`frames of kind ${kind} are not known`);
+      return { kind: "other" };
   }
 }
 
@@ -174,6 +280,10 @@ function decodeJob(r: Reader): JobFrame {
 
 function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
   const chunk: Vec3 = [r.i32(), r.i32(), r.i32()];
+  return { kind: "chunk", chunk, ...decodeMesh(r, buffer) };
+}
+
+function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; indices: Uint16Array } {
   const vertices = r.u32();
   const triangles = r.u32();
   const origin = r.vec3();
@@ -182,7 +292,37 @@ function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
   const positions = new Float32Array(3 * vertices);
   for (let n = 0; n < packed.length; ++n) positions[n] = origin[n % 3] + step * packed[n];
   const begin = r.at + 4 * Math.ceil((6 * vertices) / 4);
-  return { kind: "chunk", chunk, positions, indices: new Uint16Array(buffer, begin, 3 * triangles) };
+  return { positions, indices: new Uint16Array(buffer, begin, 3 * triangles) };
+}
+
+function decodePiece(r: Reader): Piece {
+  const piece = {
+    time: r.f64(),
+    duration: r.f32(),
+    tip: r.vec3(),
+    angle: r.f32(),
+    radPerS: r.f32(),
+    pace: r.f32(),
+    chips: r.f32(),
+    orderStep: r.i32(),
+  };
+  const harmonics = new Float32Array(6 * r.u32());
+  for (let n = 0; n < harmonics.length; ++n) harmonics[n] = r.f32();
+  return { ...piece, harmonics };
+}
+
+function decodeFinger(r: Reader): FingerFrame {
+  const finger = { kind: "finger" as const, hand: r.vec3(), proxy: r.vec3(), force: r.vec3(), slip: r.f32() };
+  const flags = r.u32();
+  const flag = (bit: number) => (flags & bit) !== 0;
+  return { ...finger, contact: flag(1), on: flag(2), cutMode: flag(4), stopped: flag(8), present: flag(16) };
+}
+
+function decodeServo(r: Reader): ServoFrame {
+  const four = () => [r.f32(), r.f32(), r.f32(), r.f32()];
+  const [ticks, late, fault] = [r.u32(), r.u32(), r.u32()];
+  const [rate, limit, largest] = [r.f32(), r.f32(), r.f32()];
+  return { kind: "servo", ticks, late, fault: FAULTS[fault] ?? "fault", rate, limit, largest, lateness: four(), cpu: four() };
 }
 
 function decodeState(r: Reader, time: number): StateFrame {

@@ -1,80 +1,148 @@
 // SPDX-License-Identifier: MIT
-// The live mill's page: engine to picture, hands to engine.
+// The mill's page: frames to picture, sound and plots; hands to whoever mills.
 
-import { Connection, type ServerInfo } from "./connection.js";
-import type { CollisionFrame, Frame, StateFrame } from "./frames.js";
+import { Connection } from "./connection.js";
+import * as drop from "./drop.js";
+import { listed, order as orderOf } from "./examples.js";
+import { Finger } from "./finger.js";
+import type { CollisionFrame, Frame, StateFrame, Vec3 } from "./frames.js";
+import type { Colouring } from "./heat_map.js";
+import { History } from "./history.js";
+import { Keys } from "./keys.js";
+import { showLegend } from "./legend.js";
+import { clock, element, recall, remember } from "./page.js";
+import { PALETTES } from "./palette.js";
+import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
+import type { Plots } from "./plots.js";
+import { Collisions, showServo, showState, showWarnings } from "./readout.js";
+import { readRecording, Recorder, Replay } from "./recording.js";
 import { Scene } from "./scene.js";
+import { Sound } from "./sound.js";
+import type { Listener, ServerInfo, Settings, Source } from "./source.js";
+import { Workshop, type JobFile, type Order } from "./workshop.js";
 
-function element<T extends HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no #${id}`);
-  return found as T;
-}
-
-function clock(seconds: number): string {
-  const s = Math.floor(seconds);
-  return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
-}
+const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
 
 const scene = new Scene(element<HTMLCanvasElement>("scene"));
-const plot = new Plot(element<HTMLCanvasElement>("plot"), (time) => connection.send({ op: "seek", t_s: time }));
+const history = new History();
+const sound = new Sound();
+const seek = (time: number) => source?.send({ op: "seek", t_s: time });
+const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
+const collisions = new Collisions((frame: CollisionFrame) => {
+  scene.overlays.setMark(frame.tip);
+  scene.draw();
+  seek(frame.time);
+});
+const finger = new Finger(scene, () => source);
+const parameters = new Parameters((command) => source?.send(command));
 const play = element<HTMLButtonElement>("play");
 const time = element<HTMLInputElement>("time");
 const speed = element<HTMLSelectElement>("speed");
 const notice = element("notice");
-const collisions = element<HTMLOListElement>("collisions");
-let duration = 0;
+const begin = element<HTMLButtonElement>("begin");
+const hint = element("hint");
+
+let source: Source | undefined;
+let order: Order | undefined;
+let plots: Plots | undefined;
+let recorder: Recorder | undefined;
 let playing = false;
 let scrubbing = false;
+let begun = false;
+let felt = false;
+let first = true;
+let stopped = false;
+let forceLimit = 3;
+let colouring: Colouring = "plain";
+let duration = 0;
+let measuring: Vec3[] | undefined;
+
+function say(text: string): void {
+  notice.hidden = text === "";
+  notice.textContent = text;
+}
+function advise(text: string): void {
+  hint.hidden = text === "";
+  hint.textContent = text;
+}
 
 function show(state: StateFrame): void {
   scene.show(state);
+  sound.state(state);
   plot.setTime(state.time);
-  playing = state.playing;
-  play.textContent = playing ? "Pause" : "Play";
-  play.setAttribute("aria-pressed", String(playing));
+  history.time = state.time;
+  plots?.changed();
+  if (state.playing !== playing || play.textContent === "") {
+    playing = state.playing;
+    play.textContent = playing ? "Pause" : "Play";
+    play.setAttribute("aria-pressed", String(playing));
+  }
+  if (state.playing) begun = true;
+  begin.hidden = begun || duration === 0;
+  element("examples").hidden ||= begun;
   if (!scrubbing) time.value = String(state.time);
   element("clock").textContent = `${clock(state.time)} / ${clock(duration)}`;
-  element("force").textContent = `${Math.hypot(...state.force).toFixed(0)} N`;
-  element("peak").textContent = `${state.peakForce.toFixed(0)} N`;
-  element("torque").textContent = `${state.torque.toFixed(2)} Nm`;
-  element("spindle").textContent = `${state.rpm.toFixed(0)} rpm`;
-  element("feed").textContent = state.rapid ? "rapid" : `${state.feed.toFixed(0)} mm/min`;
-  element("removed").textContent = `${(state.removed / 1000).toFixed(2)} cm³`;
-  element("line").textContent = String(state.line);
+  if (Number(speed.value) !== state.speed && document.activeElement !== speed) speed.value = String(state.speed);
+  showState(state);
+  if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
 }
 
-function addCollision(frame: CollisionFrame): void {
-  const item = document.createElement("li");
-  const button = document.createElement("button");
-  button.type = "button";
-  button.textContent = `line ${frame.line}: ${frame.what}`;
-  button.addEventListener("click", () => connection.send({ op: "seek", t_s: frame.time }));
-  item.append(button);
-  collisions.append(item);
-  collisions.hidden = false;
-}
-
-function take(frame: Frame): void {
+function take(frame: Frame, bytes: ArrayBuffer): void {
+  recorder?.take(bytes);
+  sound.frame(frame.kind, bytes);
   switch (frame.kind) {
     case "job":
       duration = frame.duration;
       time.max = String(duration);
-      collisions.replaceChildren();
-      collisions.hidden = true;
+      collisions.clear();
+      history.begin(duration);
       plot.begin(duration);
       scene.begin(frame);
+      element("designed-label").hidden = true;
+      if (first) scene.fit();
+      first = false;
       break;
     case "chunk":
       scene.take(frame);
       break;
+    case "designed":
+      scene.addDesigned(frame);
+      element("designed-label").hidden = false;
+      break;
     case "rows":
+      if (frame.anew) {
+        plot.begin(duration);
+        history.rows = [];
+        scene.forgetRows();
+      }
       plot.addRows(frame.rows);
+      history.addRows(frame.rows);
       scene.addRows(frame.rows);
       break;
+    case "sound":
+      history.addPieces(frame.pieces);
+      break;
     case "collision":
-      addCollision(frame);
+      collisions.add(frame);
+      break;
+    case "finger":
+      if (frame.present) scene.overlays.showFinger(frame);
+      else scene.overlays.hideFinger();
+      finger.rumble(Math.hypot(...frame.force), forceLimit);
+      if (frame.contact && !felt) {
+        felt = true;
+        advise("");
+      }
+      xr?.pulse(frame);
+      scene.draw();
+      break;
+    case "servo":
+      showServo(frame);
+      break;
+    case "texture":
+      scene.overlays.showTexture(frame);
+      scene.draw();
       break;
     case "state":
       show(frame);
@@ -82,34 +150,291 @@ function take(frame: Frame): void {
   }
 }
 
-function info(message: ServerInfo): void {
-  document.title = `${message.job} - Tribo`;
+const listener: Listener = {
+  frame: take,
+  info(message: ServerInfo) {
+    const name = message.job.replace(/^.*\//, "");
+    document.title = `${name} - Tribo`;
+    element("job").textContent = name;
+    showWarnings(message.warnings);
+    parameters.info(message);
+    forceLimit = message.device?.max_force_n || 3;
+    finger.arm = message.device?.arm ?? false;
+  },
+  settings(s: Settings) {
+    parameters.show(s);
+    finger.enabled = true;
+    element("feel").hidden = false;
+    element("force-on").setAttribute("aria-pressed", String(s.force));
+    element<HTMLSelectElement>("mode").value = s.mode;
+    stopped = s.stopped;
+    element("stop").textContent = stopped ? "Release" : "Stop";
+    element("stop").setAttribute("aria-pressed", String(stopped));
+  },
+  line(open, why) {
+    say(open ? "" : hasEngine && source instanceof Connection ? `No line to the engine: ${why}. Trying again.` : why);
+  },
+  refused: say,
+};
+
+// What mills from now on; the picture begins anew with its first frames.
+function change(to: () => Source): void {
+  source?.close();
+  begun = false;
+  first = true;
+  finger.enabled = false;
+  element("feel").hidden = true;
+  element("servo").hidden = true;
+  scene.overlays.hideFinger();
+  parameters.clear();
+  source = to();
 }
 
-const connection = new Connection({
-  frame: take,
-  info,
-  line(open, why) {
-    notice.hidden = open;
-    notice.textContent = open ? "" : `No line to the engine: ${why}. Trying again.`;
-  },
-});
+async function mill(wanted: Order): Promise<void> {
+  say("");
+  advise("Reading ...");
+  const next = new Workshop(listener);
+  const refusal = await next.open(wanted);
+  advise("");
+  if (refusal) {
+    next.close();
+    say(refusal);
+    return;
+  }
+  order = wanted;
+  change(() => next);
+  if (speed.value !== "1") next.send({ op: "speed", value: Number(speed.value) });
+}
 
-play.addEventListener("click", () => connection.send({ op: playing ? "pause" : "play" }));
-speed.addEventListener("change", () => connection.send({ op: "speed", value: Number(speed.value) }));
+function replay(file: JobFile): void {
+  try {
+    const frames = readRecording(file.bytes);
+    change(() => new Replay(listener, frames, file.name));
+    say("");
+  } catch (error) {
+    say(`${file.name}: ${(error as Error).message}`);
+  }
+}
+
+async function open(files: { name: string; file: File }[]): Promise<void> {
+  const large = drop.tooLarge(files.map(({ name, file }) => ({ name, size: file.size })));
+  if (large) return say(large);
+  const wanted = drop.sort(await drop.read(files), order);
+  if ("refused" in wanted) say(wanted.refused);
+  else if ("recording" in wanted) replay(wanted.recording);
+  else await mill(wanted.order);
+}
+
+// ---- Play, time, speed
+play.addEventListener("click", () => {
+  if (!playing && !Sound.possible) element("sound").hidden = true;
+  if (!playing) void hear();
+  source?.send({ op: playing ? "pause" : "play" });
+});
+begin.addEventListener("click", () => play.click());
+speed.addEventListener("change", () => source?.send({ op: "speed", value: Number(speed.value) }));
 time.addEventListener("input", () => (scrubbing = true));
 time.addEventListener("change", () => {
   scrubbing = false;
-  connection.send({ op: "seek", t_s: Number(time.value) });
+  seek(Number(time.value));
 });
-element("fit").addEventListener("click", () => scene.fit());
-for (const what of ["path", "tool"] as const) {
+
+// ---- Sound
+async function hear(): Promise<void> {
+  if (!Sound.possible) return;
+  try {
+    await sound.wake();
+  } catch (error) {
+    say(`There is no sound: ${(error as Error).message}`);
+  }
+  element("sound").setAttribute("aria-pressed", String(sound.running && !sound.muted));
+}
+element("sound").addEventListener("click", () => {
+  sound.muted = sound.running && !sound.muted;
+  remember("muted", String(sound.muted));
+  void hear();
+});
+sound.muted = recall("muted") === "true";
+if (!Sound.possible) element("sound").hidden = true;
+
+// ---- Look
+const root = document.documentElement;
+const theme = element<HTMLSelectElement>("theme");
+const safe = element<HTMLInputElement>("safe");
+theme.value = recall("theme");
+safe.checked = recall("safe") === "true";
+function look(): void {
+  if (theme.value) root.dataset.theme = theme.value;
+  else delete root.dataset.theme;
+  scene.setPalette(safe.checked ? PALETTES.safe : PALETTES.paper);
+  remember("theme", theme.value);
+  remember("safe", String(safe.checked));
+}
+theme.addEventListener("change", look);
+safe.addEventListener("change", look);
+look();
+const colour = element<HTMLSelectElement>("colouring");
+const scale = element<HTMLInputElement>("scale");
+function paint(): void {
+  const wanted = colour.value as Colouring;
+  const needs = wanted === "deviation" || wanted === "scallop";
+  if (needs && !scene.hasDesigned) {
+    say("The job has no designed surface to compare with: drop its model, or name it under [part].");
+    colour.value = colouring;
+    return;
+  }
+  colouring = wanted;
+  element("scale-label").hidden = !needs;
+  const value = Number(scale.value);
+  if (value > 0) scene.heatMap.scale.deviation = value;
+  scene.setColouring(colouring);
+  showLegend(colouring, scene.heatMap);
+}
+colour.addEventListener("change", paint);
+scale.addEventListener("change", paint);
+setInterval(() => showLegend(colouring, scene.heatMap), 500);
+for (const what of ["path", "tool", "positions", "designed"] as const) {
   const box = element<HTMLInputElement>(`show-${what}`);
   box.addEventListener("change", () => scene.setVisible(what, box.checked));
 }
-element("scene").addEventListener("keydown", (event) => {
-  if (event.key === " ") {
-    event.preventDefault();
-    play.click();
-  }
+element("fit").addEventListener("click", () => scene.fit());
+
+// ---- Measure
+const ruler = element<HTMLButtonElement>("measure");
+function measure(on: boolean): void {
+  measuring = on ? [] : undefined;
+  ruler.setAttribute("aria-pressed", String(on));
+  scene.canvas.classList.toggle("measuring", on);
+  element("measured").hidden = !on;
+  element("measured").textContent = "Click two places on the part";
+  scene.overlays.setMeasure([]);
+  scene.draw();
+}
+ruler.addEventListener("click", () => measure(!measuring));
+scene.canvas.addEventListener(
+  "pointerdown",
+  (event) => {
+    if (!measuring) return;
+    const hit = scene.pick(event.offsetX, event.offsetY);
+    if (!hit) return;
+    event.stopImmediatePropagation();
+    if (measuring.length === 2) measuring = [];
+    measuring.push(hit.point);
+    scene.overlays.setMeasure(measuring);
+    scene.draw();
+    const [a, b] = measuring;
+    if (!b) return;
+    const d = [0, 1, 2].map((k) => b[k] - a[k]);
+    element("measured").textContent = `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
+  },
+  { capture: true },
+);
+
+// ---- Feel
+element("force-on").addEventListener("click", () => {
+  const on = element("force-on").getAttribute("aria-pressed") !== "true";
+  source?.send({ op: "force", value: on });
 });
+element("stop").addEventListener("click", () => source?.send({ op: stopped ? "release" : "stop" }));
+element<HTMLSelectElement>("mode").addEventListener("change", (event) =>
+  source?.send({ op: "mode", value: (event.target as HTMLSelectElement).value as "cut" | "inspect" }),
+);
+
+// ---- Panels
+function toggles(button: string, panel: string, opened?: () => void): void {
+  element(button).addEventListener("click", () => {
+    const box = element(panel);
+    box.hidden = !box.hidden;
+    element(button).setAttribute("aria-expanded", String(!box.hidden));
+    if (!box.hidden) opened?.();
+  });
+}
+toggles("show-panel", "panel");
+toggles("show-plots", "plots", async () => {
+  const loaded = await import("./plots.js");
+  plots ??= new loaded.Plots(element("plots"), history, sound, seek);
+  plots.changed();
+});
+
+// ---- Record
+const record = element<HTMLButtonElement>("record");
+record.addEventListener("click", () => {
+  if (!recorder) {
+    recorder = new Recorder();
+    // The whole from the start, as a viewer that comes later gets it.
+    source?.send({ op: "resync" });
+    record.textContent = "Stop and keep";
+  } else {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(recorder.file());
+    link.download = `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    recorder = undefined;
+    record.textContent = "Record";
+  }
+  record.setAttribute("aria-pressed", String(recorder !== undefined));
+});
+
+// ---- Files
+const chooser = element<HTMLInputElement>("files");
+element("open").addEventListener("click", () => chooser.click());
+chooser.addEventListener("change", () => {
+  void open([...(chooser.files ?? [])].map((file) => ({ name: file.name, file })));
+  chooser.value = "";
+});
+let inside = 0;
+addEventListener("dragenter", () => (element("drop").hidden = ++inside <= 0));
+addEventListener("dragleave", () => (element("drop").hidden = --inside <= 0));
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  inside = 0;
+  element("drop").hidden = true;
+  if (event.dataTransfer) void drop.dropped(event.dataTransfer).then(open);
+});
+
+// ---- VR, where there is any
+let xr: import("./xr.js").Headset | undefined;
+void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
+  const button = element<HTMLButtonElement>("vr");
+  button.hidden = !can;
+  button.addEventListener("click", async () => {
+    void hear();
+    const { Headset } = await import("./xr.js");
+    xr ??= new Headset(scene, finger, () => play.click());
+    await xr.enter();
+  });
+});
+
+new Keys(scene, finger, {
+  play: () => play.click(),
+  mute: () => element("sound").click(),
+  seek: (by) => seek(Math.min(Math.max(Number(time.value) + by, 0), duration)),
+});
+
+function frame(): void {
+  finger.pollGamepad();
+  plots?.update();
+  requestAnimationFrame(frame);
+}
+requestAnimationFrame(frame);
+
+// ---- Who mills
+if (hasEngine) {
+  source = new Connection(listener);
+} else {
+  void listed().then(async (examples) => {
+    const box = element("examples");
+    for (const example of examples.slice(1)) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = example.name;
+      button.addEventListener("click", async () => mill(await orderOf(example)));
+      box.append(button);
+    }
+    if (examples.length === 0) return;
+    box.hidden = examples.length < 2;
+    await mill(await orderOf(examples[0]));
+  });
+}

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
-// What is seen: the stock chunk by chunk, the tool, the path coloured by force, the force as an arrow.
-// Colours are the paper's: cutter yellow, machined surface blue; stock that no tool has touched is grey.
+// What is seen: the stock chunk by chunk, the designed surface, the tool and where it was, the path, and what
+// is laid over them (overlays.ts).
 
 import {
-  ArrowHelper,
   BufferAttribute,
   BufferGeometry,
   Color,
   DirectionalLight,
+  DoubleSide,
   Group,
   HemisphereLight,
-  LatheGeometry,
-  Line,
-  LineBasicMaterial,
-  LineSegments,
   Mesh,
   MeshStandardMaterial,
   PerspectiveCamera,
-  Quaternion,
+  Raycaster,
   Scene as ThreeScene,
   Vector2,
   Vector3,
@@ -25,71 +21,95 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import type { ChunkFrame, JobFrame, Row, StateFrame, Vec3 } from "./frames.js";
-import { heat } from "./heat.js";
-import { outline } from "./tool.js";
+import type { ChunkFrame, DesignedFrame, JobFrame, Row, StateFrame, Vec3 } from "./frames.js";
+import { HeatMap, type Colouring } from "./heat_map.js";
+import { Overlays } from "./overlays.js";
+import { PALETTES, type Palette } from "./palette.js";
+import { PathLines } from "./path_lines.js";
+import { SurfaceDistance } from "./surface_distance.js";
+import { Tool } from "./tool.js";
 
-const MACHINED = new Color(0x4f86c6);
-const UNTOUCHED = new Color(0xa9adb4);
-const TOOL = new Color(0xe8b800);
 const PIXEL_RATIO_CAP = 2;
 // A point this near to a side of the blank is on it; of the cell.
 const ON_BLANK = 1e-3;
-// Rows whose time is this near follow one another, s.
-const SAME_CUT_S = 1e-6;
-const UP = new Vector3(0, 0, 1);
+// Colouring of a large part goes on picture by picture, ms each.
+const COLOURING_MS = 6;
+
+export interface Hit {
+  point: Vec3;
+  normal: Vec3;
+}
 
 export class Scene {
-  private readonly renderer: WebGLRenderer;
-  private readonly three = new ThreeScene();
-  private readonly camera = new PerspectiveCamera(40, 1, 0.1, 10000);
-  private readonly controls: OrbitControls;
+  readonly renderer: WebGLRenderer;
+  readonly three = new ThreeScene();
+  readonly camera = new PerspectiveCamera(40, 1, 0.1, 10000);
+  readonly controls: OrbitControls;
+  // All that belongs to the job, in its millimetres: VR sets it on a bench.
+  readonly world = new Group();
+  readonly overlays: Overlays;
+  readonly heatMap = new HeatMap();
+  job: JobFrame | undefined;
+  private palette: Palette = PALETTES.paper;
   private readonly stock = new Group();
+  private readonly designed = new Group();
   private readonly chunks = new Map<string, Mesh>();
   private readonly material = new MeshStandardMaterial({
     vertexColors: true,
     flatShading: true,
-    metalness: 0.1,
-    roughness: 0.55,
+    metalness: 0.15,
+    roughness: 0.5,
   });
-  private readonly tool = new Group();
-  private readonly tools: Mesh[] = [];
-  private readonly force = new ArrowHelper(new Vector3(1, 0, 0), new Vector3(), 1, 0xd0342c);
-  private readonly path = new Group();
-  private cut: LineSegments | undefined;
-  private rows: Row[] = [];
-  private drawnRows = 0;
-  private largest = 1;
-  private job: JobFrame | undefined;
+  private readonly pink = new MeshStandardMaterial({
+    color: PALETTES.paper.designed,
+    transparent: true,
+    opacity: 0.4,
+    side: DoubleSide,
+    roughness: 0.7,
+    depthWrite: false,
+  });
+  private readonly tool: Tool;
+  private readonly path = new PathLines();
+  private readonly distance = new SurfaceDistance();
+  private readonly rays = new Raycaster();
+  private axis: Vec3 = [0, 0, 1];
+  private cutter = 0;
+  private colouring: Colouring = "plain";
+  private uncoloured: string[] = [];
   private wanted = false;
 
-  constructor(private readonly canvas: HTMLCanvasElement) {
+  constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO_CAP));
-    this.camera.up.copy(UP);
+    this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
-    const sun = new DirectionalLight(0xffffff, 2.6);
-    sun.position.set(-0.5, -1, 1.2);
+    const sun = new DirectionalLight(0xffffff, 2.4);
+    sun.position.set(-0.6, 0.9, 1);
     this.camera.add(sun);
-    this.three.add(new HemisphereLight(0xffffff, 0x8a93a0, 1.9), this.camera);
-    this.three.add(this.stock, this.tool, this.path, this.force);
-    this.force.visible = false;
+    this.tool = new Tool(this.palette.cutter);
+    this.overlays = new Overlays(this.palette);
+    this.world.add(this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
+    this.three.add(new HemisphereLight(0xffffff, 0x76808f, 1.7), this.camera, this.world);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
+  get hasDesigned(): boolean {
+    return !this.distance.empty;
+  }
+
   begin(job: JobFrame): void {
-    const first = !this.job;
     this.job = job;
     for (const mesh of this.chunks.values()) mesh.geometry.dispose();
     this.chunks.clear();
     this.stock.clear();
-    this.rows = [];
-    this.drawnRows = 0;
-    this.largest = 1;
-    this.setTools(job);
-    this.setPath(job);
-    if (first) this.fit();
+    this.designed.clear();
+    this.uncoloured = [];
+    Object.assign(this.distance, new SurfaceDistance());
+    this.heatMap.begin(job.cutters);
+    this.tool.begin(job.cutters);
+    this.path.begin(job);
+    this.overlays.begin(this.extent());
     this.draw();
   }
 
@@ -104,45 +124,93 @@ export class Scene {
     if (chunk.indices.length === 0 || !this.job) return;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(chunk.positions, 3));
-    geometry.setAttribute("color", new BufferAttribute(this.colours(chunk.positions, this.job), 3));
+    geometry.setAttribute("color", new BufferAttribute(this.plain(chunk.positions, this.job), 3));
     geometry.setIndex(new BufferAttribute(chunk.indices, 1));
     const mesh = new Mesh(geometry, this.material);
     this.chunks.set(key, mesh);
     this.stock.add(mesh);
+    if (this.colouring !== "plain" && !this.uncoloured.includes(key)) this.uncoloured.push(key);
+    this.draw();
+  }
+
+  addDesigned(frame: DesignedFrame): void {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(frame.positions, 3));
+    geometry.setIndex(new BufferAttribute(frame.indices, 1));
+    geometry.computeVertexNormals();
+    this.designed.add(new Mesh(geometry, this.pink));
+    this.distance.add(frame.positions, frame.indices);
     this.draw();
   }
 
   addRows(rows: Row[]): void {
-    this.rows.push(...rows);
-    const before = this.largest;
-    for (const row of rows) this.largest = Math.max(this.largest, row.peakForce);
-    // The scale grew: what is drawn changes its colours too.
-    if (this.largest > before) this.drawnRows = 0;
-    this.drawCut();
+    const cutter = this.job?.cutters[this.cutter];
+    if (!cutter) return;
+    for (const row of rows) this.heatMap.add(row, this.axis, cutter);
+    this.path.add(rows, (row) => this.heatMap.ofRow(this.colouring, row, 2 * cutter.radius), this.heatMap.largestForce);
     this.draw();
+  }
+
+  // The cut is told anew: feed, speed or material were changed.
+  forgetRows(): void {
+    if (!this.job) return;
+    this.heatMap.begin(this.job.cutters);
+    this.path.begin(this.job);
+    this.setColouring(this.colouring);
   }
 
   show(state: StateFrame): void {
     if (!this.job) return;
-    this.tool.position.set(...state.tip);
-    this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(UP, new Vector3(...state.axis).normalize()));
-    this.tool.children.forEach((mesh, n) => (mesh.visible = n === state.cutter));
-    if (this.tool.children[state.cutter]) this.tool.children[state.cutter].rotation.z = -state.angle;
-    const size = Math.hypot(...state.force);
-    this.force.visible = state.cutting && size > 0;
-    if (this.force.visible) {
-      const longest = 0.4 * this.extent();
-      this.force.position.set(...state.tip);
-      this.force.setDirection(new Vector3(...state.force).normalize());
-      const length = Math.max((longest * size) / this.largest, 0.02 * longest);
-      this.force.setLength(length, Math.min(0.3 * length, 0.06 * longest), Math.min(0.2 * length, 0.04 * longest));
-    }
+    this.axis = state.axis;
+    this.cutter = state.cutter;
+    this.tool.show(state);
+    this.overlays.showForce(state);
     this.draw();
   }
 
-  setVisible(what: "path" | "tool", on: boolean): void {
-    (what === "path" ? this.path : this.tool).visible = on;
+  setVisible(what: "path" | "tool" | "designed" | "positions", on: boolean): void {
+    if (what === "path") this.path.group.visible = on;
+    else if (what === "tool") this.tool.group.visible = on;
+    else if (what === "positions") this.tool.positionsVisible = on;
+    else this.designed.visible = on;
     this.draw();
+  }
+
+  setPalette(palette: Palette): void {
+    this.palette = palette;
+    this.pink.color.set(palette.designed);
+    this.tool.setColour(palette.cutter);
+    this.overlays.setPalette(palette);
+    this.setColouring(this.colouring);
+  }
+
+  setColouring(colouring: Colouring): void {
+    this.colouring = colouring;
+    const cutter = this.job?.cutters[this.cutter];
+    if (cutter) this.path.recolour((row) => this.heatMap.ofRow(colouring, row, 2 * cutter.radius));
+    this.uncoloured = [...this.chunks.keys()];
+    this.draw();
+  }
+
+  // What stands at a place of the canvas (css pixels from its corner), of the part only.
+  pick(x: number, y: number): Hit | undefined {
+    const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
+    this.rays.setFromCamera(at, this.camera);
+    return this.hit();
+  }
+  hit(rays = this.rays): Hit | undefined {
+    const [first] = rays.intersectObjects(this.stock.children, false);
+    if (!first?.face) return undefined;
+    return { point: this.world.worldToLocal(first.point.clone()).toArray(), normal: first.face.normal.toArray() };
+  }
+
+  // The highest place of the part under a point, or nothing.
+  surfaceBelow(x: number, y: number): number | undefined {
+    if (!this.job) return undefined;
+    const from = this.world.localToWorld(new Vector3(x, y, this.job.blank.max[2] + this.extent()));
+    const to = this.world.localToWorld(new Vector3(x, y, this.job.blank.min[2] - this.extent()));
+    this.rays.set(from, to.sub(from).normalize());
+    return this.hit()?.point[2];
   }
 
   // The whole part in view, from the front right.
@@ -151,20 +219,41 @@ export class Scene {
     const { min, max } = this.job.blank;
     const centre = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
     const size = this.extent();
+    // A tall window sees less to the sides.
+    const narrow = Math.max(1, 1.05 / Math.max(this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1), 0.2));
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.75).multiplyScalar(1.05 * size));
+    this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.8).multiplyScalar(1.08 * size * narrow));
     this.camera.near = size / 1000;
     this.camera.far = size * 100;
     this.controls.update();
     this.draw();
   }
 
+  // Turns about the part, rad, and nears by a factor.
+  orbit(right: number, up: number, nearer = 1): void {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    offset.applyAxisAngle(this.camera.up, -right);
+    const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
+    const tilted = offset.clone().applyAxisAngle(side, -up);
+    if (tilted.angleTo(this.camera.up) > 0.05 && tilted.angleTo(this.camera.up) < Math.PI - 0.05) offset.copy(tilted);
+    this.camera.position.copy(this.controls.target).add(offset.multiplyScalar(nearer));
+    this.controls.update();
+  }
+
   // Draws with the next picture, once however often it is asked.
   draw(): void {
-    if (this.wanted) return;
+    if (this.wanted || this.renderer.xr.isPresenting) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
+      this.render();
+    });
+  }
+
+  // Now; VR calls it for each of its pictures.
+  render(): void {
+    this.colour();
+    if (!this.renderer.xr.isPresenting) {
       const { clientWidth: width, clientHeight: height } = this.canvas;
       const now = this.renderer.getSize(new Vector2());
       if (now.x !== width || now.y !== height) {
@@ -172,87 +261,50 @@ export class Scene {
         this.camera.aspect = width / Math.max(height, 1);
         this.camera.updateProjectionMatrix();
       }
-      this.renderer.render(this.three, this.camera);
-    });
+    }
+    this.renderer.render(this.three, this.camera);
+    if (this.uncoloured.length > 0) this.draw();
   }
 
-  private extent(): number {
+  extent(): number {
     if (!this.job) return 1;
     const { min, max } = this.job.blank;
     return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
   }
 
-  private colours(positions: Float32Array, job: JobFrame): Float32Array {
+  private onBlank(positions: Float32Array, n: number, job: JobFrame): boolean {
     const near = ON_BLANK * job.cell;
-    const colours = new Float32Array(positions.length);
-    for (let n = 0; n < positions.length; n += 3) {
-      let on = false;
-      for (let axis = 0; axis < 3; ++axis) {
-        const p = positions[n + axis];
-        on ||= Math.abs(p - job.blank.min[axis]) < near || Math.abs(p - job.blank.max[axis]) < near;
-      }
-      (on ? UNTOUCHED : MACHINED).toArray(colours, n);
+    for (let axis = 0; axis < 3; ++axis) {
+      const p = positions[n + axis];
+      if (Math.abs(p - job.blank.min[axis]) < near || Math.abs(p - job.blank.max[axis]) < near) return true;
     }
+    return false;
+  }
+
+  private plain(positions: Float32Array, job: JobFrame): Float32Array {
+    const machined = new Color(this.palette.machined);
+    const untouched = new Color(this.palette.untouched);
+    const colours = new Float32Array(positions.length);
+    for (let n = 0; n < positions.length; n += 3)
+      (this.onBlank(positions, n, job) ? untouched : machined).toArray(colours, n);
     return colours;
   }
 
-  private setTools(job: JobFrame): void {
-    for (const mesh of this.tools) mesh.geometry.dispose();
-    this.tools.length = 0;
-    this.tool.clear();
-    for (const cutter of job.cutters) {
-      const profile = outline(cutter).map(([r, z]) => new Vector2(r, z));
-      const geometry = new LatheGeometry(profile, 48).rotateX(Math.PI / 2);
-      const material = new MeshStandardMaterial({ color: TOOL, metalness: 0.3, roughness: 0.4 });
-      material.transparent = true;
-      material.opacity = 0.85;
-      const mesh = new Mesh(geometry, material);
-      this.tools.push(mesh);
-      this.tool.add(mesh);
-    }
-  }
-
-  private setPath(job: JobFrame): void {
-    this.path.clear();
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(job.path.points, 3));
-    this.path.add(new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.45 })));
-    this.cut = undefined;
-  }
-
-  private drawCut(): void {
-    const needed = this.rows.length;
-    let capacity = this.cut ? this.cut.geometry.getAttribute("position").count / 2 : 0;
-    if (!this.cut || capacity < needed) {
-      capacity = Math.max(1024, 2 * needed);
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * capacity), 3));
-      geometry.setAttribute("color", new BufferAttribute(new Float32Array(6 * capacity), 3));
-      if (this.cut) {
-        this.cut.geometry.dispose();
-        this.path.remove(this.cut);
+  private colour(): void {
+    if (!this.job) return;
+    const began = performance.now();
+    while (this.uncoloured.length > 0 && performance.now() - began < COLOURING_MS) {
+      const mesh = this.chunks.get(this.uncoloured.shift()!);
+      if (!mesh) continue;
+      const positions = mesh.geometry.getAttribute("position").array as Float32Array;
+      const colours = this.plain(positions, this.job);
+      for (let n = 0; this.colouring !== "plain" && n < positions.length; n += 3) {
+        if (this.onBlank(positions, n, this.job)) continue;
+        const p: Vec3 = [positions[n], positions[n + 1], positions[n + 2]];
+        const c = this.heatMap.colour(this.colouring, p, this.distance);
+        if (c) new Color().setRGB(...c, "srgb").toArray(colours, n);
       }
-      this.cut = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
-      this.cut.frustumCulled = false;
-      this.path.add(this.cut);
-      this.drawnRows = 0;
+      mesh.geometry.setAttribute("color", new BufferAttribute(colours, 3));
     }
-    const position = this.cut.geometry.getAttribute("position") as BufferAttribute;
-    const colour = this.cut.geometry.getAttribute("color") as BufferAttribute;
-    for (let n = this.drawnRows; n < needed; ++n) {
-      const row = this.rows[n];
-      const before = this.rows[n - 1];
-      const joined = before && row.time - before.time - before.duration < SAME_CUT_S;
-      const from: Vec3 = joined ? before.tip : row.tip;
-      const c = heat(row.peakForce / this.largest);
-      position.setXYZ(2 * n, ...from);
-      position.setXYZ(2 * n + 1, ...row.tip);
-      colour.setXYZ(2 * n, ...c);
-      colour.setXYZ(2 * n + 1, ...c);
-    }
-    this.drawnRows = needed;
-    position.needsUpdate = true;
-    colour.needsUpdate = true;
-    this.cut.geometry.setDrawRange(0, 2 * needed);
   }
 }

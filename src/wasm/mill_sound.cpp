@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The C ABI of mill_sound.wasm, for the mill page's AudioWorklet: frames in (docs/live-protocol.md), sound
+// out. One listener a module.
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "session/live_sound.hpp"
+
+#define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+
+namespace {
+
+using tribo::session::LiveSound;
+
+constexpr std::uint32_t kMostFrames = 1024;
+
+struct Ear {
+    std::unique_ptr<LiveSound> sound;
+    std::vector<float> out;
+};
+
+Ear& ear() {
+    static Ear the_ear;
+    return the_ear;
+}
+
+}  // namespace
+
+// 1: ready; 0: no such sample rate. Takes some 50 ms.
+TRIBO_EXPORT(sound_open) std::uint32_t sound_open(double sample_rate_hz) {
+    tribo::sound::SoundtrackOptions options;
+    if (!(sample_rate_hz >= tribo::sound::kLowestSampleRateHz &&
+          sample_rate_hz <= tribo::sound::kHighestSampleRateHz)) {
+        return 0;
+    }
+    options.sample_rate_hz = static_cast<int>(sample_rate_hz);
+    options.head = tribo::sound::Head::sphere(options.sample_rate_hz);
+    ear().sound = std::make_unique<LiveSound>(options);
+    ear().out.resize(std::size_t{2} * kMostFrames);
+    return 1;
+}
+
+TRIBO_EXPORT(sound_take) void sound_take(const std::uint8_t* frame, std::uint32_t length) {
+    if (ear().sound) ear().sound->take({frame, length});
+}
+TRIBO_EXPORT(sound_follow)
+void sound_follow(double t_s, double speed, std::uint32_t playing, double lead_s) {
+    if (ear().sound) ear().sound->follow(t_s, speed, playing != 0, lead_s);
+}
+// At most 1024 frames, left and right by turns.
+TRIBO_EXPORT(sound_render) const float* sound_render(std::uint32_t frames) {
+    if (ear().sound) ear().sound->render({ear().out.data(), std::size_t{2} * std::min(frames, kMostFrames)});
+    return ear().out.data();
+}
+TRIBO_EXPORT(sound_program_s) double sound_program_s() {
+    return ear().sound ? ear().sound->program_s() : 0;
+}

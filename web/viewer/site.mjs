@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Puts the mill page without an engine, and its examples, into the static site (build/web/site/mill).
+import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+const ROOT = join(import.meta.dirname, "../..");
+const from = join(ROOT, "build/web/viewer"), examples = join(ROOT, "examples");
+const out = join(process.env.TRIBO_SITE_DIR ?? join(ROOT, "build/web/site"), "mill");
+
+// The first is milled when the page opens.
+const EXAMPLES = [
+  { name: "Bowl", job: "bowl.toml", folder: "bowl", files: ["bowl.toml", "bowl.csv", "bowl.wrl"] },
+  { name: "Plate", job: "plate.toml", folder: "plate", files: ["plate.toml", "plate.nc"] },
+];
+
+rmSync(out, { recursive: true, force: true });
+mkdirSync(join(out, "examples"), { recursive: true });
+for (const name of readdirSync(from)) {
+  if (name.endsWith(".gz")) continue;
+  copyFileSync(join(from, name), join(out, name));
+}
+const page = readFileSync(join(out, "index.html"), "utf8");
+const none = page.replace('name="tribo-engine" content="here"', 'name="tribo-engine" content="none"');
+if (none === page) throw new Error("the page does not say who mills");
+writeFileSync(join(out, "index.html"), none);
+for (const example of EXAMPLES) {
+  for (const file of example.files) copyFileSync(join(examples, example.folder, file), join(out, "examples", file));
+}
+writeFileSync(join(out, "examples/examples.json"), JSON.stringify(EXAMPLES.map(({ name, job, files }) => ({ name, job, files }))));
+console.log(`mill page with ${EXAMPLES.length} examples`);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Colours of what is seen: the milling paper's, and a set that eyes without red or green tell apart (after
+// Okabe and Ito 2008).
+
+export interface Palette {
+  machined: number;
+  untouched: number;
+  designed: number;
+  cutter: number;
+  finger: number;
+  force: number;
+}
+
+export const PALETTES: Record<"paper" | "safe", Palette> = {
+  paper: {
+    machined: 0x4f86c6,
+    untouched: 0xa9adb4,
+    designed: 0xf08ab4,
+    cutter: 0xeab802,
+    finger: 0xd83a30,
+    force: 0xd0342c,
+  },
+  safe: {
+    machined: 0x0072b2,
+    untouched: 0xb4b7bc,
+    designed: 0xcc79a7,
+    cutter: 0xf0e442,
+    finger: 0xd55e00,
+    force: 0xd55e00,
+  },
+};

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Sliders for what can be changed while it mills; what is set everybody who watches shares.
+
+import { element } from "./page.js";
+import type { Command, ServerInfo, Settings } from "./source.js";
+
+type Key = "feed_percent" | "spindle_percent" | "helix_deg" | "force_scale" | "jnd";
+
+interface Parameter {
+  key: Key;
+  label: string;
+  min: number;
+  max: number;
+  unit: string;
+  // The slider goes by the logarithm.
+  log?: boolean;
+  box: "parameters" | "feel-parameters";
+}
+
+const PARAMETERS: Parameter[] = [
+  { key: "feed_percent", label: "Feed", min: 10, max: 300, unit: "%", box: "parameters" },
+  { key: "spindle_percent", label: "Spindle", min: 10, max: 300, unit: "%", box: "parameters" },
+  { key: "helix_deg", label: "Helix", min: 0, max: 60, unit: "°", box: "parameters" },
+  { key: "force_scale", label: "Force scale", min: 0.001, max: 1, unit: "", log: true, box: "feel-parameters" },
+  { key: "jnd", label: "Table error", min: 0.1, max: 10, unit: "JND", log: true, box: "feel-parameters" },
+];
+
+export class Parameters {
+  private readonly shown = new Map<Key, (value: number) => void>();
+  private readonly material = element<HTMLSelectElement>("material");
+
+  constructor(private readonly send: (command: Command) => void) {
+    this.material.addEventListener("change", () => this.send({ op: "material", value: this.material.value }));
+    for (const p of PARAMETERS) element(p.box).append(this.slider(p));
+  }
+
+  clear(): void {
+    element("cut").hidden = true;
+  }
+
+  info(message: ServerInfo): void {
+    this.material.replaceChildren(...(message.materials ?? []).map((name) => new Option(name, name)));
+    element("material-label").hidden = this.material.options.length === 0;
+  }
+
+  show(settings: Settings): void {
+    element("cut").hidden = false;
+    for (const [key, show] of this.shown) show(settings[key]);
+    if (![...this.material.options].some((o) => o.value === settings.material)) {
+      this.material.prepend(new Option(settings.material || "the job's own", settings.material));
+    }
+    this.material.value = settings.material;
+  }
+
+  private slider(p: Parameter): HTMLElement {
+    const label = document.createElement("label");
+    label.className = "parameter";
+    const name = document.createElement("span");
+    name.textContent = p.label;
+    const value = document.createElement("output");
+    const input = document.createElement("input");
+    const to = (v: number) => (p.log ? Math.log(v) : v);
+    const from = (v: number) => (p.log ? Math.exp(v) : v);
+    input.type = "range";
+    input.min = String(to(p.min));
+    input.max = String(to(p.max));
+    input.step = "any";
+    input.id = `set-${p.key}`;
+    const say = (v: number) => {
+      value.textContent = `${Number(v.toPrecision(3))} ${p.unit}`;
+      input.setAttribute("aria-valuetext", value.textContent);
+    };
+    input.addEventListener("input", () => say(from(Number(input.value))));
+    input.addEventListener("change", () => this.send({ op: "set", key: p.key, value: Number(from(Number(input.value)).toPrecision(4)) }));
+    this.shown.set(p.key, (v) => {
+      if (document.activeElement !== input) input.value = String(to(v));
+      say(v);
+    });
+    label.append(name, value, input);
+    return label;
+  }
+}

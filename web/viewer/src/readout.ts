@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What the tool does now in figures, collisions, the servo, and what was assumed.
+
+import type { CollisionFrame, ServoFrame, StateFrame } from "./frames.js";
+import { element } from "./page.js";
+
+export function showState(state: StateFrame): void {
+  const text: Record<string, string> = {
+    force: `${Math.hypot(...state.force).toFixed(0)} N`,
+    peak: `${state.peakForce.toFixed(0)} N`,
+    torque: `${state.torque.toFixed(2)} Nm`,
+    spindle: `${state.rpm.toFixed(0)} rpm`,
+    feed: state.rapid ? "rapid" : `${state.feed.toFixed(0)} mm/min`,
+    removed: `${(state.removed / 1000).toFixed(2)} cm³`,
+    line: String(state.line),
+  };
+  for (const [id, value] of Object.entries(text)) {
+    const place = element(id);
+    if (place.textContent !== value) place.textContent = value;
+  }
+}
+
+export class Collisions {
+  private readonly box = element("collisions");
+  private readonly list = this.box.querySelector("ol")!;
+
+  constructor(private readonly go: (frame: CollisionFrame) => void) {}
+
+  clear(): void {
+    this.list.replaceChildren();
+    this.box.hidden = true;
+  }
+  add(frame: CollisionFrame): void {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = `line ${frame.line}: ${frame.what}`;
+    button.addEventListener("click", () => this.go(frame));
+    item.append(button);
+    this.list.append(item);
+    this.box.hidden = false;
+  }
+}
+
+export function showServo(frame: ServoFrame): void {
+  const list = element("servo");
+  list.hidden = false;
+  const rows: [string, string][] = [
+    ["rate", `${frame.rate.toFixed(0)} Hz`],
+    ["ticks", String(frame.ticks)],
+    ["late", String(frame.late)],
+    ["lateness p99", `${frame.lateness[1].toFixed(0)} µs`],
+    ["lateness max", `${frame.lateness[3].toFixed(0)} µs`],
+    ["tick p99", `${frame.cpu[1].toFixed(0)} µs`],
+    ["force limit", `${frame.limit.toFixed(1)} N`],
+    ["largest force", `${frame.largest.toFixed(2)} N`],
+    ...(frame.fault ? ([["fault", frame.fault]] as [string, string][]) : []),
+  ];
+  list.replaceChildren(
+    ...rows.map(([name, value]) => {
+      const row = document.createElement("div");
+      const term = document.createElement("dt");
+      const said = document.createElement("dd");
+      term.textContent = name;
+      said.textContent = value;
+      row.append(term, said);
+      return row;
+    }),
+  );
+}
+
+export function showWarnings(warnings: string[]): void {
+  element("said").hidden = warnings.length === 0;
+  element("warnings").replaceChildren(
+    ...warnings.map((text) => {
+      const item = document.createElement("li");
+      item.textContent = text;
+      return item;
+    }),
+  );
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The ear of the page: frames and the picture's clock go to mill_sound.wasm in an AudioWorklet. Begins with
+// the first gesture, as browsers demand.
+
+import type { StateFrame } from "./frames.js";
+import workletUrl from "./sound_worklet.ts?worker&url";
+
+export type ToEar =
+  | { kind: "frame"; bytes: ArrayBuffer }
+  | { kind: "clock"; time: number; speed: number; playing: boolean; lead: number };
+
+// Frames that the ear must have even if it is opened late: the newest of each kind, and the end of the sound.
+const KEPT_SOUNDS = 64;
+
+export class Sound {
+  private context: AudioContext | undefined;
+  private node: AudioWorkletNode | undefined;
+  private gain: GainNode | undefined;
+  private opening: Promise<void> | undefined;
+  private job: ArrayBuffer | undefined;
+  private listening: ArrayBuffer | undefined;
+  private sounds: ArrayBuffer[] = [];
+  private isMuted = false;
+  analyser: AnalyserNode | undefined;
+
+  // Whether a page may sound here at all: AudioWorklet needs https or this very machine.
+  static get possible(): boolean {
+    return typeof AudioContext !== "undefined" && "audioWorklet" in AudioContext.prototype && isSecureContext;
+  }
+
+  get running(): boolean {
+    return this.context?.state === "running";
+  }
+  get muted(): boolean {
+    return this.isMuted;
+  }
+  set muted(on: boolean) {
+    this.isMuted = on;
+    if (this.gain && this.context) this.gain.gain.setTargetAtTime(on ? 0 : 1, this.context.currentTime, 0.02);
+  }
+
+  // From a gesture.
+  wake(): Promise<void> {
+    if (!Sound.possible) return Promise.resolve();
+    this.opening ??= this.open();
+    return this.opening.then(() => this.context?.resume());
+  }
+
+  frame(kind: string, bytes: ArrayBuffer): void {
+    if (kind === "job") {
+      this.job = bytes;
+      this.sounds = [];
+    } else if (kind === "listening") {
+      this.listening = bytes;
+    } else if (kind === "sound") {
+      this.sounds.push(bytes);
+      if (this.sounds.length > KEPT_SOUNDS) this.sounds.shift();
+    } else {
+      return;
+    }
+    // The job's path is long, and of no interest to an ear.
+    this.post({ kind: "frame", bytes: kind === "job" ? bytes.slice(0, 16) : bytes });
+  }
+
+  state(state: StateFrame): void {
+    const lead = this.context ? (this.context.outputLatency || this.context.baseLatency || 0) : 0;
+    this.post({ kind: "clock", time: state.time, speed: state.speed, playing: state.playing, lead });
+  }
+
+  private post(message: ToEar): void {
+    this.node?.port.postMessage(message);
+  }
+
+  private async open(): Promise<void> {
+    const context = new AudioContext({ latencyHint: "interactive" });
+    const [module] = await Promise.all([
+      WebAssembly.compileStreaming(fetch(new URL("mill_sound.wasm", document.baseURI))),
+      context.audioWorklet.addModule(workletUrl),
+    ]);
+    const node = new AudioWorkletNode(context, "tribo-mill", {
+      numberOfInputs: 0,
+      outputChannelCount: [2],
+      processorOptions: { module },
+    });
+    this.gain = new GainNode(context, { gain: this.isMuted ? 0 : 1 });
+    this.analyser = new AnalyserNode(context, { fftSize: 4096, smoothingTimeConstant: 0 });
+    node.connect(this.gain).connect(context.destination);
+    node.connect(this.analyser);
+    this.context = context;
+    this.node = node;
+    if (this.job) this.post({ kind: "frame", bytes: this.job.slice(0, 16) });
+    if (this.listening) this.post({ kind: "frame", bytes: this.listening });
+    for (const bytes of this.sounds) this.post({ kind: "frame", bytes });
+  }
+}
