@@ -25,6 +25,17 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
     return arm;
 }
 
+session::LiveListening listening(const formats::Job& job, const Box3& blank) {
+    const milling::Cutter& cutter = job.cutters.front();
+    session::LiveListening l;
+    l.listener_mm = job.sound.listener_mm.value_or(Vec3{blank.centre().x, blank.centre().y, blank.max.z});
+    l.distance_factor = job.sound.distance_factor;
+    l.gain_db = job.sound.gain_db;
+    l.body =
+        sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(job.material.name));
+    return l;
+}
+
 LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
     LiveShowOptions options;
@@ -75,6 +86,10 @@ int live(const LiveCall& call) {
     LiveShowOptions show_how =
         show_options(call, *first, profile, *arm ? (*arm)->limits() : haptics::kSimulatedLimits);
 
+    session::LiveExtras extras;
+    extras.listening = listening(first->job, first->setup.blank->bounds_mm());
+    if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
+
     // Set back, the program begins again as its files are by then.
     const auto load_again = [render]() -> Result<session::MillSetup> {
         auto again = load_job(render, session::LiveMill::kPieceMm);
@@ -88,7 +103,8 @@ int live(const LiveCall& call) {
         return load_again();
     };
     auto mill = session::LiveMill::create(
-        make_setup, parallel_for_over(call.threads > 0 ? call.threads : available_threads()));
+        make_setup, parallel_for_over(call.threads > 0 ? call.threads : available_threads()),
+        std::move(extras));
     if (!mill) return report(mill.error());
 
     LiveShow show(**mill, std::move(show_how), *std::move(arm));

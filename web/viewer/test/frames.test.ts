@@ -115,6 +115,7 @@ describe("decodeFrame", () => {
     const bytes = new Bytes().header(4, 2).u32(1).f64(2).f32(0.5, 1, 2, 3, 10, 20, 0.25, 1, 2, 5, 0.125).u32(9);
     expect(decodeFrame(bytes.done())).toEqual({
       kind: "rows",
+      anew: false,
       rows: [
         {
           time: 2,
@@ -140,8 +141,71 @@ describe("decodeFrame", () => {
     });
   });
 
+  it("reads sound, finger, servo, texture and the designed surface", () => {
+    const sound = new Bytes().header(6, 2).u32(1).f64(2).f32(0.5, 1, 2, 3, 0.25, 628, 1, 40).u32(2, 2);
+    sound.f32(1, 0, 2, 0, 3, 0, 4, 5, 6, 7, 8, 9);
+    expect(decodeFrame(sound.done())).toEqual({
+      kind: "sound",
+      pieces: [
+        {
+          time: 2,
+          duration: 0.5,
+          tip: [1, 2, 3],
+          angle: 0.25,
+          radPerS: 628,
+          pace: 1,
+          chips: 40,
+          orderStep: 2,
+          harmonics: new Float32Array([1, 0, 2, 0, 3, 0, 4, 5, 6, 7, 8, 9]),
+        },
+      ],
+    });
+    expect(decodeFrame(new Bytes().header(7, 1).f32(1, 2, 3, 4, 5, 6, 7, 8, 9, 10).u32(1 + 4 + 16).done())).toEqual({
+      kind: "finger",
+      hand: [1, 2, 3],
+      proxy: [4, 5, 6],
+      force: [7, 8, 9],
+      slip: 10,
+      contact: true,
+      on: false,
+      cutMode: true,
+      stopped: false,
+      present: true,
+    });
+    const servo = new Bytes().header(8, 1).u32(1000, 2, 4).f32(1000, 3, 1.5, 1, 2, 3, 4, 5, 6, 7, 8);
+    expect(decodeFrame(servo.done())).toEqual({
+      kind: "servo",
+      ticks: 1000,
+      late: 2,
+      fault: "a force was no number",
+      rate: 1000,
+      limit: 3,
+      largest: 1.5,
+      lateness: [1, 2, 3, 4],
+      cpu: [5, 6, 7, 8],
+    });
+    const texture = new Bytes().header(9, 1);
+    for (let n = 0; n < 8; ++n) texture.f32(n, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0.5);
+    const near = decodeFrame(texture.done());
+    if (near.kind !== "texture") throw new Error();
+    expect(near.triangles.length).toBe(8);
+    expect(near.triangles[3]).toEqual({
+      corners: [
+        [3, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+      ],
+      force: [0, 0, 0.5],
+    });
+    expect(decodeFrame(new Bytes().header(9, 1).done())).toEqual({ kind: "texture", triangles: [] });
+    const designed = new Bytes().header(11, 0).u32(3, 1).f32(0, 0, 0, 0.5).u16(0, 0, 0, 2, 0, 0, 0, 2, 0).pad().u16(0, 1, 2).pad();
+    const surface = decodeFrame(designed.done());
+    if (surface.kind !== "designed") throw new Error();
+    expect([...surface.positions]).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 0]);
+  });
+
   it("refuses what it does not know or what is cut off", () => {
-    expect(() => decodeFrame(new Bytes().header(9, 0).done())).toThrow("kind 9");
+    expect(decodeFrame(new Bytes().header(99, 0).done())).toEqual({ kind: "other" });
     expect(() => decodeFrame(new Bytes().header(3, 0, 2).done())).toThrow("version 2");
     expect(() => decodeFrame(new Bytes().header(3, 0).f32(1, 2).done())).toThrow(RangeError);
     expect(() => decodeFrame(new ArrayBuffer(0))).toThrow(RangeError);

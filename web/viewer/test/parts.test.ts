@@ -3,7 +3,12 @@ import { describe, expect, it } from "vitest";
 
 import { liveUrl } from "../src/connection.js";
 import { heat } from "../src/heat.js";
+import { sort, tooLarge } from "../src/drop.js";
+import { chip, chipVerdict, HeatMap } from "../src/heat_map.js";
+import { readRecording, Recorder } from "../src/recording.js";
+import { SurfaceDistance } from "../src/surface_distance.js";
 import { outline } from "../src/tool.js";
+import { spectrum, turn } from "../src/turn.js";
 
 describe("heat", () => {
   const lightness = ([r, g, b]: number[]) => 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;
@@ -39,5 +44,86 @@ describe("liveUrl", () => {
   it("is beside the page and keeps its token", () => {
     expect(liveUrl({ protocol: "http:", host: "127.0.0.1:8317", search: "" })).toBe("ws://127.0.0.1:8317/live");
     expect(liveUrl({ protocol: "https:", host: "mill", search: "?token=a%26b" })).toBe("wss://mill/live?token=a%26b");
+  });
+});
+
+describe("SurfaceDistance", () => {
+  it("is signed, and exact over faces, edges and corners", () => {
+    const surface = new SurfaceDistance();
+    surface.add(new Float32Array([0, 0, 0, 10, 0, 0, 10, 10, 0, 0, 10, 0]), new Uint16Array([0, 1, 2, 0, 2, 3]));
+    expect(surface.at([5, 5, 0.25], 3)).toBeCloseTo(0.25, 12);
+    expect(surface.at([5, 5, -0.25], 3)).toBeCloseTo(-0.25, 12);
+    expect(surface.at([-0.3, 5, 0.4], 3)).toBeCloseTo(0.5, 12);
+    expect(surface.at([10.2, 10.1, 0.2], 3)).toBeCloseTo(0.3, 12);
+    expect(surface.at([5, 5, 9], 3)).toBeNaN();
+  });
+});
+
+describe("chip load", () => {
+  const row = { time: 0, duration: 0.1, tip: [0, 0, 0] as [number, number, number], meanForce: 1, peakForce: 2, torque: 0, depth: 1, feedPerTooth: 0.1, line: 1 };
+  it("of a slot is the feed per tooth, of a thin side cut less", () => {
+    expect(chip({ ...row, entry: 0, exit: Math.PI })).toBeCloseTo(0.1, 12);
+    expect(chip({ ...row, entry: 0, exit: Math.PI / 6 })).toBeCloseTo(0.05, 12);
+  });
+  it("tells rubbing and overload", () => {
+    expect(chipVerdict({ ...row, feedPerTooth: 0.005, entry: 0, exit: Math.PI }, 10)).toBe("rubbing");
+    expect(chipVerdict({ ...row, feedPerTooth: 0.3, entry: 0, exit: Math.PI }, 10)).toBe("overload");
+    expect(chipVerdict({ ...row, entry: 0, exit: Math.PI }, 10)).toBe("");
+  });
+  it("colours a point by the latest cut that made it", () => {
+    const map = new HeatMap();
+    const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
+    map.begin([ball]);
+    map.add({ ...row, entry: 0, exit: Math.PI, peakForce: 10 }, [0, 0, 1], ball);
+    map.add({ ...row, tip: [0, 5, 0], entry: 0, exit: Math.PI, peakForce: 20 }, [0, 0, 1], ball);
+    const none = new SurfaceDistance();
+    // The lowest points of either ball, and one that neither made.
+    expect(map.colour("force", [0, 0, 0], none)).toEqual(heat(0.5));
+    expect(map.colour("force", [0, 5, 0], none)).toEqual(heat(1));
+    expect(map.colour("force", [0, 0, 40], none)).toBeUndefined();
+  });
+});
+
+describe("a turn of the spindle", () => {
+  // Mean 5 N along the feed, and 2 * 3 N cos(2 angle) across it.
+  const piece = { time: 0, duration: 1, tip: [0, 0, 0] as [number, number, number], angle: 0, radPerS: 2 * Math.PI * 100, pace: 1, chips: 0, orderStep: 2, harmonics: new Float32Array([5, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0]) };
+  it("is the sum of its harmonics", () => {
+    const t = turn(piece, 4);
+    t.x.forEach((v) => expect(v).toBeCloseTo(5, 12));
+    [6, -6, 6, -6, 6].forEach((v, n) => expect(t.y[n]).toBeCloseTo(v, 12));
+  });
+  it("has its line where the teeth pass", () => {
+    expect(spectrum(piece)).toEqual({ hz: [200], newton: [6] });
+  });
+});
+
+describe("a recording", () => {
+  it("gives back what was put in", async () => {
+    const recorder = new Recorder();
+    recorder.take(new Uint8Array([1, 2, 3, 4]).buffer);
+    recorder.take(new Uint8Array([5, 6, 7, 8, 9, 10, 11, 12]).buffer);
+    const bytes = await recorder.file().arrayBuffer();
+    expect(readRecording(bytes).map((r) => [...new Uint8Array(r.bytes)])).toEqual([
+      [1, 2, 3, 4],
+      [5, 6, 7, 8, 9, 10, 11, 12],
+    ]);
+    expect(() => readRecording(bytes.slice(0, bytes.byteLength - 3))).toThrow("cut off");
+    expect(() => readRecording(new ArrayBuffer(40))).toThrow("no recording");
+  });
+});
+
+describe("a drop", () => {
+  const file = (name: string) => ({ name, bytes: new ArrayBuffer(0) });
+  it("is a job, a program with a model, or a model for what is there", () => {
+    expect(sort([file("a/bowl.csv"), file("a/bowl.toml")], undefined)).toMatchObject({ order: { job: "a/bowl.toml", part: "" } });
+    expect(sort([file("p.nc"), file("s.wrl")], undefined)).toMatchObject({ order: { job: "p.nc", part: "s.wrl" } });
+    const before = { files: [file("p.nc")], job: "p.nc", part: "", cell: 0 };
+    expect(sort([file("s.stl")], before)).toMatchObject({ order: { job: "p.nc", part: "s.stl" } });
+    expect(sort([file("run.tribo")], undefined)).toMatchObject({ recording: { name: "run.tribo" } });
+  });
+  it("is refused in words", () => {
+    expect(sort([file("a.toml"), file("b.toml")], undefined)).toMatchObject({ refused: expect.stringContaining("2 jobs") });
+    expect(sort([file("s.stl")], undefined)).toMatchObject({ refused: expect.stringContaining("together with a program") });
+    expect(tooLarge([{ name: "big.nc", size: 100e6 }])).toContain("big.nc: 100 MB");
   });
 });
