@@ -4,7 +4,6 @@
 // marked place.
 
 import {
-  ArrowHelper,
   BufferAttribute,
   BufferGeometry,
   CylinderGeometry,
@@ -20,6 +19,7 @@ import {
   Vector3,
 } from "three";
 
+import { Arrow } from "./arrow.js";
 import type { FingerFrame, StateFrame, TextureFrame, Vec3 } from "./frames.js";
 import type { Palette } from "./palette.js";
 
@@ -29,21 +29,21 @@ export class Overlays {
   readonly group = new Group();
   private size = 1;
   private largest = 1;
-  private readonly force: ArrowHelper;
+  private readonly force: Arrow;
   private readonly finger = new Group();
   private readonly solid: MeshStandardMaterial;
   private readonly ghost: MeshStandardMaterial;
   private readonly skin: Mesh;
   private readonly hand: Mesh;
   private readonly strain: Line;
-  private readonly felt: ArrowHelper;
+  private readonly felt: Arrow;
   private readonly texture = new Group();
   private readonly measure = new Group();
   private readonly mark: Mesh;
 
   constructor(palette: Palette) {
-    this.force = new ArrowHelper(new Vector3(1, 0, 0), new Vector3(), 1, palette.force);
-    this.felt = new ArrowHelper(UP.clone(), new Vector3(), 1, palette.finger);
+    this.force = new Arrow(palette.force);
+    this.felt = new Arrow(palette.finger);
     this.solid = new MeshStandardMaterial({ color: palette.finger, roughness: 0.45 });
     this.ghost = new MeshStandardMaterial({ color: palette.finger, transparent: true, opacity: 0.28, depthWrite: false });
     const shape = new CylinderGeometry(1, 1, 5, 32).rotateX(Math.PI / 2).translate(0, 0, 2.5);
@@ -76,7 +76,7 @@ export class Overlays {
     const size = Math.hypot(...state.force);
     this.largest = Math.max(this.largest, size);
     this.force.visible = state.cutting && size > 0;
-    if (this.force.visible) this.arrow(this.force, state.tip, state.force, 0.4 * this.size, this.largest);
+    if (this.force.visible) this.force.point(state.tip, state.force, 0.25 * this.size, this.largest);
   }
 
   // Solid where the part lets it be, pale where the hand wants it.
@@ -97,7 +97,7 @@ export class Overlays {
     this.strain.visible = finger.contact;
     setPoints(this.strain, [finger.hand, finger.proxy]);
     this.felt.visible = finger.contact && Math.hypot(...finger.force) > 0.01;
-    if (this.felt.visible) this.arrow(this.felt, finger.proxy, finger.force, 0.25 * this.size, 3);
+    if (this.felt.visible) this.felt.point(finger.proxy, finger.force, 0.2 * this.size, 3);
   }
   hideFinger(): void {
     this.finger.visible = false;
@@ -113,8 +113,9 @@ export class Overlays {
       const shade = n % 2 === 0 ? 0xffffff : 0x9fc2ee;
       const face = new MeshBasicMaterial({ color: shade, transparent: true, opacity: 0.55, side: DoubleSide, depthTest: false });
       const centre = [0, 1, 2].map((k) => (corners[0][k] + corners[1][k] + corners[2][k]) / 3) as Vec3;
-      const arrow = new ArrowHelper(UP.clone(), new Vector3(), 1, 0xffffff);
-      this.arrow(arrow, centre, force, 0.09 * this.size, most);
+      const arrow = new Arrow(0xffffff);
+      arrow.visible = Math.hypot(...force) > 1e-6;
+      if (arrow.visible) arrow.point(centre, force, 0.08 * this.size, most);
       this.texture.add(new Mesh(geometry, face), arrow);
     });
   }
@@ -141,14 +142,6 @@ export class Overlays {
     this.mark.visible = at !== undefined;
     if (at) this.mark.position.set(...at);
     this.mark.scale.setScalar(0.02 * this.size);
-  }
-
-  private arrow(arrow: ArrowHelper, at: Vec3, force: Vec3, longest: number, largest: number): void {
-    const size = Math.hypot(...force);
-    const length = Math.min(Math.max((longest * size) / largest, 0.06 * longest), 1.5 * longest);
-    arrow.position.set(...at);
-    arrow.setDirection(new Vector3(...force).normalize());
-    arrow.setLength(length, Math.min(0.3 * length, 0.16 * longest), Math.min(0.2 * length, 0.1 * longest));
   }
 }
 

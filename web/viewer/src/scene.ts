@@ -8,9 +8,11 @@ import {
   Color,
   DirectionalLight,
   DoubleSide,
+  GreaterDepth,
   Group,
   HemisphereLight,
   Mesh,
+  MeshBasicMaterial,
   MeshStandardMaterial,
   PerspectiveCamera,
   Raycaster,
@@ -32,8 +34,9 @@ import { Tool } from "./tool.js";
 const PIXEL_RATIO_CAP = 2;
 // A point this near to a side of the blank is on it; of the cell.
 const ON_BLANK = 1e-3;
-// Colouring of a large part goes on picture by picture, ms each.
-const COLOURING_MS = 6;
+// Colouring of a large part goes on piece by piece, ms each, and is shown every so often, ms.
+const COLOURING_MS = 8;
+const SHOWN_EVERY_MS = 200;
 
 export interface Hit {
   point: Vec3;
@@ -67,6 +70,18 @@ export class Scene {
     side: DoubleSide,
     roughness: 0.7,
     depthWrite: false,
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 2,
+  });
+  // What of it is still inside the stock.
+  private readonly hiddenPink = new MeshBasicMaterial({
+    color: PALETTES.paper.designed,
+    transparent: true,
+    opacity: 0.16,
+    side: DoubleSide,
+    depthWrite: false,
+    depthFunc: GreaterDepth,
   });
   private readonly tool: Tool;
   private readonly path = new PathLines();
@@ -75,7 +90,9 @@ export class Scene {
   private axis: Vec3 = [0, 0, 1];
   private cutter = 0;
   private colouring: Colouring = "plain";
-  private uncoloured: string[] = [];
+  private readonly uncoloured = new Set<string>();
+  private colouringOn = false;
+  private shown = 0;
   private wanted = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -104,7 +121,7 @@ export class Scene {
     this.chunks.clear();
     this.stock.clear();
     this.designed.clear();
-    this.uncoloured = [];
+    this.uncoloured.clear();
     Object.assign(this.distance, new SurfaceDistance());
     this.heatMap.begin(job.cutters);
     this.tool.begin(job.cutters);
@@ -129,7 +146,7 @@ export class Scene {
     const mesh = new Mesh(geometry, this.material);
     this.chunks.set(key, mesh);
     this.stock.add(mesh);
-    if (this.colouring !== "plain" && !this.uncoloured.includes(key)) this.uncoloured.push(key);
+    if (this.colouring !== "plain") this.colourLater([key]);
     this.draw();
   }
 
@@ -138,7 +155,9 @@ export class Scene {
     geometry.setAttribute("position", new BufferAttribute(frame.positions, 3));
     geometry.setIndex(new BufferAttribute(frame.indices, 1));
     geometry.computeVertexNormals();
-    this.designed.add(new Mesh(geometry, this.pink));
+    const hidden = new Mesh(geometry, this.hiddenPink);
+    hidden.renderOrder = 1;
+    this.designed.add(new Mesh(geometry, this.pink), hidden);
     this.distance.add(frame.positions, frame.indices);
     this.draw();
   }
@@ -179,6 +198,7 @@ export class Scene {
   setPalette(palette: Palette): void {
     this.palette = palette;
     this.pink.color.set(palette.designed);
+    this.hiddenPink.color.set(palette.designed);
     this.tool.setColour(palette.cutter);
     this.overlays.setPalette(palette);
     this.setColouring(this.colouring);
@@ -188,8 +208,8 @@ export class Scene {
     this.colouring = colouring;
     const cutter = this.job?.cutters[this.cutter];
     if (cutter) this.path.recolour((row) => this.heatMap.ofRow(colouring, row, 2 * cutter.radius));
-    this.uncoloured = [...this.chunks.keys()];
-    this.draw();
+    this.uncoloured.clear();
+    this.colourLater(this.chunks.keys());
   }
 
   // What stands at a place of the canvas (css pixels from its corner), of the part only.
@@ -252,7 +272,6 @@ export class Scene {
 
   // Now; VR calls it for each of its pictures.
   render(): void {
-    this.colour();
     if (!this.renderer.xr.isPresenting) {
       const { clientWidth: width, clientHeight: height } = this.canvas;
       const now = this.renderer.getSize(new Vector2());
@@ -263,7 +282,6 @@ export class Scene {
       }
     }
     this.renderer.render(this.three, this.camera);
-    if (this.uncoloured.length > 0) this.draw();
   }
 
   extent(): number {
@@ -290,11 +308,30 @@ export class Scene {
     return colours;
   }
 
+  private colourLater(keys: Iterable<string>): void {
+    for (const key of keys) this.uncoloured.add(key);
+    if (this.colouringOn) return;
+    this.colouringOn = true;
+    const go = () => {
+      this.colour();
+      const done = this.uncoloured.size === 0;
+      if (done || performance.now() - this.shown > SHOWN_EVERY_MS) {
+        this.shown = performance.now();
+        this.draw();
+      }
+      this.colouringOn = !done;
+      if (!done) setTimeout(go, 0);
+    };
+    setTimeout(go, 0);
+  }
+
   private colour(): void {
-    if (!this.job) return;
+    if (!this.job) return this.uncoloured.clear();
     const began = performance.now();
-    while (this.uncoloured.length > 0 && performance.now() - began < COLOURING_MS) {
-      const mesh = this.chunks.get(this.uncoloured.shift()!);
+    for (const key of this.uncoloured) {
+      if (performance.now() - began > COLOURING_MS) return;
+      this.uncoloured.delete(key);
+      const mesh = this.chunks.get(key);
       if (!mesh) continue;
       const positions = mesh.geometry.getAttribute("position").array as Float32Array;
       const colours = this.plain(positions, this.job);
