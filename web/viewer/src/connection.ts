@@ -33,8 +33,11 @@ export class Connection implements Source {
   private open(): void {
     if (this.closed) return;
     const url = new URL(this.url);
-    // A token is good for one line only.
-    if (this.resume) url.searchParams.set("resume", this.resume);
+    // Good for once, in place of the page's own token.
+    if (this.resume) {
+      url.searchParams.delete("token");
+      url.searchParams.set("resume", this.resume);
+    }
     this.resume = undefined;
     const socket = new WebSocket(url, SUBPROTOCOL);
     socket.binaryType = "arraybuffer";

@@ -10,6 +10,7 @@ import type { Colouring } from "./heat_map.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
 import { showLegend } from "./legend.js";
+import { Memory } from "./memory.js";
 import { clock, element, recall, remember } from "./page.js";
 import { PALETTES } from "./palette.js";
 import { Parameters } from "./parameters.js";
@@ -26,6 +27,7 @@ const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engi
 
 const scene = new Scene(element<HTMLCanvasElement>("scene"));
 const history = new History();
+const memory = new Memory();
 const sound = new Sound();
 const seek = (time: number) => source?.send({ op: "seek", t_s: time });
 const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
@@ -89,6 +91,7 @@ function show(state: StateFrame): void {
 }
 
 function take(frame: Frame, bytes: ArrayBuffer): void {
+  memory.take(frame, bytes);
   recorder?.take(bytes);
   sound.frame(frame.kind, bytes);
   switch (frame.kind) {
@@ -127,6 +130,8 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame);
       break;
     case "finger":
+      element("felt-row").hidden = !frame.present;
+      element("felt").textContent = `${Math.hypot(...frame.force).toFixed(2)} N`;
       if (frame.present) scene.overlays.showFinger(frame);
       else scene.overlays.hideFinger();
       finger.rumble(Math.hypot(...frame.force), forceLimit);
@@ -153,8 +158,9 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
 const listener: Listener = {
   frame: take,
   info(message: ServerInfo) {
-    const name = message.job.replace(/^.*\//, "");
-    document.title = `${name} - Tribo`;
+    const name = (message.job ?? "").replace(/^.*\//, "");
+    document.title = name ? `${name} - Tribo` : "Tribo: mill";
+    if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
     element("job").textContent = name;
     showWarnings(message.warnings);
     parameters.info(message);
@@ -361,8 +367,7 @@ const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {
     recorder = new Recorder();
-    // The whole from the start, as a viewer that comes later gets it.
-    source?.send({ op: "resync" });
+    for (const bytes of memory.replay()) recorder.take(bytes);
     record.textContent = "Stop and keep";
   } else {
     const link = document.createElement("a");

@@ -17,7 +17,8 @@ export type Command =
 export interface ServerInfo {
   op: "serverInfo";
   version: string;
-  job: string;
+  // None: the page mills what is dropped into it.
+  job?: string;
   warnings: string[];
   materials?: string[];
   device?: { name: string; max_force_n: number; rate_hz: number; arm: boolean };
