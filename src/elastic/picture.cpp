@@ -45,12 +45,15 @@ class Painter {
         to_light_x_ = view.light_x / plane;
         to_light_y_ = view.light_y / plane;
         shadow_reach_ = view.shadow_reach * longer;
+        sky_reach_ = view.sky_reach * longer;
     }
 
+    // As it is drawn.
     float height_mm(float x, float y) const {
         const Between at(x, y, sheet_.size().width, sheet_.size().height);
         const float *upper = sheet_.heights(at.y0), *lower = sheet_.heights(at.y1);
-        return at.mix(upper[at.x0], upper[at.x1], lower[at.x0], lower[at.x1]);
+        const float e = at.mix(upper[at.x0], upper[at.x1], lower[at.x0], lower[at.x1]);
+        return view_.relief * e / (1 + std::abs(e) / view_.half_mm);
     }
 
     // The node that the eye sees through node (x, y) of the flat image.
@@ -81,13 +84,17 @@ class Painter {
         }
         const float hidden =
             std::clamp((horizon - view_.slope_low) / (view_.slope_high - view_.slope_low), 0.0F, 1.0F);
-        return (view_.ambient + (1 - view_.ambient) * diffuse) * (1 - view_.shadow * hidden);
+        const float d = sky_reach_, walls = (height_mm(x - d, y) + height_mm(x + d, y) + height_mm(x, y - d) +
+                                             height_mm(x, y + d)) /
+                                            4;
+        const float m = std::max(walls - here, 0.0F) / (d * spacing_mm_);
+        return view_.ambient / (1 + m * m) + (1 - view_.ambient) * diffuse * (1 - view_.shadow * hidden);
     }
 
   private:
     const Sheet& sheet_;
     const PictureView& view_;
-    float spacing_mm_, eye_x_, eye_y_, per_eye_height_, to_light_x_, to_light_y_, shadow_reach_;
+    float spacing_mm_, eye_x_, eye_y_, per_eye_height_, to_light_x_, to_light_y_, shadow_reach_, sky_reach_;
 };
 
 // Light goes by the power 2.2 of a colour's number, so a number goes by this power of the light.

@@ -58,7 +58,10 @@ TEST(Picture, what_is_pressed_moves_away_from_the_eye) {
     for (int x = 0; x < kSide; ++x)
         for (int c = 0; c < 3; ++c) image[static_cast<std::size_t>(4 * (30 * kSide + x) + c)] = 0;
     std::vector<std::uint8_t> out(image.size());
-    draw_rows(sheet, image, out, 0, kSide);
+    PictureView view;
+    view.relief = 2;
+    view.half_mm = 5;
+    draw_rows(sheet, image, out, 0, kSide, view);
     const auto darkest = [&](int x) {
         int best = 0;
         for (int y = 0; y < kSide; ++y)
@@ -68,8 +71,32 @@ TEST(Picture, what_is_pressed_moves_away_from_the_eye) {
         return best;
     };
     EXPECT_EQ(darkest(1), 30);
-    // The eye is over y = 95.5 at a height of 96: 5 mm deep, (95.5 - 30) 5 / 101 = 3.2 aside.
+    // 5 mm are drawn as 2 * 5 / (1 + 5 / 5) = 5. The eye is over y = 95.5 at a height of 96: (95.5 - 30) 5 /
+    // 101 = 3.2 aside.
     EXPECT_NEAR(darkest(48), 33, 1);
+}
+
+// At its centre a contact of 2 N goes 2 / K deep: the least and the most that the materials of the examples
+// do, and a twentieth of it, what is left of the least after three time constants.
+TEST(Picture, dents_of_stiff_and_soft_materials_show_and_the_deeper_ones_more) {
+    const auto contrast = [](double stiffness, double force) {
+        Sheet sheet({192, 192, 80.0 / 192});
+        sheet.set_material({stiffness, 0});
+        Contact c;
+        c.x_mm = c.y_mm = 40;
+        c.force_n = force;
+        sheet.press({&c, 1});
+        sheet.step(1);
+        std::vector<std::uint8_t> image(4 * 192 * 192, 150), out(image.size());
+        draw_rows(sheet, image, out, 0, 192);
+        const auto [least, most] = std::minmax_element(out.begin(), out.end());
+        return *most - *least;
+    };
+    // A step of 2 in 150 is about what can just be seen.
+    EXPECT_GE(contrast(7, 0.1), 4);
+    EXPECT_GE(contrast(7, 2), 40);
+    EXPECT_GT(contrast(4, 2), contrast(7, 2) + 5);
+    EXPECT_GT(contrast(1.4, 2), contrast(4, 2) + 5);
 }
 
 TEST(Picture, rows_drawn_apart_are_those_drawn_at_once) {

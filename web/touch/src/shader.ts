@@ -22,15 +22,20 @@ uniform float spacing;   // from node to node, mm
 uniform float longer;    // the longer side, mm
 uniform float parallax;  // 1, or 0 where motion is to be reduced
 const vec3 light = vec3(-0.45, -0.6, 0.6614378);
-const float eyeBelow = 0.5, eyeHeight = 1.0, ambient = 0.3;
+const float relief = 18.0, halfMm = 0.8;
+const float eyeBelow = 0.5, eyeHeight = 1.0, ambient = 0.35, skyReach = 0.09;
 const float slopeLow = 0.25, slopeHigh = 1.5, shadow = 0.55, shadowReach = 0.12;
 
-float height(vec2 uv) { return texture(heights, uv).r; }
+// As it is drawn.
+float height(vec2 uv) {
+  float e = texture(heights, uv).r;
+  return relief * e / (1.0 + abs(e) / halfMm);
+}
 
 void main() {
   vec2 eye = vec2(0.5, 0.5) + vec2(0.0, eyeBelow) / extent;
   vec2 uv = at;
-  for (int i = 0; i < 3; ++i) uv = at + (at - eye) * (-height(uv) * parallax / (eyeHeight * longer));
+  for (int i = 0; i < 6; ++i) uv = at + (at - eye) * (-height(uv) * parallax / (eyeHeight * longer));
   vec2 n = vec2(height(uv - vec2(node.x, 0.0)) - height(uv + vec2(node.x, 0.0)),
                 height(uv - vec2(0.0, node.y)) - height(uv + vec2(0.0, node.y))) * (0.5 / spacing);
   float diffuse = max(dot(vec3(n, 1.0), light) * inversesqrt(dot(n, n) + 1.0), 0.0) / light.z;
@@ -41,7 +46,11 @@ void main() {
     horizon = max(horizon, (height(uv + toLight * away / extent) - here) / (away * longer));
   }
   float hidden = clamp((horizon - slopeLow) / (slopeHigh - slopeLow), 0.0, 1.0);
-  float bright = (ambient + (1.0 - ambient) * diffuse) * (1.0 - shadow * hidden);
+  vec2 d = skyReach / extent;
+  float walls = (height(uv - vec2(d.x, 0.0)) + height(uv + vec2(d.x, 0.0)) + height(uv - vec2(0.0, d.y)) +
+    height(uv + vec2(0.0, d.y))) * 0.25;
+  float m = max(walls - here, 0.0) / (skyReach * longer);
+  float bright = ambient / (1.0 + m * m) + (1.0 - ambient) * diffuse * (1.0 - shadow * hidden);
   vec4 base = texture(image, uv);
   colour = vec4(base.rgb * pow(min(bright, 2.0), 1.0 / 2.2), base.a);
   colour.rgb *= colour.a;
