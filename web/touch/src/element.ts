@@ -38,6 +38,7 @@ const kNodes = 512;
 const kPublishedNodes = 256;
 const kMostPixelRatio = 2;
 const kKeyboardStep = 0.02;
+const kNearPixels = 200;
 const kStrongestMapFactor = 8;
 
 // On a server there are no elements; the class is never made there.
@@ -112,13 +113,20 @@ export class TriboTouch extends Base {
   connectedCallback(): void {
     this.#parts ??= this.#build();
     this.#inView = new IntersectionObserver((entries) => this.#seen(entries[entries.length - 1]!.isIntersecting),
-      { rootMargin: "200px" });
+      { rootMargin: `${kNearPixels}px` });
     this.#inView.observe(this);
     this.#sized = new ResizeObserver(() => this.#resize());
     this.#sized.observe(this.#parts.surface);
     document.addEventListener("visibilitychange", this.#hide);
     this.#describe();
-    if (this.loading === "eager") void this.#load();
+    if (this.loading === "eager" || this.#near()) void this.#load();
+  }
+
+  /** In view or nearly, without waiting for a frame that tells. */
+  #near(): boolean {
+    const box = this.getBoundingClientRect();
+    return box.width > 0 && box.top < window.innerHeight + kNearPixels && box.bottom > -kNearPixels &&
+      box.left < window.innerWidth + kNearPixels && box.right > -kNearPixels;
   }
 
   disconnectedCallback(): void {
@@ -197,7 +205,7 @@ export class TriboTouch extends Base {
     const stale = () => attempt !== this.#attempt || !this.isConnected;
     this.#state = "loading";
     const image = this.#parts!.image;
-    // The engine loads while the material and its image do.
+    // The engine loads while the material and its image do; the shader is made while the image comes.
     const engineReady = engine();
     engineReady.catch(() => undefined);
     try {
@@ -215,7 +223,13 @@ export class TriboTouch extends Base {
     try {
       image.crossOrigin = "anonymous";
       image.src = this.#material.image;
-      await image.decode();
+      const decoded = image.decode();
+      try {
+        renderer();
+      } catch {
+        // Without it the plain image stays; that is said once the image is there.
+      }
+      await decoded;
       if (stale()) return;
     } catch (error) {
       if (!stale()) this.#end("failed", "image", error instanceof Error ? `${this.#material.image}: ${error.message}` : error);
@@ -245,8 +259,11 @@ export class TriboTouch extends Base {
     this.#applyMaterial();
     await this.#loadMap().catch((error: unknown) => this.#fail("image", error));
     if (stale()) return;
-    this.#makeVoice();
     this.#end("ready");
+    // Sound is made ready once there is something to touch.
+    requestAnimationFrame(() => setTimeout(() => {
+      if (!stale() && this.#voice === undefined) this.#makeVoice();
+    }));
   }
 
   #end(state: State, type?: TriboErrorDetail["type"], error?: unknown): void {
@@ -434,6 +451,7 @@ export class TriboTouch extends Base {
     finger.firmness = firmness;
     this.#fingers.set(id, finger);
     this.#types.set(id, type);
+    if (this.#voice === undefined) this.#makeVoice();
     this.#voice?.wake();
     this.dismissPoster();
     this.#tell("contact-start", id, finger, report.time * 1000);
@@ -455,7 +473,8 @@ export class TriboTouch extends Base {
     const finger = this.#fingers.get(event.pointerId);
     if (finger === undefined || this.#picture === undefined) return;
     const reports = event.getCoalescedEvents?.() ?? [];
-    for (const one of reports.length > 0 ? reports : [event]) finger.move(this.#report(one));
+    const ahead = event.getPredictedEvents?.().at(-1);
+    for (const one of reports.length > 0 ? reports : [event]) finger.move(this.#report(one), ahead && this.#report(ahead));
   }
 
   #lift(id: number, timeStamp: number): void {

@@ -24,14 +24,23 @@ const kLeastRadiusMm = 1, kMostRadiusMm = 15;
 const kSpeedWindowS = 0.03;
 const kStandsStillS = 0.05;
 
+interface Place {
+  x: number;
+  y: number;
+  time: number;
+}
+
 export class Finger {
+  /** Where it was last reported. */
   x: number;
   y: number;
   #since: number;
   #pressure: number;
   #halfWidth = kDefaultRadiusMm;
   #halfHeight = kDefaultRadiusMm;
-  #trail: { x: number; y: number; time: number }[] = [];
+  #trail: Place[] = [];
+  // Where the browser expects the finger next.
+  #ahead: Place | undefined;
   /** Times the usual force; the keyboard changes it. */
   firmness = 1;
 
@@ -43,7 +52,9 @@ export class Finger {
     this.move(report);
   }
 
-  move(report: FingerReport): void {
+  /** `ahead`: where it is expected to be soon, if anybody knows. */
+  move(report: FingerReport, ahead?: Place): void {
+    this.#ahead = ahead !== undefined && ahead.time > report.time ? ahead : undefined;
     this.x = report.x;
     this.y = report.y;
     this.#pressure = report.pressure;
@@ -65,21 +76,24 @@ export class Finger {
     return firm * kMeasuredForceN * this.#pressure;
   }
 
-  /** mm/s along the surface. */
+  /** mm/s along the surface: over the last reports and the way expected next, so that it lags little behind. */
   speed(now: number): number {
-    const first = this.#trail[0]!, last = this.#trail[this.#trail.length - 1]!;
-    if (now - last.time > kStandsStillS || last.time <= first.time) return 0;
-    let way = 0;
-    for (let i = 1; i < this.#trail.length; ++i) {
-      way += Math.hypot(this.#trail[i]!.x - this.#trail[i - 1]!.x, this.#trail[i]!.y - this.#trail[i - 1]!.y);
-    }
-    return way / (last.time - first.time);
+    const last = this.#trail[this.#trail.length - 1]!;
+    if (now - last.time > kStandsStillS) return 0;
+    const way = this.#ahead === undefined ? this.#trail : [...this.#trail, this.#ahead];
+    let length = 0;
+    for (let i = 1; i < way.length; ++i) length += Math.hypot(way[i]!.x - way[i - 1]!.x, way[i]!.y - way[i - 1]!.y);
+    const seconds = way[way.length - 1]!.time - way[0]!.time;
+    return seconds > 0 ? length / seconds : 0;
   }
 
   contact(now: number): Contact {
+    const last = this.#trail[this.#trail.length - 1]!, ahead = this.#ahead ?? last;
+    // A report is some milliseconds old once it is drawn: the dent is to be under the finger.
+    const part = ahead === last ? 0 : Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time)));
     return {
-      x: this.x, y: this.y, halfWidth: this.#halfWidth, halfHeight: this.#halfHeight,
-      force: this.force(now), held: this.held(now),
+      x: this.x + part * (ahead.x - this.x), y: this.y + part * (ahead.y - this.y),
+      halfWidth: this.#halfWidth, halfHeight: this.#halfHeight, force: this.force(now), held: this.held(now),
     };
   }
 

@@ -221,12 +221,24 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   });
 
   test("200 times added and removed leave nothing behind", async () => {
-    const page = await open(kTag.replace("sponge.json", "plain.json"));
+    const page = await open(kTag.replace("sponge.json", "plain.json"), { before: () => {
+      window.made = { webgl: 0, audio: 0, worklets: 0, textures: 0 };
+      const { getContext } = HTMLCanvasElement.prototype, { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        if (kind === "webgl2") ++made.webgl;
+        return getContext.call(this, kind, ...rest);
+      };
+      WebGL2RenderingContext.prototype.createTexture = function () { ++made.textures; return createTexture.call(this); };
+      WebGL2RenderingContext.prototype.deleteTexture = function (t) { --made.textures; return deleteTexture.call(this, t); };
+      window.AudioContext = class extends AudioContext { constructor(...rest) { super(...rest); ++made.audio; } };
+      window.AudioWorkletNode = class extends AudioWorkletNode { constructor(...rest) { super(...rest); ++made.worklets; } };
+    } });
     await settled(page);
     const cycle = (count) => page.evaluate(async (n) => {
       for (let i = 0; i < n; ++i) {
         const element = document.createElement("tribo-touch");
-        element.src = "plain.json";
+        // Every other one has a voice.
+        element.src = i % 2 === 0 ? "plain.json" : "sponge.json";
         element.loading = "eager";
         element.style.width = "64px";
         document.body.append(element);
@@ -240,6 +252,11 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     await page.waitForTimeout(200);
     const after = await heap(page);
     expect(after - before).toBeLessThan(1_500_000);
+    // The one element that stays has an image and heights; all share the contexts.
+    const { webgl, audio, worklets, textures } = await page.evaluate(() => made);
+    expect([webgl, textures]).toEqual([1, 2]);
+    expect(audio).toBeLessThanOrEqual(1);
+    expect(worklets).toBeLessThanOrEqual(1);
     expect(page.errors).toEqual([]);
   });
 
@@ -334,6 +351,56 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     expect(loudest).toBeLessThan(0.7);
     await page.waitForTimeout(600);
     expect(await level()).toBe(0);
+  });
+
+  test("a pen presses with the force that it measures; a map makes half of the image eight times as stiff", async () => {
+    const page = await open(kTag.replace("id=", 'stiffness-map="halves.png" id='));
+    await settled(page);
+    const { cdp } = await fingers(page);
+    const pen = (type, x, force) => cdp.send("Input.dispatchMouseEvent",
+      { type, x, y: 100, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen", force });
+    const depth = async (x) => {
+      await pen("mousePressed", x, 0.5 + 0.1);
+      await page.waitForTimeout(900);
+      const last = (await log(page, "contact-move")).at(-1);
+      await pen("mouseReleased", x, 0);
+      await page.waitForTimeout(300);
+      return last;
+    };
+    const soft = await depth(72), hard = await depth(200);
+    expect([soft.pointerType, soft.force_n.toFixed(3)]).toEqual(["pen", "1.800"]);
+    expect(soft.depth_mm).toBeCloseTo(1.8 / 1.4, 1);
+    expect(hard.depth_mm).toBeCloseTo(1.8 / 1.4 / 8, 1);
+  });
+
+  test("phones and gamepads shake while something is rubbed, and not where that is turned off", async () => {
+    const page = await open(kTag, { before: () => {
+      window.shakes = [];
+      window.rumbles = [];
+      navigator.vibrate = (ms) => shakes.push(ms);
+      navigator.getGamepads = () => [null, { vibrationActuator: { playEffect: async (kind, how) => rumbles.push([kind, how.weakMagnitude]) } }];
+    } });
+    await settled(page);
+    const hand = await fingers(page);
+    const rub = async () => {
+      for (let i = 0; i < 30; ++i) {
+        await hand.touch([{ x: 40 + 6 * i, y: 100, force: 0.5 + 0.1 }]);
+        await frames(page, 1);
+      }
+      await hand.touch([]);
+    };
+    await rub();
+    const [shakes, rumbles] = await page.evaluate(() => [window.shakes.length, window.rumbles]);
+    // 54 mm of way, a pulse every 4 mm at most, not closer than 30 ms.
+    expect(shakes).toBeGreaterThan(2);
+    expect(shakes).toBeLessThan(15);
+    expect(await page.evaluate(() => window.shakes.every((ms) => ms >= 2 && ms <= 12))).toBe(true);
+    expect(rumbles.length).toBe(shakes);
+    expect(rumbles[0][0]).toBe("dual-rumble");
+    expect(rumbles[0][1]).toBeCloseTo(0.9, 6);
+    await page.evaluate(() => { t.setAttribute("haptics", "off"); window.shakes.length = 0; });
+    await rub();
+    expect(await page.evaluate(() => window.shakes.length)).toBe(0);
   });
 
   test("the page passes axe-core", async () => {

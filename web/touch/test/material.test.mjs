@@ -48,6 +48,24 @@ test("speed is way over time, and nothing once the finger stands", () => {
   expect(finger.speed(0.3)).toBe(0);
 });
 
+test("what is expected next takes the lag out of speed and place", () => {
+  // 400 mm/s^2: at t the finger is at 200 t^2 and moves at 400 t.
+  const at = (t) => ({ x: 200 * t * t, y: 0, width: 0, height: 0, pressure: Number.NaN, time: t });
+  const plain = new Finger(at(0)), led = new Finger(at(0));
+  for (let t = 0.01; t < 0.3005; t += 0.01) {
+    plain.move(at(t));
+    led.move(at(t), at(t + 0.016));
+  }
+  // Over 270 to 316 ms it is 2.8 mm/s behind, over 270 to 300 ms 6 mm/s.
+  expect(Math.abs(led.speed(0.3) - 120)).toBeLessThan(3);
+  expect(Math.abs(plain.speed(0.3) - 120)).toBeGreaterThan(5);
+  expect(Math.abs(led.contact(0.308).x - at(0.308).x)).toBeLessThan(0.05);
+  expect(Math.abs(plain.contact(0.308).x - at(0.308).x)).toBeGreaterThan(0.5);
+  // Not beyond what was expected.
+  expect(led.contact(0.5).x).toBeCloseTo(at(0.316).x, 6);
+  expect(led.speed(0.5)).toBe(0);
+});
+
 test("the contact is as large as the touch, within what a finger can be", () => {
   expect(new Finger(report({ width: 14, height: 20 })).contact(0)).toMatchObject({ halfWidth: 7, halfHeight: 10 });
   expect(new Finger(report({ width: 900, height: 0 })).contact(0)).toMatchObject({ halfWidth: 15, halfHeight: 6 });

@@ -50,6 +50,7 @@ export function material(changes = {}) {
 const made = {
   "/sponge.png": () => png(256, 192, checker(16)),
   "/plain.png": () => png(96, 96, () => [120, 120, 120]),
+  "/halves.png": () => png(64, 48, (x) => (x < 32 ? [255, 255, 255] : [0, 0, 0])),
   "/sponge.json": () => JSON.stringify(material()),
   "/plain.json": () => JSON.stringify(material({ image: "plain.png", voices: [] })),
   "/broken.json": () => '{"schema": "tribo.material/1", "stiffness_n_per_mm": "soft"}',
