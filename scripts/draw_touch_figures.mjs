@@ -19,7 +19,7 @@ const stroke = (name, rows) => {
 /** Frames of a material under a stroke; the folder. */
 function press(material, strokeFile, name, flags) {
   const folder = join(work, name);
-  execFileSync(tribo, ["press", material, "--stroke", strokeFile, "--out", folder, ...flags], { stdio: ["ignore", "ignore", "inherit"] });
+  execFileSync(tribo, ["press", material, "--stroke", strokeFile, "--out", folder, ...flags], { stdio: ["ignore", "ignore", "pipe"] });
   return folder;
 }
 const frame = (folder, index, kind = "png") => join(folder, `frame_${String(index).padStart(4, "0")}.${kind}`);
@@ -40,7 +40,7 @@ const named = (part) => materials.find((path) => path.includes(part)) ?? materia
 if (materials.length === 0) throw new Error("examples/materials has no material with an image");
 
 const widthOf = (path) => JSON.parse(readFileSync(path, "utf8")).width_mm || 100;
-const size = ["--size", "360"];
+const size = ["--size", "320"], photo = ["-strip", "-quality", "82"];
 
 // Figure 1: the single point, and the contact.
 {
@@ -48,12 +48,12 @@ const size = ["--size", "360"];
   const still = stroke("still.csv", [[0, w / 2, w / 2, 3], [1, w / 2, w / 2, 3]]);
   const point = press(sponge, still, "point", [...size, "--contact", "point"]);
   const area = press(sponge, still, "area", [...size, "--contact", "area"]);
-  convert(frame(point, 60), frame(area, 60), "+append", join(out, "figure-1.png"));
+  convert(frame(point, 60), frame(area, 60), "+append", ...photo, join(out, "figure-1.jpg"));
 
   // Figure 2: the two zones, on the pressed image. Under the contact green, around it to three half axes yellow.
-  const c = 180, r = (6 / w) * 360;
+  const c = 160, r = (6 / w) * 320;
   convert(frame(area, 60), "-fill", "rgba(240,210,40,0.25)", "-draw", `circle ${c},${c} ${c + 3 * r},${c}`,
-    "-fill", "rgba(60,180,75,0.45)", "-draw", `circle ${c},${c} ${c + r},${c}`, join(out, "figure-2.png"));
+    "-fill", "rgba(60,180,75,0.45)", "-draw", `circle ${c},${c} ${c + r},${c}`, ...photo, join(out, "figure-2.jpg"));
 }
 
 // Figure 3: eqs 1 and 2 over the distance for several durations, R_th 0.25 and R_max 10, out of as-published heights of a material
@@ -90,17 +90,17 @@ const size = ["--size", "360"];
     `${plot("as published: pressure by duration, R_th 0.25, R_max 10", curves, 0, 10)}${plot("default: pressure by force, radius 0.25", ours, 400, 2)}</svg>\n`);
 }
 
-// Figure 6: each material at rest, pressed on the left, after a slide to the right.
+// Figure 6: each material at rest, pressed on the left, at the end of a quick slide to the right; in the paper's order.
 {
   const rows = [];
-  for (const [i, path] of materials.entries()) {
+  for (const [i, path] of ["sponge", "paper", "towel", "carpet"].map(named).entries()) {
     const w = widthOf(path), left = 0.3 * w;
-    const rub = stroke(`rub-${i}.csv`, [[0, left, w / 2, 0], [0.1, left, w / 2, 0], [0.101, left, w / 2, 3], [0.7, left, w / 2, 3], [1.1, 0.75 * w, w / 2, 3]]);
+    const rub = stroke(`rub-${i}.csv`, [[0, left, w / 2, 0], [0.1, left, w / 2, 0], [0.101, left, w / 2, 3], [0.7, left, w / 2, 3], [0.85, 0.75 * w, w / 2, 3]]);
     const folder = press(path, rub, `rub-${i}`, [...size]);
     const row = join(work, `row-${i}.png`);
-    convert(frame(folder, 0), frame(folder, 42), frame(folder, 66), "+append", row);
+    convert(frame(folder, 0), frame(folder, 42), frame(folder, 51), "+append", row);
     rows.push(row);
   }
-  convert(...rows, "-append", "-quality", "85", join(out, "figure-6.jpg"));
+  convert(...rows, "-append", ...photo, join(out, "figure-6.jpg"));
 }
 rmSync(work, { recursive: true });
