@@ -38,7 +38,7 @@ for (const path of await materialFiles(examples)) {
   const name = basename(path, ".json"), image = `${name}-${basename(material.image)}`;
   await copyFile(join(path, "..", material.image), join(out, "materials", image));
   await writeFile(join(out, "materials", `${name}.json`), JSON.stringify({ ...material, image }));
-  listed.push({ file: `materials/${name}.json`, name: material.name || name, note: material.note ?? "" });
+  listed.push({ file: `materials/${name}.json`, name: material.name || name, note: material.note ?? "", image: `materials/${image}` });
 }
 await writeFile(join(out, "materials.json"), JSON.stringify(listed));
 const { version } = JSON.parse(await readFile(join(here, "../package.json"), "utf8"));

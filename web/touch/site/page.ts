@@ -6,6 +6,7 @@ interface Listed {
   file: string;
   name: string;
   note: string;
+  image?: string;
 }
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -47,6 +48,8 @@ function choose(material: Listed): void {
   for (const picture of pictures) {
     picture.removeAttribute("stiffness");
     picture.removeAttribute("damping");
+    // Fetched while the material is.
+    picture.poster = material.image ?? "";
     picture.src = material.file;
     picture.alt = `${material.name}, ${picture.asPublished ? "as published" : "by Tribo"}`;
   }

@@ -221,7 +221,9 @@ export class TriboTouch extends Base {
       return;
     }
     try {
-      image.crossOrigin = "anonymous";
+      // Of the page's own images the one that is the poster as well is fetched once.
+      if (new URL(this.#material.image).origin !== location.origin) image.crossOrigin = "anonymous";
+      else image.removeAttribute("crossorigin");
       image.src = this.#material.image;
       const decoded = image.decode();
       try {

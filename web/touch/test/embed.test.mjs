@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { hasBrowser, launch } from "./browser.mjs";
-import { material, serve, servePage } from "./site.mjs";
+import { material, png, serve, servePage } from "./site.mjs";
 
 let site, browser;
 beforeAll(async () => {
@@ -26,11 +26,15 @@ test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable c
     site.pages.set(`/${file}`, await readFile(new URL(`../dist/${file}`, import.meta.url)));
   }
   site.pages.set("/example.html", example);
-  site.pages.set("/carpet.json", JSON.stringify(material({ name: "carpet", image: "sponge.png" })));
+  site.pages.set("/carpet.jpg", png(64, 48, () => [90, 90, 90]));
+  site.pages.set("/carpet.json", JSON.stringify(material({ name: "carpet", image: "carpet.jpg" })));
+  site.requests.length = 0;
   const page = await browser.newPage();
   await page.goto(`${site.root}/example.html`);
   await page.waitForFunction(() => document.querySelector("tribo-touch").state === "ready");
   expect(await page.evaluate(() => document.querySelector("tribo-touch").material.name)).toBe("carpet");
+  // The poster is the material's image: fetched before the material is there, and only once.
+  expect(site.requests.filter((path) => path === "/carpet.jpg")).toHaveLength(1);
   await page.close();
 });
 
