@@ -31,6 +31,9 @@ export class Finger {
     canvas.addEventListener("pointermove", (event) => this.move(event), { capture: true });
     for (const kind of ["pointerup", "pointercancel"] as const)
       canvas.addEventListener(kind, (event) => this.release(event), { capture: true });
+    canvas.addEventListener("pointerleave", () => {
+      if (this.down === undefined && !this.keys) this.leave();
+    });
   }
 
   get touching(): boolean {

@@ -61,9 +61,10 @@ let duration = 0;
 let measuring: Vec3[] | undefined;
 
 function say(text: string): void {
-  notice.hidden = text === "";
+  element("notice-box").hidden = text === "";
   notice.textContent = text;
 }
+element("dismiss").addEventListener("click", () => say(""));
 function advise(text: string): void {
   hint.hidden = text === "";
   hint.textContent = text;
@@ -85,7 +86,9 @@ function show(state: StateFrame): void {
   element("examples").hidden ||= begun;
   if (!scrubbing) time.value = String(state.time);
   element("clock").textContent = `${clock(state.time)} / ${clock(duration)}`;
-  if (Number(speed.value) !== state.speed && document.activeElement !== speed) speed.value = String(state.speed);
+  // Speeds travel in single precision.
+  const shown = [...speed.options].find((o) => Math.abs(Number(o.value) / state.speed - 1) < 1e-6);
+  if (shown && document.activeElement !== speed) speed.value = shown.value;
   showState(state);
   if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
 }

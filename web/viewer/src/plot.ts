@@ -68,8 +68,9 @@ export class Plot {
       const scale = (0.85 * height) / this.largest;
       this.columns.forEach((force, x) => context.fillRect(x, height - force * scale, 1, force * scale));
       context.fillStyle = style.getPropertyValue("--quiet");
-      context.font = `${Math.round(0.16 * height)}px system-ui, sans-serif`;
-      context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4, 0.16 * height);
+      const ratio = height / Math.max(this.canvas.clientHeight, 1);
+      context.font = `${Math.round(11 * ratio)}px system-ui, sans-serif`;
+      context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
       context.fillStyle = style.getPropertyValue("--ink");
       context.fillRect((this.time / this.duration) * width - 1, 0, 2, height);
     });

@@ -71,8 +71,8 @@ export class Scene {
     roughness: 0.7,
     depthWrite: false,
     polygonOffset: true,
-    polygonOffsetFactor: 2,
-    polygonOffsetUnits: 2,
+    polygonOffsetFactor: 4,
+    polygonOffsetUnits: 64,
   });
   // What of it is still inside the stock.
   private readonly hiddenPink = new MeshBasicMaterial({
@@ -101,13 +101,13 @@ export class Scene {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
-    const sun = new DirectionalLight(0xffffff, 2.4);
+    const sun = new DirectionalLight(0xffffff, 2.7);
     sun.position.set(-0.6, 0.9, 1);
     this.camera.add(sun);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);
     this.world.add(this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
-    this.three.add(new HemisphereLight(0xffffff, 0x76808f, 1.7), this.camera, this.world);
+    this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
@@ -241,8 +241,10 @@ export class Scene {
     const size = this.extent();
     // A tall window sees less to the sides.
     const narrow = Math.max(1, 1.05 / Math.max(this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1), 0.2));
+    // The tool stands on the part.
+    centre.z += 0.12 * size;
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.8).multiplyScalar(1.08 * size * narrow));
+    this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.8).multiplyScalar(1.22 * size * narrow));
     this.camera.near = size / 1000;
     this.camera.far = size * 100;
     this.controls.update();

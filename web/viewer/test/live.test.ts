@@ -155,7 +155,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
 
   it("says when the engine has gone", async () => {
     engine.kill("SIGINT");
-    await page.waitForFunction(() => !document.getElementById("notice")?.hidden, null, { timeout: PATIENCE_MS });
+    await page.waitForSelector("#notice-box:not([hidden])", { timeout: PATIENCE_MS });
     expect(await page.textContent("#notice")).toContain("No line to the engine");
   }, PATIENCE_MS);
 });
