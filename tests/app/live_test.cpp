@@ -85,6 +85,11 @@ TEST_F(Live, serves_an_empty_bench_without_a_job) {
     const auto refusal = client.frame();
     ASSERT_TRUE(refusal);
     EXPECT_NE(refusal->payload.find("no job is open"), std::string::npos);
+    // Pages are what stood in the folder at the start, and nothing beyond it.
+    EXPECT_TRUE(RawClient(at.port).get("/").ends_with("<p>page"));
+    for (const char* path :
+         {"/../../../../../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "//etc/passwd", "/etc/passwd"})
+        EXPECT_TRUE(RawClient(at.port).get(path).starts_with("HTTP/1.1 404")) << path;
     EXPECT_EQ(engine.stop().code, 130);
 }
 
