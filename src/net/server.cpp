@@ -12,6 +12,7 @@ namespace {
 
 constexpr auto kRequestTime = std::chrono::seconds(30);  // for a request, or until the next one begins
 constexpr auto kTlsTime = std::chrono::seconds(10);      // for the handshake of TLS
+constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr std::uint32_t kHeaderBytes = 16 * 1024;
 constexpr std::size_t kMostConnections = 256;
 
@@ -151,6 +152,7 @@ struct Server::Parts {
     Shared shared;  // outlives the connections, which the context holds
     asio::io_context context{1};
     Tcp::acceptor acceptor{context};
+    asio::steady_timer pause{context};
     std::thread thread;
 
     void accept() {
@@ -158,7 +160,12 @@ struct Server::Parts {
             if (error == asio::error::operation_aborted) return;
             if (!error && shared.connections < kMostConnections)
                 std::make_shared<Connection>(std::move(socket), shared)->begin();
-            accept();
+            if (!error) return accept();
+            // The system has nothing left for another connection: not to ask it a million times a second.
+            pause.expires_after(kPause);
+            pause.async_wait([this](error_code stopped) {
+                if (!stopped) accept();
+            });
         });
     }
 

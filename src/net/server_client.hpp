@@ -73,7 +73,8 @@ class Client : public std::enable_shared_from_this<Client> {
                 self->cut_off(websocket::close_code::policy_error, "too many messages");
             });
         });
-        beast::get_lowest_layer(socket_).socket().set_option(Tcp::no_delay(true));
+        error_code ignored;  // of a client that has gone already
+        beast::get_lowest_layer(socket_).socket().set_option(Tcp::no_delay(true), ignored);
         beast::get_lowest_layer(socket_).expires_never();
         socket_.async_accept(request, [self = shared_from_this()](error_code error) {
             if (!error) self->begin();
