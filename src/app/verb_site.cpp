@@ -61,7 +61,7 @@ int site(const Call& call) {
 void add_site(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<Call>();
     CLI::App* verb =
-        program.add_subcommand("site", "Write the static site: the touch page, no server needed");
+        program.add_subcommand("site", "Write the static site: touch page and mill page, no server needed");
     verb->add_option("--out", call->out, "Folder for the site; an older one of Tribo's is replaced whole")
         ->required()
         ->type_name("DIR");

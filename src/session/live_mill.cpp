@@ -12,8 +12,8 @@
 namespace tribo::session {
 namespace {
 
-// Points along a curved move of the drawn path.
-constexpr int kCurvePoints = 4;
+// Points along a curved move of the drawn path: one a millimetre, at most these.
+constexpr double kCurvePointMm = 1, kMostCurvePoints = 4;
 // Rows in one frame: what a viewer takes in without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096;
 constexpr std::size_t kPiecesPerFrame = 64;
@@ -28,7 +28,9 @@ std::vector<LivePathPoint> path_points(const MillSession& session) {
         const motion::MoveTiming& timing = session.schedule().moves[n];
         const bool rapid = move.kind == motion::MoveKind::rapid;
         if (points.empty()) points.push_back({timing.start_s, move.start.tip_mm, rapid});
-        const int count = move.arc || move.quadratic ? kCurvePoints : 1;
+        const double wanted = std::ceil(motion::path_length_mm(move) / kCurvePointMm);
+        const int count =
+            move.arc || move.quadratic ? static_cast<int>(std::clamp(wanted, 1.0, kMostCurvePoints)) : 1;
         for (int k = 1; k <= count; ++k) {
             const double t = static_cast<double>(k) / count;
             points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid});

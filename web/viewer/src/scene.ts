@@ -3,6 +3,7 @@
 // is laid over them (overlays.ts).
 
 import {
+  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
   Color,
@@ -83,6 +84,11 @@ export class Scene {
     depthWrite: false,
     depthFunc: GreaterDepth,
   });
+  // The blank's box, until the part itself is there.
+  private readonly box = new Mesh(
+    new BoxGeometry(),
+    new MeshStandardMaterial({ color: PALETTES.paper.untouched, transparent: true, opacity: 0.5, roughness: 0.6 }),
+  );
   private readonly tool: Tool;
   private readonly path = new PathLines();
   private readonly distance = new SurfaceDistance();
@@ -106,7 +112,8 @@ export class Scene {
     this.camera.add(sun);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);
-    this.world.add(this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
+    this.box.visible = false;
+    this.world.add(this.box, this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
     this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -123,6 +130,10 @@ export class Scene {
     this.designed.clear();
     this.uncoloured.clear();
     Object.assign(this.distance, new SurfaceDistance());
+    const { min, max } = job.blank;
+    this.box.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
+    this.box.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+    this.box.visible = true;
     this.heatMap.begin(job.cutters);
     this.tool.begin(job.cutters);
     this.path.begin(job);
@@ -180,6 +191,8 @@ export class Scene {
 
   show(state: StateFrame): void {
     if (!this.job) return;
+    // A state comes after the part.
+    this.box.visible = false;
     this.axis = state.axis;
     this.cutter = state.cutter;
     this.tool.show(state);
