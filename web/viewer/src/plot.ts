@@ -70,7 +70,7 @@ export class Plot {
       context.fillStyle = style.getPropertyValue("--quiet");
       const ratio = height / Math.max(this.canvas.clientHeight, 1);
       context.font = `${Math.round(11 * ratio)}px system-ui, sans-serif`;
-      context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
+      if (this.rows.length > 0) context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
       context.fillStyle = style.getPropertyValue("--ink");
       context.fillRect((this.time / this.duration) * width - 1, 0, 2, height);
     });

@@ -32,8 +32,8 @@ gcode = "p.nc"
 // Two grooves, then a rapid through what is left between.
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\nG0 Y16 X20\n";
 
-async function startLive(folder: string): Promise<{ engine: ChildProcess; url: string }> {
-  const engine = spawn(PROGRAM, ["live", join(folder, "job.toml"), "--port", "0", "--resolution", "0.5"]);
+async function startLive(folder: string, port = "0"): Promise<{ engine: ChildProcess; url: string }> {
+  const engine = spawn(PROGRAM, ["live", join(folder, "job.toml"), "--port", port, "--resolution", "0.5"]);
   let said = "";
   const url = await new Promise<string>((resolve, reject) => {
     const take = (data: Buffer) => {
@@ -102,7 +102,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
 
   it("mills while it plays and stops where it is paused", async () => {
     expect(await removed()).toBe(0);
-    await page.selectOption("#speed", "2");
+    await page.selectOption("#speed", "0.5");
     await page.click("#play");
     await until("Pause", "play");
     await page.waitForFunction(() => parseFloat(document.getElementById("removed")?.textContent ?? "0") > 0.1, null, {
@@ -148,6 +148,29 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     await until("Play", "play");
   }, PATIENCE_MS);
 
+  it("lets the part be felt, tells how the servo does, and stops it", async () => {
+    const box = (await page.locator("#scene").boundingBox())!;
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.6 * box.height);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.6 * box.height, { steps: 4 });
+    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
+      timeout: PATIENCE_MS,
+    });
+    await page.mouse.up();
+    await page.click("#show-panel");
+    await page.waitForSelector("#servo:not([hidden])", { timeout: PATIENCE_MS });
+    expect(await page.textContent("#servo")).toContain("1000 Hz");
+    await page.click("#stop");
+    await until("Release", "stop");
+    await page.click("#stop");
+    await until("Stop", "stop");
+    await page.focus("#set-feed_percent");
+    await page.keyboard.press("Home");
+    await page.dispatchEvent("#set-feed_percent", "change");
+    await until("10 %", "parameters");
+    await page.click("#show-panel");
+  }, PATIENCE_MS);
+
   it("asks nobody else and makes no error", () => {
     expect(foreign).toEqual([]);
     expect(problems).toEqual([]);
@@ -157,5 +180,9 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     engine.kill("SIGINT");
     await page.waitForSelector("#notice-box:not([hidden])", { timeout: PATIENCE_MS });
     expect(await page.textContent("#notice")).toContain("No line to the engine");
+    // A new one on the same port is found.
+    engine = (await startLive(folder, new URL(page.url()).port)).engine;
+    await page.waitForSelector("#notice-box", { state: "hidden", timeout: PATIENCE_MS });
+    await until("0.00", "removed");
   }, PATIENCE_MS);
 });
