@@ -121,9 +121,15 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     expect(seen.kind).toBe("material");
   });
 
-  test("learns from the microphone", async () => {
+  test("learns from the microphone and from a picture that is dropped in", async () => {
     const { page, errors, said } = await opened();
-    await page.locator("#make-image").setInputFiles(picture);
+    const dataTransfer = await page.evaluateHandle(({ name, mimeType, bytes }) => {
+      const data = new DataTransfer();
+      data.items.add(new File([new Uint8Array(bytes)], name, { type: mimeType }));
+      return data;
+    }, { ...picture, buffer: undefined, bytes: [...picture.buffer] });
+    await page.dispatchEvent("#own", "drop", { dataTransfer });
+    await page.waitForFunction(() => document.getElementById("make-said").textContent === "felt.png, 0 recordings");
     await page.locator("#make-speed").fill("150");
     await page.locator("#make-record").click();
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1, null, { timeout: 30_000 });
