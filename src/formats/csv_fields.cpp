@@ -2,12 +2,13 @@
 #include "formats/csv_fields.hpp"
 
 #include <algorithm>
-
-#include "formats/text_lines.hpp"
+#include <utility>
 
 namespace tribo::formats {
+namespace {
 
-void split_csv_line(std::string_view line, std::vector<CsvField>& fields) {
+// Replaces the content of `fields`, so that one vector serves all lines.
+void split(std::string_view line, std::vector<CsvField>& fields) {
     fields.clear();
     std::size_t start = 0;
     for (;;) {
@@ -20,6 +21,22 @@ void split_csv_line(std::string_view line, std::vector<CsvField>& fields) {
         if (comma == std::string_view::npos) return;
         start = comma + 1;
     }
+}
+
+}  // namespace
+
+bool CsvLines::next(std::vector<CsvField>& fields) {
+    while (const auto line = lines_.next()) {
+        const std::string_view text = trimmed(*line);
+        if (text.empty() || text.front() == '#') continue;
+        split(*line, fields);
+        return true;
+    }
+    return false;
+}
+
+std::unexpected<Error> CsvLines::refuse(int column, std::string cause, std::string remedy) const {
+    return fail_at(source_name_, std::max(1, lines_.number()), column, std::move(cause), std::move(remedy));
 }
 
 bool is_csv_column(std::string_view text, std::string_view name) {

@@ -31,73 +31,59 @@ Vec3 to_unit(Vec3 axis) {
 
 class Reader {
   public:
-    Reader(std::string_view bytes, const KeyframeOptions& options) : lines_(bytes), options_(options) {}
+    Reader(std::string_view bytes, const KeyframeOptions& options)
+        : lines_(bytes, options.source_name), options_(options) {}
 
     Result<std::vector<motion::Keyframe>> read() {
         if (auto header = read_header(); !header) return std::unexpected(header.error());
-        while (const auto line = next_line()) {
-            split_csv_line(*line, fields_);
+        while (lines_.next(fields_)) {
             const auto keyframe = read_row();
             if (!keyframe) return std::unexpected(keyframe.error());
             if (!keyframes_.empty() && keyframes_.back().pose == keyframe->pose) {
-                return refuse(1, "the pose is that of the line before", "delete one of the two");
+                return lines_.refuse(1, "the pose is that of the line before", "delete one of the two");
             }
             if (keyframes_.size() >= options_.max_keyframes) {
-                return refuse(1, "more than " + std::to_string(options_.max_keyframes) + " keyframes",
-                              "split the motion");
+                return lines_.refuse(1, "more than " + std::to_string(options_.max_keyframes) + " keyframes",
+                                     "split the motion");
             }
             keyframes_.push_back(*keyframe);
         }
         if (keyframes_.size() < 2) {
-            return refuse(0,
-                          "a motion needs two keyframes, this file has " + std::to_string(keyframes_.size()),
-                          "add the missing lines");
+            return lines_.refuse(
+                0, "a motion needs two keyframes, this file has " + std::to_string(keyframes_.size()),
+                "add the missing lines");
         }
         return std::move(keyframes_);
     }
 
   private:
-    // The next line that holds something.
-    std::optional<std::string_view> next_line() {
-        while (const auto line = lines_.next()) {
-            const std::string_view text = trimmed(*line);
-            if (!text.empty() && text.front() != '#') return line;
-        }
-        return std::nullopt;
-    }
-
-    std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const {
-        return fail_at(options_.source_name, std::max(1, lines_.number()), column, std::move(cause),
-                       std::move(remedy));
-    }
-
     Result<void> read_header() {
-        const auto line = next_line();
-        if (!line) return refuse(0, "the file holds no keyframes", kHeaderRemedy);
-        split_csv_line(*line, fields_);
-        if (fields_.size() == 1 && line->find(';') != std::string_view::npos) {
-            return refuse(1, "the columns are separated by semicolons", "separate them by commas");
+        if (!lines_.next(fields_)) return lines_.refuse(0, "the file holds no keyframes", kHeaderRemedy);
+        if (fields_.size() == 1 && fields_[0].text.find(';') != std::string_view::npos) {
+            return lines_.refuse(1, "the columns are separated by semicolons", "separate them by commas");
         }
         for (std::size_t i = 0; i < fields_.size(); ++i) {
             const CsvField& field = fields_[i];
             if (i < kPoseColumns.size()) {
                 if (is_csv_column(field.text, kPoseColumns[i])) continue;
-                return refuse(field.column,
-                              "column " + std::to_string(i + 1) + " is not " + std::string(kPoseColumns[i]),
-                              kHeaderRemedy);
+                return lines_.refuse(
+                    field.column,
+                    "column " + std::to_string(i + 1) + " is not " + std::string(kPoseColumns[i]),
+                    kHeaderRemedy);
             }
             const bool weight = is_csv_column(field.text, kWeightColumn);
             auto& place = weight ? weight_ : feed_;
             if ((!weight && !is_csv_column(field.text, kFeedColumn)) || place) {
-                return refuse(field.column,
-                              "column " + std::to_string(i + 1) + " is neither weight nor feed_mm_per_min",
-                              kHeaderRemedy);
+                return lines_.refuse(
+                    field.column,
+                    "column " + std::to_string(i + 1) + " is neither weight nor feed_mm_per_min",
+                    kHeaderRemedy);
             }
             place = i;
         }
         columns_ = fields_.size();
         if (columns_ < kPoseColumns.size()) {
-            return refuse(fields_.back().column, "the header has too few columns", kHeaderRemedy);
+            return lines_.refuse(fields_.back().column, "the header has too few columns", kHeaderRemedy);
         }
         return {};
     }
@@ -106,21 +92,22 @@ class Reader {
         const CsvField& field = fields_[i];
         const auto value = number_of(field.text);
         if (!value) {
-            return refuse(field.column, field.text.empty() ? "a number is missing" : "this is not a number",
-                          "write a decimal number with a point");
+            return lines_.refuse(field.column,
+                                 field.text.empty() ? "a number is missing" : "this is not a number",
+                                 "write a decimal number with a point");
         }
         if (!(*value >= least && *value <= most)) {
-            return refuse(field.column, "this number is out of range", "correct it");
+            return lines_.refuse(field.column, "this number is out of range", "correct it");
         }
         return *value;
     }
 
     Result<motion::Keyframe> read_row() const {
         if (fields_.size() != columns_) {
-            return refuse(fields_.back().column,
-                          "the line has " + std::to_string(fields_.size()) + " fields, the header " +
-                              std::to_string(columns_),
-                          "give every line a field per column");
+            return lines_.refuse(fields_.back().column,
+                                 "the line has " + std::to_string(fields_.size()) + " fields, the header " +
+                                     std::to_string(columns_),
+                                 "give every line a field per column");
         }
         motion::Keyframe keyframe;
         keyframe.line = lines_.number();
@@ -134,8 +121,8 @@ class Reader {
             keyframe.pose.axis[axis] = *direction;
         }
         if (length(keyframe.pose.axis) < kShortestAxis) {
-            return refuse(fields_[3].column, "the axis i,j,k has no length",
-                          "give the direction from tip to shank");
+            return lines_.refuse(fields_[3].column, "the axis i,j,k has no length",
+                                 "give the direction from tip to shank");
         }
         keyframe.pose.axis = to_unit(keyframe.pose.axis);
         if (weight_ && !fields_[*weight_].text.empty()) {
@@ -151,7 +138,7 @@ class Reader {
         return keyframe;
     }
 
-    TextLines lines_;
+    CsvLines lines_;
     const KeyframeOptions& options_;
     std::vector<CsvField> fields_;
     std::vector<motion::Keyframe> keyframes_;

@@ -39,7 +39,7 @@ std::string header_of(const Columns& columns) {
 class Reader {
   public:
     Reader(std::string_view bytes, const Columns& columns, const StrokeOptions& options)
-        : lines_(bytes), columns_(columns), options_(options) {}
+        : lines_(bytes, options.source_name), columns_(columns), options_(options) {}
 
     // Hands the values of each line to `add`.
     template <class Add>
@@ -47,63 +47,47 @@ class Reader {
         if (auto header = read_header(); !header) return header;
         std::size_t count = 0;
         double last_t_s = 0;
-        while (const auto line = next_line()) {
-            split_csv_line(*line, fields_);
+        while (lines_.next(fields_)) {
             const auto values = read_row();
             if (!values) return std::unexpected(values.error());
             const double t_s = (*values)[0];
             if (count > 0 && !(t_s > last_t_s)) {
-                return refuse(fields_[place_[0]].column, "the time is not after that of the point before",
-                              "let t_s rise from line to line");
+                return lines_.refuse(fields_[place_[0]].column,
+                                     "the time is not after that of the point before",
+                                     "let t_s rise from line to line");
             }
             if (count == options_.max_points) {
-                return refuse(1, "more than " + std::to_string(options_.max_points) + " points",
-                              "split the stroke");
+                return lines_.refuse(1, "more than " + std::to_string(options_.max_points) + " points",
+                                     "split the stroke");
             }
             add(*values);
             last_t_s = t_s;
             ++count;
         }
         if (count < 2) {
-            return refuse(0, "a stroke needs two points, this file has " + std::to_string(count),
-                          "add the missing lines");
+            return lines_.refuse(0, "a stroke needs two points, this file has " + std::to_string(count),
+                                 "add the missing lines");
         }
         return {};
     }
 
   private:
-    // The next line that holds something.
-    std::optional<std::string_view> next_line() {
-        while (const auto line = lines_.next()) {
-            const std::string_view text = trimmed(*line);
-            if (!text.empty() && text.front() != '#') return line;
-        }
-        return std::nullopt;
-    }
-
-    std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const {
-        return fail_at(options_.source_name, std::max(1, lines_.number()), column, std::move(cause),
-                       std::move(remedy));
-    }
-
     Result<void> read_header() {
         const std::string remedy = "start with the line " + header_of(columns_);
-        const auto line = next_line();
-        if (!line) return refuse(0, "the file holds no stroke", remedy);
-        split_csv_line(*line, fields_);
-        if (fields_.size() == 1 && line->find(';') != std::string_view::npos)
-            return refuse(1, "the columns are separated by semicolons", "separate them by commas");
+        if (!lines_.next(fields_)) return lines_.refuse(0, "the file holds no stroke", remedy);
+        if (fields_.size() == 1 && fields_[0].text.find(';') != std::string_view::npos)
+            return lines_.refuse(1, "the columns are separated by semicolons", "separate them by commas");
         for (std::size_t n = 0; n < columns_.size(); ++n) {
             const auto is_it = [&](const CsvField& f) { return is_csv_column(f.text, columns_[n].name); };
             const auto found = std::ranges::find_if(fields_, is_it);
             if (found == fields_.end()) {
-                return refuse(1, "the header has no column " + std::string(columns_[n].name), remedy);
+                return lines_.refuse(1, "the header has no column " + std::string(columns_[n].name), remedy);
             }
             const auto again = std::find_if(found + 1, fields_.end(), is_it);
             if (again != fields_.end()) {
-                return refuse(again->column,
-                              "the column " + std::string(columns_[n].name) + " stands there twice",
-                              "rename one of them");
+                return lines_.refuse(again->column,
+                                     "the column " + std::string(columns_[n].name) + " stands there twice",
+                                     "rename one of them");
             }
             place_[n] = static_cast<std::size_t>(found - fields_.begin());
         }
@@ -113,32 +97,32 @@ class Reader {
 
     Result<Values> read_row() const {
         if (fields_.size() != field_count_) {
-            return refuse(fields_.back().column,
-                          "the line has " + std::to_string(fields_.size()) + " fields, the header " +
-                              std::to_string(field_count_),
-                          "give every line a field per column");
+            return lines_.refuse(fields_.back().column,
+                                 "the line has " + std::to_string(fields_.size()) + " fields, the header " +
+                                     std::to_string(field_count_),
+                                 "give every line a field per column");
         }
         Values values{};
         for (std::size_t n = 0; n < columns_.size(); ++n) {
             const CsvField& field = fields_[place_[n]];
             const auto value = number_of(field.text);
             if (!value) {
-                return refuse(field.column,
-                              field.text.empty() ? "a number is missing" : "this is not a number",
-                              "write a decimal number with a point");
+                return lines_.refuse(field.column,
+                                     field.text.empty() ? "a number is missing" : "this is not a number",
+                                     "write a decimal number with a point");
             }
             if (!(*value >= columns_[n].least && *value <= columns_[n].most)) {
-                return refuse(field.column, "this number is out of range",
-                              "correct it: " + std::string(columns_[n].name) + " lies within " +
-                                  format_decimal(columns_[n].least) + " and " +
-                                  format_decimal(columns_[n].most));
+                return lines_.refuse(field.column, "this number is out of range",
+                                     "correct it: " + std::string(columns_[n].name) + " lies within " +
+                                         format_decimal(columns_[n].least) + " and " +
+                                         format_decimal(columns_[n].most));
             }
             values[n] = *value;
         }
         return values;
     }
 
-    TextLines lines_;
+    CsvLines lines_;
     const Columns& columns_;
     const StrokeOptions& options_;
     std::vector<CsvField> fields_;
