@@ -75,5 +75,6 @@ void measure_sound(Report& report);
 void measure_elastic(Report& report);
 void measure_servo(Report& report);
 void measure_live(Report& report);
+void measure_live_servo(Report& report);  // by measure_live
 
 }  // namespace tribo::bench

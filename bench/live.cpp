@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The live server: how long a kilobyte takes from the engine to a page on the same machine, and what sixteen
-// clients of which four never read do to the servo beside them.
+// The live server: how long a kilobyte takes from the engine to a page on the same machine.
 #include <atomic>
 #include <cstring>
 #include <memory>
 #include <thread>
 
-#include "devices/servo_thread.hpp"
 #include "harness.hpp"
 #include "net/certificates.hpp"
 #include "net/raw_client.hpp"
@@ -20,11 +18,8 @@ using net::test::RawClient;
 using std::chrono::milliseconds;
 
 constexpr const char* kProtocol = "bench.1";
-constexpr int kClients = 16, kSilent = 4;
 constexpr int kMessages = 2000;
 constexpr std::size_t kMessageBytes = 1000;
-// About what milling at full speed sends in a frame of the picture.
-constexpr std::size_t kFrameBytes = 100'000;
 
 std::unique_ptr<net::Server> start(bool tls, std::atomic<net::ClientId>& newest) {
     net::ServerOptions options;
@@ -79,52 +74,13 @@ void measure_messages(Report& report, bool tls) {
     report.add({"1 kB from server to page, p99" + how, 1e-3 * quantile(ages, 0.99), "ms"});
 }
 
-// Five seconds of an empty tick at 1 kHz; with clients, frames go to all of them at 60 Hz meanwhile.
-void measure_servo_beside(Report& report, bool with_clients) {
-    std::atomic<net::ClientId> newest{0};
-    const auto server = start(false, newest);
-    std::vector<std::unique_ptr<RawClient>> clients;
-    std::vector<std::thread> readers;
-    for (int n = 0; with_clients && n < kClients; ++n) {
-        const net::ClientId before = newest;
-        clients.push_back(std::make_unique<RawClient>(server->port()));
-        if (!clients.back()->join(kProtocol)) return;
-        while (newest == before) std::this_thread::yield();
-        server->send_text(newest, "hello");
-        if (n >= kSilent) {
-            readers.emplace_back([client = clients.back().get()] {
-                while (client->frame()) continue;
-            });
-        }
-    }
-    int ticks = 0;
-    devices::ServoThread loop({1000, true, false}, [&](double) { return ++ticks < 5000; });
-    while (loop.running()) {
-        server->send_all(std::make_shared<std::vector<std::uint8_t>>(kFrameBytes));
-        std::this_thread::sleep_for(std::chrono::microseconds(16'667));
-    }
-    loop.join();
-    for (const auto& client : clients) client->hang_up();
-    for (std::thread& reader : readers) reader.join();
-    const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
-    const std::string how = with_clients ? ", 16 clients, 4 never read" : ", nobody there";
-    if (!loop.granted().real_time.empty()) report.note(loop.granted().real_time);
-    report.add({"servo lateness p50" + how, us(loop.lateness().quantile_ns(0.5)), "us"});
-    report.add({"servo lateness p99" + how, us(loop.lateness().quantile_ns(0.99)), "us"});
-    report.add({"servo lateness p99.9" + how, us(loop.lateness().quantile_ns(0.999)), "us"});
-    report.add({"servo lateness max" + how, us(loop.lateness().max_ns()), "us"});
-    report.add({"ticks skipped" + how, static_cast<double>(loop.skipped()), ""});
-}
-
 }  // namespace
 
 void measure_live(Report& report) {
     report.section("The live server on loopback");
     measure_messages(report, false);
     measure_messages(report, true);
-    report.section("The servo beside the live server, 6 MB/s to each client");
-    measure_servo_beside(report, false);
-    measure_servo_beside(report, true);
+    measure_live_servo(report);
 }
 
 }  // namespace tribo::bench
