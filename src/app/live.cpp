@@ -64,6 +64,7 @@ int live(const LiveCall& call) {
     render.job = call.job;
     render.resolution_mm = call.resolution_mm;
     render.only = {"mesh"};
+    if (call.audio == "native") render.only.insert("sound");
     auto first = load_job(render, session::LiveMill::kPieceMm);
     if (!first) return report(first.error());
     if (auto fits = check_memory(render, *first); !fits) return report(fits.error());
@@ -86,6 +87,19 @@ int live(const LiveCall& call) {
     LiveShowOptions show_how =
         show_options(call, *first, profile, *arm ? (*arm)->limits() : haptics::kSimulatedLimits);
 
+    std::unique_ptr<LiveAudio> audio;
+    show_how.info.audio = call.audio;
+    if (call.audio == "native") {
+        auto opened = LiveAudio::open(first->track);
+        if (opened) {
+            audio = *std::move(opened);
+            std::printf("sound: %s\n", audio->device().c_str());
+        } else {
+            report(Warnings{{"", 0, opened.error().cause + "; the page sounds instead"}});
+            show_how.info.audio = "browser";
+        }
+    }
+
     session::LiveExtras extras;
     extras.listening = listening(first->job, first->setup.blank->bounds_mm());
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
@@ -107,7 +121,7 @@ int live(const LiveCall& call) {
         std::move(extras));
     if (!mill) return report(mill.error());
 
-    LiveShow show(**mill, std::move(show_how), *std::move(arm));
+    LiveShow show(**mill, std::move(show_how), *std::move(arm), std::move(audio));
     int exit_code = kDone;
     auto server = open_live_server(call, call.job, show.handlers(*files), exit_code);
     if (!server) return exit_code;

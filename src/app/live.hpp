@@ -19,6 +19,7 @@ struct LiveCall {
     std::string web_root;                  // empty: as built or installed
     std::optional<double> resolution_mm;   // absent: as render
     int threads = 0;                       // 0: all
+    std::string audio = "browser";         // who sounds: browser, native or off
     std::string device = "auto";           // the first arm that opens, else the simulated hand; or its word
 };
 

@@ -43,13 +43,15 @@ std::deque<LiveInbox::Event> LiveInbox::take_all() {
     return std::exchange(events_, {});
 }
 
-LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm)
+LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm,
+                   std::unique_ptr<LiveAudio> audio)
     : mill_(mill),
       options_(std::move(options)),
       settings_(options_.settings),
       told_(settings_),
       finger_(options_.feel, std::move(arm), mill.session().stock().blank().bounds_mm().max),
-      builder_(options_.make_setup) {
+      builder_(options_.make_setup),
+      audio_(std::move(audio)) {
     for (const milling::Material& m : milling::materials()) options_.info.materials.push_back(m.name);
     options_.info.device = std::string(finger_.limits().name);
     options_.info.max_force_n = finger_.limits().max_force_n;
@@ -86,6 +88,7 @@ Result<void> LiveShow::run(net::Server& server) {
     const auto frames = [&](std::span<const std::uint8_t> frame) {
         memory_.take(frame);
         server.send_all(shared(frame));
+        if (audio_) audio_->take(frame);
     };
     while (!interrupted()) {
         for (const LiveInbox::Event& event : inbox_.take_all()) answer(event, server);
@@ -94,6 +97,7 @@ Result<void> LiveShow::run(net::Server& server) {
         before = now;
         const auto may_go_on = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
         if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
+        if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
         take_built();
         finger_.show(scene(), mill_.state().tool.tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "app/force_builder.hpp"
+#include "app/live_audio.hpp"
 #include "app/web_files.hpp"
 #include "devices/servo_thread.hpp"
 #include "io/live_message.hpp"
@@ -46,7 +47,9 @@ struct LiveShowOptions {
 class LiveShow {
   public:
     // `arm`: null for the simulated hand.
-    LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm);
+    // `audio`: null where the engine does not sound.
+    LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm,
+             std::unique_ptr<LiveAudio> audio);
     ~LiveShow();
 
     net::ServerHandlers handlers(const WebFiles& files);
@@ -72,6 +75,7 @@ class LiveShow {
     session::LiveFinger finger_;
     ForceBuilder builder_;
     contact::ForceTable table_;
+    std::unique_ptr<LiveAudio> audio_;
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;
     bool arm_gone_ = false;

@@ -42,6 +42,9 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_option("--device", call->device,
                      "auto, simulated, or the arm's name as `tribo devices` says it")
         ->capture_default_str();
+    verb->add_option("--audio", call->audio, "Who sounds: the page, this machine's loudspeaker, or nobody")
+        ->check(CLI::IsMember({"browser", "native", "off"}))
+        ->capture_default_str();
     verb->callback([call, &exit_code] { exit_code = live(*call); });
 }
 

@@ -127,6 +127,7 @@ std::string live_server_info(const LiveServerInfo& info) {
     if (!info.job.empty()) {
         json["job"] = info.job;
         json["materials"] = info.materials;
+        json["audio"] = info.audio;
         json["device"] = {{"name", info.device},
                           {"max_force_n", info.max_force_n},
                           {"rate_hz", info.rate_hz},

@@ -68,9 +68,10 @@ struct LiveServerInfo {
     std::vector<std::string> materials;
     std::string device;
     double max_force_n = 0, rate_hz = 0;
-    bool arm = false;      // motors move a person's hand
-    std::string resume;    // the token with which this client may come back
-    bool resumed = false;  // it came back
+    bool arm = false;               // motors move a person's hand
+    std::string audio = "browser";  // who sounds: browser, native or off
+    std::string resume;             // the token with which this client may come back
+    bool resumed = false;           // it came back
 };
 
 // What a page is told first.

@@ -49,6 +49,7 @@ class LiveMill {
     // program as it was written runs faster by the feed's.
     void set_change(const CutChange& change);
     const CutChange& change() const { return change_; }
+    double speed() const { return speed_; }
     double pace() const { return playing_ ? speed_ * change_.feed_factor : 0; }
     // Told the session that mills from now on, and null before it goes.
     void watch(std::function<void(MillSession*)> watcher);

@@ -87,7 +87,7 @@ TEST(LiveMessage, TheServerSaysWhatItShows) {
     EXPECT_EQ(
         live_server_info(info),
         R"({"op":"serverInfo","version":"1.2.3","warnings":["p.nc:3: warning: look"],"job":"a \"b\".toml",)"
-        R"("materials":["al"],"device":{"name":"hand","max_force_n":3.5,"rate_hz":1000.0,"arm":false},)"
+        R"("materials":["al"],"audio":"browser","device":{"name":"hand","max_force_n":3.5,"rate_hz":1000.0,"arm":false},)"
         R"("resume":"f00d","resumed":false})");
     LiveServerInfo bench;
     bench.version = "1.2.3";

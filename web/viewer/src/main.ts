@@ -29,6 +29,8 @@ const scene = new Scene(element<HTMLCanvasElement>("scene"));
 const history = new History();
 const memory = new Memory();
 const sound = new Sound();
+// Whether the page sounds, and not the engine.
+let soundsHere = true;
 const seek = (time: number) => source?.send({ op: "seek", t_s: time });
 const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
 const collisions = new Collisions((frame: CollisionFrame) => {
@@ -167,6 +169,8 @@ const listener: Listener = {
     element("job").textContent = name;
     showWarnings(message.warnings);
     parameters.info(message);
+    soundsHere = (message.audio ?? "browser") === "browser";
+    if (!soundsHere) element("sound").hidden = true;
     forceLimit = message.device?.max_force_n || 3;
     finger.arm = message.device?.arm ?? false;
   },
@@ -250,7 +254,7 @@ time.addEventListener("change", () => {
 
 // ---- Sound
 async function hear(): Promise<void> {
-  if (!Sound.possible) return;
+  if (!Sound.possible || !soundsHere) return;
   try {
     await sound.wake();
   } catch (error) {

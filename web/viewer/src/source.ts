@@ -21,6 +21,8 @@ export interface ServerInfo {
   job?: string;
   warnings: string[];
   materials?: string[];
+  // Who sounds; without a word, the page.
+  audio?: "browser" | "native" | "off";
   device?: { name: string; max_force_n: number; rate_hz: number; arm: boolean };
 }
 
