@@ -29,6 +29,8 @@ interface Exports {
 const TICK_MS = 1000 / 60;
 // Of a tick, how much may go into milling.
 const MILLING_MS = 12;
+// Where a tick takes longer than that, the next one waits: half as many pictures cost half as much.
+const BUSY_TICK_MS = 30;
 const MOST_LOOKS = 4096;
 // A clock that did not run for longer than this (a laptop asleep) jumps no further, s.
 const LONGEST_STEP_S = 0.1;
@@ -46,6 +48,7 @@ async function unpacked(file: JobFile): Promise<Uint8Array> {
 
 class Mill {
   private looks = 64;
+  private took = 0; // ms, of the last tick
   private before = performance.now();
   private settings: Settings = {
     op: "settings",
@@ -124,10 +127,11 @@ class Mill {
 
   tick(): void {
     const now = performance.now();
+    if (this.took > MILLING_MS && now - this.before < BUSY_TICK_MS) return;
     const seconds = Math.min((now - this.before) / 1000, LONGEST_STEP_S);
     this.before = now;
     const length = this.x.mill_tick(seconds, this.looks);
-    const took = performance.now() - now;
+    const took = (this.took = performance.now() - now);
     if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
     else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
     if (length < 0) return post({ kind: "failed", why: this.text(this.x.mill_text()) });
