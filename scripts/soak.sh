@@ -55,7 +55,17 @@ long_play() {
         build/release/tests/test_app --gtest_also_run_disabled_tests --gtest_filter='LiveSoak.DISABLED_*'
 }
 
+# Tests that are named DISABLED_, as they take minutes: the whole grid of strokes of a probe over milled stock.
+long_tests() {
+    configure_and_build release --target test_haptics &&
+        build/release/tests/test_haptics --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_*' --gtest_brief=1
+}
+
 test_preset asan
+if [ "${1:-short}" = long ]; then
+    say "long tests"
+    step "long tests" long_tests
+fi
 say "thread sanitizer"
 step "tsan" thread_sanitizer
 say "fuzzing, $fuzz_seconds s a target"

@@ -2,7 +2,9 @@
 #include "formats/force_bake.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "base/hash.hpp"
 
@@ -21,6 +23,25 @@ contact::ForceTable some_table() {
         s.spectrum.harmonics.resize(3);
         s.spectrum.harmonics[0].x = 100 + 80 * std::sin(0.3 * n);
         s.spectrum.harmonics[1].y = {40, 10.0 * (n % 7)};
+        cut.push_back(s);
+    }
+    const contact::ForceTableOptions options;
+    return build_force_table(force_function(cut, options), options);
+}
+
+// Without sine and cosine: the same bytes everywhere.
+contact::ForceTable small_table() {
+    std::vector<contact::ForceStretch> cut;
+    for (int n = 0; n < 12; ++n) {
+        contact::ForceStretch s;
+        s.start_s = 0.0625 * n + (n >= 7 ? 0.5 : 0);
+        s.end_s = s.start_s + 0.0625;
+        s.rate_rad_per_s = 512;
+        s.phase_rad = 0.125 * n;
+        s.spectrum.order_step = 2;
+        s.spectrum.harmonics.resize(3);
+        s.spectrum.harmonics[0].x = 100 + 16 * (n % 5);
+        s.spectrum.harmonics[1].y = {40, 8.0 * (n % 3)};
         cut.push_back(s);
     }
     const contact::ForceTableOptions options;
@@ -52,6 +73,18 @@ TEST(ForceBake, comes_back_the_same_in_place_and_from_any_address) {
         ASSERT_TRUE(read.has_value()) << read.error().text();
         EXPECT_EQ(read->key, 0x1234567890abcdefU);
         expect_same(read->table, table);
+    }
+}
+
+// What the fuzzer begins from (fuzz/corpus/force_bake).
+TEST(ForceBake, writes_the_seeds_of_its_fuzzer) {
+    const std::pair<const char*, contact::ForceTable> seeds[] = {{"cut.bake", small_table()},
+                                                                 {"empty.bake", {}}};
+    for (const auto& [name, table] : seeds) {
+        std::ifstream file(std::string(TRIBO_SOURCE_DIR "/fuzz/corpus/force_bake/") + name, std::ios::binary);
+        ASSERT_TRUE(file) << name;
+        const std::string seed{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_TRUE(seed == write_force_bake(table, 42)) << name << ", " << seed.size() << " bytes";
     }
 }
 
