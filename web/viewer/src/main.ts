@@ -170,7 +170,7 @@ const listener: Listener = {
     showWarnings(message.warnings);
     parameters.info(message);
     soundsHere = (message.audio ?? "browser") === "browser";
-    if (!soundsHere) element("sound").hidden = true;
+    element("sound").hidden = !soundsHere || !Sound.possible;
     forceLimit = message.device?.max_force_n || 3;
     finger.arm = message.device?.arm ?? false;
   },
