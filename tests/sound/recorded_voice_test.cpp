@@ -74,7 +74,7 @@ TEST(RecordedVoice, loops_whole_turns_without_a_seam) {
         level_least = std::min(level_least, test::rms(part));
         level_most = std::max(level_most, test::rms(part));
     }
-    EXPECT_LT(most, 2 * least);
+    EXPECT_LT(most, 1.5 * least) << most / least;
     EXPECT_LT(test::decibel(level_most / level_least), 0.5);
 }
 
