@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, then every fuzz target
-# for a while from its corpus; long also plays the live view for ten minutes. What fuzzing finds is left under
-# build/fuzz/crashes/, nothing in the source tree.
+# soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, minutes or an hour of
+# sound at random, then every fuzz target for a while from its corpus; long also plays the live view for ten minutes.
+# What fuzzing finds is left under build/fuzz/crashes/, nothing in the source tree.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 
 case ${1:-short} in
-    short) fuzz_seconds=20 ;;
-    long) fuzz_seconds=900 ;;
+    short) fuzz_seconds=20 sound_seconds=180 ;;
+    long) fuzz_seconds=900 sound_seconds=3600 ;;
     *) fail "soak.sh takes short or long" ;;
 esac
 
@@ -23,6 +23,11 @@ thread_sanitizer() {
     mapfile -t targets < <(thread_targets)
     if [ ${#targets[@]} -eq 0 ]; then return; fi
     cmake --build --preset tsan --target "${targets[@]}" && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" run_ctest tsan -R "$with_threads"
+}
+
+# Random speeds, places and spindles: no NaN, nothing beyond full scale, no click.
+long_sound() {
+    TRIBO_SOUND_SECONDS=$sound_seconds build/asan/tests/test_session --gtest_brief=1 --gtest_filter='LongSound.*'
 }
 
 fuzz_one() {
@@ -66,6 +71,8 @@ if [ "${1:-short}" = long ]; then
     say "long tests"
     step "long tests" long_tests
 fi
+say "sound, $sound_seconds s"
+step "long sound" long_sound
 say "thread sanitizer"
 step "tsan" thread_sanitizer
 say "fuzzing, $fuzz_seconds s a target"

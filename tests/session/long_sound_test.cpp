@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Sound that goes on and on while everything changes at random. TRIBO_SOUND_SECONDS says for how long
+// (scripts/soak.sh: minutes, or the hour); without it, long enough to be a test.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "base/noise_hash.hpp"
+#include "noise/friction_voice.hpp"
+#include "sound/calibration.hpp"
+#include "sound/soundtrack.hpp"
+
+namespace tribo::session {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kRate = 48000;
+constexpr int kHarmonics = 12, kStep = 3;
+
+double seconds_of_sound() {
+    const char* asked = std::getenv("TRIBO_SOUND_SECONDS");
+    const double seconds = asked != nullptr ? std::atof(asked) : 0;
+    return seconds > 0 ? seconds : 10;
+}
+
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : noise_(seed) {}
+    double in(double low, double high) { return low + (high - low) * noise_.uniform(drawn_++); }
+    bool one_in(double n) { return in(0, n) < 1; }
+
+  private:
+    CounterNoise noise_;
+    std::uint64_t drawn_ = 0;
+};
+
+// A cut at random: what it does next is drawn, and how long it takes.
+class RandomCut {
+  public:
+    RandomCut(std::uint64_t seed, bool with_chips) : random_(seed), with_chips_(with_chips) {
+        for (contact::ForceSpectrum& s : spectra_) {
+            s.order_step = kStep;
+            s.harmonics.resize(kHarmonics + 1);
+        }
+    }
+    // The next sample; what it says is valid until the one after it.
+    contact::ContactSample next() {
+        const double wait = random_.one_in(20) ? 0 : random_.in(0.001, 0.1);
+        const double before = rate_;
+        if (random_.one_in(3)) rate_ = random_.in(100, 12000) / 60 * 2 * kPi;
+        if (random_.one_in(30)) rate_ = 0;
+        angle_ += 0.5 * (before + rate_) * wait;
+        t_s_ += wait;
+        contact::ForceSpectrum& spectrum = spectra_[turn_++ % 2];
+        const double force_n = random_.in(0, kMostNewtons);
+        for (int n = 1; n <= kHarmonics; ++n) {
+            const auto c = std::polar(force_n / (n * n), random_.in(0, 2 * kPi));
+            spectrum.harmonics[static_cast<std::size_t>(n)] = {0.6 * c, 0.8 * c, c, c};
+        }
+        contact::ContactSample s;
+        s.t_s = t_s_;
+        if (random_.one_in(10))
+            place_mm_ = {random_.in(-3000, 3000), random_.in(-3000, 3000), random_.in(-500, 500)};
+        place_mm_ += Vec3{random_.in(-20, 20), random_.in(-20, 20), random_.in(-5, 5)};
+        s.position_mm = place_mm_;
+        s.force_n = {force_n, 0, 0};
+        s.slip_mm_per_s = {10, 0, 0};
+        s.area_mm2 = with_chips_ ? random_.in(0, 100) : 0;
+        s.phase_rad = angle_;
+        s.phase_rate_rad_per_s = rate_;
+        s.spectrum = random_.one_in(6) ? nullptr : &spectrum;
+        return s;
+    }
+    static constexpr double kMostNewtons = 100;
+
+  private:
+    Random random_;
+    bool with_chips_;
+    contact::ForceSpectrum spectra_[2];
+    std::size_t turn_ = 0;
+    double t_s_ = 0, angle_ = 0, rate_ = 0;
+    Vec3 place_mm_;
+};
+
+// What is wrong with a track: nothing, or the first of it.
+class Watch {
+  public:
+    explicit Watch(double most_rough) : most_rough_(most_rough) {}
+    void hear(std::span<const float> interleaved) {
+        for (std::size_t n = 0; n < interleaved.size(); ++n) {
+            const double v = static_cast<double>(interleaved[n]);
+            auto& x = past_[n % 2];
+            // Not a number fails every comparison.
+            if (!(std::abs(v) <= 1)) ++beyond_;
+            const double rough = std::abs(v - 2 * x[0] + x[1]);
+            roughest_ = std::max(roughest_, rough);
+            if (!(rough <= most_rough_)) ++clicks_;
+            x[1] = x[0];
+            x[0] = v;
+            loudest_ = std::max(loudest_, std::abs(v));
+        }
+        frames_ += interleaved.size() / 2;
+    }
+    std::size_t frames() const { return frames_; }
+    long beyond() const { return beyond_; }
+    long clicks() const { return clicks_; }
+    double roughest() const { return roughest_; }
+    double loudest() const { return loudest_; }
+
+  private:
+    double most_rough_;
+    double past_[2][2]{};
+    long beyond_ = 0, clicks_ = 0;
+    double roughest_ = 0, loudest_ = 0;
+    std::size_t frames_ = 0;
+};
+
+// The listener walks and turns at random too.
+void listen_at_random(sound::Soundtrack& track, Random& random, double t_s) {
+    sound::Listener pose;
+    pose.position_m = {random.in(-2000, 2000), random.in(-2000, 2000), random.in(-500, 500)};
+    pose.forward = {random.in(-1, 1), random.in(-1, 1), random.in(-0.3, 0.3)};
+    track.listen(pose, t_s + random.in(0, 3));
+}
+
+void play(sound::Soundtrack& track, RandomCut& cut, Watch& watch, double seconds) {
+    Random random(99);
+    const auto hear = [&](std::span<const float> block) { watch.hear(block); };
+    while (static_cast<double>(watch.frames()) < seconds * kRate) {
+        const contact::ContactSample next = cut.next();
+        if (random.one_in(25)) listen_at_random(track, random, next.t_s);
+        if (random.one_in(200)) track.release();
+        track.play_to(next, hear);
+    }
+    EXPECT_EQ(watch.beyond(), 0);
+}
+
+TEST(LongSound, of_tones_alone_never_clicks) {
+    // Partials, none louder than at kMostNewtons, at 12000 rpm, at 1 m, at the ear that hears it best; pitch
+    // may be four times that where places leap. Amplitudes that move add a hundredth.
+    sound::SoundtrackOptions options;
+    options.head = sound::Head::sphere(kRate);
+    double most = 0;
+    for (int azimuth = 0; azimuth < 360; azimuth += 5) {
+        sound::EarResponses heard;
+        options.head->hear({3 * std::sin(azimuth * kPi / 180), 3 * std::cos(azimuth * kPi / 180), 0}, heard);
+        for (const double hz : {600.0, 1200.0, 2400.0, 4800.0, 7200.0, 12000.0}) {
+            std::complex<double> sum = 0;
+            for (std::size_t k = 0; k < sound::kHeadTaps; ++k)
+                sum += std::polar(static_cast<double>(heard.taps[0][k]),
+                                  -2 * kPi * hz / kRate * static_cast<double>(k));
+            most = std::max(most, std::abs(sum));
+        }
+    }
+    double bound = 0;
+    for (int n = 1; n <= kHarmonics; ++n) {
+        const double w = 2 * kPi * n * kStep * 200 / kRate;
+        const double curve = 2 * (1 - std::cos(std::min(w, kPi)));
+        bound +=
+            2 * RandomCut::kMostNewtons / (n * n) * sound::kPascalPerNewton / sound::kFullScalePascal * curve;
+    }
+    sound::Soundtrack track(options);
+    RandomCut cut(1, false);
+    Watch watch(1.01 * most * bound);
+    play(track, cut, watch, seconds_of_sound());
+    EXPECT_EQ(watch.clicks(), 0) << watch.roughest() << " where " << most * bound << " is possible";
+    EXPECT_GT(watch.roughest(), 0.2 * most * bound) << "too quiet to tell";
+}
+
+TEST(LongSound, of_everything_at_once_stays_within_full_scale) {
+    sound::SoundtrackOptions options;
+    options.head = sound::Head::sphere(kRate);
+    options.gain_db = 30;  // into the limiter
+    options.body = sound::tool_body(12, 60, 0.03);
+    sound::Recording machine;
+    machine.sample_rate_hz = 44100;
+    machine.spindle_rpm = 6000;
+    const CounterNoise noise(3);
+    for (std::size_t n = 0; n < 44100; ++n) {
+        const double t = static_cast<double>(n) / 44100;
+        machine.samples.push_back(
+            static_cast<float>(0.2 * std::sin(2 * kPi * 400 * t) + 0.02 * noise.gaussian(n)));
+    }
+    options.recording = options.idle = std::make_shared<const sound::Recording>(machine);
+    sound::Soundtrack track(options);
+    RandomCut cut(2, true);
+    Watch watch(4);
+    play(track, cut, watch, seconds_of_sound());
+    EXPECT_GT(watch.loudest(), 0.75);
+}
+
+noise::MaterialVoices three_speeds() {
+    noise::MaterialVoices voices;
+    for (const double speed : {30.0, 100.0, 300.0}) {
+        noise::VoiceModel m;
+        m.speed_mm_per_s = speed;
+        m.level_db = -26 + 14 * std::log10(speed / 100);
+        // Low-pass noise, so that a click would stand out.
+        m.spectrum = {kRate, {-0.995, 0.98, 0.001 * speed}};
+        voices.models.push_back(m);
+    }
+    voices.law = noise::fit_level_law(voices.models);
+    return voices;
+}
+
+TEST(LongSound, of_rubbing_at_random_never_clicks) {
+    noise::FrictionVoice voice(three_speeds());
+    std::vector<float> block(128);
+    const auto roughest = [&](double seconds, auto lead) {
+        double worst = 0, a = 0, b = 0;
+        for (double t = 0; t < seconds; t += 128 / kRate) {
+            lead();
+            voice.render(block);
+            for (const float f : block) {
+                const double v = static_cast<double>(f);
+                const double rough = std::abs(v - 2 * a + b);
+                worst = rough <= worst ? worst : rough;  // sticks at what is not a number
+                b = a;
+                a = v;
+            }
+        }
+        return worst;
+    };
+    // The roughest sample of as long a time of the loudest steady rubbing, and a decibel.
+    const double steady = roughest(std::max(60.0, seconds_of_sound()), [&] { voice.set_target(600, 3); });
+    Random random(5);
+    const double stepped = roughest(seconds_of_sound(), [&] {
+        if (random.one_in(6)) voice.set_target(random.one_in(9) ? 0 : random.in(0, 600), random.in(-0.3, 3));
+    });
+    EXPECT_LT(20 * std::log10(stepped / steady), 1);
+    EXPECT_GT(stepped, 0.5 * steady);
+}
+
+}  // namespace
+}  // namespace tribo::session
