@@ -89,20 +89,26 @@ TRIBO_LANES void put(float* p, Wide v) {
     std::memcpy(p, &v, sizeof v);
 }
 
-// sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees
-// 8 frames on, so two taps are worth one walk through x.
+// sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees 8
+// frames on, so two taps are worth one walk through x. Few blocks keep two sums each, or additions would wait
+// for one another.
 template <int kBlocks>
 TRIBO_LANES void add_taps(const float* x, const float* h, int from, int to, Wide* sum) {
     constexpr int kOn = kLanes / kWide;
+    Wide apart[kBlocks]{};
+    Wide* other = kBlocks > 4 ? sum : apart;
     for (int first = from; first < to; first += 2 * kLanes) {
         for (int k = first; k < first + kLanes; ++k) {
             const Wide c = all(h[k]), later = all(h[k + kLanes]);
             for (int b = -kOn; b < kBlocks; ++b) {
                 const Wide v = kept(x - k + kWide * b);
                 if (b >= 0) sum[b] += c * v;
-                if (b + kOn < kBlocks) sum[b + kOn] += later * v;
+                if (b + kOn < kBlocks) other[b + kOn] += later * v;
             }
         }
+    }
+    if (kBlocks <= 4) {
+        for (int b = 0; b < kBlocks; ++b) sum[b] += apart[b];
     }
 }
 

@@ -189,7 +189,9 @@ double gain_to_free_field(const HrirSet& set) {
         logs += math::log(power);
         ++sounding;
     }
-    return sounding > 0 ? math::exp(-0.5 * logs / sounding) : 1;
+    // A set that is further off than that has no level of its own, and float has its limits.
+    constexpr double kMost = 1e6;
+    return sounding > 0 ? std::clamp(math::exp(-0.5 * logs / sounding), 1 / kMost, kMost) : 1;
 }
 
 // The free field's level at 0 Hz, reached along a line in the logarithm of the magnitude (Xie 2009 and others

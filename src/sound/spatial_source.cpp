@@ -30,13 +30,13 @@ Course course(double before, double here, double after, double less) {
 
 }  // namespace
 
-Vec3 Listener::seen(Vec3 direction) const {
+HeadAxes Listener::axes() const {
     const Vec3 y = normalized(forward, {0, 1, 0});
     Vec3 right = cross(y, up);
     if (!(squared_length(right) > 1e-12 * squared_length(up))) right = cross(y, Vec3{0, 0, 1});
     if (!(squared_length(right) > 1e-12)) right = any_perpendicular(y);
     const Vec3 x = normalized(right, {1, 0, 0});
-    return {dot(direction, x), dot(direction, y), dot(direction, cross(x, y))};
+    return {x, y, cross(x, y)};
 }
 
 double rolloff_at(double distance_m) {
@@ -66,7 +66,7 @@ std::int64_t SpatialSource::quanta_to_pass() const {
 }
 
 void SpatialSource::write(const Quantum& pressure_pa) {
-    now_ = (now_ + kQuantumFrames) % size_;
+    now_ = (now_ + kQuantumFrames) & (size_ - 1);
     EarQuantum sound;
     unsigned any = 0;
     for (std::size_t n = 0; n < kQuantumFrames; ++n) {
@@ -89,6 +89,9 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
         const std::size_t b = a > 0 ? a - 1 : places_.size() - 1;
         return lerp(places_[a], places_[b], quanta - static_cast<double>(n));
     };
+    // It goes on as it went: half the rounds are spared.
+    const double was = travelled_;
+    travelled_ = std::clamp(travelled_ + slower_, 0.0, most);
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds; ++round) {
         place = place_at(std::min(travelled_, most));
@@ -97,12 +100,13 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
         travelled_ = std::min(next, most);
         if (there) break;
     }
+    slower_ = travelled_ - was;
     return place_at(travelled_);
 }
 
 SpatialSource::State SpatialSource::state(Vec3 place_m, const Listener& listener, EarResponses& heard) {
     const Vec3 towards = place_m - listener.position_m;
-    head_->hear(listener.seen(towards) / kHeadRadius, heard, *kernels_);
+    head_->hear(axes_.seen(towards) / kHeadRadius, heard, *kernels_);
     const double rate = head_->sample_rate_hz(), metres = length(towards);
     const double travel = std::min(metres * frames_per_metre_, kLongestTravelSeconds * rate);
     State s;
@@ -117,16 +121,18 @@ SpatialSource::State SpatialSource::state(Vec3 place_m, const Listener& listener
 // Nothing is under way: everything is where it should be.
 void SpatialSource::settle(Vec3 place_m, const Listener& listener) {
     std::fill(places_.begin(), places_.end(), place_m);
-    travelled_ = 0;
+    travelled_ = slower_ = 0;
     before_ = here_ = after_ = state(retarded(listener), listener, responses_[0]);
+    slower_ = 0;
     responses_[1] = responses_[0];
     placed_ = true;
 }
 
 void SpatialSource::add(const Quantum& pressure_pa, Vec3 place_m, const Listener& listener, Ears& out) {
     const bool unmoved = placed_ && place_m == places_[newest_] && listener == listener_;
-    newest_ = (newest_ + 1) % places_.size();
+    newest_ = newest_ + 1 < places_.size() ? newest_ + 1 : 0;
     places_[newest_] = place_m;
+    if (!placed_ || !(listener == listener_)) axes_ = listener.axes();
     listener_ = listener;
     unmoved_ = unmoved ? unmoved_ + 1 : 0;
     if (!placed_) settle(place_m, listener);
@@ -161,7 +167,7 @@ void SpatialSource::play(bool moves, Ears& out) {
         float* x = past + kHeadTaps;
         const double whole = std::floor(0.5 * (before_.delay[ear] + here_.delay[ear]));
         const Course delay = course(before_.delay[ear], here_.delay[ear], after_.delay[ear], whole);
-        const std::size_t base = (now_ + 2 * size_ - static_cast<std::size_t>(whole) - kBack) % size_;
+        const std::size_t base = (now_ + 2 * size_ - static_cast<std::size_t>(whole) - kBack) & (size_ - 1);
         kernels_->read(line_.data() + base + kBack, *table_, delay, gain, x);
         EarQuantum& heard = ear == 0 ? out.left : out.right;
         if (moves) {

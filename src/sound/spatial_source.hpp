@@ -14,6 +14,16 @@
 
 namespace tribo::sound {
 
+// The directions of a head in the world: to the right ear, to the front, up; unit, square to each other.
+struct HeadAxes {
+    Vec3 right{1, 0, 0}, front{0, 1, 0}, up{0, 0, 1};
+
+    // A direction in the world as the head sees it: x right, y front, z up.
+    Vec3 seen(Vec3 direction) const {
+        return {dot(direction, right), dot(direction, front), dot(direction, up)};
+    }
+};
+
 // Where somebody listens, and which way. `forward` and `up` need be neither unit nor square to each other;
 // where they give no direction, +y and +z hold.
 struct Listener {
@@ -22,8 +32,7 @@ struct Listener {
     Vec3 up{0, 0, 1};
 
     bool operator==(const Listener&) const = default;
-    // A direction in the world as the head sees it: x right, y front, z up.
-    Vec3 seen(Vec3 direction) const;
+    HeadAxes axes() const;
 };
 
 using EarQuantum = std::array<float, kQuantumFrames>;
@@ -89,7 +98,9 @@ class SpatialSource {
     std::vector<Vec3> places_;  // of the source, ends of quanta; a ring
     std::size_t newest_ = 0;
     double travelled_ = 0;  // quanta
+    double slower_ = 0;     // what it grew by in the last quantum
     Listener listener_;     // of the last quantum
+    HeadAxes axes_;         // its
     double unmoved_ = 0;    // quanta for which neither source nor listener moved
 
     bool placed_ = false;

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
+#include "sound/ears.hpp"
+
 namespace tribo::io {
 namespace {
 
@@ -157,6 +159,15 @@ TEST_F(BuiltinHrirs, have_the_free_fields_level_in_the_bass_as_a_rigid_sphere_ha
     for (const double hz : {30.0, 60.0, 100.0, 200.0, 300.0}) {
         EXPECT_NEAR(mean_db(head(), hz), 0, 0.5) << hz;
         EXPECT_NEAR(mean_db(*sphere, hz), 0, 0.2) << hz;
+    }
+}
+
+TEST_F(BuiltinHrirs, leave_no_stray_energy_beside_a_tone_that_circles_the_head) {
+    const auto made_once = sound::Head::measured(*shipped(), kRate);
+    sound::SpatialSource source(*made_once);
+    const auto heard = sound::test::hear(source, 3000, sound::test::tone(1000), sound::test::circling(2, 2));
+    for (const std::vector<float>* ear : {&heard.left, &heard.right}) {
+        EXPECT_LT(sound::test::stray_db(std::span(*ear).last(1 << 17), 1000), -65);
     }
 }
 

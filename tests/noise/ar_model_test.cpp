@@ -95,6 +95,24 @@ RC_GTEST_PROP(ArModel, line_spectrum_leads_back_to_the_predictor, ()) {
     for (std::size_t n = 0; n < a.size(); ++n) RC_ASSERT(std::abs(back[n] - a[n]) < 1e-6 * scale);
 }
 
+// Ascending angles stay ascending on the way between, and ascending angles are a stable filter.
+RC_GTEST_PROP(ArModel, between_two_line_spectra_every_filter_is_stable, ()) {
+    const auto order = static_cast<std::size_t>(*rc::gen::inRange(1, 31));
+    const auto some = [&] {
+        return line_spectrum_of(*rc::gen::container<std::vector<double>>(
+            order, rc::gen::map(rc::gen::inRange(-950, 951), [](int k) { return 0.001 * k; })));
+    };
+    const std::vector<double> a = some(), b = some();
+    RC_ASSERT(a.size() == order && b.size() == order);
+    for (const double t : {0.1, 0.25, 0.5, 0.8}) {
+        std::vector<double> between(order), predictor(order), reflection(order), work(2 * (order + 2));
+        for (std::size_t n = 0; n < order; ++n) between[n] = (1 - t) * a[n] + t * b[n];
+        predictor_from_line_spectrum(between, predictor, work);
+        reflection_of(predictor, reflection);
+        for (const double k : reflection) RC_ASSERT(std::abs(k) < 1);
+    }
+}
+
 TEST(ArModel, pairs_of_lines_as_close_as_rounding_allows_are_found) {
     // Poles at radius 1 - 1e-6: their two lines lie a millionth of a radian apart.
     const double r = 1 - 1e-6, angle = 0.3;

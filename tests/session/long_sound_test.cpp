@@ -18,7 +18,7 @@ namespace tribo::session {
 namespace {
 
 constexpr double kPi = std::numbers::pi, kRate = 48000;
-constexpr int kHarmonics = 12, kStep = 3;
+constexpr double kMostRpm = 12000, kMostNewtons = 100;
 
 double seconds_of_sound() {
     const char* asked = std::getenv("TRIBO_SOUND_SECONDS");
@@ -37,48 +37,57 @@ class Random {
     std::uint64_t drawn_ = 0;
 };
 
+struct Kind {
+    int flutes = 3, harmonics = 12;
+    bool chips = false;
+    bool leaps = false;  // places change from one moment to the next; else at up to 8 m/s
+};
+
 // A cut at random: what it does next is drawn, and how long it takes.
 class RandomCut {
   public:
-    RandomCut(std::uint64_t seed, bool with_chips) : random_(seed), with_chips_(with_chips) {
+    RandomCut(std::uint64_t seed, const Kind& kind) : random_(seed), kind_(kind) {
         for (contact::ForceSpectrum& s : spectra_) {
-            s.order_step = kStep;
-            s.harmonics.resize(kHarmonics + 1);
+            s.order_step = kind.flutes;
+            s.harmonics.resize(static_cast<std::size_t>(kind.harmonics) + 1);
         }
     }
     // The next sample; what it says is valid until the one after it.
     contact::ContactSample next() {
         const double wait = random_.one_in(20) ? 0 : random_.in(0.001, 0.1);
         const double before = rate_;
-        if (random_.one_in(3)) rate_ = random_.in(100, 12000) / 60 * 2 * kPi;
+        if (random_.one_in(3)) rate_ = random_.in(100, kMostRpm) / 60 * 2 * kPi;
         if (random_.one_in(30)) rate_ = 0;
         angle_ += 0.5 * (before + rate_) * wait;
         t_s_ += wait;
         contact::ForceSpectrum& spectrum = spectra_[turn_++ % 2];
         const double force_n = random_.in(0, kMostNewtons);
-        for (int n = 1; n <= kHarmonics; ++n) {
+        for (int n = 1; n <= kind_.harmonics; ++n) {
             const auto c = std::polar(force_n / (n * n), random_.in(0, 2 * kPi));
             spectrum.harmonics[static_cast<std::size_t>(n)] = {0.6 * c, 0.8 * c, c, c};
         }
         contact::ContactSample s;
         s.t_s = t_s_;
-        if (random_.one_in(10))
+        if (kind_.leaps && random_.one_in(10)) {
             place_mm_ = {random_.in(-3000, 3000), random_.in(-3000, 3000), random_.in(-500, 500)};
-        place_mm_ += Vec3{random_.in(-20, 20), random_.in(-20, 20), random_.in(-5, 5)};
+        } else {
+            const Vec3 way{random_.in(-4500, 4500), random_.in(-4500, 4500), random_.in(-4500, 4500)};
+            const Vec3 to = place_mm_ + wait * way;
+            if (length(to) < 3000) place_mm_ = to;
+        }
         s.position_mm = place_mm_;
         s.force_n = {force_n, 0, 0};
         s.slip_mm_per_s = {10, 0, 0};
-        s.area_mm2 = with_chips_ ? random_.in(0, 100) : 0;
+        s.area_mm2 = kind_.chips ? random_.in(0, 100) : 0;
         s.phase_rad = angle_;
         s.phase_rate_rad_per_s = rate_;
         s.spectrum = random_.one_in(6) ? nullptr : &spectrum;
         return s;
     }
-    static constexpr double kMostNewtons = 100;
 
   private:
     Random random_;
-    bool with_chips_;
+    Kind kind_;
     contact::ForceSpectrum spectra_[2];
     std::size_t turn_ = 0;
     double t_s_ = 0, angle_ = 0, rate_ = 0;
@@ -119,55 +128,75 @@ class Watch {
 };
 
 // The listener walks and turns at random too.
-void listen_at_random(sound::Soundtrack& track, Random& random, double t_s) {
+void listen_at_random(sound::Soundtrack& track, Random& random, double t_s, bool leaps) {
     sound::Listener pose;
-    pose.position_m = {random.in(-2000, 2000), random.in(-2000, 2000), random.in(-500, 500)};
+    pose.position_m = {random.in(-1500, 1500), random.in(-1500, 1500), random.in(-500, 500)};
     pose.forward = {random.in(-1, 1), random.in(-1, 1), random.in(-0.3, 0.3)};
-    track.listen(pose, t_s + random.in(0, 3));
+    track.listen(pose, t_s + (leaps ? random.in(0, 3) : random.in(1, 3)));
 }
 
-void play(sound::Soundtrack& track, RandomCut& cut, Watch& watch, double seconds) {
+void play(sound::Soundtrack& track, const Kind& kind, Watch& watch) {
+    RandomCut cut(1, kind);
     Random random(99);
     const auto hear = [&](std::span<const float> block) { watch.hear(block); };
-    while (static_cast<double>(watch.frames()) < seconds * kRate) {
+    while (static_cast<double>(watch.frames()) < seconds_of_sound() * kRate) {
         const contact::ContactSample next = cut.next();
-        if (random.one_in(25)) listen_at_random(track, random, next.t_s);
+        if (random.one_in(25)) listen_at_random(track, random, next.t_s, kind.leaps);
         if (random.one_in(200)) track.release();
         track.play_to(next, hear);
     }
     EXPECT_EQ(watch.beyond(), 0);
 }
 
-TEST(LongSound, of_tones_alone_never_clicks) {
-    // Partials, none louder than at kMostNewtons, at 12000 rpm, at 1 m, at the ear that hears it best; pitch
-    // may be four times that where places leap. Amplitudes that move add a hundredth.
-    sound::SoundtrackOptions options;
-    options.head = sound::Head::sphere(kRate);
+// The largest second difference of partials that are as loud as at kMostNewtons, as high as at kMostRpm times
+// `pitch`, at 1 m, at the ear that hears them best.
+double roughest_possible(const Kind& kind, const sound::Head& head, double pitch) {
     double most = 0;
     for (int azimuth = 0; azimuth < 360; azimuth += 5) {
         sound::EarResponses heard;
-        options.head->hear({3 * std::sin(azimuth * kPi / 180), 3 * std::cos(azimuth * kPi / 180), 0}, heard);
-        for (const double hz : {600.0, 1200.0, 2400.0, 4800.0, 7200.0, 12000.0}) {
+        head.hear({3 * std::sin(azimuth * kPi / 180), 3 * std::cos(azimuth * kPi / 180), 0}, heard);
+        for (double hz = 500; hz < 14000; hz += 500) {
             std::complex<double> sum = 0;
-            for (std::size_t k = 0; k < sound::kHeadTaps; ++k)
-                sum += std::polar(static_cast<double>(heard.taps[0][k]),
-                                  -2 * kPi * hz / kRate * static_cast<double>(k));
+            for (std::size_t k = 0; k < sound::kHeadTaps; ++k) {
+                sum += std::polar(1.0, -2 * kPi * hz / kRate * static_cast<double>(k)) *
+                       static_cast<double>(heard.taps[0][k]);
+            }
             most = std::max(most, std::abs(sum));
         }
     }
-    double bound = 0;
-    for (int n = 1; n <= kHarmonics; ++n) {
-        const double w = 2 * kPi * n * kStep * 200 / kRate;
-        const double curve = 2 * (1 - std::cos(std::min(w, kPi)));
-        bound +=
-            2 * RandomCut::kMostNewtons / (n * n) * sound::kPascalPerNewton / sound::kFullScalePascal * curve;
+    double sum = 0;
+    for (int n = 1; n <= kind.harmonics; ++n) {
+        const double w = 2 * kPi * n * kind.flutes * pitch * kMostRpm / 60 / kRate;
+        const double pascal = 2 * kMostNewtons / (n * n) * sound::kPascalPerNewton;
+        sum += pascal / sound::kFullScalePascal * 2 * (1 - std::cos(std::min(w, kPi)));
     }
+    return most * sum;
+}
+
+TEST(LongSound, of_tones_from_all_around_never_clicks) {
+    const Kind kind;
+    sound::SoundtrackOptions options;
+    options.head = sound::Head::sphere(kRate);
+    // Source and listener at 8 and 6 m/s: at most 1.05 times the pitch; amplitudes that move add a little.
+    const double bound = 1.02 * roughest_possible(kind, *options.head, 1.05);
     sound::Soundtrack track(options);
-    RandomCut cut(1, false);
-    Watch watch(1.01 * most * bound);
-    play(track, cut, watch, seconds_of_sound());
-    EXPECT_EQ(watch.clicks(), 0) << watch.roughest() << " where " << most * bound << " is possible";
-    EXPECT_GT(watch.roughest(), 0.2 * most * bound) << "too quiet to tell";
+    Watch watch(bound);
+    play(track, kind, watch);
+    EXPECT_EQ(watch.clicks(), 0) << watch.roughest() << " where " << bound << " is possible";
+    EXPECT_GT(watch.roughest(), 0.2 * bound) << "too quiet to tell";
+}
+
+TEST(LongSound, of_tones_that_leap_from_place_to_place_slides_and_never_clicks) {
+    // Up to 1 kHz, so that four times the pitch, which is where leaps end, is still no step.
+    const Kind kind{.flutes = 1, .harmonics = 5, .leaps = true};
+    sound::SoundtrackOptions options;
+    options.head = sound::Head::sphere(kRate);
+    const double bound = 1.02 * roughest_possible(kind, *options.head, 4);
+    sound::Soundtrack track(options);
+    Watch watch(bound);
+    play(track, kind, watch);
+    EXPECT_EQ(watch.clicks(), 0) << watch.roughest() << " where " << bound << " is possible";
+    EXPECT_GT(watch.roughest(), 0.02 * bound) << "too quiet to tell";
 }
 
 TEST(LongSound, of_everything_at_once_stays_within_full_scale) {
@@ -186,9 +215,8 @@ TEST(LongSound, of_everything_at_once_stays_within_full_scale) {
     }
     options.recording = options.idle = std::make_shared<const sound::Recording>(machine);
     sound::Soundtrack track(options);
-    RandomCut cut(2, true);
     Watch watch(4);
-    play(track, cut, watch, seconds_of_sound());
+    play(track, {.chips = true, .leaps = true}, watch);
     EXPECT_GT(watch.loudest(), 0.75);
 }
 
