@@ -28,6 +28,20 @@ Vec3 velocity_at(double t, int source) {
     return {2 * kPi * std::cos(angle_at(t, source)), -2 * kPi * std::sin(angle_at(t, source)), 0};
 }
 
+// Where everybody is at the start of each block, worked out beforehand: not the engines' work.
+struct Scenes {
+    std::vector<Vec3> places, velocities;  // block, source
+    Scenes(int blocks, int frames, int sources, bool moving) {
+        for (int b = 0; b < blocks; ++b) {
+            const double t = moving ? b * frames / kRate : 0;
+            for (int n = 0; n < sources; ++n) {
+                places.push_back(place_at(t, n));
+                velocities.push_back(moving ? velocity_at(t, n) : Vec3{});
+            }
+        }
+    }
+};
+
 double sample_of(std::size_t frame) {
     return 0.25 * std::sin(2 * kPi * 1000 / kRate * static_cast<double>(frame));
 }
@@ -39,13 +53,12 @@ double own_ns(const std::shared_ptr<const sound::Head>& head, const sound::EarKe
     constexpr int kQuanta = static_cast<int>(kSeconds * kRate) / sound::kQuantumFrames;
     sound::Quantum pressure;
     for (std::size_t n = 0; n < pressure.size(); ++n) pressure[n] = sample_of(n);
+    const Scenes scenes(kQuanta, sound::kQuantumFrames, kSources, moving);
+    const Vec3* place = scenes.places.data();
     const double start = thread_s();
     for (int q = 0; q < kQuanta; ++q) {
-        const double t = moving ? q * sound::kQuantumFrames / kRate : 0;
         sound::Ears ears;
-        for (int n = 0; n < kSources; ++n) {
-            sources[static_cast<std::size_t>(n)].add(pressure, place_at(t, n), {}, ears);
-        }
+        for (sound::SpatialSource& source : sources) source.add(pressure, *place++, {}, ears);
         keep(ears);
     }
     return 1e9 * (thread_s() - start) / (kQuanta * sound::kQuantumFrames * kSources);
@@ -59,11 +72,12 @@ std::optional<double> peer_ns(bool head, bool moving) {
         if (!scene) return std::nullopt;
         std::vector<float> block(2 * OpenAlScene::kFrames);
         const int blocks = static_cast<int>(kSeconds * kRate) / OpenAlScene::kFrames;
+        const Scenes scenes(blocks, OpenAlScene::kFrames, sources, moving);
         const double start = thread_s();
         for (int b = 0; b < blocks; ++b) {
-            const double t = moving ? b * OpenAlScene::kFrames / kRate : 0;
             for (int n = 0; n < sources && (moving || b == 0); ++n) {
-                scene->place(n, place_at(t, n), moving ? velocity_at(t, n) : Vec3{});
+                const auto at = static_cast<std::size_t>(b * sources + n);
+                scene->place(n, scenes.places[at], scenes.velocities[at]);
             }
             scene->render(block);
             keep(block);

@@ -24,7 +24,7 @@ const InterpolatorTable& interpolator_table();
 inline constexpr int kHeadTaps = 128;
 // Of a response that moves the first taps glide, frame by frame; the later ones, which hold little of the
 // sound, stand still for half a quantum at a time.
-inline constexpr int kGlidingTaps = 64, kStandingFrames = 32;
+inline constexpr int kGlidingTaps = 48, kStandingFrames = 32;
 
 // c0 + t (c1 + t c2), t = frame / 64.
 struct Course {

@@ -89,9 +89,9 @@ TRIBO_LANES void put(float* p, Wide v) {
     std::memcpy(p, &v, sizeof v);
 }
 
-// sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees 8
-// frames on, so two taps are worth one walk through x. Few blocks keep two sums each, or additions would wait
-// for one another.
+// sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees
+// 8 frames on, so two taps are worth one walk through x. Few blocks keep two sums each, or additions would
+// wait for one another.
 template <int kBlocks>
 TRIBO_LANES void add_taps(const float* x, const float* h, int from, int to, Wide* sum) {
     constexpr int kOn = kLanes / kWide;
@@ -169,10 +169,14 @@ void convolve(const float* x, const float* from, const float* to, int taps, floa
 void blend(const float* const* five, const float* weight, int taps, float* out) {
     const F8 w0 = splat(weight[0]), w1 = splat(weight[1]), w2 = splat(weight[2]), w3 = splat(weight[3]),
              w4 = splat(weight[4]);
-    for (int k = 0; k < taps; k += kLanes) {
-        store(out + k, ((w0 * load(five[0] + k) + w1 * load(five[1] + k)) +
-                        (w2 * load(five[2] + k) + w3 * load(five[3] + k))) +
-                           w4 * load(five[4] + k));
+    const auto four = [&](int k) {
+        return (w0 * load(five[0] + k) + w1 * load(five[1] + k)) +
+               (w2 * load(five[2] + k) + w3 * load(five[3] + k));
+    };
+    if (weight[4] == 0) {  // outside of the head
+        for (int k = 0; k < taps; k += kLanes) store(out + k, four(k));
+    } else {
+        for (int k = 0; k < taps; k += kLanes) store(out + k, four(k) + w4 * load(five[4] + k));
     }
 }
 

@@ -15,13 +15,11 @@ namespace {
 double angle_of(double y, double x) {
     const double ax = std::abs(x), ay = std::abs(y), most = std::max(ax, ay);
     const double t = most > 0 ? std::min(ax, ay) / most : 0, s = t * t;
-    const double a =
-        t * (1 + s * (-0.3333314528 +
-                      s * (0.1999355085 +
-                           s * (-0.1420889944 +
-                                s * (0.1065626393 +
-                                     s * (-0.0752896400 +
-                                          s * (0.0429096138 + s * (-0.0161657367 + s * 0.0028662257))))))));
+    // In pairs, so that no term waits for all before it.
+    const double s2 = s * s, s4 = s2 * s2;
+    const double low = (1 - 0.3333314528 * s) + s2 * (0.1999355085 - 0.1420889944 * s);
+    const double high = (0.1065626393 - 0.0752896400 * s) + s2 * (0.0429096138 - 0.0161657367 * s);
+    const double a = t * (low + s4 * (high + s4 * 0.0028662257));
     const double first = ay > ax ? math::kHalfPi - a : a;
     const double half = x < 0 ? math::kPi - first : first;
     return y < 0 ? -half : half;
@@ -41,8 +39,12 @@ Vec3 Head::grid_direction(int row, int column) {
 }
 
 void Head::hear(Vec3 place, EarResponses& out, const EarKernels& kernels) const {
-    const double size = length(place), inside = std::min(size, 1.0);
-    const Vec3 d = size > 0 ? place / size : Vec3{0, 1, 0};
+    hear(place, length(place), out, kernels);
+}
+
+void Head::hear(Vec3 d, double size, EarResponses& out, const EarKernels& kernels) const {
+    const double inside = std::min(size, 1.0);
+    if (size == 0) d = {0, 1, 0};  // the middle has no direction
     const double azimuth = angle_of(d.x, d.y) * (kColumns / math::kTwoPi);
     const double elevation =
         (angle_of(d.z, std::sqrt(d.x * d.x + d.y * d.y)) / math::kPi + 0.5) * (kRows - 1);

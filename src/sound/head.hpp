@@ -53,6 +53,8 @@ class Head {
     // Responses to a source at `place` in head radii (longer than 1: that direction). Real-time safe, about
     // 0.3 us.
     void hear(Vec3 place, EarResponses& out, const EarKernels& kernels = ear_kernels()) const;
+    // The same of a direction, of any length, and the distance in head radii.
+    void hear(Vec3 direction, double radii, EarResponses& out, const EarKernels& kernels) const;
 
     // Grid of the directions: azimuth from the front to the right, elevation up.
     static constexpr int kStepDeg = 5, kColumns = 360 / kStepDeg, kRows = 180 / kStepDeg + 1;

@@ -96,7 +96,7 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
     for (int round = 0; round < kRounds; ++round) {
         place = place_at(std::min(travelled_, most));
         const double next = distance(place, listener.position_m) * frames_per_metre_ / kQuantumFrames;
-        const bool there = std::abs(next - travelled_) < 1e-6;
+        const bool there = std::abs(next - travelled_) < 1e-5;  // what is left shrinks once more
         travelled_ = std::min(next, most);
         if (there) break;
     }
@@ -106,8 +106,8 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
 
 SpatialSource::State SpatialSource::state(Vec3 place_m, const Listener& listener, EarResponses& heard) {
     const Vec3 towards = place_m - listener.position_m;
-    head_->hear(axes_.seen(towards) / kHeadRadius, heard, *kernels_);
     const double rate = head_->sample_rate_hz(), metres = length(towards);
+    head_->hear(axes_.seen(towards), metres * (1 / kHeadRadius), heard, *kernels_);
     const double travel = std::min(metres * frames_per_metre_, kLongestTravelSeconds * rate);
     State s;
     for (std::size_t ear = 0; ear < 2; ++ear) {
