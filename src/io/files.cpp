@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/file_beside.hpp"
+
 namespace tribo::io {
 namespace {
 
@@ -122,8 +124,6 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
 
 FileWriter::FileWriter(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {
     buffer_.reserve(kWriteBufferBytes);
-    struct stat status = {};
-    removable_ = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
 FileWriter::FileWriter(FileWriter&& other) noexcept
@@ -136,13 +136,15 @@ FileWriter::FileWriter(FileWriter&& other) noexcept
 FileWriter::~FileWriter() {
     if (descriptor_ < 0) return;
     ::close(descriptor_);
-    if (removable_) ::unlink(path_.c_str());
+    if (removable_) ::unlink(name_beside(path_).c_str());
 }
 
 FileResult<FileWriter> FileWriter::create(const std::string& path) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor < 0) return system_failure(path, "write", errno);
-    return FileWriter(path, descriptor);
+    const FileResult<FileBeside> file = open_beside(path);
+    if (!file) return std::unexpected(file.error());
+    FileWriter writer(path, file->descriptor);
+    writer.removable_ = file->beside;
+    return writer;
 }
 
 void FileWriter::flush(std::string_view bytes) {
@@ -172,8 +174,9 @@ FileResult<void> FileWriter::finish() {
     buffer_.clear();
     const int descriptor = std::exchange(descriptor_, -1);
     if (::close(descriptor) != 0 && error_number_ == 0 && errno != EINTR) error_number_ = errno;
+    if (error_number_ == 0 && removable_) error_number_ = take_name(path_);
     if (error_number_ == 0) return {};
-    if (removable_) ::unlink(path_.c_str());
+    if (removable_) ::unlink(name_beside(path_).c_str());
     return system_failure(path_, "write", error_number_);
 }
 

@@ -36,7 +36,8 @@ inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
 
 // Writes a new file piece by piece through one buffer. A failure sticks: later pieces are dropped and
-// finish() tells the first one. A file that was not finished is removed.
+// finish() tells the first one. It grows beside a file of that name, which it replaces in the end; one that
+// was not finished leaves nothing.
 class FileWriter {
   public:
     static FileResult<FileWriter> create(const std::string& path);
@@ -54,7 +55,7 @@ class FileWriter {
 
     std::string path_;
     int descriptor_ = -1;
-    bool removable_ = false;  // a regular file; a device stays where it is
+    bool removable_ = false;  // grows beside; a device is written as it is
     int error_number_ = 0;
     std::string buffer_;
 };

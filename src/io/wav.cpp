@@ -6,13 +6,12 @@
 #include <cassert>
 #include <cerrno>
 #include <cmath>
-#include <fcntl.h>
 #include <sndfile.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
 #include "base/noise_hash.hpp"
+#include "io/file_beside.hpp"
 
 namespace tribo::io {
 namespace {
@@ -77,7 +76,7 @@ struct WavWriter::State {
     WavFormat format;
     std::int64_t longest_frames = 0;
     OpenFile file;
-    bool removable = false;
+    bool beside = false;
     SF_VIRTUAL_IO io = callbacks();
     SNDFILE* container = nullptr;
     CounterNoise dither{0};
@@ -89,7 +88,7 @@ struct WavWriter::State {
         if (container != nullptr) ::sf_close(container);
         if (file.descriptor < 0) return;
         ::close(file.descriptor);
-        if (removable) ::unlink(path.c_str());
+        if (beside) ::unlink(name_beside(path).c_str());
     }
 
     template <class Sample, class Convert>
@@ -132,10 +131,10 @@ FileResult<WavWriter> WavWriter::create(const std::string& path, const WavFormat
     state->format = format;
     state->longest_frames = std::min(longest_frames, longest_wav_frames(format));
     state->dither = CounterNoise(format.dither_seed);
-    state->file.descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (state->file.descriptor < 0) return system_failure(path, "write", errno);
-    struct stat status = {};
-    state->removable = ::fstat(state->file.descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    const FileResult<FileBeside> file = open_beside(path);
+    if (!file) return std::unexpected(file.error());
+    state->file.descriptor = file->descriptor;
+    state->beside = file->beside;
 
     SF_INFO info = {};
     info.samplerate = format.sample_rate_hz;
@@ -204,11 +203,14 @@ FileResult<void> WavWriter::finish() {
     }
     if (s.file.error_number == 0 && (s.broken || closed != 0)) s.file.error_number = EIO;
     if (s.file.error_number != 0) return system_failure(s.path, "write", s.file.error_number);
-    if (::close(std::exchange(s.file.descriptor, -1)) != 0 && errno != EINTR) {
-        const int error_number = errno;
-        if (s.removable) ::unlink(s.path.c_str());
-        return system_failure(s.path, "write", error_number);
+    int error_number = 0;
+    if (::close(std::exchange(s.file.descriptor, -1)) != 0 && errno != EINTR) error_number = errno;
+    if (s.beside && error_number == 0) {
+        error_number = take_name(s.path);
+    } else if (s.beside) {
+        ::unlink(name_beside(s.path).c_str());
     }
+    if (error_number != 0) return system_failure(s.path, "write", error_number);
     return {};
 }
 

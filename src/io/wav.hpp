@@ -25,8 +25,9 @@ struct WavFormat {
 // bits, stereo, 48 kHz). Ask before a long rendering.
 std::int64_t longest_wav_frames(const WavFormat& format);
 
-// A failure sticks: later blocks are dropped and finish() tells the first one. A file that was not finished
-// is removed. The bytes of a file depend on format and samples alone.
+// A failure sticks: later blocks are dropped and finish() tells the first one. It grows beside a file of
+// that name, which it replaces in the end; one that was not finished leaves nothing. The bytes of a file
+// depend on format and samples alone.
 class WavWriter {
   public:
     // Refuses a format out of range. `longest_frames`: refuse more than this many (and than the container
