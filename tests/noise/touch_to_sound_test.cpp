@@ -44,7 +44,7 @@ std::vector<double> power_after_the_report(std::size_t block, int starts) {
         for (std::size_t n = 0; n < first; ++n) EXPECT_EQ(sound[n], 0);
         for (std::size_t n = 0; n < kSteps * kStep; ++n) {
             const double v = static_cast<double>(sound[first + n]);
-            power[n / kStep] += v * v / (kStep * starts);
+            power[n / kStep] += v * v / (static_cast<double>(kStep) * starts);
         }
     }
     return power;
