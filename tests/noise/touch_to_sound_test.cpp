@@ -28,7 +28,7 @@ std::vector<double> power_after_the_report(std::size_t block, int starts) {
         const double shift = 0.0003 * start, told_s = 0.5 + shift;
         double next_report = shift;
         std::size_t frame = 0;
-        while (frame < static_cast<std::size_t>(0.54 * kRate)) {
+        while (frame < static_cast<std::size_t>((told_s + 0.04) * kRate)) {
             const double now = static_cast<double>(frame) / kRate;
             for (; next_report <= now; next_report += 1.0 / 60) {
                 finger.touch(next_report, next_report < told_s - 1e-9 ? 0 : 2 + 120 * (next_report - told_s),
