@@ -7,8 +7,29 @@ import { gzipSync } from "node:zlib";
 import { chromium, type Browser } from "playwright-core";
 
 export const ROOT = join(import.meta.dirname, "../../..");
+export const PROGRAM = join(ROOT, "build/release/tribo");
 export const CHROMIUM = "/usr/bin/chromium";
 export const PATIENCE_MS = 60_000;
+
+// A ball cutter in a block, by the program p.nc.
+export function jobText(box_mm: string, more = ""): string {
+  return `${more}[stock]
+box_mm = ${box_mm}
+[cutter]
+kind = "ball"
+diameter_mm = 6
+flutes = 2
+helix_deg = 30
+length_mm = 20
+[material]
+name = "al7075-t6"
+[process]
+spindle_rpm = 9000
+feed_mm_per_min = 1200
+[path]
+gcode = "p.nc"
+`;
+}
 
 export function launch(): Promise<Browser> {
   return chromium.launch({

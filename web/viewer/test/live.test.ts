@@ -4,31 +4,12 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { chromium, type Browser, type Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-const ROOT = join(import.meta.dirname, "../../..");
-const PROGRAM = join(ROOT, "build/release/tribo");
-const CHROMIUM = "/usr/bin/chromium";
-const PATIENCE_MS = 60_000;
+import { CHROMIUM, jobText, launch, PATIENCE_MS, PROGRAM } from "./browser.js";
 
-const JOB = `
-[stock]
-box_mm = [[0, 0, -8], [40, 20, 0]]
-[cutter]
-kind = "ball"
-diameter_mm = 6
-flutes = 2
-helix_deg = 30
-length_mm = 20
-[material]
-name = "al7075-t6"
-[process]
-spindle_rpm = 9000
-feed_mm_per_min = 1200
-[path]
-gcode = "p.nc"
-`;
+const JOB = jobText("[[0, 0, -8], [40, 20, 0]]");
 // Two grooves, then a rapid through what is left between.
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\nG0 Y16 X20\n";
 
@@ -62,20 +43,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT);
     const started = await startLive(folder);
     engine = started.engine;
-    browser = await chromium.launch({
-      executablePath: CHROMIUM,
-      headless: true,
-      args: [
-        "--no-sandbox",
-        "--disable-quic",
-        "--no-first-run",
-        "--disable-background-networking",
-        "--disable-component-update",
-        "--disable-sync",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-      ],
-    });
+    browser = await launch();
     page = await browser.newPage({ viewport: { width: 800, height: 600 } });
     page.on("pageerror", (error) => problems.push(error.message));
     page.on("request", (request) => {

@@ -8,32 +8,14 @@ import { pathToFileURL } from "node:url";
 import { chromium, type Browser, type Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-const ROOT = join(import.meta.dirname, "../../..");
-const PROGRAM = join(ROOT, "build/release/tribo");
-const CHROMIUM = "/usr/bin/chromium";
-const PATIENCE_MS = 60_000;
+import { CHROMIUM, jobText, PATIENCE_MS, PROGRAM } from "./browser.js";
+
 const FLAGS = ["--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update"];
 const WITH_GL = [...FLAGS, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-const JOB = `
-[part]
+const JOB = jobText("[[0, 0, -8], [40, 20, 0]]", `[part]
 surface = "plane.stl"
-[stock]
-box_mm = [[0, 0, -8], [40, 20, 0]]
-[cutter]
-kind = "ball"
-diameter_mm = 6
-flutes = 2
-helix_deg = 30
-length_mm = 20
-[material]
-name = "al7075-t6"
-[process]
-spindle_rpm = 9000
-feed_mm_per_min = 1200
-[path]
-gcode = "p.nc"
-`;
+`);
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\n";
 // Where the two grooves end, as one square.
 const corner = (x: number, y: number) => `vertex ${x} ${y} -2\n`;

@@ -8,27 +8,12 @@ import AxeBuilder from "axe-core";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { CHROMIUM, launch, PATIENCE_MS, ROOT, serve } from "./browser.js";
+import { CHROMIUM, jobText, launch, PATIENCE_MS, ROOT, serve } from "./browser.js";
 
 const SITE = join(ROOT, "build/web/site");
 const PICTURES = process.env.TRIBO_PICTURES;
 
-const JOB = `[stock]
-box_mm = [[0, 0, -6], [30, 16, 0]]
-[cutter]
-kind = "ball"
-diameter_mm = 6
-flutes = 2
-helix_deg = 30
-length_mm = 20
-[material]
-name = "al7075-t6"
-[process]
-spindle_rpm = 9000
-feed_mm_per_min = 1200
-[path]
-gcode = "p.nc"
-`;
+const JOB = jobText("[[0, 0, -6], [30, 16, 0]]");
 // A slot, then a rapid through what is left beside it.
 const PROGRAM = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X35\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X35\nG0 Y14 X20\n";
 const SURFACE = "v 0 0 -2\nv 30 0 -2\nv 30 16 -2\nv 0 16 -2\nf 1 2 3\nf 1 3 4\n";
