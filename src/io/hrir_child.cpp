@@ -56,6 +56,7 @@ class Unpacking {
     template <class T>
     bool take(T* values, std::size_t count) {
         if (bytes_.size() / sizeof(T) < count) return false;
+        if (count == 0) return true;  // there may be no place to put nothing
         std::memcpy(values, bytes_.data(), count * sizeof(T));
         bytes_.remove_prefix(count * sizeof(T));
         return true;

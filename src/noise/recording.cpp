@@ -127,6 +127,12 @@ Result<PreparedRecording> prepare(const Recording& recording, double highpass_hz
             return refuse("holds samples that are no numbers", "record or convert it anew");
         peak = std::max(peak, std::abs(v));
     }
+    const auto too_short = [&](double seconds) {
+        return refuse("holds only " + format_decimal(std::round(1000 * seconds)) + " ms of sound",
+                      "give at least " + format_decimal(kShortestS) + " s, better several seconds");
+    };
+    const double lasts_s = static_cast<double>(recording.samples.size()) / recording.sample_rate_hz;
+    if (lasts_s < kShortestS) return too_short(lasts_s);
     PreparedRecording out;
     out.peak_db = db_of_power(peak * peak);
     const auto all = static_cast<double>(recording.samples.size());
@@ -165,11 +171,7 @@ Result<PreparedRecording> prepare(const Recording& recording, double highpass_hz
         return refuse("is silent", "give a recording in which the material is rubbed");
     }
     out.silent_share = 1 - kept / static_cast<double>(sound.size());
-    if (kept < kShortestS * out.sample_rate_hz) {
-        return refuse(
-            "holds only " + format_decimal(std::round(1000 * kept / out.sample_rate_hz)) + " ms of sound",
-            "give at least " + format_decimal(kShortestS) + " s, better several seconds");
-    }
+    if (kept < kShortestS * out.sample_rate_hz) return too_short(kept / out.sample_rate_hz);
     if (out.silent_share > 0.001) {
         out.warnings.push_back(
             {recording.name, 0, percent(out.silent_share) + " of it is silence, left out"});
