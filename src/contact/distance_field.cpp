@@ -11,6 +11,8 @@ namespace {
 constexpr int kMostRounds = 16;
 // A point this close to the surface is on it, mm.
 constexpr double kOnSurface = 1e-6;
+// ... and has come to rest where the next step is shorter than this, mm: the distance is off by its square.
+constexpr double kStill = 1e-4;
 // Normals of one smooth piece, from one step of the search to the next, agree at least this well.
 constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance, and are too great from this share of a sphere's on.
@@ -28,15 +30,6 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
     bool there = false;  // the nearest point of all sides, not one on the way to it
     for (int n = 0; n < kMostRounds; ++n) {
         const SurfaceSample s = field.sample(q);
-        if (there && std::abs(s.distance_mm) <= kOnSurface) {
-            const double way = length(point_mm - q);
-            int held_by = 0;
-            for (int i = 0; i < sides.count; ++i)
-                held_by += sides.side[static_cast<std::size_t>(i)].above(q) > -kOnSurface ? 1 : 0;
-            const bool smooth = held_by == 1;
-            if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, smooth};
-            return {{s.distance_mm, s.normal, s.piece}, q, true, false};
-        }
         for (int i = 0; i < sides.count; ++i) {
             HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
             const SurfaceSample t = field.sample_piece(side.piece, q);
@@ -45,6 +38,16 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         }
         sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
         const Vec3 next = sides.nearest(point_mm);
+        // On the surface, and nowhere nearer as all sides stand there.
+        if (there && std::abs(s.distance_mm) <= kOnSurface && distance(next, q) <= kStill) {
+            const double way = length(point_mm - q);
+            int held_by = 0;
+            for (int i = 0; i < sides.count; ++i)
+                held_by += sides.side[static_cast<std::size_t>(i)].above(q) > -kOnSurface ? 1 : 0;
+            const bool smooth = held_by == 1;
+            if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, smooth};
+            return {{s.distance_mm, s.normal, s.piece}, q, true, false};
+        }
         const double step = distance(next, q);
         there = step <= longest_mm;
         q = there ? next : q + (longest_mm / step) * (next - q);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace tribo::field {
 namespace {
@@ -290,13 +291,26 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     // At a cusp: the nearest surface point of each brick that may hold one.
     contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
     bool doubt = false;
+    Vec3 refuted{1e300, 0, 0};  // the last foot that was none
     const auto search = [&](BrickRef ref, Vec3 start) {
-        const NearBrick brick(*this, ref);
-        const contact::SurfaceSample found = contact::nearest_from(brick, p, start, kLongestCells * cell_mm);
-        // What one brick's shapes leave may be air by another's.
-        if (std::abs(distance_mm(p - found.distance_mm * found.normal)) <= kAgree * cell_mm) {
-            if (found.distance_mm < best.distance_mm) best = found;
-            return p - found.distance_mm * found.normal;
+        Vec3 from = start;
+        for (int tries = 0; tries < 2; ++tries) {
+            const NearBrick brick(*this, ref);
+            const contact::SurfaceSample found =
+                contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
+            const Vec3 foot = p - found.distance_mm * found.normal;
+            const contact::SurfaceSample at_foot = sample(foot);
+            if (std::abs(at_foot.distance_mm) <= kAgree * cell_mm) {
+                if (found.distance_mm < best.distance_mm) best = found;
+                return foot;
+            }
+            // What one brick's shapes leave may be air by another's: on from the surface that there is.
+            if (squared_length(foot - refuted) < kOnSurface * kOnSurface) break;
+            refuted = foot;
+            from = foot - at_foot.distance_mm * at_foot.normal;
+            const BrickCoord b = brick_at(from);
+            if (!bricks.contains(b) || bricks.get(b) == kAir) break;
+            ref = bricks.get(b);
         }
         doubt = true;
         return start;
@@ -326,8 +340,12 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {seen, seen + 2 * n}, start);
              ++n) {
             if (++searches > kMostSearches) break;
+            const bool doubted = std::exchange(doubt, false);
             seen[2 * n] = start;
             seen[2 * n + 1] = search(ref, start);
+            const bool astray = doubt;
+            doubt = doubt || doubted;
+            if (astray) break;  // as would be the others of this brick
         }
         if (searches > kMostSearches) break;
     }
