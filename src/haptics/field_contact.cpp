@@ -13,6 +13,8 @@ constexpr double kSkin = 1e-6;
 // The proxy has settled when its way along the surface is below this share of the penetration: the share of
 // the force's direction that is still wrong.
 constexpr double kSettled = 2e-3;
+// At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
+constexpr double kPeek = 1e-5, kGrazing = 0.1;
 // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
 constexpr double kOneSide = 0.95;
 // A surface that faces away like this is the other side of a wall, or of a slot.
@@ -21,6 +23,8 @@ constexpr double kOtherSide = -0.5;
 constexpr double kOverEdge = 0.5;
 // Longer than this share of what is left, a step is a leap.
 constexpr double kFarther = 1.25;
+// ... which must gain this share of the rest, squared.
+constexpr double kGain = 0.5;
 constexpr double kShorter = 0.25, kShortest = 0.1;
 // In flight, contact is made where the free ball is smaller than this share of the way to go.
 constexpr double kNear = 0.02;
@@ -138,9 +142,18 @@ void FieldContact::fly(Vec3 probe) {
         a.radius = gap_.clearance_mm(*field_, a.at, distance(probe, a.at));
     }
     // At the surface; the last ball, or what is left of it, reaches there.
-    const ProbeGap::Gap g = gap_.measure(*field_, a.at);
+    ProbeGap::Gap g = gap_.measure(*field_, a.at);
+    Vec3 seen_at = a.at;
+    // At a convex edge it is the face that the probe goes along, not the one that ends there.
+    const Vec3 ahead = normalized(probe - last_proxy_, -g.normal),
+               next_to = a.at + (g.gap_mm + kPeek) * ahead;
+    const ProbeGap::Gap beyond = gap_.measure(*field_, next_to);
+    if (beyond.gap_mm >= -2 * kSkin && std::abs(dot(beyond.normal, ahead)) < kGrazing) {
+        g = beyond;
+        seen_at = next_to;
+    }
     at_ = {};
-    at_.proxy = a.at - g.gap_mm * g.normal;
+    at_.proxy = seen_at - g.gap_mm * g.normal;
     at_.normal = g.normal;
     at_.ball = g.ball;
     at_.sides.put(side_of(g.normal), kOneSide);
@@ -257,6 +270,12 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         } else if (g.gap_mm < -kSkin) {
             // Another side is in the way: the proxy stands where all of them meet.
             next = corner_of(s, landed, g.normal).nearest(trial);
+            if (distance(next, trial) > size + kSkin) {
+                // Not between here and the trial: the far side of a wall.
+                share *= kShorter;
+                last_length = 0;
+                continue;
+            }
             sides = s.sides;
             sides.put(side_of(g.normal), kOneSide);
         } else {
@@ -267,7 +286,10 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
             }
             sides.put(side_of(g.normal), kOneSide);
         }
-        if (size > kSkin && distance(probe, next) > distance(probe, s.proxy) + kLeap * size) {
+        // A step that goes beyond the probe may come down far on its other side.
+        const double most = size > kFarther * rest ? std::sqrt(squared_length(way) - kGain * rest * rest)
+                                                   : length(way) + kLeap * size;
+        if (size > kSkin && distance(probe, next) > most) {
             share *= kShorter;
             last_length = 0;
             continue;

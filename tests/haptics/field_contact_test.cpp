@@ -54,6 +54,33 @@ TEST(FieldContact, a_corner_holds_the_proxy_by_both_its_sides) {
     EXPECT_NEAR(c.force_n.z, 0.292, 1e-3);
 }
 
+// Material where x > 0 and z < 0: at its edge both faces are equally near.
+class Step final : public contact::DistanceField {
+  public:
+    double distance_mm(Vec3 p) const override { return std::max(-p.x, p.z); }
+    Vec3 normal(Vec3 p) const override { return -p.x >= p.z ? Vec3{-1, 0, 0} : Vec3{0, 0, 1}; }
+};
+
+TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
+    const Step step;
+    for (const double height : {0.0, 5e-7, -5e-7}) {
+        for (const double pace : {1e-3, 0.015, 0.4}) {
+            FieldContact contact(step, options(1));
+            for (const double way : {1.0, -1.0}) {
+                for (int n = 0; n <= 100; ++n) {
+                    const Contact c = contact.update({way * pace * (n - 50), 0.1 * pace * n, height});
+                    EXPECT_LT(length(c.force_n), 1e-5) << height << " " << pace << " " << way << " " << n;
+                }
+            }
+        }
+    }
+    // A little below it the other face does hold.
+    FieldContact contact(step, options(1));
+    Contact c;
+    for (int n = -50; n <= 50; ++n) c = contact.update({0.002 * n, 0, -1e-3});
+    EXPECT_NEAR(c.force_n.x, -0.1, 1e-6);
+}
+
 // In the hollow of a groove the nearest surface point lies on the line from the axis through the probe.
 TEST(FieldContact, in_a_groove_the_force_is_that_of_the_nearest_surface_point) {
     const Grooves grooves(1, 0.025);
