@@ -2,9 +2,14 @@
 #include "app/feel.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "app/exit.hpp"
@@ -14,17 +19,22 @@
 #include "app/render_job.hpp"
 #include "devices/device_search.hpp"
 #include "devices/servo_thread.hpp"
+#include "field/mesh_field.hpp"
 #include "formats/feel_trace_csv.hpp"
 #include "formats/stroke_csv.hpp"
 #include "haptics/simulated_hand.hpp"
 #include "io/feel_stats_json.hpp"
+#include "io/model_file.hpp"
 #include "session/feel_session.hpp"
+#include "session/live_mill.hpp"
 
 namespace tribo::app {
 namespace {
 
 // A row of the trace and its share of the text, bytes: what a run may hold.
 constexpr double kMostTicks = 20e6;
+// By the clock, the part in cut mode is milled on this often.
+constexpr std::chrono::milliseconds kMillEvery{5};
 
 io::DurationFigures figures_of(const devices::DurationHistogram& histogram) {
     const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
@@ -84,12 +94,14 @@ class Run {
     }
 
     // Tick by tick as fast as it goes; time is counted, not measured.
-    bool count_through(io::FeelStats& stats) {
+    bool count_through(FeelSource& felt, io::FeelStats& stats) {
         devices::TickClock clock;
         Progress progress;
         while (done_ < count_) {
+            const double now_s = static_cast<double>(done_) / rate_hz_;
+            felt.mill_to(now_s);
             clock.begin();
-            const haptics::ServoTick tick = servo_.tick(static_cast<double>(done_) / rate_hz_);
+            const haptics::ServoTick tick = servo_.tick(now_s);
             clock.end();
             keep(tick);
             constexpr std::size_t look = 4096;
@@ -104,12 +116,26 @@ class Run {
     }
 
     // By the clock, on a thread of its own.
-    bool run_in_time(io::FeelStats& stats) {
-        devices::ServoThread thread({rate_hz_}, [this](double now_s) {
+    bool run_in_time(FeelSource& felt, io::FeelStats& stats) {
+        std::atomic<double> clock_s = 0;
+        std::atomic<bool> over = false;
+        devices::ServoThread thread({rate_hz_}, [&](double now_s) {
+            clock_s.store(now_s, std::memory_order_relaxed);
             keep(servo_.tick(now_s));
             return done_ < count_ && servo_.device_there() && !interrupted();
         });
+        std::thread miller;
+        if (felt.mills_in_time()) {
+            miller = std::thread([&] {
+                while (!over.load(std::memory_order_relaxed)) {
+                    felt.mill_to(clock_s.load(std::memory_order_relaxed));
+                    std::this_thread::sleep_for(kMillEvery);
+                }
+            });
+        }
         thread.join();
+        over = true;
+        if (miller.joinable()) miller.join();
         stats.late = thread.late();
         stats.lateness = figures_of(thread.lateness());
         for (const std::string& note : {thread.granted().real_time, thread.granted().memory}) {
@@ -148,6 +174,62 @@ class Run {
     std::vector<formats::FeelTraceRow> trace_;
 };
 
+// What is to be felt: a job that is milled, or a model as it is.
+struct Part {
+    formats::Job job;
+    std::optional<session::MillSetup> setup, in_time;
+    std::unique_ptr<const field::MeshField> surface;
+    Box3 bounds_mm;
+    Warnings warnings;
+};
+
+bool is_model(const std::string& file) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    constexpr std::string_view kEndings[] = {".wrl", ".vrml", ".stl", ".obj", ".ply", ".gltf", ".glb"};
+    return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+}
+
+io::FileResult<void> read_model(const FeelCall& call, Part& part) {
+    const auto refuse = [&](std::string cause, std::string remedy) {
+        return std::unexpected(io::Failure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
+    };
+    if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
+    auto model = io::read_model_file({call.job, std::nullopt});
+    if (!model) return std::unexpected(model.error());
+    auto surface = field::MeshField::make(std::move(model->mesh));
+    if (!surface) return refuse(surface.error().cause, surface.error().remedy);
+    part.bounds_mm = (*surface)->bounds_mm();
+    if ((*surface)->is_sheet()) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "the surface is open: its front is where its normals point, its back %g mm behind",
+                      field::MeshField::kThicknessMm);
+        part.warnings.push_back({call.job, 0, text});
+    }
+    part.surface = std::move(*surface);
+    return {};
+}
+
+io::FileResult<void> read_job(const FeelCall& call, Part& part) {
+    RenderCall render;
+    render.job = call.job;
+    render.resolution_mm = call.resolution_mm;
+    render.until_s = call.until_s;
+    auto loaded = load_job(render);
+    if (!loaded) return std::unexpected(loaded.error());
+    if (auto fits = check_memory(render, *loaded); !fits) return std::unexpected(io::Failure(fits.error()));
+    part.bounds_mm = loaded->setup.blank->bounds_mm();
+    part.warnings = std::move(loaded->warnings);
+    part.job = std::move(loaded->job);
+    part.setup = std::move(loaded->setup);
+    if (call.mode != "cut") return {};
+    auto again = load_job(render, session::LiveMill::kPieceMm);
+    if (!again) return std::unexpected(again.error());
+    part.in_time = std::move(again->setup);
+    return {};
+}
+
 io::FileResult<void> write_trace(const std::string& path, const std::vector<formats::FeelTraceRow>& trace) {
     auto file = io::FileWriter::create(path);
     if (!file) return std::unexpected(file.error());
@@ -183,23 +265,22 @@ int feel(const FeelCall& call) {
     auto stroke = read_stroke(call);
     if (!stroke) return report(stroke.error());
     const double start_s = stroke->start_s(), end_s = stroke->end_s();
-    RenderCall render;
-    render.job = call.job;
-    render.resolution_mm = call.resolution_mm;
-    render.until_s = call.until_s;
-    auto loaded = load_job(render);
-    if (!loaded) return report(loaded.error());
-    if (auto fits = check_memory(render, *loaded); !fits) return report(fits.error());
-    const Box3 blank = loaded->setup.blank->bounds_mm();
-    auto device = open_device(call, std::move(*stroke), blank);
+    Part part;
+    if (auto read = is_model(call.job) ? read_model(call, part) : read_job(call, part); !read)
+        return report(read.error());
+    auto device = open_device(call, std::move(*stroke), part.bounds_mm);
     if (!device) {
         report(device.error());
         return kRefused;
     }
-    const double surface_n_per_mm = stiffness(call, loaded->job, (*device)->limits(), loaded->warnings);
-    report(loaded->warnings);
-    FeelSource felt(call, loaded->job, surface_n_per_mm, start_s, (*device)->limits());
-    if (auto made = felt.make(std::move(loaded->setup)); !made) return report(made.error());
+    const double surface_n_per_mm = stiffness(call, part.job, (*device)->limits(), part.warnings);
+    report(part.warnings);
+    FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());
+    if (part.surface) {
+        felt.make(std::move(part.surface));
+    } else if (auto made = felt.make(std::move(*part.setup), std::move(part.in_time)); !made) {
+        return report(made.error());
+    }
     if (interrupted()) return interrupted_exit_code();
     io::FeelStats stats;
     stats.version = TRIBO_VERSION;
@@ -207,8 +288,9 @@ int feel(const FeelCall& call) {
     stats.mode = call.mode;
     Run run(**device, felt.source(), session::safety_limits(**device, call.rate_hz), start_s, end_s,
             call.rate_hz);
-    const bool in_time = call.real_time || (*device)->has_motors();
-    if (!(in_time ? run.run_in_time(stats) : run.count_through(stats))) return interrupted_exit_code();
+    const bool by_clock = call.real_time || (*device)->has_motors();
+    if (!(by_clock ? run.run_in_time(felt, stats) : run.count_through(felt, stats)))
+        return interrupted_exit_code();
     stats.table = felt.table_figures();
     if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
     if (!call.stats.empty()) {

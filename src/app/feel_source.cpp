@@ -67,7 +67,7 @@ bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
     return milled_->run(sinks);
 }
 
-void FeelSource::inspect() {
+haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) const {
     haptics::ContactOptions contact;
     contact.stiffness_n_per_mm = surface_n_per_mm_;
     contact.probe_radius_mm = call_.probe_mm;
@@ -75,14 +75,19 @@ void FeelSource::inspect() {
     contact.friction_kinetic = job_.haptics.friction_kinetic.value_or(contact.friction_static);
     contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
     contact.tick_s = 1 / call_.rate_hz;
-    haptics::ProbeShape probe;
     if (job_.haptics.probe == formats::ProbeKind::ray) probe = haptics::ProbeShape::ray();
     if (job_.haptics.probe == formats::ProbeKind::cylinder) {
         // The radius is the finger's, not that of the points on it.
         probe = haptics::ProbeShape::cylinder(call_.probe_mm > 0 ? call_.probe_mm : kFingerMm);
         contact.probe_radius_mm = 0;
     }
-    source_ = std::make_unique<session::InspectSource>(milled_->stock(), contact, std::move(probe));
+    return contact;
+}
+
+void FeelSource::inspect(const contact::DistanceField& surface) {
+    haptics::ProbeShape probe;
+    const haptics::ContactOptions contact = contact_options(probe);
+    source_ = std::make_unique<session::InspectSource>(surface, contact, std::move(probe));
 }
 
 void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
@@ -96,13 +101,17 @@ void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     options.finger_mm = call_.probe_mm;
     options.tick_s = 1 / call_.rate_hz;
     options.texture = call_.texture;
+    if (stock_) {
+        options.part = &stock_->reader();
+        options.contact = contact_options(options.probe);
+    }
     source_ = std::make_unique<session::CutSource>(*track_, *force_, textures_, options);
 }
 
-io::FileResult<void> FeelSource::make(session::MillSetup setup) {
+io::FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<session::MillSetup> in_time) {
     const ParallelFor parallel = parallel_for_over(call_.threads > 0 ? call_.threads : available_threads());
     if (call_.mode != "cut") {
-        if (mill(std::move(setup), parallel)) inspect();
+        if (mill(std::move(setup), parallel)) inspect(milled_->stock());
         return {};
     }
     const auto options = table_options();
@@ -132,8 +141,14 @@ io::FileResult<void> FeelSource::make(session::MillSetup setup) {
             if (!written) return std::unexpected(written.error());
         }
     }
+    if (in_time) stock_ = std::make_unique<session::StockInTime>(std::move(*in_time), parallel, start_s_);
     cut(std::move(*table), parallel);
     return {};
+}
+
+void FeelSource::make(std::unique_ptr<const contact::DistanceField> surface) {
+    surface_ = std::move(surface);
+    inspect(*surface_);
 }
 
 void FeelSource::print() const {

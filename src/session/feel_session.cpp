@@ -82,10 +82,11 @@ CutSource::CutSource(const CutterTrack& track, haptics::CuttingForce& force,
       }()) {
     field_.set_cutting(&force);
     field_.begin_in(haptics::FeelMode::cut);
+    if (options.part != nullptr) touch_.emplace(*options.part, options.contact, options.probe);
 }
 
 haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, double now_s,
-                                         double /*tick_s*/) noexcept {
+                                         double tick_s) noexcept {
     haptics::FieldMoment moment;
     moment.at_s = options_.start_s + now_s;
     moment.cutter = track_.at(moment.at_s);
@@ -93,10 +94,14 @@ haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, doubl
     if (options_.texture) moment.texture = textures_.nearest(moment.cutter.end_mm);
     const haptics::FieldForce force = field_.render(moment);
     haptics::RenderedForce felt;
+    felt.simulation_s = now_s;
+    if (touch_) {
+        (void)options_.part->refresh();
+        felt = touch_->render(hand, now_s, tick_s);
+    }
     // Both come from the machine that moves the cutter: the hand's work has no part in them.
     felt.driven_n = force.cutting_n + force.texture_n;
-    felt.touching = squared_length(force.cutting_n) > 0;
-    felt.simulation_s = now_s;
+    felt.touching = felt.touching || squared_length(force.cutting_n) > 0;
     return felt;
 }
 

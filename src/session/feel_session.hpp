@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contact/distance_field.hpp"
@@ -71,9 +72,14 @@ struct CutSourceOptions {
     double finger_mm = 0;  // radius of the finger's cylinder
     double tick_s = 1e-3;
     bool texture = true;
+    // The part while it is milled, which must outlive the source; null: it is not felt.
+    field::FieldReader* part = nullptr;
+    haptics::ContactOptions contact{};  // with the part
+    haptics::ProbeShape probe{};
 };
 
-// Cut mode: F_fem + F_tex near the cutter while the program runs (the paper's section 3.2).
+// Cut mode: F_fem + F_tex near the cutter while the program runs (the paper's section 3.2), and contact where
+// the probe touches the part as it stands at that moment.
 class CutSource final : public haptics::ForceSource {
   public:
     // Everything must outlive this; no force where the table holds none.
@@ -88,6 +94,7 @@ class CutSource final : public haptics::ForceSource {
     const haptics::TextureMap& textures_;
     CutSourceOptions options_;
     haptics::ForceField field_;
+    std::optional<InspectSource> touch_;
 };
 
 // Limits for a device: its own numbers. Where no motors move a hand there is no ramp, and the slew limit is

@@ -191,7 +191,7 @@ TEST_F(Feel, gives_the_cutting_force_of_the_program_at_the_time_of_the_stroke) {
 TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
     const auto force_at = [&](double y) {
         put("stroke.csv",
-            "t_s,x_mm,y_mm,z_mm\n0,15," + std::to_string(y) + ",-2\n2,15," + std::to_string(y) + ",-2\n");
+            "t_s,x_mm,y_mm,z_mm\n0,15," + std::to_string(y) + ",1\n2,15," + std::to_string(y) + ",1\n");
         EXPECT_EQ(feel({"--mode", "cut", "--device", "playback", "--texture", "off"}).code, 0);
         double most = 0;
         for (const Row& r : trace()) most = std::max(most, std::hypot(r.fx, r.fy, r.fz));
@@ -204,6 +204,51 @@ TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
     EXPECT_GT(further, 0.1);
     EXPECT_LT(further, 0.8 * near);
     EXPECT_EQ(away, 0);
+}
+
+// Beside the cutting force the part itself is felt, as it stands at that moment: in the middle of the slot to
+// be, 0.5 mm under the top, the top pushes back until the cutter comes, and then nothing.
+TEST_F(Feel, touches_the_part_while_it_is_cut) {
+    put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,20,10,0.2\n0.2,20,10,-0.5\n2.6,20,10,-0.5\n");
+    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 1e-9\n");
+    for (const char* clock : {"", "--real-time"}) {
+        std::vector<std::string> flags{"--mode", "cut", "--device", "playback", "--texture", "off"};
+        if (*clock != 0) flags.emplace_back(clock);
+        const Outcome run = feel(flags);
+        ASSERT_EQ(run.code, 0) << run.err;
+        // The cutter's rim comes to x = 20 when its axis is at 17, 22 mm on: 1.467 s at 15 mm/s.
+        double most_rise = 0, last = 0;
+        for (const Row& r : trace()) {
+            if (r.t_s > 0.3 && r.t_s < 1.2) {
+                EXPECT_NEAR(r.fz, 0.25, 1e-3) << r.t_s << clock;
+            }
+            if (r.t_s > 2.2) {
+                EXPECT_NEAR(std::hypot(r.fx, r.fy, r.fz), 0, 1e-6) << r.t_s << clock;
+            }
+            const double force = std::hypot(r.fx, r.fy, r.fz);
+            if (r.t_s > 0.3) most_rise = std::max(most_rise, force - last);
+            last = force;
+        }
+        EXPECT_LT(most_rise, 1e-3) << clock;
+    }
+}
+
+// A model instead of a job: the surface as it was read, here an open sheet at z = -2.
+TEST_F(Feel, touches_a_surface_that_was_only_read) {
+    put("sheet.obj", "v 0 0 -2\nv 30 0 -2\nv 30 20 -2\nv 0 20 -2\nf 1 2 3 4\n");
+    const auto feel_sheet = [&](const std::string& mode) {
+        return run_tribo({"feel", "sheet.obj", "--stroke", "stroke.csv", "--out", "trace.csv", "--device",
+                          "playback", "--mode", mode},
+                         folder_.string());
+    };
+    const Outcome run = feel_sheet("inspect");
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("the surface is open"), std::string::npos) << run.err;
+    for (const Row& r : trace()) {
+        EXPECT_NEAR(r.fz, 0.5 * std::max(0.0, -2 - r.z), 1e-3) << r.t_s;
+        EXPECT_NEAR(std::hypot(r.fx, r.fy), 0, 1e-3) << r.t_s;
+    }
+    EXPECT_EQ(feel_sheet("cut").code, 2);
 }
 
 TEST_F(Feel, says_which_devices_there_are) {
