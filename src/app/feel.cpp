@@ -216,6 +216,7 @@ io::FileResult<void> read_job(const FeelCall& call, Part& part) {
     render.job = call.job;
     render.resolution_mm = call.resolution_mm;
     render.until_s = call.until_s;
+    render.only = {"summary"};  // nothing is heard
     auto loaded = load_job(render);
     if (!loaded) return std::unexpected(loaded.error());
     if (auto fits = check_memory(render, *loaded); !fits) return std::unexpected(io::Failure(fits.error()));

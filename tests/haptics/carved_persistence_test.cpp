@@ -8,6 +8,7 @@
 
 #include "base/noise_hash.hpp"
 #include "haptics/field_contact.hpp"
+#include "haptics/probe_shape.hpp"
 #include "milled_field.hpp"
 
 namespace tribo::haptics {
@@ -186,6 +187,49 @@ void hold_all(std::uint64_t share, int ticks) {
 
 TEST(CarvedPersistence, no_milled_surface_lets_a_probe_through) {
     hold_all(11, 120);
+}
+
+// A finger and a stylus lean and turn while they are drawn over milled grooves: no point of them comes to
+// stand in material, and where one would, the surface pushes back.
+TEST(CarvedPersistence, no_point_of_a_finger_or_stylus_goes_through) {
+    const Milled m = scalloped_plate(1, 0.025, 2, 40, 0.15);
+    for (const ProbeShape& shape : {ProbeShape::cylinder(4, 20), ProbeShape::ray(20)}) {
+        for (const double speed : {20.0, 300.0}) {
+            for (const double friction : {0.0, 0.5}) {
+                ContactOptions options;
+                options.friction_static = options.friction_kinetic = friction;
+                FieldContact contact(*m.field, options);
+                std::vector<Vec3> balls(shape.size());
+                long contacts = 0, held = 0, unsettled = 0;
+                for (int n = 0; n < 2000; ++n) {
+                    const double t = 1e-3 * n;
+                    shape.turned(normalized(Vec3{0.5 * std::cos(3 * t), 0.4 * std::sin(5 * t), 1}), balls);
+                    double reach = 0;  // of the lowest point under the tip
+                    for (const Vec3 b : balls) reach = std::max(reach, -b.z);
+                    const double depth = n < 100 ? -0.5 : 0.25 + 0.2 * std::sin(9 * t);
+                    const Vec3 probe{folded(12 + speed * t, 12, 28), folded(12 + 0.3 * speed * t, 12, 28),
+                                     reach - 0.05 - depth};
+                    const Contact felt = contact.update(probe, balls);
+                    double inside = -1e9, at_probe = -1e9;
+                    for (const Vec3 b : balls) {
+                        inside = std::max(inside, m.depth_mm(felt.proxy_mm + b));
+                        at_probe = std::max(at_probe, m.depth_mm(probe + b));
+                    }
+                    // What a tick has no time for goes on in the next one.
+                    ASSERT_LE(inside, felt.settled ? 1e-4 : 0.02) << n;
+                    unsettled += felt.settled ? 0 : 1;
+                    if (at_probe > 1e-3) ++held;
+                    if (!felt.in_contact) continue;
+                    ++contacts;
+                    ASSERT_GE(dot(felt.force_n, felt.proxy_mm - probe), -1e-12) << n;
+                    ASSERT_GE(felt.force_n.z, -1e-12) << n;
+                }
+                EXPECT_GT(held, 1000);
+                EXPECT_GE(contacts, held);
+                EXPECT_LT(unsettled, 100);
+            }
+        }
+    }
 }
 
 // Millions of ticks: for a long `make soak`.
