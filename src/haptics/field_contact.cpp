@@ -73,11 +73,16 @@ void FieldContact::reset() {
 
 Contact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
     // What was free for the probe as it was turned is so for the turned one less what that moved.
-    anchor_.radius -= gap_.set_balls(balls_mm);
-    return update(probe);
+    const double turned_mm = gap_.set_balls(balls_mm);
+    anchor_.radius -= turned_mm;
+    return tick(probe, turned_mm > 0);
 }
 
 Contact FieldContact::update(Vec3 probe) noexcept {
+    return tick(probe, false);
+}
+
+Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     first_query_ = gap_.queries();
     if (!is_finite(probe)) return {};
     last_proxy_ = at_.proxy;
@@ -95,6 +100,7 @@ Contact FieldContact::update(Vec3 probe) noexcept {
             fly(probe);
             break;
         case Phase::touching:
+            if (turned) (void)land(at_);
             if (!stuck_ || !freed(probe)) slide(probe);
             break;
     }
@@ -307,18 +313,24 @@ FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_st
         s.proxy = next;
     }
     // Cut short: on with the next tick, from a place that is in air.
+    if (land(s)) return s;
+    s = at_;
+    s.settled = s.lost = false;
+    return s;
+}
+
+// Out to the surface from a place a little way in the material. Whether it got there.
+bool FieldContact::land(Slide& s) {
     for (int n = 0; n < kMostLandings; ++n) {
         const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
-        if (g.gap_mm >= -2 * kSkin) return s;
+        if (g.gap_mm >= -2 * kSkin) return true;
         s.proxy -= g.gap_mm * g.normal;
         s.normal = g.normal;
         s.ball = g.ball;
         s.sides = {};
         s.sides.put(side_of(g.normal), kOneSide);
     }
-    s = at_;
-    s.settled = s.lost = false;
-    return s;
+    return false;
 }
 
 // Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.

@@ -86,10 +86,12 @@ class FieldContact {
         bool lost = false;  // no surface where one was
     };
 
+    Contact tick(Vec3 probe, bool turned) noexcept;
     void climb(Vec3 probe);
     void fly(Vec3 probe);
     void slide(Vec3 probe);
     Slide slide_from_proxy(Vec3 probe, double longest_step);
+    bool land(Slide& s);
     Vec3 along(const Slide& s, Vec3 way) const;
     static contact::HalfSpaces corner_of(const Slide& s, Vec3 point, Vec3 normal);
     bool tie(const Slide& s);
