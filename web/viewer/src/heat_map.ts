@@ -36,6 +36,14 @@ export function diverging(share: number): Vec3 {
   return end.map((v) => 0.95 + Math.abs(s) * (v - 0.95)) as Vec3;
 }
 
+// A line of the program whose chips are out of range: its worst, and when that was cut.
+export interface ChipMark {
+  line: number;
+  verdict: "rubbing" | "overload";
+  chip: number;
+  time: number;
+}
+
 interface Cut {
   row: Row;
   axis: Vec3;
@@ -45,6 +53,7 @@ interface Cut {
 
 export class HeatMap {
   private cells = new Map<number, Cut[]>();
+  private marks = new Map<string, ChipMark>();
   private size = 1;
   largestForce = 1;
   largestChip = 1e-3;
@@ -52,6 +61,7 @@ export class HeatMap {
 
   begin(cutters: Cutter[]): void {
     this.cells.clear();
+    this.marks.clear();
     this.size = Math.max(...cutters.map((c) => c.radius), 0.1);
     this.largestForce = 1;
     this.largestChip = 1e-3;
@@ -60,11 +70,17 @@ export class HeatMap {
   add(row: Row, axis: Vec3, cutter: Cutter): void {
     this.largestForce = Math.max(this.largestForce, row.peakForce);
     this.largestChip = Math.max(this.largestChip, chip(row));
+    this.mark(row, cutter);
     const key = this.key(row.tip);
     const cut = { row, axis, radius: cutter.radius, corner: cutter.corner };
     const cell = this.cells.get(key);
     if (cell) cell.push(cut);
     else this.cells.set(key, [cut]);
+  }
+
+  // By line.
+  chipMarks(): ChipMark[] {
+    return [...this.marks.values()].sort((a, b) => a.line - b.line);
   }
 
   colour(mode: Colouring, p: Vec3, designed: SurfaceDistance): Vec3 | undefined {
@@ -83,6 +99,14 @@ export class HeatMap {
     const verdict = chipVerdict(row, diameter);
     if (verdict) return verdict === "rubbing" ? RUBBING : OVERLOAD;
     return heat(chip(row) / this.largestChip);
+  }
+
+  private mark(row: Row, cutter: Cutter): void {
+    const verdict = chipVerdict(row, 2 * cutter.radius);
+    if (!verdict) return;
+    const key = `${row.line} ${verdict}`, before = this.marks.get(key), thickest = chip(row);
+    const worse = !before || (verdict === "rubbing" ? thickest < before.chip : thickest > before.chip);
+    if (worse) this.marks.set(key, { line: row.line, verdict, chip: thickest, time: row.time });
   }
 
   // The latest cut whose cutter's surface passes nearest to the point.

@@ -6,7 +6,7 @@ import * as drop from "./drop.js";
 import { listed, order as orderOf } from "./examples.js";
 import { Finger } from "./finger.js";
 import type { CollisionFrame, Frame, StateFrame, Vec3 } from "./frames.js";
-import type { Colouring } from "./heat_map.js";
+import type { ChipMark, Colouring } from "./heat_map.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
 import { showLegend } from "./legend.js";
@@ -16,14 +16,49 @@ import { PALETTES } from "./palette.js";
 import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
 import type { Plots } from "./plots.js";
-import { Collisions, showServo, showState, showWarnings } from "./readout.js";
+import { LineList, showServo, showState, showWarnings } from "./readout.js";
 import { readRecording, Recorder, Replay } from "./recording.js";
 import { Scene } from "./scene.js";
 import { Sound } from "./sound.js";
 import type { Listener, ServerInfo, Settings, Source } from "./source.js";
 import { Workshop, type JobFile, type Order } from "./workshop.js";
 
+// So many lines of the program are listed for their chips.
+const MOST_CHIPS = 100;
 const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
+
+const listener: Listener = {
+  frame: take,
+  info(message: ServerInfo) {
+    const name = (message.job ?? "").replace(/^.*\//, "");
+    document.title = name ? `${name} - Tribo` : "Tribo: mill";
+    if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
+    element("job").textContent = name;
+    showWarnings(message.warnings);
+    parameters.info(message);
+    soundsHere = (message.audio ?? "browser") === "browser";
+    element("sound").hidden = !soundsHere || !Sound.possible;
+    forceLimit = message.device?.max_force_n || 3;
+    finger.arm = message.device?.arm ?? false;
+  },
+  settings(s: Settings) {
+    parameters.show(s);
+    finger.enabled = true;
+    element("feel").hidden = false;
+    element("force-on").setAttribute("aria-pressed", String(s.force));
+    element<HTMLSelectElement>("mode").value = s.mode;
+    stopped = s.stopped;
+    element("stop").textContent = stopped ? "Release" : "Stop";
+    element("stop").setAttribute("aria-pressed", String(stopped));
+  },
+  line(open, why) {
+    say(open ? "" : hasEngine && source instanceof Connection ? `No line to the engine: ${why}. Trying again.` : why);
+  },
+  refused: say,
+};
+
+// Looked for first: the engine answers while the page gets ready to draw.
+let source: Source | undefined = hasEngine ? new Connection(listener) : undefined;
 
 const scene = new Scene(element<HTMLCanvasElement>("scene"));
 const history = new History();
@@ -33,11 +68,12 @@ const sound = new Sound();
 let soundsHere = true;
 const seek = (time: number) => source?.send({ op: "seek", t_s: time });
 const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
-const collisions = new Collisions((frame: CollisionFrame) => {
+const collisions = new LineList<CollisionFrame>("collisions", (frame) => {
   scene.overlays.setMark(frame.tip);
   scene.draw();
   seek(frame.time);
 });
+const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
 const parameters = new Parameters((command) => source?.send(command));
 const play = element<HTMLButtonElement>("play");
@@ -47,7 +83,6 @@ const notice = element("notice");
 const begin = element<HTMLButtonElement>("begin");
 const hint = element("hint");
 
-let source: Source | undefined;
 let order: Order | undefined;
 let plots: Plots | undefined;
 let recorder: Recorder | undefined;
@@ -132,7 +167,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       history.addPieces(frame.pieces);
       break;
     case "collision":
-      collisions.add(frame);
+      collisions.add(frame, frame.what);
       break;
     case "finger":
       element("felt-row").hidden = !frame.present;
@@ -159,36 +194,6 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
   }
 }
-
-const listener: Listener = {
-  frame: take,
-  info(message: ServerInfo) {
-    const name = (message.job ?? "").replace(/^.*\//, "");
-    document.title = name ? `${name} - Tribo` : "Tribo: mill";
-    if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
-    element("job").textContent = name;
-    showWarnings(message.warnings);
-    parameters.info(message);
-    soundsHere = (message.audio ?? "browser") === "browser";
-    element("sound").hidden = !soundsHere || !Sound.possible;
-    forceLimit = message.device?.max_force_n || 3;
-    finger.arm = message.device?.arm ?? false;
-  },
-  settings(s: Settings) {
-    parameters.show(s);
-    finger.enabled = true;
-    element("feel").hidden = false;
-    element("force-on").setAttribute("aria-pressed", String(s.force));
-    element<HTMLSelectElement>("mode").value = s.mode;
-    stopped = s.stopped;
-    element("stop").textContent = stopped ? "Release" : "Stop";
-    element("stop").setAttribute("aria-pressed", String(stopped));
-  },
-  line(open, why) {
-    say(open ? "" : hasEngine && source instanceof Connection ? `No line to the engine: ${why}. Trying again.` : why);
-  },
-  refused: say,
-};
 
 // What mills from now on; the picture begins anew with its first frames.
 function change(to: () => Source): void {
@@ -305,7 +310,20 @@ function paint(): void {
 }
 colour.addEventListener("change", paint);
 scale.addEventListener("change", paint);
-setInterval(() => showLegend(colouring, scene.heatMap), 500);
+let chipsListed = "";
+function listChips(): void {
+  const marks = colouring === "chip" ? scene.heatMap.chipMarks() : [];
+  const said = marks.map((m) => `${m.verdict === "rubbing" ? "rubs" : "overload"}, ${m.chip.toFixed(3)} mm`);
+  const now = marks.map((m, n) => `${m.line} ${said[n]}`).join();
+  if (now === chipsListed) return;
+  chipsListed = now;
+  chips.clear();
+  marks.slice(0, MOST_CHIPS).forEach((mark, n) => chips.add(mark, said[n]));
+}
+setInterval(() => {
+  showLegend(colouring, scene.heatMap);
+  listChips();
+}, 500);
 for (const what of ["path", "tool", "positions", "designed"] as const) {
   const box = element<HTMLInputElement>(`show-${what}`);
   box.addEventListener("change", () => scene.setVisible(what, box.checked));
@@ -432,10 +450,8 @@ function frame(): void {
 }
 requestAnimationFrame(frame);
 
-// ---- Who mills
-if (hasEngine) {
-  source = new Connection(listener);
-} else {
+// ---- Without an engine the page mills
+if (!hasEngine) {
   void listed().then(async (examples) => {
     const box = element("examples");
     for (const example of examples.slice(1)) {

@@ -65,10 +65,11 @@ export class Plot {
       const style = getComputedStyle(this.canvas);
       context.clearRect(0, 0, width, height);
       context.fillStyle = style.getPropertyValue("--accent");
-      const scale = (0.85 * height) / this.largest;
+      const ratio = height / Math.max(this.canvas.clientHeight, 1);
+      // Under the words.
+      const scale = (height - 14 * ratio) / this.largest;
       this.columns.forEach((force, x) => context.fillRect(x, height - force * scale, 1, force * scale));
       context.fillStyle = style.getPropertyValue("--quiet");
-      const ratio = height / Math.max(this.canvas.clientHeight, 1);
       context.font = `${Math.round(11 * ratio)}px system-ui, sans-serif`;
       if (this.rows.length > 0) context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
       context.fillStyle = style.getPropertyValue("--ink");

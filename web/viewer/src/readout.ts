@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the tool does now in figures, collisions, the servo, and what was assumed.
+// What the tool does now in figures, places to look at, the servo, and what was assumed.
 
-import type { CollisionFrame, ServoFrame, StateFrame } from "./frames.js";
+import type { ServoFrame, StateFrame } from "./frames.js";
 import { element } from "./page.js";
 
 export function showState(state: StateFrame): void {
@@ -20,22 +20,29 @@ export function showState(state: StateFrame): void {
   }
 }
 
-export class Collisions {
-  private readonly box = element("collisions");
-  private readonly list = this.box.querySelector("ol")!;
+// Places in the program that ask for a look; a click goes there.
+export class LineList<Place extends { line: number }> {
+  private readonly box: HTMLElement;
+  private readonly list: HTMLOListElement;
 
-  constructor(private readonly go: (frame: CollisionFrame) => void) {}
+  constructor(
+    id: string,
+    private readonly go: (place: Place) => void,
+  ) {
+    this.box = element(id);
+    this.list = this.box.querySelector("ol")!;
+  }
 
   clear(): void {
     this.list.replaceChildren();
     this.box.hidden = true;
   }
-  add(frame: CollisionFrame): void {
+  add(place: Place, what: string): void {
     const item = document.createElement("li");
     const button = document.createElement("button");
     button.type = "button";
-    button.textContent = `line ${frame.line}: ${frame.what}`;
-    button.addEventListener("click", () => this.go(frame));
+    button.textContent = `line ${place.line}: ${what}`;
+    button.addEventListener("click", () => this.go(place));
     item.append(button);
     this.list.append(item);
     this.box.hidden = false;

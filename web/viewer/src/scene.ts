@@ -100,9 +100,12 @@ export class Scene {
   private colouringOn = false;
   private shown = 0;
   private wanted = false;
+  private seen = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    // To ask for errors is to wait for every shader, one after the other.
+    this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO_CAP));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -277,7 +280,7 @@ export class Scene {
 
   // Draws with the next picture, once however often it is asked.
   draw(): void {
-    if (this.wanted || this.renderer.xr.isPresenting) return;
+    if (this.wanted || !this.job || this.renderer.xr.isPresenting) return;
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
@@ -296,7 +299,14 @@ export class Scene {
         this.camera.updateProjectionMatrix();
       }
     }
+    // The part at once; the shaders of what stands around it are made for the next picture.
+    const around = this.seen ? [] : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);
+    for (const child of around) child.visible = false;
     this.renderer.render(this.three, this.camera);
+    for (const child of around) child.visible = true;
+    if (this.seen) return;
+    this.seen = true;
+    this.draw();
   }
 
   extent(): number {

@@ -139,6 +139,91 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     await page.click("#show-panel");
   }, PATIENCE_MS);
 
+  it("is felt by a pen as hard as it presses, and by a gamepad", async () => {
+    const box = (await page.locator("#scene").boundingBox())!;
+    const at = { x: box.x + 0.5 * box.width, y: box.y + 0.6 * box.height };
+    const hand = await page.context().newCDPSession(page);
+    const pen = (type: "mousePressed" | "mouseMoved" | "mouseReleased", force: number, x = at.x) =>
+      hand.send("Input.dispatchMouseEvent", { type, ...at, x, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen", force });
+    const felt = async () => parseFloat((await page.textContent("#felt")) ?? "0");
+    const settled = async (force: number) => {
+      for (let n = 0; n < 12; ++n) {
+        await pen("mouseMoved", force, at.x + (n % 2));
+        await page.waitForTimeout(50);
+      }
+      return felt();
+    };
+    await pen("mousePressed", 0.2);
+    const light = await settled(0.2), firm = await settled(0.8);
+    await pen("mouseReleased", 0);
+    expect(light).toBeGreaterThan(0.02);
+    expect(firm).toBeGreaterThan(2 * light);
+    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "1") === 0, null, { timeout: PATIENCE_MS });
+    const pad = (trigger: number) =>
+      page.evaluate((value) => {
+        const buttons = Array.from({ length: 8 }, (_, n) => ({ pressed: n === 7 && value > 0, touched: false, value: n === 7 ? value : 0 }));
+        navigator.getGamepads = () => [{ connected: true, axes: [0, 0], buttons } as unknown as Gamepad];
+      }, trigger);
+    await pad(1);
+    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, { timeout: PATIENCE_MS });
+    await pad(0);
+    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "1") === 0, null, { timeout: PATIENCE_MS });
+    await page.evaluate(() => (navigator.getGamepads = () => []));
+  }, PATIENCE_MS);
+
+  it("is felt by a touch", async () => {
+    const context = await browser.newContext({ viewport: { width: 800, height: 600 }, hasTouch: true });
+    const tablet = await context.newPage();
+    await tablet.goto(page.url());
+    await tablet.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
+    const box = (await tablet.locator("#scene").boundingBox())!;
+    const hand = await context.newCDPSession(tablet);
+    const touch = (type: "touchStart" | "touchMove" | "touchEnd", x?: number) =>
+      hand.send("Input.dispatchTouchEvent", { type, touchPoints: x === undefined ? [] : [{ x: box.x + x * box.width, y: box.y + 0.6 * box.height, radiusX: 8, radiusY: 8, force: 0.5 }] });
+    await touch("touchStart", 0.5);
+    for (let n = 0; n < 8; ++n) {
+      await touch("touchMove", 0.5 + 0.005 * (n % 2));
+      await tablet.waitForTimeout(50);
+    }
+    await tablet.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, { timeout: PATIENCE_MS });
+    await touch("touchEnd");
+    await tablet.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "1") === 0, null, { timeout: PATIENCE_MS });
+    await context.close();
+  }, PATIENCE_MS);
+
+  it("shows every state with the next picture", async () => {
+    const other = await browser.newPage({ viewport: { width: 400, height: 300 } });
+    await other.addInitScript(() => {
+      const told: number[] = [], late: number[] = [];
+      let pictures = 0;
+      const count = () => requestAnimationFrame(() => (++pictures, count()));
+      count();
+      window.WebSocket = class extends WebSocket {
+        constructor(url: string | URL, protocols?: string | string[]) {
+          super(url, protocols);
+          this.addEventListener("message", ({ data }) => {
+            if (data instanceof ArrayBuffer && new Uint8Array(data)[0] === 3) told.push(pictures);
+          });
+        }
+      };
+      const draw = WebGL2RenderingContext.prototype.drawElements;
+      WebGL2RenderingContext.prototype.drawElements = function (...all) {
+        for (const at of told.splice(0)) late.push(pictures - at);
+        draw.apply(this, all);
+      };
+      Object.assign(window, { late });
+    });
+    await other.goto(page.url());
+    await other.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
+    await other.click("#play");
+    await other.waitForFunction(() => (window as unknown as { late: number[] }).late.length > 40, null, { timeout: PATIENCE_MS });
+    const late = await other.evaluate(() => (window as unknown as { late: number[] }).late);
+    await other.click("#play");
+    await other.close();
+    // Pictures between a state's coming and its being drawn; the first ones wait for the part.
+    expect(Math.max(...late.slice(5))).toBeLessThanOrEqual(1);
+  }, PATIENCE_MS);
+
   it("asks nobody else and makes no error", () => {
     expect(foreign).toEqual([]);
     expect(problems).toEqual([]);

@@ -70,6 +70,20 @@ describe("chip load", () => {
     expect(chipVerdict({ ...row, feedPerTooth: 0.3, entry: 0, exit: Math.PI }, 10)).toBe("overload");
     expect(chipVerdict({ ...row, entry: 0, exit: Math.PI }, 10)).toBe("");
   });
+  it("lists each line once for what it does wrong, by its worst chip", () => {
+    const map = new HeatMap();
+    const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
+    map.begin([ball]);
+    const slot = { ...row, entry: 0, exit: Math.PI };
+    for (const [line, feedPerTooth, time] of [[7, 0.3, 1], [7, 0.4, 2], [7, 0.2, 3], [4, 0.008, 4], [4, 0.1, 5], [4, 0.002, 6]])
+      map.add({ ...slot, line, feedPerTooth, time }, [0, 0, 1], ball);
+    expect(map.chipMarks()).toEqual([
+      { line: 4, verdict: "rubbing", chip: 0.002, time: 6 },
+      { line: 7, verdict: "overload", chip: 0.4, time: 2 },
+    ]);
+    map.begin([ball]);
+    expect(map.chipMarks()).toEqual([]);
+  });
   it("colours a point by the latest cut that made it", () => {
     const map = new HeatMap();
     const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
