@@ -94,7 +94,8 @@ void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     knots_ = table.table().knots();
     table_bytes_ = table.bytes();
     force_ = std::make_unique<session::TableForce>(std::move(table), scaling_, call_.rate_hz);
-    if (call_.texture && milled_) textures_ = session::texture_map(record_, milled_->stock(), parallel);
+    if (call_.texture && milled_)
+        textures_ = session::texture_map(record_.stretches(), milled_->stock(), parallel);
     texture_records_ = textures_.records().size();
     session::CutSourceOptions options;
     options.start_s = start_s_;

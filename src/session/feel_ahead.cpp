@@ -24,7 +24,7 @@ contact::ForceTable FeelAhead::table(const CutChange& change,
 }
 
 haptics::TextureMap FeelAhead::textures() const {
-    return texture_map(record_, session_.stock(), parallel_);
+    return texture_map(record_.stretches(), session_.stock(), parallel_);
 }
 
 }  // namespace tribo::session

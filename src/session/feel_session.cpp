@@ -51,10 +51,10 @@ Vec3 TableForce::force_n(double at_s) noexcept {
     return scaling_.apply(force);
 }
 
-haptics::TextureMap texture_map(const CutRecord& record, const contact::DistanceField& machined,
+haptics::TextureMap texture_map(std::span<const CutStretch> cut, const contact::DistanceField& machined,
                                 const ParallelFor& parallel, double spacing_mm) {
     std::vector<const CutStretch*> places;
-    for (const CutStretch& s : record.stretches()) {
+    for (const CutStretch& s : cut) {
         if (places.empty() || distance(places.back()->tip_mm, s.tip_mm) >= spacing_mm) places.push_back(&s);
     }
     // Evenly thinned where there would be too many.

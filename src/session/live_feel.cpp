@@ -62,6 +62,7 @@ void LiveFeel::set_textures(haptics::TextureMap textures) {
     textures_[next] = std::move(textures);
     lent_textures_.lend(&textures_[next]);
     current_ = next;
+    ++textures_set_;
 }
 
 // The program's clock runs at its pace by the servo's own, drawn towards what the scenes say.

@@ -40,6 +40,8 @@ class LiveFeel final : public haptics::ForceSource {
     // the whole program.
     void set_force(contact::ForceTable table, const haptics::ForceScaling& scaling);
     void set_textures(haptics::TextureMap textures);
+    // Counts the calls.
+    int textures_set() const { return textures_set_; }
     // The record near the cutter in the last scene, valid until set_textures(); null: none.
     const contact::TextureRecord* texture_at(Vec3 tip_mm) const {
         return textures_[current_].nearest(tip_mm);
@@ -68,7 +70,7 @@ class LiveFeel final : public haptics::ForceSource {
     Loan<Part> lent_part_;
     haptics::SwappedForce force_;
     haptics::TextureMap textures_[2];
-    int current_ = 0;
+    int current_ = 0, textures_set_ = 0;
     Loan<const haptics::TextureMap> lent_textures_;
     // The servo's.
     haptics::ForceField field_;

@@ -71,8 +71,10 @@ void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const FrameSink& frames) {
         std::swap(frame_, last_finger_);
     }
     const contact::TextureRecord* texture = feel_.texture_at(tip_mm);
-    if (texture == shown_texture_) return;
+    if (texture == shown_texture_ && feel_.textures_set() == shown_textures_set_) return;
+    if (texture == nullptr && shown_texture_ == nullptr) return;
     shown_texture_ = texture;
+    shown_textures_set_ = feel_.textures_set();
     const haptics::ForceFieldOptions felt;
     write_texture_frame(scene.program_s, texture, felt.texture_press_mm, felt.texture_stiffness_n_per_mm,
                         frame_);

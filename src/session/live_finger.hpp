@@ -48,6 +48,7 @@ class LiveFinger {
     bool down_ = false;
     LiveServo seen_servo_;
     const contact::TextureRecord* shown_texture_ = nullptr;
+    int shown_textures_set_ = 0;
     std::vector<std::uint8_t> frame_, last_finger_;
 };
 

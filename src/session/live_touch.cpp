@@ -3,12 +3,15 @@
 
 #include <algorithm>
 
+#include "session/feel_session.hpp"
+
 namespace tribo::session {
 namespace {
 
 // The most of a servo's time that is made up for at once.
 constexpr double kMostOwedS = 0.1;
-// The force is made anew this often, from what was cut since this long before the clock, of the servo's time.
+// Force and texture are made anew this often, from what was cut since this long before the clock, of the
+// servo's time.
 constexpr double kRenewS = 0.1, kBehindS = 0.15;
 constexpr std::size_t kMostStretches = 400;
 
@@ -45,7 +48,7 @@ void SingleThreadedTouch::set(const LiveTouchSettings& settings) {
     if (settings_.stopped) finger_.stop(scene());
 }
 
-void SingleThreadedTouch::renew_force() {
+void SingleThreadedTouch::renew() {
     const auto all = mill_.record().stretches();
     if (all.size() == stretches_ || mill_.pace() <= 0 || now_s_ - renewed_s_ < kRenewS) return;
     renewed_s_ = now_s_;
@@ -53,7 +56,9 @@ void SingleThreadedTouch::renew_force() {
     const double from = mill_.clock_s() - kBehindS * mill_.pace();
     std::size_t first = all.size() > kMostStretches ? all.size() - kMostStretches : 0;
     while (first < all.size() && all[first].end_s < from) ++first;
-    auto recent = force_stretches(all.subspan(first), mill_.session().setup(), mill_.change());
+    const auto cut = all.subspan(first);
+    finger_.feel().set_textures(texture_map(cut, mill_.session().stock(), serial_for));
+    auto recent = force_stretches(cut, mill_.session().setup(), mill_.change());
     in_written_time(recent, mill_.change().feed_factor);
     contact::ForceTableOptions options;
     options.hand_per_tool = settings_.force_scale;
@@ -66,7 +71,7 @@ void SingleThreadedTouch::renew_force() {
 }
 
 void SingleThreadedTouch::tick(double dt_s, const FrameSink& frames) {
-    renew_force();
+    renew();
     finger_.show(scene(), mill_.state().tool.tip_mm, frames);
     owed_s_ = std::min(owed_s_ + dt_s, kMostOwedS);
     const double tick_s = 1 / options_.rate_hz;

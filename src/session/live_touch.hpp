@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A finger beside a live mill where there is one thread: the servo's ticks are made by the picture, and the
-// cutting force is that of what was cut in the last moments.
+// cutting force and the grooves' texture are those of what was cut in the last moments.
 #pragma once
 
 #include "session/live_finger.hpp"
@@ -30,7 +30,7 @@ class SingleThreadedTouch {
     void tick(double dt_s, const FrameSink& frames);
 
   private:
-    void renew_force();
+    void renew();
     LiveScene scene() const;
 
     LiveMill& mill_;

@@ -15,6 +15,7 @@
 #include "motion/path.hpp"
 #include "session/feel_ahead.hpp"
 #include "session/live_mill.hpp"
+#include "session/live_touch.hpp"
 
 namespace tribo::session {
 namespace {
@@ -51,6 +52,19 @@ bool always() {
 
 void drop(std::span<const std::uint8_t>) {}
 
+// Of a frame's data, which begin at byte 16.
+std::uint32_t word_at(std::span<const std::uint8_t> frame, std::size_t at) {
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < 4; ++n) bits |= std::uint32_t{frame[16 + at + n]} << (8 * n);
+    return bits;
+}
+Vec3 vec3_at(std::span<const std::uint8_t> frame, std::size_t at) {
+    const auto v = [&](std::size_t k) {
+        return static_cast<double>(std::bit_cast<float>(word_at(frame, k)));
+    };
+    return {v(at), v(at + 4), v(at + 8)};
+}
+
 // Mill, picture and servo in one thread: a picture, then the ticks until the next.
 class Bench {
   public:
@@ -80,15 +94,6 @@ class Bench {
 
   private:
     void take(std::span<const std::uint8_t> frame) {
-        const auto f32 = [&](std::size_t at) {
-            std::uint32_t bits = 0;
-            for (std::size_t n = 0; n < 4; ++n) bits |= std::uint32_t{frame[16 + at + n]} << (8 * n);
-            return bits;
-        };
-        const auto vec3 = [&](std::size_t at) {
-            const auto v = [&](std::size_t k) { return static_cast<double>(std::bit_cast<float>(f32(k))); };
-            return Vec3{v(at), v(at + 4), v(at + 8)};
-        };
         if (frame[0] == static_cast<std::uint8_t>(LiveFrame::texture)) {
             EXPECT_TRUE(frame.size() == 16 || frame.size() == 16 + 8 * 48);
             textures += frame.size() > 16 ? 1 : 0;
@@ -96,10 +101,10 @@ class Bench {
         }
         ASSERT_EQ(frame[0], static_cast<std::uint8_t>(LiveFrame::finger));
         ASSERT_EQ(frame.size(), 60u);
-        probe = vec3(0);
-        proxy = vec3(12);
-        force = vec3(24);
-        flags = f32(40);
+        probe = vec3_at(frame, 0);
+        proxy = vec3_at(frame, 12);
+        force = vec3_at(frame, 24);
+        flags = word_at(frame, 40);
     }
 
     double pictures_ = 0;
@@ -271,6 +276,29 @@ TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
     for (int n = 0; n < 300; ++n) bench.finger.tick(1.1 + n / kRateHz);
     bench.finger.show(bench.scene, {}, drop);
     EXPECT_EQ(bench.finger.servo().fault, static_cast<std::uint32_t>(haptics::Fault::simulation_stalled));
+}
+
+// Where there is one thread: both come from what was cut in the last moments.
+TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
+    const auto live = *LiveMill::create(slot, serial_for);
+    SingleThreadedTouch touch(*live);
+    int textures = 0;
+    double most_n = 0;
+    live->play(true);
+    for (int picture = 0; picture < 120; ++picture) {
+        ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
+        touch.lead(live->state().tool.tip_mm, true);
+        touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
+            if (frame[0] == static_cast<std::uint8_t>(LiveFrame::texture)) {
+                textures += frame.size() == 16 + 8 * 48 ? 1 : 0;
+            } else {
+                most_n = std::max(most_n, length(vec3_at(frame, 24)));
+            }
+        });
+    }
+    EXPECT_GT(textures, 5);
+    EXPECT_GT(most_n, 0.2);
+    EXPECT_LE(most_n, 3.3 + 1e-6);
 }
 
 }  // namespace
