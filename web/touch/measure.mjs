@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // node measure.mjs: what a visitor waits for, in headless Chromium against the built site, as JSON. First touchable frame of the
 // five-line page at 1.6 Mbit/s and 150 ms with a processor four times slower; main-thread work of a frame of a whole 512 x 512
-// sheet; gesture to first sample, cold. Medians of TRIBO_RUNS (5) runs. docs/touch.md has the numbers.
+// sheet, and what of it is the engine's; gesture to first sample, cold. Medians of TRIBO_RUNS (5) runs. docs/touch.md has the numbers.
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
@@ -117,6 +117,27 @@ async function firstSample() {
   return ms;
 }
 
+// A frame of a whole 512 x 512 sheet in touch.wasm, ms: pressure, and step with normals.
+async function engineWork() {
+  const module = await WebAssembly.compile(await readFile(join(site, "touch.wasm")));
+  const { exports: x } = await WebAssembly.instantiate(module, {});
+  x._initialize();
+  const sheet = x.sheet_create(512, 512, 1), press = [], step = [];
+  x.sheet_set_material(sheet, 1, 1);
+  for (let n = 0; n < 600; ++n) {
+    new Float64Array(x.memory.buffer, x.sheet_contacts(sheet), 7).set([256 + (n % 2), 256, 64, 64, 0, 1 + 0.01 * (n % 7), 0]);
+    const begin = performance.now();
+    x.sheet_press(sheet, 1, 0, 0);
+    const pressed = performance.now();
+    x.sheet_step(sheet, 1 / 60, 0);
+    x.sheet_normals(sheet, 0);
+    if (n < 200) continue;
+    press.push(pressed - begin);
+    step.push(performance.now() - pressed);
+  }
+  return { press: median(press), step: median(step) };
+}
+
 async function several(measure) {
   const all = [];
   for (let i = 0; i < runs; ++i) all.push(await measure());
@@ -124,7 +145,10 @@ async function several(measure) {
 }
 const throttled = await several(() => firstFrame(true));
 if (process.env.TRIBO_VERBOSE) console.error(throttled.map((t) => t.fetched.join("\n")).join("\n\n"));
+const engine = await engineWork();
 const said = {
+  wasm_step_and_normals_ms: Number(engine.step.toFixed(3)),
+  wasm_pressure_ms: Number(engine.press.toFixed(3)),
   first_frame_ms: Math.round(median(throttled.map((t) => t.ms))),
   first_frame_least_ms: Math.round(Math.min(...throttled.map((t) => t.ms))),
   first_frame_unthrottled_ms: Math.round(median((await several(() => firstFrame(false))).map((t) => t.ms))),
