@@ -224,6 +224,37 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     expect(Math.max(...late.slice(5))).toBeLessThanOrEqual(1);
   }, PATIENCE_MS);
 
+  it("comes back by a token that is good for once, with the part as it is", async () => {
+    const other = await browser.newPage({ viewport: { width: 400, height: 300 } });
+    await other.addInitScript(() => {
+      const lines: WebSocket[] = [];
+      window.WebSocket = class extends WebSocket {
+        constructor(url: string | URL, protocols?: string | string[]) {
+          super(url, protocols);
+          lines.push(this);
+        }
+      };
+      Object.assign(window, { lines });
+    });
+    await other.goto(page.url());
+    await other.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
+    const removedThere = () => other.textContent("#removed");
+    const before = await removedThere();
+    const lines = () => other.evaluate(() => (window as unknown as { lines: WebSocket[] }).lines.map((l) => [l.url, l.readyState] as const));
+    for (const round of [1, 2]) {
+      await other.evaluate((n) => (window as unknown as { lines: WebSocket[] }).lines[n - 1].close(), round);
+      await other.waitForFunction((n) => (window as unknown as { lines: WebSocket[] }).lines[n]?.readyState === 1, round, { timeout: PATIENCE_MS });
+    }
+    const tokens = (await lines()).map(([url]) => new URL(url).searchParams.get("resume"));
+    expect(tokens[0]).toBeNull();
+    expect(tokens[1]).toMatch(/^\S{16,}$/);
+    expect(tokens[2]).toMatch(/^\S{16,}$/);
+    expect(tokens[2]).not.toBe(tokens[1]);
+    await other.waitForSelector("#notice-box", { state: "hidden", timeout: PATIENCE_MS });
+    expect(await removedThere()).toBe(before);
+    await other.close();
+  }, PATIENCE_MS);
+
   it("asks nobody else and makes no error", () => {
     expect(foreign).toEqual([]);
     expect(problems).toEqual([]);
