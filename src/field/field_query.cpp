@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <optional>
 
 namespace tribo::field {
 namespace {
@@ -290,10 +290,8 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
     }
     // At a cusp: the nearest surface point of each brick that may hold one.
     contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
-    bool doubt = false;
     Vec3 refuted{1e300, 0, 0};  // the last foot that was none
-    const auto search = [&](BrickRef ref, Vec3 start) {
-        Vec3 from = start;
+    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
         for (int tries = 0; tries < 2; ++tries) {
             const NearBrick brick(*this, ref);
             const contact::SurfaceSample found =
@@ -312,15 +310,14 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
             if (!bricks.contains(b) || bricks.get(b) == kAir) break;
             ref = bricks.get(b);
         }
-        doubt = true;
-        return start;
+        return std::nullopt;
     };
     if (bricks.contains(there) && bricks.get(there) != kAir) {
         (void)search(bricks.get(there), hint_mm);
     }
     // Nothing is nearer than `lower`.
     if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
-    doubt = false;
+    bool doubt = false;
     // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
     Candidates bricks_near(*this, here, p, best.distance_mm - kOnSurface);
     const double proven = bricks_near.seen_mm();
@@ -340,12 +337,13 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {seen, seen + 2 * n}, start);
              ++n) {
             if (++searches > kMostSearches) break;
-            const bool doubted = std::exchange(doubt, false);
+            const std::optional<Vec3> foot = search(ref, start);
+            if (!foot) {
+                doubt = true;
+                break;  // as would be the others of this brick
+            }
             seen[2 * n] = start;
-            seen[2 * n + 1] = search(ref, start);
-            const bool astray = doubt;
-            doubt = doubt || doubted;
-            if (astray) break;  // as would be the others of this brick
+            seen[2 * n + 1] = *foot;
         }
         if (searches > kMostSearches) break;
     }
