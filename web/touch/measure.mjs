@@ -49,6 +49,8 @@ async function firstFrame(throttled) {
     await cdp.send("Network.emulateNetworkConditions", { offline: false, latency: 150, downloadThroughput: 1.6e6 / 8, uploadThroughput: 0.75e6 / 8 });
     await cdp.send("Emulation.setCPUThrottlingRate", { rate: 4 });
   }
+  // A visitor's browser is up already.
+  await page.waitForTimeout(1500);
   await page.goto(address, { waitUntil: "commit" });
   const ms = await page.evaluate(drawn);
   const fetched = await page.evaluate(() => performance.getEntriesByType("resource").map((r) => `${r.name.split("/").pop()} ${Math.round(r.startTime)}-${Math.round(r.responseEnd)}`));

@@ -282,10 +282,13 @@ export class Scene {
   draw(): void {
     if (this.wanted || !this.job || this.renderer.xr.isPresenting) return;
     this.wanted = true;
-    requestAnimationFrame(() => {
+    const go = () => {
       this.wanted = false;
       this.render();
-    });
+    };
+    // The first picture waits for its shaders long enough.
+    if (this.seen) requestAnimationFrame(go);
+    else queueMicrotask(go);
   }
 
   // Now; VR calls it for each of its pictures.
