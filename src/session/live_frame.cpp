@@ -100,9 +100,13 @@ void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out) {
             f.f32(step.length_mm);
         }
     }
-    f.u32(count(job.path.size()));
-    f.reserve(20 * job.path.size());
-    for (const LivePathPoint& p : job.path) {
+}
+
+void write_path_frame(std::span<const LivePathPoint> path, std::vector<std::uint8_t>& out) {
+    Frame f(LiveFrame::path, 0, out);
+    f.u32(count(path.size()));
+    f.reserve(20 * path.size());
+    for (const LivePathPoint& p : path) {
         f.f32(p.t_s);
         f.vec3(p.tip_mm);
         f.u32(p.rapid ? 1 : 0);

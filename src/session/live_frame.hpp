@@ -34,6 +34,7 @@ enum class LiveFrame : std::uint8_t {
     texture = 9,
     listening = 10,
     designed = 11,
+    path = 12,
 };
 
 // Takes one whole frame; the bytes are valid during the call only.
@@ -108,11 +109,11 @@ struct LiveJob {
     double duration_s = 0, cell_mm = 0;
     Box3 blank_mm;
     std::span<const milling::Cutter> cutters;
-    std::span<const LivePathPoint> path;
 };
 
 // Each replaces the contents of `out` by one frame.
 void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out);
+void write_path_frame(std::span<const LivePathPoint> path, std::vector<std::uint8_t>& out);
 // Vertices are rounded to 1/65535 of the longest edge of the mesh's box. At most 65,536 of them.
 void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
                        std::vector<std::uint8_t>& out);

@@ -34,6 +34,9 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
         case LiveFrame::designed:
             designed_.push_back(std::move(copy));
             break;
+        case LiveFrame::path:
+            path_ = std::move(copy);
+            break;
         case LiveFrame::sound:
             sounds_.push_back(std::move(copy));
             if (sounds_.size() > kSoundFrames) sounds_.pop_front();
@@ -49,8 +52,9 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
 void LiveMemory::replay(const FrameSink& frames) const {
     if (job_.empty()) return;
     frames(job_);
-    for (const Frame& frame : designed_) frames(frame);
     for (const auto& [coord, frame] : chunks_) frames(frame);
+    for (const Frame& frame : designed_) frames(frame);
+    if (!path_.empty()) frames(path_);
     for (const Frame& frame : rows_) frames(frame);
     for (const Frame& frame : collisions_) frames(frame);
     for (const Frame& frame : sounds_) frames(frame);

@@ -22,7 +22,7 @@ class LiveMemory {
 
   private:
     using Frame = std::vector<std::uint8_t>;
-    Frame job_;
+    Frame job_, path_;
     std::map<std::array<std::uint8_t, 12>, Frame> chunks_;  // by their coordinates' bytes
     std::vector<Frame> rows_, collisions_, designed_;
     std::deque<Frame> sounds_;

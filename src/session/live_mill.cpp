@@ -165,6 +165,10 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
         begun_anew_ = false;
         show_job(frames);
         show_part(picture_->all(), frames);
+        // After the part: on a slow line the first picture does not wait for them.
+        if (extras_.designed) show_designed(frames);
+        write_path_frame(path_, frame_);
+        frames(frame_);
         last_state_.clear();
     } else if (session_->milled_s() > shown_s_) {
         show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
@@ -177,12 +181,11 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
 
 void LiveMill::show_job(const FrameSink& frames) {
     const MillSetup& setup = session_->setup();
-    write_job_frame(
-        {duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters, path_}, frame_);
+    write_job_frame({duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters},
+                    frame_);
     frames(frame_);
     write_listening_frame(listening(), frame_);
     frames(frame_);
-    if (extras_.designed) show_designed(frames);
 }
 
 LiveListening LiveMill::listening() const {

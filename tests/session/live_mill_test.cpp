@@ -78,6 +78,10 @@ class Viewer {
             case LiveFrame::job:
                 job();
                 break;
+            case LiveFrame::path:
+                path_points = u32();
+                at_ += 20 * path_points;
+                break;
             case LiveFrame::chunk:
                 chunk();
                 break;
@@ -129,8 +133,6 @@ class Viewer {
             at_ += 20;
             at_ += 8 * u32();
         }
-        path_points = u32();
-        at_ += 20 * path_points;
     }
     void chunk() {
         std::array<std::uint32_t, 3> coord;

@@ -20,7 +20,13 @@ export interface JobFrame {
   cell: number;
   blank: { min: Vec3; max: Vec3 };
   cutters: Cutter[];
-  path: { times: Float32Array; points: Float32Array; rapid: Uint8Array };
+}
+
+export interface PathFrame {
+  kind: "path";
+  times: Float32Array;
+  points: Float32Array;
+  rapid: Uint8Array;
 }
 
 export interface ChunkFrame {
@@ -161,6 +167,7 @@ export type Frame =
   | TextureFrame
   | ListeningFrame
   | DesignedFrame
+  | PathFrame
   | OtherFrame;
 
 const COLLISIONS = [
@@ -242,6 +249,8 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       return { kind: "listening", listener: r.vec3() };
     case 11:
       return { kind: "designed", ...decodeMesh(r, buffer) };
+    case 12:
+      return decodePath(r);
     default:
       return { kind: "other" };
   }
@@ -264,8 +273,13 @@ function decodeJob(r: Reader): JobFrame {
     for (let steps = r.u32(); steps > 0; --steps) cutter.holder.push({ radius: r.f32(), length: r.f32() });
     cutters.push(cutter);
   }
+  return { kind: "job", duration, cell, blank, cutters };
+}
+
+function decodePath(r: Reader): PathFrame {
   const count = r.u32();
-  const path = {
+  const path: PathFrame = {
+    kind: "path",
     times: new Float32Array(count),
     points: new Float32Array(3 * count),
     rapid: new Uint8Array(count),
@@ -275,7 +289,7 @@ function decodeJob(r: Reader): JobFrame {
     path.points.set(r.vec3(), 3 * n);
     path.rapid[n] = r.u32();
   }
-  return { kind: "job", duration, cell, blank, cutters, path };
+  return path;
 }
 
 function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {

@@ -149,6 +149,9 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
     case "chunk":
       scene.take(frame);
       break;
+    case "path":
+      scene.addPath(frame);
+      break;
     case "designed":
       scene.addDesigned(frame);
       element("designed-label").hidden = false;

@@ -3,7 +3,7 @@
 
 import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments } from "three";
 
-import type { JobFrame, Row, Vec3 } from "./frames.js";
+import type { PathFrame, Row, Vec3 } from "./frames.js";
 
 // Rows whose time is this near follow one another, s.
 const SAME_CUT_S = 1e-6;
@@ -16,16 +16,25 @@ export class PathLines {
   private largest = 0;
   private colourOf: (row: Row) => Vec3 = () => [0, 0, 0];
 
-  begin(job: JobFrame): void {
+  // Another job.
+  begin(): void {
     for (const line of this.group.children as (Line | LineSegments)[]) line.geometry.dispose();
     this.group.clear();
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(job.path.points, 3));
-    this.group.add(new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 })));
     this.cut = undefined;
+    this.forgetRows();
+  }
+
+  take(path: PathFrame): void {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(path.points, 3));
+    this.group.add(new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 })));
+  }
+
+  forgetRows(): void {
     this.rows = [];
     this.drawn = 0;
     this.largest = 0;
+    this.cut?.geometry.setDrawRange(0, 0);
   }
 
   // `largest` is what the scale goes by: where it grew, everything changes its colour.

@@ -24,7 +24,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import type { ChunkFrame, DesignedFrame, JobFrame, Row, StateFrame, Vec3 } from "./frames.js";
+import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame, Vec3 } from "./frames.js";
 import { HeatMap, type Colouring } from "./heat_map.js";
 import { Overlays } from "./overlays.js";
 import { PALETTES, type Palette } from "./palette.js";
@@ -139,7 +139,7 @@ export class Scene {
     this.box.visible = true;
     this.heatMap.begin(job.cutters);
     this.tool.begin(job.cutters);
-    this.path.begin(job);
+    this.path.begin();
     this.overlays.begin(this.extent());
     this.draw();
   }
@@ -161,6 +161,11 @@ export class Scene {
     this.chunks.set(key, mesh);
     this.stock.add(mesh);
     if (this.colouring !== "plain") this.colourLater([key]);
+    this.draw();
+  }
+
+  addPath(frame: PathFrame): void {
+    this.path.take(frame);
     this.draw();
   }
 
@@ -188,7 +193,7 @@ export class Scene {
   forgetRows(): void {
     if (!this.job) return;
     this.heatMap.begin(this.job.cutters);
-    this.path.begin(this.job);
+    this.path.forgetRows();
     this.setColouring(this.colouring);
   }
 

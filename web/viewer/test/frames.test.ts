@@ -49,12 +49,7 @@ describe("decodeFrame", () => {
       .u32(7, 4)
       .f32(6, 1, 40)
       .u32(1)
-      .f32(10, 30)
-      .u32(2)
-      .f32(0, 1, 2, 3)
-      .u32(1)
-      .f32(0.5, 4, 5, 6)
-      .u32(0);
+      .f32(10, 30);
     const job = decodeFrame(bytes.done());
     expect(job).toMatchObject({
       kind: "job",
@@ -63,10 +58,15 @@ describe("decodeFrame", () => {
       blank: { min: [0, 0, -10], max: [40, 30, 0] },
       cutters: [{ number: 7, flutes: 4, radius: 6, corner: 1, length: 40, holder: [{ radius: 10, length: 30 }] }],
     });
-    if (job.kind !== "job") throw new Error();
-    expect([...job.path.times]).toEqual([0, 0.5]);
-    expect([...job.path.points]).toEqual([1, 2, 3, 4, 5, 6]);
-    expect([...job.path.rapid]).toEqual([1, 0]);
+  });
+
+  it("reads a path", () => {
+    const bytes = new Bytes().header(12, 0).u32(2).f32(0, 1, 2, 3).u32(1).f32(0.5, 4, 5, 6).u32(0);
+    const path = decodeFrame(bytes.done());
+    if (path.kind !== "path") throw new Error();
+    expect([...path.times]).toEqual([0, 0.5]);
+    expect([...path.points]).toEqual([1, 2, 3, 4, 5, 6]);
+    expect([...path.rapid]).toEqual([1, 0]);
   });
 
   it("reads a chunk with padding after an odd number of vertices", () => {
