@@ -256,7 +256,10 @@ Result<void> append_on_machine(const motion::Move& move, State& state, Output& o
     block.start_rad = rotary.now_rad;
     block.end_rad = rotary.target_rad;
     rotary.now_rad = rotary.target_rad;
-    for (const motion::Move& piece : output.machine->run(block, move)) {
+    const auto* pieces = output.machine->run(block, move, output.options.max_moves - output.moves + 1);
+    if (pieces == nullptr)
+        return output.refuse(move.line, 1, MachineRun::kTooManyPieces, MachineRun::kFewerPieces);
+    for (const motion::Move& piece : *pieces) {
         if (auto done = output.append(piece); !done) return done;
     }
     return {};

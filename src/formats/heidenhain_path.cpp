@@ -113,7 +113,9 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     block.arc = move.arc;
     block.start_rad = from_rad;
     block.end_rad = to_rad;
-    for (const motion::Move& piece : machine->run(block, move)) {
+    const auto* pieces = machine->run(block, move, options.max_moves - moves + 1);
+    if (pieces == nullptr) return refuse(place, MachineRun::kTooManyPieces, MachineRun::kFewerPieces);
+    for (const motion::Move& piece : *pieces) {
         if (auto done = append(piece); !done) return done;
     }
     return {};

@@ -53,17 +53,18 @@ void MachineRun::set_tool_length(std::optional<double> length_mm) {
     kinematics_ = motion::Kinematics(machine_, length_mm.value_or(0));
 }
 
-const std::vector<motion::Move>& MachineRun::run(const motion::MachineBlock& block,
-                                                 const motion::Move& like) {
+const std::vector<motion::Move>* MachineRun::run(const motion::MachineBlock& block, const motion::Move& like,
+                                                 std::size_t most) {
     moves_.clear();
-    motion::append_moves(kinematics_, block, like, {}, moves_);
+    if (!motion::append_moves(kinematics_, block, like, {}, std::min(most, kMostPieces), moves_))
+        return nullptr;
     const int steps =
         std::clamp(static_cast<int>(std::ceil(largest_turn(block) / kTravelStepRad)), 1, kMostTravelSteps);
     for (int i = 0; i <= steps; ++i) {
         check_travel(motion::joints_at(kinematics_, block, static_cast<double>(i) / steps), like.line);
     }
     if (block.tip_control && like.kind == motion::MoveKind::feed) check_turn(block, like.line);
-    return moves_;
+    return &moves_;
 }
 
 void MachineRun::check_travel(const motion::Joints& joints, int line) {

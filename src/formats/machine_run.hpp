@@ -27,8 +27,16 @@ class MachineRun {
     // Whether the tip's place with these rotary values depends on a tool length that nobody has given.
     bool needs_tool_length(Vec3 rotary_rad) const;
 
-    // The block as moves (motion::append_moves), good until the next call. Keeps what it asks of the machine.
-    const std::vector<motion::Move>& run(const motion::MachineBlock& block, const motion::Move& like);
+    // One block may become so many moves at most: 300 MB of them.
+    static constexpr std::size_t kMostPieces = 1'000'000;
+    // The block as moves (motion::append_moves), good until the next call; null: they would be more than
+    // `most` or kMostPieces. Keeps what it asks of the machine.
+    const std::vector<motion::Move>* run(const motion::MachineBlock& block, const motion::Move& like,
+                                         std::size_t most);
+    // What to say then.
+    static constexpr const char* kTooManyPieces =
+        "its rotary axes turn too far for one move: it would become more moves than fit";
+    static constexpr const char* kFewerPieces = "split it, or correct its rotary words";
 
     // Axes that went beyond their travel and turns near a singular position, each with its first line.
     Warnings findings(const std::string& source) const;

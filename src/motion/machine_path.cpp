@@ -82,8 +82,9 @@ ToolPose pose_at(const Kinematics& machine, const MachineBlock& block, double t)
     return pose;
 }
 
-void append_moves(const Kinematics& machine, const MachineBlock& block, const Move& like,
-                  const PieceTolerance& tolerance, std::vector<Move>& moves) {
+bool append_moves(const Kinematics& machine, const MachineBlock& block, const Move& like,
+                  const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves) {
+    if (most == 0) return false;
     const double whole_s = like.duration_s;
     const Vec3 turn = block.end_rad - block.start_rad;
     const double largest = std::max({std::abs(turn.x), std::abs(turn.y), std::abs(turn.z)});
@@ -91,12 +92,15 @@ void append_moves(const Kinematics& machine, const MachineBlock& block, const Mo
     if (largest == 0 || (largest < kMaxPieceTurnRad && is_straight(machine, block, rigid, tolerance))) {
         moves.push_back(rigid);
         finish(moves.back(), 1, whole_s);
-        return;
+        return true;
     }
     const auto pose_of = [&](double t) { return pose_at(machine, block, t); };
+    const std::size_t full = moves.size() + most;
     const auto sink = [&](const Move& piece, double a, double b) {
+        if (moves.size() == full) return false;
         moves.push_back(piece);
         finish(moves.back(), b - a, whole_s);
+        return true;
     };
     const QuadraticCut cut(pose_of, like, tolerance, sink);
     // Spans that no sample can mistake for their like a whole turn away.
@@ -106,9 +110,10 @@ void append_moves(const Kinematics& machine, const MachineBlock& block, const Mo
     for (int i = 0; i < spans; ++i) {
         const double a = static_cast<double>(i) / spans, b = static_cast<double>(i + 1) / spans;
         const ToolPose end = pose_of(b);
-        cut.cut(a, start, b, end);
+        if (!cut.cut(a, start, b, end)) return false;
         start = end;
     }
+    return true;
 }
 
 }  // namespace tribo::motion

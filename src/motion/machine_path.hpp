@@ -3,6 +3,7 @@
 // and axis. Any thread.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "motion/kinematics.hpp"
@@ -31,8 +32,9 @@ ToolPose pose_at(const Kinematics& machine, const MachineBlock& block, double t)
 // Appends the block as moves that join end to start, each with the words of `like` and its share of the
 // duration that `like` may have; a feed move with a duration gets the feed of its tip. A block that keeps its
 // rotary axes stays one straight move or arc, turned with the part; one that turns them becomes quadratic
-// pieces within the tolerance, or one straight move where the axis runs along a great circle evenly.
-void append_moves(const Kinematics& machine, const MachineBlock& block, const Move& like,
-                  const PieceTolerance& tolerance, std::vector<Move>& moves);
+// pieces within the tolerance, or one straight move where the axis runs along a great circle evenly. Whether
+// `most` moves were enough: beyond them the rest of the block is left out.
+bool append_moves(const Kinematics& machine, const MachineBlock& block, const Move& like,
+                  const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves);
 
 }  // namespace tribo::motion

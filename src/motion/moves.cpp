@@ -90,7 +90,10 @@ class Cutting {
 
     void cut(const BezierMotion& motion, const ToolPose& start, const ToolPose& end) {
         const auto pose_of = [&](double u) { return motion.pose(u); };
-        const auto sink = [&](const Move& piece, double, double) { moves_.push_back(piece); };
+        const auto sink = [&](const Move& piece, double, double) {
+            moves_.push_back(piece);
+            return true;
+        };
         QuadraticCut(pose_of, like_, tolerance_, sink).cut(0, start, 1, end);
     }
 

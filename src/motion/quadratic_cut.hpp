@@ -35,14 +35,15 @@ inline Vec3 axis_control(Vec3 a, Vec3 middle, Vec3 b) {
 }
 
 // Calls sink(piece, a, b) for pieces with the words of `like`, in order, that stand for pose_of(u), u from a
-// to b.
+// to b, for as long as it returns true.
 template <class PoseOf, class Sink>
 class QuadraticCut {
   public:
     QuadraticCut(const PoseOf& pose_of, const Move& like, const PieceTolerance& tolerance, const Sink& sink)
         : pose_of_(pose_of), like_(like), tolerance_(tolerance), sink_(sink) {}
 
-    void cut(double a, const ToolPose& start, double b, const ToolPose& end, int depth = 0) const {
+    // Whether all pieces were taken.
+    bool cut(double a, const ToolPose& start, double b, const ToolPose& end, int depth = 0) const {
         const double m = 0.5 * (a + b);
         const ToolPose middle = pose_of_(m);
         Move piece = like_;
@@ -52,11 +53,10 @@ class QuadraticCut {
         piece.quadratic = Quadratic{2.0 * middle.tip_mm - 0.5 * (start.tip_mm + end.tip_mm),
                                     axis_control(start.axis, middle.axis, end.axis)};
         if (depth < kCutDepth && !fits(piece, a, b, middle)) {
-            cut(a, start, m, middle, depth + 1);
-            cut(m, middle, b, end, depth + 1);
-        } else if (!is_same_pose(start, end) || distance(middle.tip_mm, start.tip_mm) > kJoin) {
-            sink_(piece, a, b);
+            return cut(a, start, m, middle, depth + 1) && cut(m, middle, b, end, depth + 1);
         }
+        if (is_same_pose(start, end) && distance(middle.tip_mm, start.tip_mm) <= kJoin) return true;
+        return sink_(piece, a, b);
     }
 
   private:

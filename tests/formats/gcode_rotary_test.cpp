@@ -207,6 +207,15 @@ TEST(GcodeRotary, RefusesWhatTheMachineCannotDo) {
               "line or before it");
 }
 
+TEST(GcodeRotary, RefusesATurnThatBecomesMoreMovesThanFit) {
+    const std::string far = "G21 F100\nG0 X0 Y13000 Z0\nG1 X10 A30 C90600\n";
+    const std::string said = fault("xyzac-trt", far);
+    EXPECT_TRUE(said.starts_with("p.nc:3:")) << said;
+    EXPECT_NE(said.find("more moves than fit"), std::string::npos) << said;
+    EXPECT_NE(said.find("split it"), std::string::npos) << said;
+    EXPECT_GT(on("xyzac-trt", "G21 F100\nG0 X0 Y500 Z0\nG1 X10 A30 C90600\n").moves.size(), 50'000u);
+}
+
 TEST(GcodeRotary, NeedsNoToolLengthForATippedHeadUnderTipControl) {
     const motion::Program program =
         on("head-head", "G21 G43.4 H1 G0 X0 Y0 Z0\nB30 C90\nG1 X10 F100\nB0\nG49\nX0\n");

@@ -292,7 +292,7 @@ RC_GTEST_PROP(MachineBlock, becomes_pieces_that_follow_the_joints_within_the_tol
     block.start_rad = {0, uniform(-1, 1), uniform(-4, 4)};
     block.end_rad = block.start_rad + Vec3{0, uniform(-1, 1), uniform(-7, 7)};
     std::vector<Move> moves;
-    append_moves(kinematics, block, words(MoveKind::feed, 0, 12), {}, moves);
+    append_moves(kinematics, block, words(MoveKind::feed, 0, 12), {}, 100'000, moves);
     expect_near(moves, kinematics, block, 12);
     for (std::size_t i = 1; i < moves.size(); ++i) RC_ASSERT(moves[i].start == moves[i - 1].end);
     RC_ASSERT(moves.front().line == 7);
@@ -306,7 +306,7 @@ TEST(MachineBlock, at_rest_on_a_tilted_table_keeps_its_arcs_exact) {
     block.arc = Arc{{0, 0, 5}, {0, 0, 1}, 90 * kDeg};
     block.start_rad = block.end_rad = {30 * kDeg, 0, 45 * kDeg};
     std::vector<Move> moves;
-    append_moves(table, block, words(MoveKind::feed, 500, 0), {}, moves);
+    append_moves(table, block, words(MoveKind::feed, 500, 0), {}, 100'000, moves);
     ASSERT_EQ(moves.size(), 1u);
     EXPECT_NEAR(path_length_mm(moves[0]), 10 * 90 * kDeg, 1e-9);
     for (const double t : {0.0, 0.25, 0.5, 1.0}) {
@@ -323,7 +323,7 @@ TEST(MachineBlock, without_tip_control_leads_the_tip_round_the_table) {
     block.start_mm = block.end_mm = {40, 0, 3};
     block.end_rad = {0, 0, 90 * kDeg};
     std::vector<Move> moves;
-    append_moves(table, block, words(MoveKind::feed, 0, 6), {}, moves);
+    append_moves(table, block, words(MoveKind::feed, 0, 6), {}, 100'000, moves);
     double length = 0, time = 0;
     for (const Move& move : moves) {
         length += path_length_mm(move);
@@ -343,7 +343,7 @@ TEST(MachineBlock, with_tip_control_and_one_axis_square_to_the_tool_is_one_strai
     block.end_mm = {30, 0, 0};
     block.end_rad = {20 * kDeg, 0, 0};
     std::vector<Move> moves;
-    append_moves(table, block, words(MoveKind::feed, 800, 0), {}, moves);
+    append_moves(table, block, words(MoveKind::feed, 800, 0), {}, 100'000, moves);
     ASSERT_EQ(moves.size(), 1u);
     EXPECT_FALSE(moves[0].quadratic);
     EXPECT_EQ(moves[0].feed_mm_per_min, 800);
