@@ -29,7 +29,7 @@ double pressure_share(ContactShape shape, double rho) {
 ShareLaw share_law(ContactShape shape) {
     ShareLaw law;
     law.inner_rate = law.outer_rate = static_cast<float>(-kLog2E / kDecay);
-    law.outer = 1;
+    law.outer = law.outer_from_centre = 1;
     law.edge = -1;  // a point has no inside
     if (shape == ContactShape::point) return law;
     law.edge = law.origin = 1;
@@ -37,6 +37,7 @@ ShareLaw share_law(ContactShape shape) {
     law.inner = static_cast<float>(-kEdgeDrop / (1 - kCentre));
     law.inner_rate = static_cast<float>(5 * kLog2E);
     law.outer = static_cast<float>(1 - kEdgeDrop);
+    law.outer_from_centre = static_cast<float>((1 - kEdgeDrop) * math::exp(1 / kDecay));
     return law;
 }
 

@@ -30,11 +30,12 @@ double pressure_share(ContactShape shape, double rho);
 
 // The same in the form that the kernels compute, with w = 1 - rho^2 / kReach^2:
 // w^2 (inner_base + inner 2^(inner_rate (rho - origin))) up to `edge`, beyond it
-// w^2 outer 2^(outer_rate (rho - origin)). Of both exponents the lesser one is in force.
+// w^2 outer 2^(outer_rate (rho - origin)) = w^2 outer_from_centre 2^(outer_rate rho). Of both exponents the
+// lesser one is in force.
 struct ShareLaw {
     float edge = 0, origin = 0;
     float inner_base = 0, inner = 0, inner_rate = 0;
-    float outer = 0, outer_rate = 0;
+    float outer = 0, outer_rate = 0, outer_from_centre = 0;
 };
 ShareLaw share_law(ContactShape shape);
 

@@ -19,14 +19,23 @@ constexpr float kRestMm = 1e-6F;
 class Chord {
   public:
     Chord(double u0, double du, double v0, double dv)
-        : square_(du * du + dv * dv), half_(u0 * du + v0 * dv), rest_(u0 * u0 + v0 * v0) {}
+        : step_(math::hypot(du, dv)),
+          start_((u0 * du + v0 * dv) / step_),
+          miss_((u0 * dv - v0 * du) / step_) {}
+
+    double step() const { return step_; }
+    double miss2() const { return miss_ * miss_; }
+    // The column where it passes the centre, or the nearest of those that count exactly in float.
+    int middle() const { return static_cast<int>(std::clamp(-start_ / step_, -1e6, 1e6)); }
+    // Along it, from where it passes the centre.
+    double at(int column) const { return start_ + column * step_; }
 
     // Columns of 0 .. columns - 1 that hold all nodes nearer than `radius`, in eights, and some more; {0, 0}:
     // none.
     ColumnRange within(double radius, int columns) const {
-        const double inside = half_ * half_ - square_ * (rest_ - radius * radius);
+        const double inside = radius * radius - miss2();
         if (!(radius > 0) || !(inside > 0)) return {};
-        const double middle = -half_ / square_, side = std::sqrt(inside) / square_;
+        const double middle = -start_ / step_, side = std::sqrt(inside) / step_;
         const auto column = [columns](double x) {
             return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(columns)));
         };
@@ -35,7 +44,7 @@ class Chord {
     }
 
   private:
-    double square_, half_, rest_;
+    double step_, start_, miss_;
 };
 
 // The share of the way to P / K that one step covers.
@@ -160,8 +169,6 @@ void Sheet::press_default(const Contact& c, bool over) {
     const double ux = cosine / c.half_width_mm, vx = -sine / c.half_height_mm;
     const int columns = tiles.width * kTileWidth;
     PressRow row;
-    row.du = static_cast<float>(ux * spacing);
-    row.dv = static_cast<float>(vx * spacing);
     row.over = over;
     row.force_n = static_cast<float>(c.force_n);
     row.law = share_law(options_.shape);
@@ -172,9 +179,11 @@ void Sheet::press_default(const Contact& c, bool over) {
             const double dy = (y + 0.5) * spacing - c.y_mm;
             const double u0 = ux * dx0 + sine * dy / c.half_width_mm;
             const double v0 = vx * dx0 + cosine * dy / c.half_height_mm;
-            row.u0 = static_cast<float>(u0);
-            row.v0 = static_cast<float>(v0);
             const Chord chord(u0, ux * spacing, v0, vx * spacing);
+            row.middle = chord.middle();
+            row.start = static_cast<float>(chord.at(row.middle));
+            row.step = static_cast<float>(chord.step());
+            row.miss2 = static_cast<float>(chord.miss2());
             row.reached = chord.within(kReach, columns);
             row.within = chord.within(row.law.edge, columns);
             if (row.within.last == 0) row.within = {row.reached.last, row.reached.last};

@@ -49,9 +49,12 @@ struct ColumnRange {
     int first = 0, last = 0;
 };
 
-// The pressure of one contact over a row of nodes. Node x is at (u0 + x du, v0 + x dv), in half axes.
+// The pressure of one contact over a row of nodes. In half axes of the contact the row is a line that passes
+// its centre at the square root of `miss2`; node x is `start + (x - middle) step` along it from there. With
+// the middle near there little is lost to rounding where the pressure is steep.
 struct PressRow {
-    float u0 = 0, du = 0, v0 = 0, dv = 0;
+    int middle = 0;
+    float start = 0, step = 0, miss2 = 0;
     ColumnRange reached;  // holds all nodes within the reach
     ColumnRange within;   // holds all nodes within the contact's edge; inside `reached`
     bool over = false;    // what stood there is replaced, not added to

@@ -105,45 +105,51 @@ TRIBO_LANES F counted() {
     return v;
 }
 
-// The nodes of `range`; `mixed`: some may lie within the contact's edge, else none does.
-template <bool mixed>
+// The nodes of `range`; `mixed`: some may lie within the contact's edge, else none does; `over`: replaced,
+// not added to.
+template <bool mixed, bool over>
 TRIBO_LANES void press_range(float* p, ColumnRange range, const PressRow& row) {
-    const F du = all<F>(row.du), u0 = all<F>(row.u0), dv = all<F>(row.dv), v0 = all<F>(row.v0);
     const ShareLaw& law = row.law;
+    const F start = all<F>(row.start), step = all<F>(row.step), miss2 = all<F>(row.miss2);
     const F edge = all<F>(law.edge), origin = all<F>(law.origin);
     const F inner_rate = all<F>(law.inner_rate), outer_rate = all<F>(law.outer_rate);
     const F reach2 = all<F>(static_cast<float>(kReach * kReach));
     const float scale = static_cast<float>(-row.force_n / (kReach * kReach * kReach * kReach));
-    const F base = all<F>(law.inner_base * scale);
-    const F outer = all<F>(law.outer * scale), inner_rise = all<F>((law.inner - law.outer) * scale);
-    const F before = row.over ? F{} : all<F>(1.0f);
-    F steps = counted() + all<F>(static_cast<float>(range.first));
+    const F base = all<F>(law.inner_base * scale), inner_rise = all<F>((law.inner - law.outer) * scale);
+    const F outer = all<F>(law.outer * scale), outer_from_centre = all<F>(law.outer_from_centre * scale);
+    F steps = counted() + all<F>(static_cast<float>(range.first - row.middle));
 #pragma GCC unroll 4
     for (int x = range.first; x < range.last; x += kLanes, steps += all<F>(kLanes)) {
-        const F u = steps * du + u0, v = steps * dv + v0;
-        const F rho2 = min(u * u + v * v, reach2);
-        const F rho = sqrt(rho2), window = reach2 - rho2, beyond = rho - origin;
+        const F along = steps * step + start;
+        const F rho2 = min(along * along + miss2, reach2);
+        const F rho = sqrt(rho2), window = reach2 - rho2;
         F share;
         if constexpr (mixed) {
             // The lesser exponent is that of the side where rho is.
+            const F beyond = rho - origin;
             const I inside = rho < edge;
             const F power = exp2(min(inner_rate * beyond, outer_rate * beyond));
             share = keep(inside, base) + (outer + keep(inside, inner_rise)) * power;
         } else {
-            share = outer * exp2(outer_rate * beyond);
+            share = outer_from_centre * exp2(outer_rate * rho);
         }
-        store(p + x, load<F>(p + x) * before + share * (window * window));
+        const F pressure = share * (window * window);
+        store(p + x, over ? pressure : load<F>(p + x) + pressure);
     }
 }
 
+template <bool over>
+TRIBO_LANES void press_row(float* p, const PressRow& row) {
+    press_range<false, over>(p, {row.reached.first, row.within.first}, row);
+    press_range<true, over>(p, row.within, row);
+    press_range<false, over>(p, {row.within.last, row.reached.last}, row);
+}
+
 void press(float* p, int columns, PressRow row) {
-    if (row.over) {
-        for (int x = 0; x < row.reached.first; x += kLanes) store(p + x, F{});
-        for (int x = row.reached.last; x < columns; x += kLanes) store(p + x, F{});
-    }
-    press_range<false>(p, {row.reached.first, row.within.first}, row);
-    press_range<true>(p, row.within, row);
-    press_range<false>(p, {row.within.last, row.reached.last}, row);
+    if (!row.over) return press_row<false>(p, row);
+    for (int x = 0; x < row.reached.first; x += kLanes) store(p + x, F{});
+    for (int x = row.reached.last; x < columns; x += kLanes) store(p + x, F{});
+    press_row<true>(p, row);
 }
 
 constexpr SheetKernels kKernels{step, step_mapped, normals, press};

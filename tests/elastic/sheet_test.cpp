@@ -275,7 +275,7 @@ TEST(SheetKernels, all_builds_give_the_same_bits) {
             share[i] = static_cast<float>(i) / 256;
         }
         std::array<TileMotion, 2> motion;
-        PressRow row{-9.3F, 0.3F, 0.1F, 0.4F, {8, 32}, {16, 24}, false, 2.5F, share_law(ContactShape::area)};
+        PressRow row{12, 0.2F, 0.5F, 0.3F, {8, 32}, {16, 24}, false, 2.5F, share_law(ContactShape::area)};
         for (int y = 0; y < 16; ++y) {
             row.over = y % 2 == 1;
             kernels.press(pressures.data() + 8 + y * kStride, 32, row);
