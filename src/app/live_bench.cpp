@@ -32,7 +32,7 @@ int live_without_job(const LiveCall& call) {
         answers.push_back(std::move(answer));
     };
     net::ServerHandlers handlers;
-    handlers.page = [&](std::string_view path, bool gzip) { return files->page(path, gzip); };
+    handlers.page = [&](std::string_view path, net::Unpacks unpacks) { return files->page(path, unpacks); };
     handlers.came = [&](net::ClientId client, const net::Arrival& arrival) {
         io::LiveServerInfo info;
         info.version = TRIBO_VERSION;

@@ -72,7 +72,7 @@ LiveShow::~LiveShow() {
 net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
     using Event = LiveInbox::Event;
     net::ServerHandlers h;
-    h.page = [&files](std::string_view path, bool gzip) { return files.page(path, gzip); };
+    h.page = [&files](std::string_view path, net::Unpacks unpacks) { return files.page(path, unpacks); };
     h.came = [this](net::ClientId id, const net::Arrival& arrival) {
         inbox_.put({Event::Kind::came, id, {}, arrival});
     };

@@ -57,15 +57,18 @@ io::FileResult<WebFiles> WebFiles::read(const std::string& folder) {
     return files;
 }
 
-std::optional<net::Page> WebFiles::page(std::string_view path, bool takes_gzip) const {
+std::optional<net::Page> WebFiles::page(std::string_view path, net::Unpacks unpacks) const {
     if (path == "/") path = "/index.html";
-    if (takes_gzip) {
-        const auto packed = bytes_.find(std::string(path) + ".gz");
-        if (packed != bytes_.end()) return net::Page{std::string(type_of(path)), packed->second, "gzip"};
-    }
-    const auto found = bytes_.find(path);
-    if (found == bytes_.end()) return std::nullopt;
-    return net::Page{std::string(type_of(path)), found->second, ""};
+    const auto stored = [&](std::string_view extension,
+                            std::string_view encoding) -> std::optional<net::Page> {
+        const auto found = bytes_.find(std::string(path).append(extension));
+        if (found == bytes_.end()) return std::nullopt;
+        return net::Page{std::string(type_of(path)), found->second, encoding};
+    };
+    std::optional<net::Page> page;
+    if (unpacks.brotli) page = stored(".br", "br");
+    if (!page && unpacks.gzip) page = stored(".gz", "gzip");
+    return page ? page : stored("", "");
 }
 
 }  // namespace tribo::app

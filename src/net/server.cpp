@@ -85,8 +85,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
         if (request.method() != http::verb::get && request.method() != http::verb::head)
             return answer(request, http::status::method_not_allowed, {"text/plain", "only GET\n", ""});
         const std::string_view path = target.substr(0, target.find('?'));
-        const bool gzip = view(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos;
-        const auto page = shared_.handlers.page ? shared_.handlers.page(path, gzip) : std::nullopt;
+        http::ext_list codings(request[http::field::accept_encoding]);
+        const Unpacks unpacks{codings.exists("br"), codings.exists("gzip")};
+        const auto page = shared_.handlers.page ? shared_.handlers.page(path, unpacks) : std::nullopt;
         if (!page) return answer(request, http::status::not_found, {"text/plain", "nothing here\n", ""});
         answer(request, http::status::ok, *page);
     }
@@ -104,6 +105,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
         response->set(http::field::content_type, page.content_type);
         if (!page.encoding.empty())
             response->set(http::field::content_encoding, {page.encoding.data(), page.encoding.size()});
+        response->set(http::field::vary, "Accept-Encoding");
         response->set(http::field::cache_control, "no-cache");
         // Nothing else may embed or read the page; shared memory between its workers is allowed.
         response->set("Cross-Origin-Opener-Policy", "same-origin");

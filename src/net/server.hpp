@@ -27,7 +27,12 @@ using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 struct Page {
     std::string content_type;
     std::string_view body;      // stays valid as long as the server runs
-    std::string_view encoding;  // "gzip" where the body is compressed; else empty
+    std::string_view encoding;  // "br" or "gzip" where the body is compressed; else empty
+};
+
+// The compressed bodies that the browser says it can read.
+struct Unpacks {
+    bool brotli = false, gzip = false;
 };
 
 struct ServerOptions {
@@ -50,7 +55,7 @@ struct Arrival {
 
 // Called on the server's thread; they must not wait.
 struct ServerHandlers {
-    std::function<std::optional<Page>(std::string_view path, bool takes_gzip)> page;  // GET; none: 404
+    std::function<std::optional<Page>(std::string_view path, Unpacks unpacks)> page;  // GET; none: 404
     std::function<void(ClientId, const Arrival&)> came;
     std::function<void(ClientId, std::string_view text)> message;
     std::function<void(ClientId)> went;

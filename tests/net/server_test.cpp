@@ -25,9 +25,10 @@ class Told {
     explicit Told(ServerOptions options = {}) {
         options.subprotocol = kProtocol;
         ServerHandlers handlers;
-        handlers.page = [](std::string_view path, bool gzip) -> std::optional<Page> {
+        handlers.page = [](std::string_view path, Unpacks unpacks) -> std::optional<Page> {
             if (path == "/") return Page{"text/html", "<p>hello", ""};
-            if (path == "/a.js" && gzip) return Page{"text/javascript", "zipped", "gzip"};
+            if (path == "/a.js" && unpacks.brotli) return Page{"text/javascript", "packed", "br"};
+            if (path == "/a.js" && unpacks.gzip) return Page{"text/javascript", "zipped", "gzip"};
             return std::nullopt;
         };
         handlers.came = [this](ClientId id, const Arrival& arrival) {
@@ -91,6 +92,9 @@ TEST(Server, gives_pages_and_keeps_the_connection) {
     EXPECT_NE(page.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
     const std::string script = client.get("/a.js", "Accept-Encoding: gzip, deflate\r\n");
     EXPECT_NE(script.find("Content-Encoding: gzip"), std::string::npos) << script;
+    EXPECT_NE(script.find("Vary: Accept-Encoding"), std::string::npos) << script;
+    EXPECT_TRUE(client.get("/a.js", "Accept-Encoding: gzip, deflate, br;q=0.9\r\n").ends_with("packed"));
+    EXPECT_TRUE(client.get("/a.js", "Accept-Encoding: brown\r\n").starts_with("HTTP/1.1 404"));
     for (const char* path :
          {"/../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "//etc/passwd", "/./", "http://x/", "/\\..\\etc"}) {
         RawClient other(told.server->port());

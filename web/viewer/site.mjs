@@ -16,7 +16,7 @@ const EXAMPLES = [
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "examples"), { recursive: true });
 for (const name of readdirSync(from)) {
-  if (name.endsWith(".gz")) continue;
+  if (/\.(br|gz)$/.test(name)) continue;
   copyFileSync(join(from, name), join(out, name));
 }
 const page = readFileSync(join(out, "index.html"), "utf8");

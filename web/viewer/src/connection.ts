@@ -13,12 +13,17 @@ export class Connection implements Source {
   private tries = 0;
   private closed = false;
   private resume: string | undefined;
+  private listener: Listener | undefined;
+  // What came before anybody listened.
+  private waiting: ((to: Listener) => void)[] = [];
 
-  constructor(
-    private readonly listener: Listener,
-    private readonly url = liveUrl(location),
-  ) {
+  constructor(private readonly url = liveUrl(location)) {
     this.open();
+  }
+
+  listen(listener: Listener): void {
+    this.listener = listener;
+    for (const tell of this.waiting.splice(0)) tell(listener);
   }
 
   send(command: Command): void {
@@ -43,30 +48,35 @@ export class Connection implements Source {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.tries = 0;
-      this.listener.line(true, "");
+      this.tell((to) => to.line(true, ""));
     };
     socket.onmessage = ({ data }) => {
-      if (data instanceof ArrayBuffer) this.listener.frame(decodeFrame(data), data);
+      if (data instanceof ArrayBuffer) this.tell((to) => to.frame(decodeFrame(data), data));
       else this.take(JSON.parse(data as string));
     };
     socket.onclose = ({ reason }) => {
       if (this.closed) return;
-      this.listener.line(false, reason || "the engine does not answer");
+      this.tell((to) => to.line(false, reason || "the engine does not answer"));
       setTimeout(() => this.open(), RETRY_MS[Math.min(this.tries++, RETRY_MS.length - 1)]);
     };
     this.socket = socket;
   }
 
+  private tell(what: (to: Listener) => void): void {
+    if (this.listener) what(this.listener);
+    else this.waiting.push(what);
+  }
+
   private take(message: { op: string; why?: string; remedy?: string; resume?: string }): void {
     if (message.op === "serverInfo") {
       this.resume = message.resume;
-      this.listener.info(message as unknown as ServerInfo);
+      this.tell((to) => to.info(message as unknown as ServerInfo));
     } else if (message.op === "settings") {
-      this.listener.settings(message as unknown as Settings);
+      this.tell((to) => to.settings(message as unknown as Settings));
     } else if (message.op === "lost") {
       this.send({ op: "resync" });
     } else if (message.op === "refused") {
-      this.listener.refused([message.why, message.remedy].filter(Boolean).join("; "));
+      this.tell((to) => to.refused([message.why, message.remedy].filter(Boolean).join("; ")));
     }
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The mill's page: frames to picture, sound and plots; hands to whoever mills.
 
-import { Connection } from "./connection.js";
 import * as drop from "./drop.js";
+import { canvas, context, hasEngine, line } from "./early.js";
 import { listed, order as orderOf } from "./examples.js";
 import { Finger } from "./finger.js";
 import type { CollisionFrame, Frame, StateFrame, Vec3 } from "./frames.js";
@@ -22,10 +22,6 @@ import { Scene } from "./scene.js";
 import { Sound } from "./sound.js";
 import type { Listener, ServerInfo, Settings, Source } from "./source.js";
 import { Workshop, type JobFile, type Order } from "./workshop.js";
-
-// So many lines of the program are listed for their chips.
-const MOST_CHIPS = 100;
-const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
 
 const listener: Listener = {
   frame: take,
@@ -52,15 +48,15 @@ const listener: Listener = {
     element("stop").setAttribute("aria-pressed", String(stopped));
   },
   line(open, why) {
-    say(open ? "" : hasEngine && source instanceof Connection ? `No line to the engine: ${why}. Trying again.` : why);
+    say(open ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
   },
   refused: say,
 };
 
-// Looked for first: the engine answers while the page gets ready to draw.
-let source: Source | undefined = hasEngine ? new Connection(listener) : undefined;
+const engine = hasEngine ? line() : undefined;
+let source: Source | undefined = engine;
 
-const scene = new Scene(element<HTMLCanvasElement>("scene"));
+const scene = new Scene(canvas, context);
 const history = new History();
 const memory = new Memory();
 const sound = new Sound();
@@ -321,7 +317,7 @@ function listChips(): void {
   if (now === chipsListed) return;
   chipsListed = now;
   chips.clear();
-  marks.slice(0, MOST_CHIPS).forEach((mark, n) => chips.add(mark, said[n]));
+  marks.forEach((mark, n) => chips.add(mark, said[n]));
 }
 setInterval(() => {
   showLegend(colouring, scene.heatMap);
@@ -452,6 +448,8 @@ function frame(): void {
   requestAnimationFrame(frame);
 }
 requestAnimationFrame(frame);
+
+engine?.listen(listener);
 
 // ---- Without an engine the page mills
 if (!hasEngine) {

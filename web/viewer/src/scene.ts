@@ -84,11 +84,8 @@ export class Scene {
     depthWrite: false,
     depthFunc: GreaterDepth,
   });
-  // The blank's box, until the part itself is there.
-  private readonly box = new Mesh(
-    new BoxGeometry(),
-    new MeshStandardMaterial({ color: PALETTES.paper.untouched, transparent: true, opacity: 0.5, roughness: 0.6 }),
-  );
+  // The blank's box, until the part itself is there; of its material, so that one shader does for both.
+  private readonly box = new Mesh(new BoxGeometry(), this.material);
   private readonly tool: Tool;
   private readonly path = new PathLines();
   private readonly distance = new SurfaceDistance();
@@ -102,8 +99,11 @@ export class Scene {
   private wanted = false;
   private seen = false;
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    context?: WebGL2RenderingContext,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     // To ask for errors is to wait for every shader, one after the other.
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO_CAP));
@@ -115,9 +115,15 @@ export class Scene {
     this.camera.add(sun);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);
+    const corners = this.box.geometry.getAttribute("position").count;
+    const grey = new Color(this.palette.untouched).toArray();
+    this.box.geometry.setAttribute("color", new BufferAttribute(Float32Array.from({ length: 3 * corners }, (_, n) => grey[n % 3]), 3));
     this.box.visible = false;
     this.world.add(this.box, this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
     this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
+    // The browser's graphics make room and the shader while the job is on its way.
+    this.resize();
+    this.renderer.compile(this.box, this.camera, this.three);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
@@ -298,15 +304,7 @@ export class Scene {
 
   // Now; VR calls it for each of its pictures.
   render(): void {
-    if (!this.renderer.xr.isPresenting) {
-      const { clientWidth: width, clientHeight: height } = this.canvas;
-      const now = this.renderer.getSize(new Vector2());
-      if (now.x !== width || now.y !== height) {
-        this.renderer.setSize(width, height, false);
-        this.camera.aspect = width / Math.max(height, 1);
-        this.camera.updateProjectionMatrix();
-      }
-    }
+    if (!this.renderer.xr.isPresenting) this.resize();
     // The part at once; the shaders of what stands around it are made for the next picture.
     const around = this.seen ? [] : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);
     for (const child of around) child.visible = false;
@@ -315,6 +313,15 @@ export class Scene {
     if (this.seen) return;
     this.seen = true;
     this.draw();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const now = this.renderer.getSize(new Vector2());
+    if (now.x === width && now.y === height) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(height, 1);
+    this.camera.updateProjectionMatrix();
   }
 
   extent(): number {
