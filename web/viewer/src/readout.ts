@@ -20,10 +20,14 @@ export function showState(state: StateFrame): void {
   }
 }
 
-// Places in the program that ask for a look; a click goes there.
+const MOST_LISTED = 100;
+
+// Places in the program that ask for a look; a click goes there. What is beyond the first hundred is counted.
 export class LineList<Place extends { line: number }> {
   private readonly box: HTMLElement;
   private readonly list: HTMLOListElement;
+  private readonly rest = document.createElement("p");
+  private more = 0;
 
   constructor(
     id: string,
@@ -31,13 +35,21 @@ export class LineList<Place extends { line: number }> {
   ) {
     this.box = element(id);
     this.list = this.box.querySelector("ol")!;
+    this.box.append(this.rest);
+    this.clear();
   }
 
   clear(): void {
     this.list.replaceChildren();
+    this.rest.textContent = "";
+    this.more = 0;
     this.box.hidden = true;
   }
   add(place: Place, what: string): void {
+    if (this.list.childElementCount === MOST_LISTED) {
+      this.rest.textContent = `and ${++this.more} more`;
+      return;
+    }
     const item = document.createElement("li");
     const button = document.createElement("button");
     button.type = "button";

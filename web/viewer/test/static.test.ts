@@ -285,6 +285,19 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     await page.click("#show-designed");
   }, PATIENCE_MS);
 
+  it("lists a hundred places and counts the rest", async () => {
+    const dives = Array.from({ length: 120 }, (_, n) => `G0 X${2 * (n % 14) + 2} Y${1.5 * Math.floor(n / 14) + 1}\nG0 Z-${1 + n / 60}\nG0 Z5\n`);
+    await choose(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
+    await until("job.toml", "job");
+    await page.selectOption("#speed", "50");
+    await page.click("#play");
+    await until("and 20 more", "collisions");
+    expect(await page.locator("#collisions li").count()).toBe(100);
+    await choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
+    await until("alone.nc", "job");
+    expect(await page.isVisible("#collisions")).toBe(false);
+  }, PATIENCE_MS);
+
   it("says what is wrong with a file, and where", async () => {
     const told = async (what: string, ...files: ReturnType<typeof file>[]) => {
       await choose(...files);
