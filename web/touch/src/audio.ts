@@ -58,6 +58,11 @@ function sound(): Promise<Sound> {
   return loading;
 }
 
+/** Begins to make sound ready; what goes wrong is told to the first voice. */
+export function warmSound(): void {
+  sound().catch(() => undefined);
+}
+
 /** The voice of one element. */
 export class Voice {
   readonly id = nextId++;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // <tribo-touch>: an image that yields under fingers and sounds when rubbed. docs/touch.md has the list of
 // attributes, properties, events, slots, parts and CSS properties; custom-elements.json has it for tools.
-import { Voice } from "./audio.js";
+import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
 import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
-import { animate, stop } from "./frames.js";
+import { animate, stop, whenIdle } from "./frames.js";
 import { parseMaterial, type Material } from "./material.js";
 import { Relief } from "./relief.js";
 import { renderer, type Picture, type Renderer } from "./renderer.js";
@@ -205,7 +205,7 @@ export class TriboTouch extends Base {
     const stale = () => attempt !== this.#attempt || !this.isConnected;
     this.#state = "loading";
     const image = this.#parts!.image;
-    // The engine loads while the material and its image do; the shader is made while the image comes.
+    // The engine loads while the material and its image do; shader and sound are made while the image comes.
     const engineReady = engine();
     engineReady.catch(() => undefined);
     try {
@@ -231,6 +231,7 @@ export class TriboTouch extends Base {
       } catch {
         // Without it the plain image stays; that is said once the image is there.
       }
+      if (this.#sounds) warmSound();
       await decoded;
       if (stale()) return;
     } catch (error) {
@@ -262,10 +263,7 @@ export class TriboTouch extends Base {
     await this.#loadMap().catch((error: unknown) => this.#fail("image", error));
     if (stale()) return;
     this.#end("ready");
-    // Sound is made ready once there is something to touch.
-    requestAnimationFrame(() => setTimeout(() => {
-      if (!stale() && this.#voice === undefined) this.#makeVoice();
-    }));
+    if (this.#voice === undefined) this.#makeVoice();
   }
 
   #end(state: State, type?: TriboErrorDetail["type"], error?: unknown): void {
@@ -315,20 +313,29 @@ export class TriboTouch extends Base {
     sheet.setMaterials(levels, palette);
   }
 
+  get #sounds(): boolean {
+    return !this.muted && this.getAttribute("sound") !== "off" && (this.#material?.voices.length ?? 0) > 0;
+  }
+
   #makeVoice(): void {
     this.#voice?.free();
     this.#voice = undefined;
-    if (this.muted || this.getAttribute("sound") === "off" || !this.#material?.voices.length || !this.#sheet) return;
-    const voice = new Voice(this.#material, this.asPublished);
+    this.#relief = undefined;
+    if (!this.#sounds || !this.#sheet) return;
+    const voice = new Voice(this.#material!, this.asPublished);
     this.#voice = voice;
     voice.ready.catch((error: unknown) => {
       if (this.#voice === voice) this.#fail("audio", error);
     });
-    try {
-      this.#relief = new Relief(this.#parts!.image);
-    } catch {
-      this.#relief = undefined;
-    }
+    // A first rub sounds without it.
+    whenIdle(() => {
+      if (this.#voice !== voice) return;
+      try {
+        this.#relief = new Relief(this.#parts!.image);
+      } catch {
+        // An image of another site that may not be read.
+      }
+    });
   }
 
   #freeGraphics(): void {

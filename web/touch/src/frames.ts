@@ -10,6 +10,7 @@ const running = new Map<Animated, number>();
 let request = 0;
 // After a pause the sheet need not make up for all of it: it has long come to rest.
 const kLongestFrameS = 0.25;
+const kLongestWaitMs = 200;
 
 function tick(milliseconds: number): void {
   const now = milliseconds / 1000;
@@ -29,4 +30,13 @@ export function animate(element: Animated): void {
 
 export function stop(element: Animated): void {
   running.delete(element);
+}
+
+/** After the next frame, once the page is idle or has not been for a while. */
+export function whenIdle(work: () => void): void {
+  requestAnimationFrame(() => setTimeout(() => {
+    // Not every browser tells when it is idle.
+    if (typeof requestIdleCallback === "function") requestIdleCallback(work, { timeout: kLongestWaitMs });
+    else setTimeout(work, kLongestWaitMs);
+  }));
 }
