@@ -103,17 +103,20 @@ function advise(text: string): void {
   hint.textContent = text;
 }
 
+function showPlaying(now: boolean): void {
+  if (now === playing) return;
+  playing = now;
+  play.textContent = playing ? "Pause" : "Play";
+  play.setAttribute("aria-pressed", String(playing));
+}
+
 function show(state: StateFrame): void {
   scene.show(state);
   sound.state(state);
   plot.setTime(state.time);
   history.time = state.time;
   plots?.changed();
-  if (state.playing !== playing || play.textContent === "") {
-    playing = state.playing;
-    play.textContent = playing ? "Pause" : "Play";
-    play.setAttribute("aria-pressed", String(playing));
-  }
+  showPlaying(state.playing);
   if (state.playing) begun = true;
   begin.hidden = begun || duration === 0;
   element("examples").hidden ||= begun;
@@ -197,6 +200,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
 // What mills from now on; the picture begins anew with its first frames.
 function change(to: () => Source): void {
   source?.close();
+  showPlaying(false);
   begun = false;
   first = true;
   finger.enabled = false;
