@@ -8,6 +8,7 @@ import { serve } from "./site.mjs";
 
 const kTag = '<tribo-touch id="t" src="sponge.json" alt="Yellow sponge" style="width:256px"></tribo-touch>';
 const kScript = '<script type="module" src="/dist/tribo-touch.js"></script>';
+const kPatience = { timeout: 20_000 };
 let site, browser, context;
 
 beforeAll(async () => {
@@ -76,8 +77,7 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     // 28 x 18 pixels of 80 mm / 256 pixels.
     expect(start.area_mm2).toBeCloseTo(Math.PI * 14 * 9 * (80 / 256) ** 2, 1);
     await hand.touch([]);
-    await page.waitForTimeout(1200);
-    expect(await changed(page)).toBe(0);
+    await expect.poll(() => changed(page), kPatience).toBe(0);
     expect(await log(page, "contact-end")).toHaveLength(1);
     expect(page.errors).toEqual([]);
   });
@@ -274,11 +274,9 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const drawn = () => page.evaluate(() => t.shadowRoot.querySelector(".surface").classList.contains("drawn"));
     expect(await drawn()).toBe(true);
     await page.evaluate(() => { window.lose = gl.getExtension("WEBGL_lose_context"); lose.loseContext(); });
-    await page.waitForTimeout(100);
-    expect(await drawn()).toBe(false);
+    await expect.poll(drawn, kPatience).toBe(false);
     await page.evaluate(() => lose.restoreContext());
-    await page.waitForTimeout(200);
-    expect(await drawn()).toBe(true);
+    await expect.poll(drawn, kPatience).toBe(true);
     await changed(page);
     const hand = await fingers(page);
     await hand.touch([{ x: 120, y: 100 }]);
@@ -349,8 +347,7 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     // -20 dB at 100 mm/s and 1 N.
     expect(loudest).toBeGreaterThan(0.01);
     expect(loudest).toBeLessThan(0.7);
-    await page.waitForTimeout(600);
-    expect(await level()).toBe(0);
+    await expect.poll(level, kPatience).toBe(0);
   });
 
   test("a pen presses with the force that it measures; a map makes half of the image eight times as stiff", async () => {
@@ -359,18 +356,14 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const { cdp } = await fingers(page);
     const pen = (type, x, force) => cdp.send("Input.dispatchMouseEvent",
       { type, x, y: 100, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen", force });
-    const depth = async (x) => {
+    const last = async () => (await log(page, "contact-move")).at(-1);
+    for (const [x, depth_mm] of [[72, 1.8 / 1.4], [200, 1.8 / 1.4 / 8]]) {
       await pen("mousePressed", x, 0.5 + 0.1);
-      await page.waitForTimeout(900);
-      const last = (await log(page, "contact-move")).at(-1);
+      await expect.poll(async () => (await last())?.depth_mm ?? 0, kPatience).toBeCloseTo(depth_mm, 2);
+      const { pointerType, force_n } = await last();
+      expect([pointerType, force_n.toFixed(3)]).toEqual(["pen", "1.800"]);
       await pen("mouseReleased", x, 0);
-      await page.waitForTimeout(300);
-      return last;
-    };
-    const soft = await depth(72), hard = await depth(200);
-    expect([soft.pointerType, soft.force_n.toFixed(3)]).toEqual(["pen", "1.800"]);
-    expect(soft.depth_mm).toBeCloseTo(1.8 / 1.4, 1);
-    expect(hard.depth_mm).toBeCloseTo(1.8 / 1.4 / 8, 1);
+    }
   });
 
   test("phones and gamepads shake while something is rubbed, and not where that is turned off", async () => {

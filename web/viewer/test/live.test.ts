@@ -219,6 +219,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     await other.waitForFunction(() => (window as unknown as { late: number[] }).late.length > 40, null, { timeout: PATIENCE_MS });
     const late = await other.evaluate(() => (window as unknown as { late: number[] }).late);
     await other.click("#play");
+    await until("Play", "play");
     await other.close();
     // Pictures between a state's coming and its being drawn; the first ones wait for the part.
     expect(Math.max(...late.slice(5))).toBeLessThanOrEqual(1);

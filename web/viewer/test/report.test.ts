@@ -111,7 +111,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the report", () => 
     await page.keyboard.press("ArrowLeft");
     expect((await view()).sum).not.toBe(near.sum);
     await page.mouse.wheel(0, 300);
-    await expect.poll(async () => (await view()).drawn).toBeLessThan(near.drawn);
+    await expect.poll(async () => (await view()).drawn, { timeout: PATIENCE_MS }).toBeLessThan(near.drawn);
     await page.keyboard.press("Home");
     expect((await view()).sum).toBe(first.sum);
   }, PATIENCE_MS);

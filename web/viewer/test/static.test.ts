@@ -132,7 +132,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     expect(Math.abs(hz / 300 - Math.round(hz / 300))).toBeLessThan(0.03);
     await page.click("#play");
     await until("Play", "play");
-    await expect.poll(async () => (await level()).db, { timeout: 10_000 }).toBeLessThan(-120);
+    await expect.poll(async () => (await level()).db, { timeout: PATIENCE_MS }).toBeLessThan(-120);
     await page.click("#sound");
     expect(await page.getAttribute("#sound", "aria-pressed")).toBe("false");
     await page.click("#sound");
@@ -295,7 +295,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     expect(await page.locator("#collisions li").count()).toBe(100);
     await choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
     await until("alone.nc", "job");
-    expect(await page.isVisible("#collisions")).toBe(false);
+    await page.waitForSelector("#collisions", { state: "hidden", timeout: PATIENCE_MS });
   }, PATIENCE_MS);
 
   it("says what is wrong with a file, and where", async () => {
