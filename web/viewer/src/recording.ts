@@ -3,7 +3,7 @@
 // u32 1, four zeros; then of each frame u32 length, four zeros, f64 seconds since the first, its bytes,
 // zeros to a multiple of 8. Little-endian.
 
-import { decodeFrame } from "./frames.js";
+import { decodeFrame, type StateFrame } from "./frames.js";
 import type { Command, Listener, Source } from "./source.js";
 
 const MAGIC = "TRIBOREC";
@@ -69,6 +69,7 @@ export class Replay implements Source {
   private speed = 1;
   private playing = true;
   private before = performance.now();
+  private last: { state: StateFrame; bytes: ArrayBuffer } | undefined;
   private readonly timer = setInterval(() => this.tick(), 1000 / 60);
 
   constructor(
@@ -84,6 +85,7 @@ export class Replay implements Source {
     if (command.op === "play" || command.op === "pause") {
       this.playing = command.op === "play";
       if (this.playing && this.next >= this.frames.length) this.next = this.clock = 0;
+      this.tellState();
     } else if (command.op === "speed") {
       this.speed = command.value;
     } else if (command.op === "seek") {
@@ -114,14 +116,23 @@ export class Replay implements Source {
     for (; this.next < until; ++this.next) {
       const { bytes } = this.frames[this.next];
       const frame = decodeFrame(bytes);
-      // What is played is what this page plays.
       if (frame.kind === "state") {
-        frame.playing = this.playing && this.next + 1 < this.frames.length;
-        frame.speed = this.speed;
+        this.last = { state: frame, bytes };
+        this.tellState();
+      } else {
+        this.listener.frame(frame, bytes);
       }
-      this.listener.frame(frame, bytes);
     }
     this.clock = this.frames[Math.max(this.next - 1, 0)].seconds;
-    if (this.next >= this.frames.length) this.playing = false;
+    if (this.next < this.frames.length || !this.playing) return;
+    this.playing = false;
+    this.tellState();
+  }
+
+  // Whether it plays, and how fast, is for this page to say and not for the one that recorded it.
+  private tellState(): void {
+    if (!this.last) return;
+    const { state, bytes } = this.last;
+    this.listener.frame({ ...state, playing: this.playing, speed: this.speed }, bytes);
   }
 }

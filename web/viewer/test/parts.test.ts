@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 
 import { liveUrl } from "../src/connection.js";
 import { heat } from "../src/heat.js";
 import { sort, tooLarge } from "../src/drop.js";
 import { chip, chipVerdict, HeatMap } from "../src/heat_map.js";
-import { readRecording, Recorder } from "../src/recording.js";
+import { readRecording, Recorder, Replay } from "../src/recording.js";
+import type { Listener } from "../src/source.js";
 import { SurfaceDistance } from "../src/surface_distance.js";
 import { outline } from "../src/tool.js";
 import { spectrum, turn } from "../src/turn.js";
@@ -123,6 +124,38 @@ describe("a recording", () => {
     ]);
     expect(() => readRecording(bytes.slice(0, bytes.byteLength - 3))).toThrow("cut off");
     expect(() => readRecording(new ArrayBuffer(40))).toThrow("no recording");
+  });
+});
+
+describe("a replay", () => {
+  afterEach(() => void vi.useRealTimers());
+
+  function frame(kind: number, length: number): ArrayBuffer {
+    const bytes = new ArrayBuffer(length);
+    new Uint8Array(bytes).set([kind, 1]);
+    return bytes;
+  }
+
+  it("can be paused, goes on, and says so when it is over, whatever comes last", () => {
+    vi.useFakeTimers();
+    const told: string[] = [];
+    const listener = {
+      frame: (now) => told.push(now.kind === "state" ? (now.playing ? "plays" : "stands") : now.kind),
+      line: () => undefined,
+      info: () => undefined,
+    } as Partial<Listener> as Listener;
+    const state = frame(3, 96), collision = frame(5, 36);
+    const frames = [0, 0.2, 0.4].map((seconds) => ({ seconds, bytes: state }));
+    const replay = new Replay(listener, [...frames, { seconds: 0.6, bytes: collision }], "run.tribo");
+    const after = (ms: number) => (vi.advanceTimersByTime(ms), told.splice(0));
+    expect(after(300)).toEqual(["plays", "plays"]);
+    replay.send({ op: "pause" });
+    expect(after(1000)).toEqual(["stands"]);
+    replay.send({ op: "play" });
+    expect(after(1000)).toEqual(["plays", "plays", "collision", "stands"]);
+    replay.send({ op: "play" });
+    expect(after(300)).toEqual(["plays", "plays", "plays"]);
+    replay.close();
   });
 });
 

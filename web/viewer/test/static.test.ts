@@ -105,6 +105,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     await until("Pause", "play");
     await removed(0.3);
     await until("rapid through stock", "collisions");
+    await until("Play", "play");
     await picture("job");
   }, PATIENCE_MS);
 
@@ -112,7 +113,8 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     await page.selectOption("#speed", "0.1");
     await page.fill("#time", "1.2");
     await page.dispatchEvent("#time", "change");
-    if ((await text("play")) === "Play") await page.click("#play");
+    await page.click("#play");
+    await until("Pause", "play");
     expect(await page.getAttribute("#sound", "aria-pressed")).toBe("true");
     const level = () =>
       page.evaluate(() => {
@@ -254,8 +256,10 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     await until("run.tribo", "job");
     await until("Play", "play");
     expect(await page.isVisible("#notice-box")).toBe(false);
-    await page.click("#play");
-    await until("Pause", "play");
+    for (const now of ["Pause", "Play", "Pause"]) {
+      await page.click("#play");
+      await until(now, "play");
+    }
     writeFileSync(path, readFileSync(path).subarray(0, 1000));
     await page.setInputFiles("#files", path);
     await until("run.tribo: the recording is cut off", "notice");
