@@ -84,13 +84,9 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
   }, PATIENCE_MS);
 
   it("goes to where the timeline is set, back as well as forth", async () => {
-    const seek = async (time: string) => {
-      await page.fill("#time", time);
-      await page.dispatchEvent("#time", "change");
-    };
-    await seek("0.1");
+    await page.fill("#time", "0.1");
     await until("0.00", "removed");
-    await seek("1000");
+    await page.fill("#time", "1000");
     await page.waitForFunction(() => parseFloat(document.getElementById("removed")?.textContent ?? "0") > 0.5, null, {
       timeout: PATIENCE_MS,
     });
@@ -134,7 +130,6 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     await until("Stop", "stop");
     await page.focus("#set-feed_percent");
     await page.keyboard.press("Home");
-    await page.dispatchEvent("#set-feed_percent", "change");
     await until("10 %", "parameters");
     await page.click("#show-panel");
   }, PATIENCE_MS);
