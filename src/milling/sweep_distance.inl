@@ -127,8 +127,7 @@ TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, 
     const T zero = broadcast<T>(0), one = broadcast<T>(1), tiny = broadcast<T>(1e-30);
     if constexpr (kind == CutterKind::ball) {
         const T below = min(z - p.R, zero), out = sqrt(rho_squared + below * below);
-        // Its side matters where it is near, and rho is near R there.
-        return {out - p.R, (half_rate + below * dz) / max(out, tiny), half_rate / p.R, dz, one};
+        return {out - p.R, (half_rate + below * dz) / max(out, tiny), zero, dz, one};
     }
     const T rho = sqrt(rho_squared), drho = half_rate / max(rho, tiny);
     if constexpr (kind == CutterKind::flat) {

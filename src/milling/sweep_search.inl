@@ -38,9 +38,8 @@ TRIBO_LANES Mask<T> is_valley(const Instant<T>& a, const Instant<T>& b) {
 
 // What the valley may go down to. Without the edge between its ends: where the tangents meet, or the bottom
 // of the parabola with the mean curvature, whichever is lower, less what a bottom that the point leaves ever
-// faster, and a side that it nears ever faster, lie below their tangents. With the edge between them: as far
-// as the part that is not nearest has come at an end, if from there it only gets farther towards the other
-// end.
+// faster lies below its tangent. With the edge between them: as far as the part that is not nearest has come
+// at an end, if from there it only gets farther towards the other end.
 template <bool kEdge, class T>
 TRIBO_LANES T floor_of(const Valley<T>& v, Mask<T> valley) {
     const T zero = broadcast<T>(0), half = broadcast<T>(0.5);
@@ -49,8 +48,7 @@ TRIBO_LANES T floor_of(const Valley<T>& v, Mask<T> valley) {
     const T meet = (a.distance - b.distance + b.slope * width) / steepness;
     const T gentle = min(-a.slope, b.slope);
     const T parabola = min(a.distance, b.distance) - half * gentle * gentle * width / steepness;
-    const T faster = max(b.dz - a.dz, zero) + max(a.drho - b.drho, zero);
-    const T smooth = min(parabola, a.distance + a.slope * meet) - half * faster * width;
+    const T smooth = min(parabola, a.distance + a.slope * meet) - half * max(b.dz - a.dz, zero) * width;
     if constexpr (!kEdge) return smooth;
     const T deep = broadcast<T>(-1e30);
     const T rate_a = select(a.gap < zero, a.drho, -a.dz), rate_b = select(b.gap < zero, b.drho, -b.dz);

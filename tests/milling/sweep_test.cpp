@@ -30,27 +30,18 @@ double tool_distance(const Cutter& c, const motion::ToolPose& pose, Vec3 p) {
 
 double brute_distance(const Cutter& c, const Move& m, Vec3 p) {
     constexpr int kInstants = 400;
-    constexpr double kStep = 1.0 / kInstants;
-    const auto at = [&](double t) {
-        return tool_distance(c, motion::pose_at(m, std::clamp(t, 0.0, 1.0)), p);
-    };
-    double best = 1e300, before = at(0), here = before;
-    // Of two valleys with an edge at the bottom the samples do not tell which is the deeper one.
+    double best = 1e300, at = 0;
+    const auto distance = [&](double t) { return tool_distance(c, motion::pose_at(m, t), p); };
     for (int n = 0; n <= kInstants; ++n) {
-        const double after = at((n + 1) * kStep);
-        best = std::min(best, here);
-        if (here <= before && here <= after) {
-            double lo = (n - 1) * kStep, hi = (n + 1) * kStep;
-            for (int k = 0; k < 80; ++k) {
-                const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-                (at(a) < at(b) ? hi : lo) = at(a) < at(b) ? b : a;
-            }
-            best = std::min(best, at(0.5 * (lo + hi)));
-        }
-        before = here;
-        here = after;
+        const double d = distance(n / double{kInstants});
+        if (d < best) best = d, at = n / double{kInstants};
     }
-    return best;
+    double lo = std::max(0.0, at - 1.0 / kInstants), hi = std::min(1.0, at + 1.0 / kInstants);
+    for (int n = 0; n < 80; ++n) {
+        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
+    }
+    return std::min(best, distance(0.5 * (lo + hi)));
 }
 
 double number(double lo, double hi) {
