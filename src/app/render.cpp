@@ -2,6 +2,7 @@
 #include "app/render.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "app/exit.hpp"
@@ -9,6 +10,7 @@
 #include "app/progress.hpp"
 #include "app/render_outputs.hpp"
 #include "app/threads.hpp"
+#include "base/decimal.hpp"
 #include "io/memory.hpp"
 
 namespace tribo::app {
@@ -33,6 +35,8 @@ io::Summary summary_of(const RenderCall& call, const LoadedJob& loaded, const se
     s.force_low_factor = loaded.material.spread_low;
     s.force_high_factor = loaded.material.spread_high;
     if (t.rows > 0) s.tooth_passing_hz = t.tooth_passing_hz;
+    s.work_j = t.work_j;
+    s.energy_balance = t.energy_balance;
     s.resolution_mm = session.setup().cell_mm;
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
@@ -41,6 +45,15 @@ io::Summary summary_of(const RenderCall& call, const LoadedJob& loaded, const se
             {call.job, 0,
              "nothing was cut: the tool never meets the stock; check the path's units and zero, "
              "and the stock's place"});
+        report(Warnings{s.warnings.back()});
+    }
+    constexpr double kBalanced = 0.01;
+    if (t.energy_balance && std::abs(*t.energy_balance - 1) > kBalanced) {
+        s.warnings.push_back(
+            {call.job, 0,
+             "the spindle's work is " + format_decimal(std::round(1000 * *t.energy_balance) / 1000) +
+                 " of what the metal removed asks for: the force is off by about as much; try a "
+                 "finer --resolution"});
         report(Warnings{s.warnings.back()});
     }
     for (const session::MillCollision& c : t.collisions) {

@@ -28,7 +28,7 @@ contact::ContactSample sample_of(const session::MillRow& row, double t_s) {
     s.normal = v.axis;
     s.force_n = v.mean_n.x * f.x + v.mean_n.y * f.y + v.mean_n.z * f.z;
     const double speed = v.feed_mm_per_min / 60;
-    const double tooth = row.feed.feed_per_tooth_mm, down = row.feed.axial_feed_per_tooth_mm;
+    const double tooth = row.feed.across_mm, down = row.feed.down_mm;
     const double whole = std::hypot(tooth, down);
     if (whole > 0) s.slip_mm_per_s = speed * ((tooth / whole) * f.x - (down / whole) * f.z);
     s.area_mm2 = speed > 0 ? row.chip_mm3_per_s / speed : 0;
@@ -68,7 +68,7 @@ io::FileResult<PublishedForceFile> PublishedForceFile::create(const std::string&
 
 void PublishedForceFile::add(const session::MillRow& row, const milling::Cutter& cutter,
                              const milling::CuttingCoefficients& k) {
-    const auto cut = milling::published_cut(cutter, k, row.feed.feed_per_tooth_mm);
+    const auto cut = milling::published_cut(cutter, k, row.feed.across_mm);
     if (!cut) return;
     milling::EngagedEdges edges(cutter, k);
     edges.engage(row.engagement, row.feed);
@@ -197,9 +197,7 @@ std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
     if (worst_.force_n <= 0) return waves;
     const auto wave = [&](double speed, double feed) {
         milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
-        const double share = feed / speed;
-        model.engage(worst_.engagement,
-                     {worst_.feed.feed_per_tooth_mm * share, worst_.feed.axial_feed_per_tooth_mm * share});
+        model.engage(worst_.engagement, (feed / speed) * worst_.feed);
         contact::ForceSpectrum spectrum;
         model.spectrum(setup.harmonics, spectrum);
         contact::ContactSample cut;

@@ -91,7 +91,7 @@ class ReportRows {
     struct Worst {
         double force_n = 0;
         milling::Engagement engagement;
-        milling::FeedPerTooth feed;
+        milling::ToolTravel feed;
         std::size_t cutter = 0;
         double t_s = 0, rpm = 0, feed_mm_per_s = 0, chip_mm3_per_s = 0;
         int line = 0;

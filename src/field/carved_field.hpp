@@ -51,6 +51,8 @@ class CarvedField final : public contact::DistanceField {
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.
     bool is_material(Vec3 p, double skin_mm = 0) const { return tables_->query.is_material(p, skin_mm); }
+    // Signed like a distance: no surface is nearer than its size (field_query.hpp).
+    double clear_way_mm(Vec3 p, double enough_mm) const { return tables_->query.clear_way_mm(p, enough_mm); }
     double cell_mm() const { return cell_; }
     double near_mm() const { return near_; }
     const Shape& blank() const { return tables_->query.blank(); }

@@ -22,6 +22,17 @@ bool CarvedView::is_material(Vec3 p, double skin) const {
     return true;
 }
 
+double CarvedView::clear_way_mm(Vec3 p, double enough) const {
+    double way = field_.clear_way_mm(p, enough);
+    for (std::size_t n = pending_.size(); n-- > 0 && way < 0;) {
+        const PendingShape& pending = pending_[n];
+        if (!pending.bounds_mm.inflated(-way).contains(p)) continue;
+        // Material ends where the shape begins; within the shape there is none.
+        way = std::max(way, -pending.shape->distance_below(p, -way));
+    }
+    return way;
+}
+
 std::optional<Vec3> CarvedView::overlap(const Shape& shape, double depth_mm) const {
     const Box3 reach = shape.bounds_mm();
     const BrickCoord n = field_.size(), lo = field_.brick_at(reach.min), hi = field_.brick_at(reach.max);

@@ -27,6 +27,7 @@ class CarvedView {
     // As of CarvedField.
     double distance_mm(Vec3 point_mm) const;
     bool is_material(Vec3 point_mm, double skin_mm = 0) const;
+    double clear_way_mm(Vec3 point_mm, double enough_mm) const;
     // The node of material that lies deepest in `shape`, if any does by more than `depth_mm`: what a tool
     // holder or a fixture would run into. Sees overlaps down to about a cell.
     std::optional<Vec3> overlap(const Shape& shape, double depth_mm) const;

@@ -103,28 +103,56 @@ double FieldQuery::clear_of_nodes(const Brick& brick, Vec3 p) const {
            cell_mm * (length(near.off_cells) + kRounding);
 }
 
-// In a brick of air: how far it is to the nearest brick that may hold material, or to the nearest node's
-// ball.
-double FieldQuery::clear_in_air(BrickCoord b, Vec3 p, double enough_mm) const {
+// In a brick that is all `alike` (air or untouched): how far all bricks around are, at least `clear_mm`.
+// Beyond the grid they count as alike.
+double FieldQuery::clear_among(BrickRef alike, BrickCoord b, Vec3 p, double clear_mm,
+                               double enough_mm) const {
     const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
     const auto to_face = [](double v) { return std::min(v, kBrickCells - v); };
-    double clear = cell_mm * std::max(kClearCells - length(nearest_node(b, p).off_cells),
-                                      std::min({to_face(q.x), to_face(q.y), to_face(q.z)}));
+    const double face_mm = cell_mm * std::min({to_face(q.x), to_face(q.y), to_face(q.z)});
     const double brick_mm = kBrickCells * cell_mm;
+    double clear = std::max(clear_mm, face_mm);
     for (int ring = 1; ring <= kMostRings && clear < enough_mm; ++ring) {
         for (int k = b.k - ring; k <= b.k + ring; ++k) {
             for (int j = b.j - ring; j <= b.j + ring; ++j) {
                 const bool edge = k == b.k - ring || k == b.k + ring || j == b.j - ring || j == b.j + ring;
                 for (int i = b.i - ring; i <= b.i + ring; i += edge ? 1 : 2 * ring) {
-                    // Beyond the grid there is no material.
-                    if (bricks.contains({i, j, k}) && bricks.get({i, j, k}) != kAir) return clear;
+                    if (bricks.contains({i, j, k}) && bricks.get({i, j, k}) != alike) return clear;
                 }
             }
         }
-        clear =
-            std::max(clear, std::min({to_face(q.x), to_face(q.y), to_face(q.z)}) * cell_mm + ring * brick_mm);
+        clear = std::max(clear, face_mm + ring * brick_mm);
     }
     return clear;
+}
+
+// In a brick of air: how far it is to the nearest brick that may hold material, or to the nearest node's
+// ball.
+double FieldQuery::clear_in_air(BrickCoord b, Vec3 p, double enough_mm) const {
+    const double node = cell_mm * (kClearCells - length(nearest_node(b, p).off_cells));
+    return clear_among(kAir, b, p, node, enough_mm);
+}
+
+double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return std::max(blank().distance_mm(p), kRounding * cell_mm);
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return clear_in_air(b, p, enough_mm);
+    if (ref == kUntouched) {
+        const double of_blank = blank().distance_mm(p);
+        if (of_blank >= 0) return of_blank;
+        const double enough = std::min(enough_mm, -of_blank);
+        return -std::min(-of_blank, clear_among(kUntouched, b, p, 0, enough));
+    }
+    const Brick& brick = (*pool)[ref];
+    const NearNode near = nearest_node(brick.coord, p);
+    const auto at_node = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]);
+    const double off = cell_mm * (length(near.off_cells) + kRounding);
+    // Nearer to the surface than this the measure is worth its cost.
+    constexpr double kSureCells = 0.3;
+    if (at_node - off > kSureCells * cell_mm) return at_node - off;
+    if (at_node + off < -kSureCells * cell_mm) return at_node + off;
+    return exact(ref, p).distance_mm;
 }
 
 double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {

@@ -70,6 +70,9 @@ struct FieldQuery {
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.
     bool is_material(Vec3 point_mm, double skin_mm) const;
+    // Signed like a distance: no surface is nearer than its size, which is no more than about `enough_mm` and
+    // falls short of the true distance where the grid already tells the side.
+    double clear_way_mm(Vec3 point_mm, double enough_mm) const;
 
   private:
     class Candidates;
@@ -77,6 +80,7 @@ struct FieldQuery {
         return id == 0 ? blank().gradient(point_mm) : -shape(id).gradient(point_mm);
     }
     double clear_of_nodes(const Brick& brick, Vec3 point_mm) const;
+    double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
     bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Vec3> but,

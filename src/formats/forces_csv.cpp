@@ -6,8 +6,10 @@
 namespace tribo::formats {
 namespace {
 
-constexpr int kTimeDecimals = 6, kLengthDecimals = 6, kAxisDecimals = 6, kVolumeDecimals = 6;
-constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 3, kTorqueDecimals = 5;
+// Fine enough for a cutter of 0.1 mm.
+constexpr int kTimeDecimals = 6, kLengthDecimals = 6, kAxisDecimals = 6, kVolumeDecimals = 9;
+constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 5, kTorqueDecimals = 8;
+constexpr int kDurationDecimals = 9, kFactorDecimals = 4;
 
 void append(std::string& csv, double value, int decimals) {
     csv += ',';
@@ -38,6 +40,8 @@ void append_force_row(std::string& csv, const milling::ForceRow& row) {
     append(csv, row.mean_torque_nm, kTorqueDecimals);
     append(csv, row.peak_torque_nm, kTorqueDecimals);
     append(csv, row.removed_mm3, kVolumeDecimals);
+    append(csv, row.duration_s, kDurationDecimals);
+    append(csv, row.reconciled, kFactorDecimals);
     csv += '\n';
 }
 

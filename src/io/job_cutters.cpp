@@ -10,7 +10,7 @@ using namespace std::string_view_literals;
 
 constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv, "corner_mm"sv,
                                  "flutes"sv,     "helix_deg"sv, "length_mm"sv,   "runout_mm"sv,
-                                 "runout_deg"sv, "pitch_deg"sv, "holder"sv};
+                                 "runout_deg"sv, "pitch_deg"sv, "holder"sv,      "core_mm"sv};
 constexpr std::array kKindWords{"flat"sv, "ball"sv, "bull"sv};
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr int kLargestToolNumber = 999'999;
@@ -71,6 +71,7 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
     }
     cutter.flutes = section.integer("flutes", 1, 64).value_or(cutter.flutes);
     cutter.helix_deg = section.number("helix_deg").value_or(cutter.helix_deg);
+    cutter.core_mm = section.number("core_mm").value_or(0);
     cutter.length_mm = section.number("length_mm").value_or(cutter.length_mm);
     cutter.runout_mm = section.number("runout_mm").value_or(0);
     cutter.runout_deg = section.number("runout_deg").value_or(0);

@@ -30,6 +30,8 @@ std::string summary_json(const Summary& s) {
     set_with_band(json, "peak_torque_nm", s.peak_torque_nm, s);
     set_with_band(json, "peak_power_w", s.peak_power_w, s);
     set(json, "tooth_passing_hz", s.tooth_passing_hz);
+    set(json, "work_j", s.work_j);
+    set(json, "energy_balance", s.energy_balance);
     if (s.triangles) json["triangles"] = *s.triangles;
     set(json, "resolution_mm", s.resolution_mm);
     set(json, "gouge_max_mm", s.gouge_max_mm);

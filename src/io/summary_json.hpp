@@ -30,6 +30,10 @@ struct Summary {
     // for one material differ by that much.
     double force_low_factor = 1, force_high_factor = 1;
     std::optional<double> tooth_passing_hz;  // absent where nothing was cut
+    // Of the spindle; and the share of it that shears over ktc times the volume cut. The balance is absent
+    // where the engagement is prescribed or nothing was cut.
+    double work_j = 0;
+    std::optional<double> energy_balance;
     std::optional<std::uint64_t> triangles;  // absent where no mesh was asked for
     double resolution_mm = 0;
     std::optional<double> gouge_max_mm, rest_max_mm, scallop_max_mm;  // where a designed surface is given

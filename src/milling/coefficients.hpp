@@ -8,8 +8,8 @@
 namespace tribo::milling {
 
 // Forces on the tool per mm of edge height at chip thickness h: tangential ktc h + kte against the motion,
-// radial krc h + kre along the inward normal of the envelope, axial kac h + kae along the envelope's meridian
-// towards the shank (Altintas 2012, section 2.8, whose cylinder equations have this sign).
+// radial krc h + kre along the inward normal of the envelope, axial kac h + kae along the edge towards its
+// leading end (docs/force.md): to the tip on a right-hand helix.
 struct CuttingCoefficients {
     double ktc = 0, krc = 0, kac = 0;  // shear, N/mm2
     double kte = 0, kre = 0, kae = 0;  // edge (ploughing), N/mm

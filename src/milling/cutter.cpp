@@ -67,8 +67,13 @@ Result<void> check(const Cutter& c) {
     if (c.flutes < 1 || c.flutes > kMaxFlutes) {
         return refuse("flutes", "is not between 1 and " + std::to_string(kMaxFlutes), "count the teeth");
     }
-    if (!(c.helix_deg >= 0 && c.helix_deg <= kMaxHelixDeg)) {
-        return refuse("helix_deg", "is not between 0 and 85 degrees", "use 0 for straight flutes");
+    if (!(std::abs(c.helix_deg) <= kMaxHelixDeg)) {
+        return refuse("helix_deg", "is not between -85 and 85 degrees",
+                      "use 0 for straight flutes, a negative angle for a left-hand helix");
+    }
+    if (!(c.core_mm >= 0 && c.core_mm <= c.diameter_mm - 2 * c.corner_radius_mm())) {
+        return refuse("core_mm", "is not between 0 and the diameter of the flat bottom",
+                      "give the diameter that the bottom edges leave out, or 0 where they cut over centre");
     }
     if (!positive(c.length_mm)) {
         return refuse("length_mm", "is not a length above 0", "give the length of the cutting edges");

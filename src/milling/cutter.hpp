@@ -24,7 +24,8 @@ struct Cutter {
     double diameter_mm = 10;
     double corner_mm = 0;   // bull only: 0 < corner < R
     int flutes = 2;         // 1..64
-    double helix_deg = 30;  // 0..85, right-hand
+    double helix_deg = 30;  // -85..85, right-hand; below 0 left-hand
+    double core_mm = 0;     // diameter of the middle of a flat bottom without edges; 0: cuts over centre
     double length_mm = 40;  // cutting length, from the tip; above it is shank or holder
     double runout_mm = 0;   // offset of the tool axis from the spindle axis, >= 0
     double runout_deg =
@@ -38,7 +39,8 @@ struct Cutter {
     }
     // Radius of the cutting envelope at height z above the tip, mm; 0 <= z.
     double radius_at(double z_mm) const;
-    // The lag of the edge at height z behind the tip, rad: constant lead z tan(helix) / R.
+    // The lag of the edge at height z behind the tip, rad: constant lead z tan(helix) / R; < 0 for a
+    // left-hand helix.
     double lag_rad(double z_mm) const;
 };
 

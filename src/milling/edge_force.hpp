@@ -3,7 +3,9 @@
 //
 // Frame and signs (docs/results.md): x along the feed, y to its left, z to the shank; the
 // rotation phi runs clockwise seen from the shank, from the y axis. At phi an edge moves along (cos, -sin)
-// and points outward along (sin, cos). Torque is what the spindle must give, positive against a cut.
+// and points outward along (sin, cos). Torque is what the spindle must give, positive against a cut. The
+// axial coefficients act along the meridian towards the tip (Lee and Altintas 1996: dFz = cos kappa dFr - sin
+// kappa dFa): with positive kac a right-hand helix pulls the tool out of its holder.
 //
 // All functions: any thread, real-time safe (no allocation, locks or throws).
 #pragma once
@@ -13,27 +15,58 @@
 
 namespace tribo::milling {
 
-// Chip thickness along the envelope's outward normal, mm, for the envelope's angle kappa (pi/2 on the
-// cylinder, 0 at the tip of a ball) and rotation phi: h = (across sin phi + offset) sin kappa + down cos
-// kappa. This is the tool's travel since the edge before, dotted with the normal: moving down adds.
+// How a cutter travels over some time: between one tooth and the next, or along a row. A rigid motion: at the
+// height z above the tip the axis goes (across + z turn_x) along x and z turn_y along y, and a point at the
+// rotation phi and the radius r goes down by down + r (turn_x sin phi + turn_y cos phi).
+struct ToolTravel {
+    double across_mm = 0;                   // of the tip across the axis, along x; >= 0
+    double down_mm = 0;                     // of the tip along the axis, away from the shank: > 0 in a plunge
+    double turn_x_rad = 0, turn_y_rad = 0;  // change of the unit axis along x and y
+
+    bool turns() const { return turn_x_rad != 0 || turn_y_rad != 0; }
+    bool operator==(const ToolTravel&) const = default;
+    friend ToolTravel operator*(double s, const ToolTravel& t) {
+        return {s * t.across_mm, s * t.down_mm, s * t.turn_x_rad, s * t.turn_y_rad};
+    }
+};
+
+// A place on the cutter's envelope. kappa is the angle between its outward normal and the direction from the
+// shank to the tip: pi/2 on the cylinder, 0 at the tip of a ball and on a flat bottom.
+struct ProfilePoint {
+    double radius_mm = 0, height_mm = 0;
+    double sin_kappa = 1, cos_kappa = 0;
+};
+
+// A quantity of one place on the envelope over the rotation phi: sine sin phi + cosine cos phi + constant.
+struct TurnLaw {
+    double sine = 0, cosine = 0, constant = 0;
+};
+
+// How far the place moves along the outward normal, mm: the chip thickness where it is above 0.
+TurnLaw normal_travel(const ToolTravel& travel, const ProfilePoint& at);
+
+// The chip that an edge meets: the tool's travel since the edge before, and how much further out this edge
+// stands than that one (run-out), mm.
 struct Chip {
-    double across_mm = 0;  // feed per tooth across the axis
-    double offset_mm = 0;  // how much further out this edge stands than the one before (run-out)
-    double down_mm = 0;    // feed per tooth along the axis, towards the tip
+    ToolTravel travel;
+    double offset_mm = 0;
 
     bool operator==(const Chip&) const = default;
 };
+TurnLaw thickness(const Chip& chip, const ProfilePoint& at);
 
-// Force of an edge per mm, N/mm, and torque per mm, N, as a function of the rotation: tangential t, in-plane
-// radial r (inward), axial a (to the shank), moment m; each is `sine * sin phi + constant`.
+// Force of an edge per mm, N/mm, and torque per mm, N, over the rotation: tangential t, in-plane radial r
+// (inward), axial a (to the shank), moment m.
 struct EdgeLoad {
-    double t_sine = 0, r_sine = 0, a_sine = 0, m_sine = 0;
-    double t = 0, r = 0, a = 0, m = 0;
+    TurnLaw t, r, a, m;
 };
 
-// The load per mm of the envelope's profile (db = dz / sin kappa) at radius `radius_mm`.
-EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, double sin_kappa, double cos_kappa,
-                   double radius_mm);
+// The load per mm of the envelope's profile (db = dz / sin kappa).
+EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const ProfilePoint& at);
+
+// The load of a radial edge on the flat bottom from r0 to r1, N and N mm: krc to the shank, kac outward along
+// the edge, whose leading end is the corner.
+EdgeLoad bottom_load(const CuttingCoefficients& k, const ToolTravel& travel, double r0_mm, double r1_mm);
 
 // The load at one rotation, N/mm and N.
 contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, double cos_phi);

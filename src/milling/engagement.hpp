@@ -15,15 +15,20 @@ struct EngagementBand {
     double entry_rad = 0, exit_rad = 0;
 };
 
-struct Engagement {
-    std::vector<EngagementBand>
-        bands;                   // of the lateral edge (cylinder, corner, ball), sorted by z0 then entry
-    double bottom_fraction = 0;  // 0..1: share of the flat bottom disc that cuts (plunging, ramping)
+// The same for the straight edges of a flat bottom, between two radii in mm.
+struct BottomBand {
+    double r0_mm = 0, r1_mm = 0;
+    double entry_rad = 0, exit_rad = 0;
+};
 
-    bool empty() const { return bands.empty() && bottom_fraction <= 0; }
+struct Engagement {
+    std::vector<EngagementBand> bands;  // of the lateral edge (cylinder, corner, ball), sorted by z0
+    std::vector<BottomBand> bottom;     // sorted by r0
+
+    bool empty() const { return bands.empty() && bottom.empty(); }
     void clear() {
         bands.clear();
-        bottom_fraction = 0;
+        bottom.clear();
     }
 };
 

@@ -2,7 +2,6 @@
 #include "milling/engagement_probe.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -10,254 +9,356 @@
 namespace tribo::milling {
 namespace {
 
-// Material thinner than this in front of the edge is what rounding leaves where the cutter runs along a
-// surface that it has made before.
-constexpr double kSkin = 2e-5;  // mm
-// Levels looked at along the engaged height before refinement.
-constexpr int kLevels = 7;
-// Masks that differ by more probes than this have a step between them, which is searched for.
-constexpr int kStepProbes = 2;
+// Circles at first on the bottom, on the rounded part and on the cylinder, and at most of one part.
+constexpr int kFirstOnBottom = 2, kFirstOnCorner = 4, kFirstOnCylinder = 3;
+constexpr std::size_t kMostLevels = 56;
+// Splitting goes on until no circle may change the chips' area by more than this share, and what is smaller
+// than this is not looked for, R^2.
+constexpr double kAreaShare = 0.004, kLeastArea = 1e-4;
+// How much of what is not seen between two circles without material may be material.
+constexpr double kHidden = 0.05;
+// Travel across the normal of less than this share is rounding.
+constexpr double kOutward = 1e-7;
+// Arcs that differ by less are one band on the cylinder, rad.
+constexpr double kAlikeRad = 2e-3;
+
+// Rotations at which `law` is above 0; from == to where nowhere.
+struct Window {
+    double from = 0, to = 0;
+};
+Window outward(const TurnLaw& law, double least) {
+    const double slope = math::hypot(law.sine, law.cosine), base = law.constant - least;
+    if (!(slope + base > 0)) return {};
+    if (base >= slope) return {0, math::kTwoPi};
+    const double border = math::asin(-base / slope);
+    const double from = border - math::atan2(law.cosine, law.sine);
+    const double start = from - math::kTwoPi * std::floor(from / math::kTwoPi);
+    return {start, start + math::kPi - 2 * border};
+}
+
+// Integral of the law over the rotation.
+double integral(const TurnLaw& law, double from, double to) {
+    double sin0, cos0, sin1, cos1;
+    math::sincos(from, sin0, cos0);
+    math::sincos(to, sin1, cos1);
+    return law.sine * (cos0 - cos1) + law.cosine * (sin1 - sin0) + law.constant * (to - from);
+}
+
+double fastest(const TurnLaw& law) {
+    return math::hypot(law.sine, law.cosine) + law.constant;
+}
 
 }  // namespace
 
-ToolFrame tool_frame(Vec3 axis, Vec3 travel, Vec3 last_x) {
-    const Vec3 across = travel - dot(travel, axis) * axis;
-    // Below this share the direction across the axis is rounding.
-    constexpr double kPlunge = 1e-6;
-    ToolFrame f;
-    f.z = axis;
-    if (length(across) > kPlunge * length(travel)) {
-        f.x = normalized(across);
-    } else {
-        const Vec3 last = last_x - dot(last_x, axis) * axis;
-        f.x = normalized(last, any_perpendicular(axis));
-    }
-    f.y = cross(f.z, f.x);
-    return f;
+EngagementProbe::EngagementProbe(const Cutter& cutter)
+    : profile_(cutter),
+      radius_mm_(cutter.radius_mm()),
+      core_mm_(0.5 * cutter.core_mm),
+      length_mm_(cutter.length_mm) {
+    levels_.reserve(kMostLevels + 2);
+    arcs_.reserve(4 * kMostLevels);
+    clear_.reserve(256);
 }
 
-EngagementProbe::EngagementProbe(const Cutter& cutter) : cutter_(cutter) {
-    for (int n = 0; n < kAngles; ++n) {
-        math::sincos((n + 0.5) * math::kTwoPi / kAngles, sin_[n], cos_[n]);
-    }
-    levels_.reserve(64);
-}
-
-double EngagementProbe::least_sine(const CutPose& pose, double z) const {
-    const double corner = cutter_.corner_radius_mm();
-    if (z >= corner) return 0;
-    // Normal times travel: across sin(phi) sin(kappa) + down cos(kappa).
-    const double cos_kappa = 1 - z / corner, sin_kappa = std::sqrt(std::max(0.0, 1 - cos_kappa * cos_kappa));
-    const double side = pose.across * sin_kappa, under = pose.down * cos_kappa;
-    if (side > std::abs(under)) return -under / side;
-    return under > 0 ? -1 : 1;
-}
-
-EngagementProbe::Mask EngagementProbe::look(const field::CarvedView& stock, const CutPose& pose, double z,
-                                            Mask asked) const {
-    const double r = cutter_.radius_at(z), least = least_sine(pose, z);
-    const Vec3 centre = pose.tip_mm + z * pose.frame.z, x = r * pose.frame.x, y = r * pose.frame.y;
-    Mask mask = 0;
-    for (int n = 0; n < kAngles; ++n) {
-        if ((asked >> n & 1) != 0 && sin_[n] > least &&
-            stock.is_material(centre + sin_[n] * x + cos_[n] * y, kSkin))
-            mask |= Mask{1} << n;
-    }
-    return mask;
-}
-
-EngagementProbe::Mask EngagementProbe::look_again(const field::CarvedView& stock, const CutPose& pose,
-                                                  double z, Mask like) const {
-    constexpr Mask kAll = (Mask{1} << kAngles) - 1, kEven = kAll / 3;
-    const Mask even = look(stock, pose, z, kEven);
-    if (even != (like & kEven)) return even | look(stock, pose, z, kAll & ~kEven);
-    const Mask starts = like ^ ((like << 1 | like >> (kAngles - 1)) & kAll);
-    const Mask beside = (starts | starts >> 1 | starts << (kAngles - 1)) & kAll & ~kEven;
-    return (like & ~beside) | look(stock, pose, z, beside);
-}
-
-double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose, double z, double outside,
-                               double inside) const {
-    const auto depth = [&](double angle) {
-        double s, c;
-        math::sincos(angle, s, c);
-        const double r = cutter_.radius_at(z);
-        return stock.distance_mm(pose.tip_mm + z * pose.frame.z + r * s * pose.frame.x +
-                                 r * c * pose.frame.y) +
-               kSkin;
-    };
-    // Regula falsi in the Illinois form on the exact distance.
-    constexpr int kSteps = 8;
-    constexpr double kAngle = 5e-4, kDepth = 1e-4;  // rad, mm
-    double out = depth(outside), in = depth(inside);
-    if (out < 0) return outside;
-    double angle = inside;
-    int last = 0;
-    for (int n = 0; n < kSteps && std::abs(inside - outside) > kAngle; ++n) {
-        angle = in < out ? outside + (inside - outside) * out / (out - in) : 0.5 * (inside + outside);
-        const double d = depth(angle);
-        if (std::abs(d) < kDepth) break;
-        const int side = d < 0 ? 1 : -1;
-        if (side > 0) {
-            inside = angle;
-            in = d;
-            if (last > 0) out *= 0.5;
-        } else {
-            outside = angle;
-            out = d;
-            if (last < 0) in *= 0.5;
-        }
-        last = side;
-    }
-    return angle;
-}
-
-void EngagementProbe::add_bands(const field::CarvedView& stock, const CutPose& pose, Mask mask, double z0,
-                                double z1, Engagement& out) const {
-    const double least = least_sine(pose, 0.5 * (z0 + z1));
-    if (least <= -1) {
-        add_window(stock, pose, mask, {z0, z1, 0, math::kTwoPi}, out);
-        return;
-    }
-    const double border = math::asin(std::min(least, 1.0));
-    add_window(stock, pose, mask, {z0, z1, std::max(border, 0.0), math::kPi - border}, out);
-    if (border < 0) add_window(stock, pose, mask, {z0, z1, math::kTwoPi + border, math::kTwoPi}, out);
-}
-
-void EngagementProbe::add_window(const field::CarvedView& stock, const CutPose& pose, Mask mask,
-                                 EngagementBand window, Engagement& out) const {
-    // Within this of the window's end an interval ends there exactly: beyond it nothing is cut.
-    constexpr double kSide = 0.01;  // rad
-    const double step = math::kTwoPi / kAngles, z = 0.5 * (window.z0_mm + window.z1_mm);
-    const int first = std::max(0, static_cast<int>(std::ceil(window.entry_rad / step - 0.5)));
-    const int last = std::min(kAngles - 1, static_cast<int>(std::floor(window.exit_rad / step - 0.5)));
-    const auto bit = [&](int n) { return (mask >> n & 1) != 0; };
-    for (int n = first; n <= last; ++n) {
-        if (!bit(n)) continue;
-        int end = n;
-        while (end < last && bit(end + 1)) ++end;
-        const double before = n == first ? window.entry_rad : (n - 0.5) * step;
-        const double after = end == last ? window.exit_rad : (end + 1.5) * step;
-        double entry = refine(stock, pose, z, before, (n + 0.5) * step);
-        double exit = refine(stock, pose, z, after, (end + 0.5) * step);
-        if (entry - window.entry_rad < kSide) entry = window.entry_rad;
-        if (window.exit_rad - exit < kSide) exit = window.exit_rad;
-        if (exit > entry) out.bands.push_back({window.z0_mm, window.z1_mm, entry, exit});
-        n = end;
-    }
-}
-
-double EngagementProbe::bottom_fraction(const field::CarvedView& stock, const CutPose& pose) const {
-    const double radius = cutter_.radius_mm() - cutter_.corner_radius_mm();
-    if (pose.down <= 1e-9 || radius <= 0) return 0;
-    constexpr int kRings = 6;
-    int in = 0, of = 0;
-    for (int ring = 0; ring < kRings; ++ring) {
-        // Rings of equal area, so that every probe stands for the same share of the disc.
-        const double r = radius * std::sqrt((ring + 0.5) / kRings);
-        for (int n = ring % 4; n < kAngles; n += 4, ++of) {
-            const Vec3 p = pose.tip_mm + r * sin_[n] * pose.frame.x + r * cos_[n] * pose.frame.y;
-            in += static_cast<int>(stock.is_material(p, kSkin));
-        }
-    }
-    return static_cast<double>(in) / of;
-}
-
-void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
-    out.clear();
-    const double corner = cutter_.corner_radius_mm(), radius = cutter_.radius_mm();
-    // Heights at which the envelope can meet the blank at all.
+bool EngagementProbe::clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low,
+                                   double& high) const {
     const Box3 blank = stock.field().blank().bounds_mm();
-    double low = 0, high = cutter_.length_mm;
+    low = 0;
+    high = length_mm_;
     for (int axis = 0; axis < 3; ++axis) {
         const double u = pose.frame.z[axis];
-        const double reach = radius * std::sqrt(std::max(0.0, 1 - u * u));
+        const double reach = radius_mm_ * std::sqrt(std::max(0.0, 1 - u * u));
         const double from = blank.min[axis] - reach - pose.tip_mm[axis];
         const double to = blank.max[axis] + reach - pose.tip_mm[axis];
         if (std::abs(u) < 1e-12) {
-            if (from > 0 || to < 0) return;
+            if (from > 0 || to < 0) return false;
             continue;
         }
         low = std::max(low, std::min(from / u, to / u));
         high = std::min(high, std::max(from / u, to / u));
     }
-    if (high <= low) return;
-    out.bottom_fraction = bottom_fraction(stock, pose);
+    return high > low;
+}
 
-    levels_.clear();
-    const auto add_level = [&](double z) {
-        levels_.push_back({z, levels_.empty() ? look(stock, pose, z, ~Mask{0})
-                                              : look_again(stock, pose, z, levels_.back().mask)});
-    };
-    const double round_top = std::clamp(corner, low, high);
-    if (round_top > low) {
-        // Through the rounded part in equal steps of the surface's angle, where the radius changes fast.
-        const auto angle_at = [&](double z) { return math::acos(std::clamp(1 - z / corner, -1.0, 1.0)); };
-        const double k0 = angle_at(low), k1 = angle_at(round_top);
-        const int count = std::max(2, static_cast<int>(std::ceil((k1 - k0) / 0.15)));
-        for (int n = 0; n < count; ++n) {
-            add_level(corner * (1 - math::cos(k0 + (k1 - k0) * (n + 0.5) / count)));
+EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::CarvedView& stock,
+                                             const CutPose& pose) {
+    Level level;
+    level.s0 = s0;
+    level.s1 = s1;
+    level.at = profile_.at(level.s());
+    level.first = arcs_.size();
+    const ToolTravel& t = pose.travel;
+    const double way =
+        t.across_mm + std::abs(t.down_mm) + length_mm_ * (std::abs(t.turn_x_rad) + std::abs(t.turn_y_rad));
+    const TurnLaw law = normal_travel(t, level.at);
+    const Window window = outward(law, kOutward * way);
+    level.window_from = window.from;
+    level.window_to = window.to;
+    level.speed = std::max(0.0, fastest(law));
+    if (!(window.to > window.from)) {
+        level.gap_mm = math::kTwoPi * radius_mm_;
+        level.speed = 0;
+        return level;
+    }
+    const double r = level.at.radius_mm;
+    const AxisCircle circle{pose.tip_mm + level.at.height_mm * pose.frame.z, r * pose.frame.x,
+                            r * pose.frame.y, r};
+    material_arcs(stock, circle, window.from, window.to, arcs_, clear_);
+    level.seen_mm = s1 - s0;
+    level.gap_mm = math::kTwoPi * radius_mm_;
+    for (const ClearPiece& piece : clear_) {
+        level.gap_mm = std::min(level.gap_mm, piece.clear_mm);
+        double sine, cosine;
+        math::sincos(piece.middle_rad, sine, cosine);
+        const double flow = r * piece.size_rad * (law.sine * sine + law.cosine * cosine + law.constant);
+        double within = 0.5 * level.seen_mm;
+        for (double& sum : level.hidden) {
+            if (piece.clear_mm < within) sum += flow;
+            within /= 3;
         }
     }
-    if (high > round_top) {
-        const double bottom = levels_.empty() ? low : round_top;
-        // Where the tool climbs or dives, what it meets just above its bottom is thin and changes fast.
-        if (levels_.empty()) add_level(low + 0.01 * (high - low));
-        for (int n = 0; n < kLevels; ++n) add_level(bottom + (high - bottom) * (n + 0.5) / kLevels);
+    level.count = arcs_.size() - level.first;
+    for (std::size_t n = level.first; n < arcs_.size(); ++n) {
+        level.width_rad += arcs_[n].to_rad - arcs_[n].from_rad;
+        level.flow += r * integral(law, arcs_[n].from_rad, arcs_[n].to_rad);
     }
+    return level;
+}
 
-    // Between levels that differ by more than a few probes lies a step or a slope: look there until they
-    // agree or the step is as thin as heights are wanted. What both say is taken for what is between.
-    const double fine = std::max(0.002 * (high - low), 0.001);
-    for (std::size_t n = 0; n + 1 < levels_.size();) {
-        const Level below = levels_[n], above = levels_[n + 1];
-        const Mask changed = below.mask ^ above.mask;
-        if (std::popcount(changed) <= kStepProbes || above.z - below.z <= fine) {
-            ++n;
-            continue;
-        }
-        const double z = 0.5 * (below.z + above.z);
-        levels_.insert(levels_.begin() + static_cast<std::ptrdiff_t>(n) + 1,
-                       {z, (below.mask & ~changed) | look(stock, pose, z, changed)});
-    }
-    // Each level stands for the heights that are nearer to it than to its neighbours; alike ones on the
-    // cylinder are one.
-    for (std::size_t n = 0; n < levels_.size();) {
-        std::size_t end = n + 1;
-        const double z0 = n == 0 ? low : 0.5 * (levels_[n - 1].z + levels_[n].z);
-        while (end < levels_.size() && levels_[end].mask == levels_[n].mask && z0 >= corner) ++end;
-        const double z1 = end == levels_.size() ? high : 0.5 * (levels_[end - 1].z + levels_[end].z);
-        if (levels_[n].mask != 0) add_bands(stock, pose, levels_[n].mask, z0, z1, out);
-        n = end;
+void EngagementProbe::start(double s0, double s1, int count, const field::CarvedView& stock,
+                            const CutPose& pose) {
+    for (int n = 0; n < count; ++n) {
+        levels_.push_back(look(s0 + (s1 - s0) * n / count, s0 + (s1 - s0) * (n + 1) / count, stock, pose));
     }
 }
 
-double chip_area_mm2(const Cutter& cutter, const Engagement& engagement, double across, double down) {
-    const double corner = cutter.corner_radius_mm(), core = cutter.radius_mm() - corner;
-    double area = 0;
-    for (const EngagementBand& b : engagement.bands) {
-        double s0, c0, s1, c1;
-        math::sincos(b.entry_rad, s0, c0);
-        math::sincos(b.exit_rad, s1, c1);
-        // The front of the envelope seen along the travel: its width times the height, and in the rounded
-        // part the ring seen from below times the share of travel along the axis.
-        const double z0 = std::min(b.z0_mm, corner), z1 = std::min(b.z1_mm, corner);
-        const double r0 = cutter.radius_at(b.z0_mm), r1 = cutter.radius_at(b.z1_mm);
-        double profile = cutter.radius_mm() * (b.z1_mm - std::max(b.z0_mm, corner));
-        if (b.z1_mm <= corner) profile = 0;
-        if (z1 > z0) {
-            // Integral of r(z) over the rounded part: the core and a piece of the circle.
-            const auto circle = [&](double z) {
-                const double u = std::clamp(z / corner - 1, -1.0, 1.0);
-                return 0.5 * corner * corner * (u * std::sqrt(1 - u * u) + math::asin(u));
-            };
-            profile += core * (z1 - z0) + circle(z1) - circle(z0);
-            area += down * 0.5 * (r1 * r1 - r0 * r0) * (b.exit_rad - b.entry_rad);
-        }
-        area += across * profile * (c0 - c1);
+// What a level without material may not see of what is half as far as `apart_mm`.
+double EngagementProbe::hidden(const Level& level, double apart_mm) const {
+    const double third = level.seen_mm / 3;
+    return level.hidden[apart_mm > 1.01 * third ? 0 : apart_mm > 1.01 * third / 3 ? 1 : 2];
+}
+
+// What the area that the chips sweep may be off by between two circles.
+double EngagementProbe::error_between(const Level& a, const Level& b) const {
+    // Of the difference between the two, where the same arcs go on, where one begins and where one ends.
+    constexpr double kBend = 0.06, kBegin = 0.3, kEnd = 0.3;
+    const double apart = b.s() - a.s(), radius = std::max(a.at.radius_mm, b.at.radius_mm);
+    const double speed = std::max(a.speed, b.speed);
+    if (a.count == 0 && b.count == 0) return kHidden * apart * std::max(hidden(a, apart), hidden(b, apart));
+    const double change = std::abs(a.flow - b.flow);
+    if (a.count == 0 || b.count == 0) return kEnd * (apart - std::max(a.gap_mm, b.gap_mm)) * change;
+    if (a.count != b.count) {
+        constexpr double kAnotherArc = 0.1;  // rad
+        return kBegin * apart * (change + kAnotherArc * radius * speed);
     }
-    if (down > 0) area += down * engagement.bottom_fraction * math::kPi * core * core;
+    constexpr double kStep = 0.5;  // rad
+    const double jump = std::abs(a.width_rad - b.width_rad);
+    return (jump < kStep ? kBend : kEnd) * apart * change;
+}
+
+double EngagementProbe::judge() {
+    double area = 0;
+    for (Level& level : levels_) {
+        level.error = 0;
+        area += (level.s1 - level.s0) * level.flow;
+    }
+    for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
+        Level &a = levels_[n], &b = levels_[n + 1];
+        const double error = error_between(a, b);
+        Level& larger = a.s1 - a.s0 >= b.s1 - b.s0 ? a : b;
+        larger.error = std::max(larger.error, error);
+    }
+    // The ends of the part, which have a neighbour on one side only.
+    for (Level* end : {&levels_.front(), &levels_.back()}) {
+        if (end->count == 0)
+            end->error =
+                std::max(end->error, kHidden * (end->s1 - end->s0) * hidden(*end, end->s1 - end->s0));
+    }
     return area;
+}
+
+void EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose) {
+    double speed = 0;
+    for (const Level& level : levels_) speed = std::max(speed, level.speed);
+    const double least = kLeastArea * radius_mm_ * radius_mm_ * speed;
+    while (levels_.size() < kMostLevels) {
+        const double most = std::max(kAreaShare * judge(), least);
+        const auto worst = std::max_element(levels_.begin(), levels_.end(),
+                                            [](const Level& a, const Level& b) { return a.error < b.error; });
+        if (worst == levels_.end() || worst->error <= most) return;
+        // In thirds: the one in the middle keeps its circle.
+        const double s0 = worst->s0, s1 = worst->s1, third = (s1 - s0) / 3;
+        worst->s0 = s0 + third;
+        worst->s1 = s1 - third;
+        const auto at = worst - levels_.begin();
+        levels_.insert(levels_.begin() + at, look(s0, s0 + third, stock, pose));
+        levels_.insert(levels_.begin() + at + 2, look(s1 - third, s1, stock, pose));
+    }
+}
+
+// Nearer to the window's end an arc ends there, rad.
+constexpr double kSide = 0.01;
+bool EngagementProbe::starts_with_window(const Level& level, const MaterialArc& arc) const {
+    return arc.from_rad - level.window_from < kSide;
+}
+bool EngagementProbe::ends_with_window(const Level& level, const MaterialArc& arc) const {
+    return level.window_to - arc.to_rad < kSide;
+}
+
+// The last arc of a contact that gets narrower towards `end`, which is how far it may reach. Where two smooth
+// surfaces part, the square of the width falls evenly.
+MaterialArc EngagementProbe::closing_arc(const Level& level, const Level& inner, double end,
+                                         std::size_t number) const {
+    MaterialArc arc = arcs_[level.first + number];
+    const MaterialArc& before = arcs_[inner.first + number];
+    const double width = arc.to_rad - arc.from_rad, wider = before.to_rad - before.from_rad;
+    if (!(width < wider)) return arc;
+    const double fall = (wider * wider - width * width) / std::abs(level.s() - inner.s());  // per mm
+    const double half = 0.5 * (level.s1 - level.s0);
+    // Wider than that it ends at a step, somewhere between.
+    const double closed = width * width / fall;
+    const double reach = closed < std::abs(end - level.s()) ? closed : half;
+    const auto cubed = [&](double way) {  // of the width at that way towards the end
+        const double square = std::max(width * width - fall * way, 0.0);
+        return square * std::sqrt(square);
+    };
+    const double mean = (cubed(-half) - cubed(reach)) / (1.5 * fall * 2 * half);
+    if (starts_with_window(level, arc) && !ends_with_window(level, arc))
+        return {arc.from_rad, arc.from_rad + mean};
+    if (ends_with_window(level, arc) && !starts_with_window(level, arc))
+        return {arc.to_rad - mean, arc.to_rad};
+    const double middle = 0.5 * (arc.from_rad + arc.to_rad);
+    return {middle - 0.5 * mean, middle + 0.5 * mean};
+}
+
+MaterialArc EngagementProbe::mean_arc(std::size_t index, std::size_t number) const {
+    const Level& level = levels_[index];
+    const MaterialArc& arc = arcs_[level.first + number];
+    const Level* below = index > 0 ? &levels_[index - 1] : nullptr;
+    const Level* above = index + 1 < levels_.size() ? &levels_[index + 1] : nullptr;
+    const auto alike = [&](const Level* other) { return other && other->count == level.count; };
+    const auto none = [](const Level* other) { return !other || other->count == 0; };
+    if (alike(below) && none(above)) return closing_arc(level, *below, above ? above->s() : level.s1, number);
+    if (alike(above) && none(below)) return closing_arc(level, *above, below ? below->s() : level.s0, number);
+    if (!alike(below) || !alike(above)) return arc;
+    const MaterialArc &a = arcs_[below->first + number], &b = arcs_[above->first + number];
+    const double from_below = level.s() - below->s(), to_above = above->s() - level.s();
+    const double size = level.s1 - level.s0, share = size * size / (12 * (from_below + to_above));
+    // Between rotations that may lie whole turns apart.
+    const auto step = [](double from, double to) {
+        return to - from - math::kTwoPi * std::floor((to - from) / math::kTwoPi + 0.5);
+    };
+    const auto mean = [&](double low, double middle, double high) {
+        return middle + share * (step(middle, high) / to_above - step(low, middle) / from_below);
+    };
+    return {mean(a.from_rad, arc.from_rad, b.from_rad), mean(a.to_rad, arc.to_rad, b.to_rad)};
+}
+
+// Adds what the levels found. Where an arc ends with the window it goes on as far as the window does
+// somewhere on the level's stretch: the force knows where each edge moves outward.
+void EngagementProbe::add_bands(const CutPose& pose, Engagement& out) const {
+    const std::size_t before = out.bands.size();
+    for (std::size_t index = 0; index < levels_.size(); ++index) {
+        const Level& level = levels_[index];
+        if (level.count == 0) continue;
+        Window wide{level.window_from, level.window_to};
+        for (const double s : {level.s0, level.s1}) {
+            const Window w = outward(normal_travel(pose.travel, profile_.at(s)), 0);
+            if (!(w.to > w.from)) continue;
+            const double turn = math::kTwoPi * std::floor((w.from - wide.from) / math::kTwoPi + 0.5);
+            wide.from = std::min(wide.from, w.from - turn);
+            wide.to = std::max(wide.to, w.to - turn);
+        }
+        if (wide.to - wide.from > math::kTwoPi) wide = {wide.from, wide.from + math::kTwoPi};
+        for (std::size_t n = 0; n < level.count; ++n) {
+            const MaterialArc &seen = arcs_[level.first + n], mean = mean_arc(index, n);
+            const MaterialArc arc{starts_with_window(level, seen) ? wide.from : mean.from_rad,
+                                  ends_with_window(level, seen) ? wide.to : mean.to_rad};
+            const auto add = [&](double from, double to) {
+                from = std::max(from, 0.0);
+                to = std::min(to, math::kTwoPi);
+                if (!(to > from)) return;
+                if (level.s() < profile_.bottom_end()) {
+                    out.bottom.push_back({level.s0, level.s1, from, to});
+                    return;
+                }
+                const double z0 = profile_.at(level.s0).height_mm, z1 = profile_.at(level.s1).height_mm;
+                for (std::size_t m = out.bands.size(); m > before; --m) {
+                    EngagementBand& below = out.bands[m - 1];
+                    if (below.z1_mm == z0 && level.s0 >= profile_.corner_end() &&
+                        std::abs(below.entry_rad - from) < kAlikeRad &&
+                        std::abs(below.exit_rad - to) < kAlikeRad) {
+                        const double share = (z1 - z0) / (z1 - below.z0_mm);
+                        below.entry_rad += share * (from - below.entry_rad);
+                        below.exit_rad += share * (to - below.exit_rad);
+                        below.z1_mm = z1;
+                        return;
+                    }
+                }
+                out.bands.push_back({z0, z1, from, to});
+            };
+            for (const double turn : {-math::kTwoPi, 0.0, math::kTwoPi})
+                add(arc.from_rad + turn, arc.to_rad + turn);
+        }
+    }
+}
+
+void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
+    out.clear();
+    double low, high;
+    if (!clip_heights(stock, pose, low, high)) return;
+    const double bottom = profile_.bottom_end(), corner = profile_.corner_end();
+    if (low <= 0 && bottom > core_mm_ && (pose.travel.down_mm > 0 || pose.travel.turns())) {
+        levels_.clear();
+        arcs_.clear();
+        start(core_mm_, bottom, kFirstOnBottom, stock, pose);
+        refine(stock, pose);
+        add_bands(pose, out);
+    }
+    const double s0 = profile_.at_height(low), s1 = profile_.at_height(high);
+    const double middle = std::clamp(corner, s0, s1);
+    levels_.clear();
+    arcs_.clear();
+    if (middle > s0) start(s0, middle, kFirstOnCorner, stock, pose);
+    if (s1 > middle) start(middle, s1, kFirstOnCylinder, stock, pose);
+    refine(stock, pose);
+    add_bands(pose, out);
+}
+
+double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTravel& travel) {
+    const CutterProfile profile(cutter);
+    // Gauss-Legendre along the meridian, in closed form over the rotation.
+    constexpr double kPlace[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
+    constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    double volume = 0;
+    const auto add_piece = [&](double s0, double s1, double entry, double exit) {
+        for (int n = 0; n < 3; ++n) {
+            const ProfilePoint at = profile.at(0.5 * (s0 + s1) + 0.5 * (s1 - s0) * kPlace[n]);
+            const TurnLaw law = normal_travel(travel, at);
+            const Window window = outward(law, 0);
+            const double weight = kWeight[n] * (s1 - s0) * at.radius_mm;
+            for (int turn = -1; turn <= 1; ++turn) {
+                const double from = std::max(entry, window.from + turn * math::kTwoPi);
+                const double to = std::min(exit, window.to + turn * math::kTwoPi);
+                if (!(to > from)) continue;
+                volume += weight * integral(law, from, to);
+            }
+        }
+    };
+    // Where the axis turns, the window in which an edge moves outward has kinks along the meridian.
+    const int pieces = travel.turns() ? 6 : 1;
+    const auto add = [&](double s0, double s1, double entry, double exit) {
+        for (int n = 0; n < pieces && s1 > s0; ++n)
+            add_piece(s0 + (s1 - s0) * n / pieces, s0 + (s1 - s0) * (n + 1) / pieces, entry, exit);
+    };
+    for (const BottomBand& b : engagement.bottom) add(b.r0_mm, b.r1_mm, b.entry_rad, b.exit_rad);
+    for (const EngagementBand& b : engagement.bands) {
+        const double s0 = profile.at_height(b.z0_mm), s1 = profile.at_height(b.z1_mm);
+        const double middle = std::clamp(profile.corner_end(), s0, s1);
+        add(s0, middle, b.entry_rad, b.exit_rad);
+        add(middle, s1, b.entry_rad, b.exit_rad);
+    }
+    return volume;
 }
 
 }  // namespace tribo::milling

@@ -6,7 +6,7 @@
 namespace tribo::milling {
 
 contact::ToolForce force_at(const EngagedEdges& tool, double theta_rad) {
-    contact::ToolForce sum = tool.bottom();
+    contact::ToolForce sum;
     const double period = tool.period_rad();
     for (const EngagedEdge& edge : tool.edges()) {
         const ToothRange teeth = teeth_within(edge, theta_rad, period);
@@ -20,7 +20,7 @@ contact::ToolForce force_at(const EngagedEdges& tool, double theta_rad) {
 }
 
 void force_spectrum(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                    const Engagement& engagement, const FeedPerTooth& feed, int tooth_harmonics,
+                    const Engagement& engagement, const ToolTravel& feed, int tooth_harmonics,
                     contact::ForceSpectrum& out) {
     EngagedEdges edges(cutter, coefficients);
     edges.engage(engagement, feed);
@@ -28,7 +28,7 @@ void force_spectrum(const Cutter& cutter, const CuttingCoefficients& coefficient
 }
 
 ForcePeaks force_peaks(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                       const Engagement& engagement, const FeedPerTooth& feed) {
+                       const Engagement& engagement, const ToolTravel& feed) {
     EngagedEdges edges(cutter, coefficients);
     edges.engage(engagement, feed);
     return PeakFinder().find(edges);

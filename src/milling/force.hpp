@@ -32,7 +32,7 @@ class ForceModel {
         : edges_(cutter, coefficients) {}
 
     // What cuts from now on. Real-time safe within the room of EngagedEdges.
-    void engage(const Engagement& engagement, const FeedPerTooth& feed) { edges_.engage(engagement, feed); }
+    void engage(const Engagement& engagement, const ToolTravel& feed) { edges_.engage(engagement, feed); }
 
     // Real-time safe.
     contact::ToolForce at(double theta_rad) const { return force_at(edges_, theta_rad); }
@@ -53,9 +53,9 @@ class ForceModel {
 
 // The one-use doors.
 void force_spectrum(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                    const Engagement& engagement, const FeedPerTooth& feed, int tooth_harmonics,
+                    const Engagement& engagement, const ToolTravel& feed, int tooth_harmonics,
                     contact::ForceSpectrum& out);
 ForcePeaks force_peaks(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                       const Engagement& engagement, const FeedPerTooth& feed);
+                       const Engagement& engagement, const ToolTravel& feed);
 
 }  // namespace tribo::milling

@@ -89,7 +89,7 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
         if (edge.round) {
             sum_profile();
         } else {
-            whole.add_shifted(load_series(edge.load), lag, edge.z1_mm - edge.z0_mm);
+            whole.add_shifted(load_series(edge.load), lag, edge.weight_mm);
         }
         add_change(edge, entry + lag, exit + lag, whole, 0, 1, period);
         add_change(edge, exit + lag, exit + lag, whole, 0, -1, period);
@@ -114,7 +114,7 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
     // when the edge's end (lag) reaches the window's border, it adds or takes the integral from the border
     // on.
     const TurnSeries integral = load_integral(edge.load);
-    const double per_rad = 1 / tool.lag_per_mm(), end = exit + lag1;
+    const double per_rad = 1 / std::abs(tool.lag_per_mm()), end = exit + lag1;
     const auto corner = [&](double border, double sine, double cosine, double lag, double sign) {
         TurnSeries f = integral;
         f.of_one -= integral.at(border, sine, cosine);
@@ -174,7 +174,6 @@ ForcePeaks PeakFinder::find(const EngagedEdges& tool) {
     borders_.clear();
     sampled_.clear();
     for (const EngagedEdge& edge : tool.edges()) add_edge(tool, edge);
-    series_.of_one += Lanes(tool.bottom());
     std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
         return a.angle != b.angle ? a.angle < b.angle : a.change < b.change;
     });

@@ -8,9 +8,10 @@ namespace tribo::milling {
 
 // Force acts on the tool, in the tool's frame: x along the feed, y to its left, z to the shank.
 struct ForceRow {
-    double t_s = 0;  // at the start of the piece, from the start of the program
-    int line = 0;    // of the program, from 1
-    Vec3 tip_mm;     // stock frame
+    double t_s = 0;         // at the start of the piece, from the start of the program
+    double duration_s = 0;  // of the piece
+    int line = 0;           // of the program, from 1
+    Vec3 tip_mm;            // stock frame
     Vec3 axis{0, 0, 1};
     double spindle_rpm = 0;
     double feed_mm_per_min = 0;          // of the tip
@@ -21,6 +22,8 @@ struct ForceRow {
     double peak_fxy_n = 0;               // largest size of the force across the axis
     double mean_torque_nm = 0, peak_torque_nm = 0;
     double removed_mm3 = 0;  // by this piece
+    // What the measured chips were multiplied by so that they fill the volume that the stock lost.
+    double reconciled = 1;
 };
 
 }  // namespace tribo::milling

@@ -35,15 +35,19 @@ motion::Move raised(motion::Move move, double height) {
 // The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
 CutPose pose_between(const motion::Move& move, double from, double to, Vec3& last_x) {
     const motion::ToolPose mid = motion::pose_at(move, 0.5 * (from + to));
-    const Vec3 travel = motion::pose_at(move, to).tip_mm - motion::pose_at(move, from).tip_mm;
-    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), 1, 0};
+    const motion::ToolPose first = motion::pose_at(move, from), last = motion::pose_at(move, to);
+    const Vec3 travel = last.tip_mm - first.tip_mm, turn = last.axis - first.axis;
+    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), {}};
     last_x = pose.frame.x;
-    const double l = length(travel);
-    if (l > 0) {
-        pose.down = std::clamp(-dot(travel, mid.axis) / l, -1.0, 1.0);
-        pose.across = std::sqrt(std::max(0.0, 1 - pose.down * pose.down));
-    }
+    pose.travel = {std::max(0.0, dot(travel, pose.frame.x)), -dot(travel, pose.frame.z),
+                   dot(turn, pose.frame.x), dot(turn, pose.frame.y)};
     return pose;
+}
+
+// Where a path bends more sharply than the cutter is wide, earlier parts of the move itself cut ahead of it.
+bool meets_itself(const motion::Move& move, const Cutter& cutter) {
+    constexpr double kSharp = 0.5;  // of the cutter's radius over the path's
+    return (move.arc || move.quadratic) && motion::max_curvature_per_mm(move) * cutter.radius_mm() > kSharp;
 }
 
 }  // namespace
@@ -115,8 +119,11 @@ Machining::~Machining() = default;
 
 void Machining::add_rows(std::size_t number, Machined& out) {
     const motion::Move& move = *sweeps_[number].step.move;
-    const double length = motion::path_length_mm(move);
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / options_.row_mm - 1e-9)));
+    const Cutter& cutter = cutters_[sweeps_[number].step.cutter];
+    const double longest = std::min(options_.row_mm, options_.row_diameters * cutter.diameter_mm);
+    const double way =
+        std::max(motion::path_length_mm(move), 0.5 * cutter.length_mm * motion::axis_turn_rad(move));
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(way / longest - 1e-9)));
     if (out.rows.size() < out.row_count + count) out.rows.resize(out.row_count + count);
     double travelled = 0;
     for (std::size_t n = 0; n < count; ++n) {
@@ -140,9 +147,17 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
     for (std::size_t n = first; n < last; ++n) {
         CutRow& row = out.rows[n];
         const Sweep& sweep = sweeps_[row.step];
-        probes[sweep.step.cutter].measure(before(sweep), row.pose, row.engagement);
-        row.chip_mm3 = row.length_mm * chip_area_mm2(cutters_[sweep.step.cutter], row.engagement,
-                                                     row.pose.across, row.pose.down);
+        const Cutter& cutter = cutters_[sweep.step.cutter];
+        EngagementProbe& probe = probes[sweep.step.cutter];
+        if (row.from > 0 && meets_itself(*sweep.step.move, cutter)) {
+            const auto gone = make_sweep(cutter, motion::first_part(*sweep.step.move, row.from));
+            std::vector<field::PendingShape> earlier = sweep.earlier;
+            earlier.push_back({gone.get(), gone->bounds_mm().inflated(kMargin)});
+            probe.measure({stock_, earlier}, row.pose, row.engagement);
+        } else {
+            probe.measure(before(sweep), row.pose, row.engagement);
+        }
+        row.chip_mm3 = chip_mm3(cutter, row.engagement, row.pose.travel);
     }
 }
 
@@ -253,23 +268,36 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         }
         out.collisions.insert(out.collisions.end(), sweep.collisions.begin(), sweep.collisions.end());
     }
-    share_removed(out);
+    reconcile(out);
     return count;
 }
 
-// Each row's share of what its step removed.
-void Machining::share_removed(Machined& out) const {
-    for (std::size_t first = 0; first < out.row_count;) {
-        const std::size_t step = out.rows[first].step;
+// Chips are reconciled with what the stock lost over the latest kEnoughCells of it: of fewer the grid knows
+// the volume only roughly. Up to kSlack the difference is left to the grid's rounding. Nothing depends on how
+// many steps are run at once.
+void Machining::reconcile(Machined& out) {
+    constexpr double kEnoughCells = 400;
+    constexpr double kSlack = 0.005;
+    // Beyond these the engagement missed what was cut, and no factor makes a force of it.
+    constexpr double kLeast = 0.5, kMost = 2;
+    const double cell = stock_.cell_mm(), enough = kEnoughCells * cell * cell * cell;
+    std::size_t first = 0;
+    for (std::size_t step = 0; step < sweeps_.size(); ++step) {
         std::size_t last = first;
         double chips = 0;
         for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
-        for (std::size_t n = first; n < last; ++n) {
-            CutRow& row = out.rows[n];
-            const double share = chips > 0 ? row.chip_mm3 / chips : 1 / static_cast<double>(last - first);
-            row.removed_mm3 = out.removed_mm3[step] * share;
+        if (sweeps_[step].is_rapid()) continue;
+        const double kept = enough / (enough + std::max(chips, out.removed_mm3[step]));
+        lost_mm3_ = kept * lost_mm3_ + out.removed_mm3[step];
+        chips_mm3_ = kept * chips_mm3_ + chips;
+        const double ratio = chips_mm3_ > 0 ? lost_mm3_ / chips_mm3_ : 1;
+        const double off = std::max(std::abs(ratio - 1) - kSlack, 0.0);
+        const double factor = std::clamp(ratio > 1 ? 1 + off : 1 - off, kLeast, kMost);
+        for (; first < last; ++first) {
+            CutRow& row = out.rows[first];
+            row.removed_mm3 = std::clamp(ratio, kLeast, kMost) * row.chip_mm3;
+            row.reconciled = factor;
         }
-        first = last;
     }
 }
 

@@ -25,10 +25,11 @@ struct CutRow {
     std::size_t step = 0;
     double from = 0, to = 0;  // fractions of the elementary move
     double length_mm = 0;     // of the tip path
-    CutPose pose;             // in the middle
+    CutPose pose;             // in the middle; its travel is that of the whole row
     Engagement engagement;    // in the middle
-    double chip_mm3 = 0;      // chip area times length: what the engagement says is cut
-    double removed_mm3 = 0;   // this row's share of what the stock lost in the move
+    double chip_mm3 = 0;      // what the engagement says is cut
+    double removed_mm3 = 0;   // this row's share of what the stock lost
+    double reconciled = 1;    // what chips are multiplied by so that they fill what the stock lost
 };
 
 enum class CollisionKind { rapid_through_stock, shank, holder, tool_in_fixture, holder_in_fixture };
@@ -50,8 +51,9 @@ struct Machined {
 };
 
 struct MachiningOptions {
-    double row_mm = 0.5;      // longest row
-    double rapid_row_mm = 2;  // how far apart a rapid that touched stock is searched for the place
+    double row_mm = 0.5;           // longest row, of the tip's path and half way up the cutter
+    double row_diameters = 0.125;  // and of the cutter's diameter
+    double rapid_row_mm = 2;       // how far apart a rapid that touched stock is searched for the place
     bool collisions = true;
 };
 
@@ -78,7 +80,7 @@ class Machining {
     field::CarvedView before(const Sweep& sweep) const;
     void find_contact(Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
-    void share_removed(Machined& out) const;
+    void reconcile(Machined& out);
 
     field::CarvedField& stock_;
     std::span<const Cutter> cutters_;
@@ -91,7 +93,8 @@ class Machining {
     // Of the run that is going on.
     std::vector<Sweep> sweeps_;
     std::vector<std::unique_ptr<const field::Shape>> shapes_;
-    std::vector<double> removed_;  // by shape
+    std::vector<double> removed_;          // by shape
+    double lost_mm3_ = 0, chips_mm3_ = 0;  // of the latest feed moves, the older the less
 };
 
 }  // namespace tribo::milling

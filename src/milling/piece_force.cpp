@@ -32,18 +32,22 @@ contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge
     }
     double z0 = edge.z0_mm, z1 = edge.z1_mm;
     const double whole = high - low;
-    // Low rotations are high up on the edge.
+    // A right-hand helix lags ever more with height, a left-hand one runs ahead: its low rotations are low.
+    const bool left_hand = tool.lag_per_mm() < 0;
+    const auto height_at = [&](double rotation) {
+        return std::clamp((tip_rad - rotation) / tool.lag_per_mm(), edge.z0_mm, edge.z1_mm);
+    };
     if (low < edge.entry_rad) {
         low = edge.entry_rad;
-        z1 = std::min((tip_rad - low) / tool.lag_per_mm(), edge.z1_mm);
+        (left_hand ? z0 : z1) = height_at(low);
     }
     if (high > edge.exit_rad) {
         high = edge.exit_rad;
-        z0 = std::max((tip_rad - high) / tool.lag_per_mm(), edge.z0_mm);
+        (left_hand ? z1 : z0) = height_at(high);
     }
     if (!edge.round) {
-        const double height = edge.z1_mm - edge.z0_mm;
-        return segment_force(edge.load, low, high, straight ? height : height * (high - low) / whole);
+        return segment_force(edge.load, low, high,
+                             straight ? edge.weight_mm : edge.weight_mm * (high - low) / whole);
     }
     // The rotations of the points lie close together: one sine and cosine, then small turns from there.
     const double middle = 0.5 * (low + high);

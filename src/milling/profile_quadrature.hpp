@@ -26,10 +26,10 @@ inline constexpr GaussRule kGauss6{6,
                                    {0.17132449237917034504, 0.36076157304813860757, 0.46791393457269104739,
                                     0.46791393457269104739, 0.36076157304813860757, 0.17132449237917034504}};
 
-// Calls visit(lag, load) with the lag behind the tip, rad, and the load times the point's length of profile:
-// N and N mm. The variable is u = sqrt(z / 2r) = sin(kappa / 2), smooth down to the tip and free of
-// trigonometry: sin kappa = 2 u sqrt(1 - u^2), cos kappa = 1 - 2 u^2, db = r dkappa = 2 r du / sqrt(1 - u^2).
-// Real-time safe.
+// Calls visit(lag, load) with the lag behind the tip, rad (negative on a left-hand helix), and the load times
+// the point's length of profile: N and N mm. The variable is u = sqrt(z / 2r) = sin(kappa / 2), smooth down
+// to the tip and free of trigonometry: sin kappa = 2 u sqrt(1 - u^2), cos kappa = 1 - 2 u^2, db = r dkappa =
+// 2 r du / sqrt(1 - u^2). Real-time safe.
 template <class Visit>
 void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, double z1_mm,
                    const GaussRule& rule, Visit&& visit) {
@@ -40,12 +40,15 @@ void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, dou
         const double u = middle + half * rule.x[i], root = std::sqrt(1 - u * u);
         const double sin_kappa = 2 * u * root, cos_kappa = 1 - 2 * u * u;
         const double length = 2 * corner * half * rule.weight[i] / root;
-        EdgeLoad load = edge_load(tool.coefficients(), chip, sin_kappa, cos_kappa, core + corner * sin_kappa);
-        for (double* part :
-             {&load.t_sine, &load.r_sine, &load.a_sine, &load.m_sine, &load.t, &load.r, &load.a, &load.m}) {
-            *part *= length;
+        const double height = 2 * corner * u * u;
+        EdgeLoad load =
+            edge_load(tool.coefficients(), chip, {core + corner * sin_kappa, height, sin_kappa, cos_kappa});
+        for (TurnLaw* law : {&load.t, &load.r, &load.a, &load.m}) {
+            law->sine *= length;
+            law->cosine *= length;
+            law->constant *= length;
         }
-        visit(2 * corner * u * u * tool.lag_per_mm(), load);
+        visit(height * tool.lag_per_mm(), load);
     }
 }
 

@@ -111,19 +111,23 @@ void add(ForceHarmonic& out, Lanes re, Lanes im) {
 // On the cylinder the load is constant and the integral over the height is a sinc:
 // integral e^{-i m l} dz = height e^{-i m middle} sin(m half) / (m half), half the lag from end to end.
 void add_cylinder(const EngagedEdge& edge, double scale, int step, std::span<ForceHarmonic> out) {
-    const EdgeLoad& f = edge.load;
-    const Lanes of_sin_cos{-f.t_sine, -f.r_sine, 0, 0}, of_sin2{-f.r_sine, f.t_sine, 0, 0};
-    const Lanes of_cos{-f.t, -f.r, 0, 0}, of_sin{-f.r, f.t, f.a_sine, f.m_sine}, of_one{0, 0, f.a, f.m};
+    const TurnLaw &t = edge.load.t, &r = edge.load.r, &a = edge.load.a, &m = edge.load.m;
+    // cos^2 is 1 - sin^2.
+    const Lanes of_sin_cos{-t.sine - r.cosine, t.cosine - r.sine, 0, 0};
+    const Lanes of_sin2{t.cosine - r.sine, t.sine + r.cosine, 0, 0};
+    const Lanes of_cos{-t.constant, -r.constant, a.cosine, m.cosine};
+    const Lanes of_sin{-r.constant, t.constant, a.sine, m.sine};
+    const Lanes of_one{-t.cosine, -r.cosine, a.constant, m.constant};
 
     const double half = edge.straight() ? 0 : 0.5 * (edge.lag1_rad - edge.lag0_rad);
-    const double weight = scale * (edge.z1_mm - edge.z0_mm);
+    const double weight = scale * edge.weight_mm;
     Powers lag(0.5 * (edge.lag0_rad + edge.lag1_rad) - edge.phase_rad, step), spread(-half, step);
     Window window(edge.entry_rad, edge.exit_rad, step);
     for (std::size_t n = 0; n < out.size(); ++n) {
-        const int m = static_cast<int>(n) * step;
-        const double sinc = m > 0 && half > 0 ? spread.now.im / (m * half) : 1;
+        const int order = static_cast<int>(n) * step;
+        const double sinc = order > 0 && half > 0 ? spread.now.im / (order * half) : 1;
         const Phasor height = (weight * sinc) * lag.now;
-        const WindowMoments w = window.moments(m);
+        const WindowMoments w = window.moments(order);
         const Phasor sin_cos = height * w.sin_cos, sin2 = height * w.sin2, cos = height * w.cos,
                      sin = height * w.sin, one = height * w.one;
         add(out[n],
@@ -141,7 +145,7 @@ void add_cylinder(const EngagedEdge& edge, double scale, int step, std::span<For
 void add_round(const EngagedEdges& tool, const EngagedEdge& edge, double z0, double z1, double scale,
                int step, std::span<ForceHarmonic> out) {
     struct Point {
-        Lanes sine, constant;  // load's parts t, r, a, m
+        Lanes sine, cosine, constant;  // load's parts t, r, a, m
         Powers lag;
     };
     Point points[6];
@@ -149,27 +153,35 @@ void add_round(const EngagedEdges& tool, const EngagedEdge& edge, double z0, dou
     const double phase = tool.lag_per_mm() * (z1 - z0) * step * static_cast<double>(out.size());
     visit_profile(
         tool, edge.chip, z0, z1, profile_rule(tool, z0, z1, phase), [&](double lag, const EdgeLoad& f) {
-            points[count++] = {Lanes{f.t_sine, f.r_sine, f.a_sine, f.m_sine} * scale,
-                               Lanes{f.t, f.r, f.a, f.m} * scale, Powers(lag - edge.phase_rad, step)};
+            points[count++] = {Lanes{f.t.sine, f.r.sine, f.a.sine, f.m.sine} * scale,
+                               Lanes{f.t.cosine, f.r.cosine, f.a.cosine, f.m.cosine} * scale,
+                               Lanes{f.t.constant, f.r.constant, f.a.constant, f.m.constant} * scale,
+                               Powers(lag - edge.phase_rad, step)};
         });
     Window window(edge.entry_rad, edge.exit_rad, step);
     for (std::size_t n = 0; n < out.size(); ++n) {
-        Lanes sine_re, sine_im, constant_re, constant_im;
+        Lanes sine_re, sine_im, cosine_re, cosine_im, constant_re, constant_im;
         for (int i = 0; i < count; ++i) {
             Point& p = points[i];
             sine_re += p.sine * p.lag.now.re;
             sine_im += p.sine * p.lag.now.im;
+            cosine_re += p.cosine * p.lag.now.re;
+            cosine_im += p.cosine * p.lag.now.im;
             constant_re += p.constant * p.lag.now.re;
             constant_im += p.constant * p.lag.now.im;
             p.lag.advance();
         }
         const auto sine = [&](int i) { return Phasor{sine_re[i], sine_im[i]}; };
+        const auto cosine = [&](int i) { return Phasor{cosine_re[i], cosine_im[i]}; };
         const auto constant = [&](int i) { return Phasor{constant_re[i], constant_im[i]}; };
         const WindowMoments w = window.moments(static_cast<int>(n) * step);
-        const Phasor x = sine(0) * w.sin_cos + sine(1) * w.sin2 + constant(0) * w.cos + constant(1) * w.sin;
-        const Phasor y = sine(0) * w.sin2 - sine(1) * w.sin_cos + constant(0) * w.sin - constant(1) * w.cos;
-        const Phasor z = sine(2) * w.sin + constant(2) * w.one;
-        const Phasor torque = sine(3) * w.sin + constant(3) * w.one;
+        const Phasor cos2 = w.one - w.sin2;
+        const Phasor x = sine(0) * w.sin_cos + cosine(0) * cos2 + constant(0) * w.cos + sine(1) * w.sin2 +
+                         cosine(1) * w.sin_cos + constant(1) * w.sin;
+        const Phasor y = sine(0) * w.sin2 + cosine(0) * w.sin_cos + constant(0) * w.sin -
+                         (sine(1) * w.sin_cos + cosine(1) * cos2 + constant(1) * w.cos);
+        const Phasor z = sine(2) * w.sin + cosine(2) * w.cos + constant(2) * w.one;
+        const Phasor torque = sine(3) * w.sin + cosine(3) * w.cos + constant(3) * w.one;
         add(out[n], Lanes{-x.re, y.re, z.re, torque.re}, Lanes{-x.im, y.im, z.im, torque.im});
         window.advance();
     }
@@ -198,8 +210,6 @@ void add_pieces(const EngagedEdges& tool, int step, std::span<ForceHarmonic> out
             add_round(tool, edge, diameter * from * from, diameter * to * to, scale, step, out);
         }
     }
-    out[0].z += tool.bottom().force_n.z;
-    out[0].torque += tool.bottom().torque_nmm;
 }
 
 }  // namespace

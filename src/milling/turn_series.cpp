@@ -28,23 +28,25 @@ void TurnSeries::add_shifted(const TurnSeries& f, double by_rad, double scale) {
 }
 
 TurnSeries load_series(const EdgeLoad& f) {
-    const double t = 0.5 * f.t_sine, r = 0.5 * f.r_sine;
-    return {.of_one = {-r, t, f.a, f.m},
+    // x = -t cos - r sin, y = t sin - r cos, with sin^2, cos^2 and sin cos as second harmonics.
+    const TurnLaw &t = f.t, &r = f.r;
+    const double plus = 0.5 * (t.sine + r.cosine), minus = 0.5 * (t.cosine - r.sine);
+    return {.of_one = {-0.5 * (t.cosine + r.sine), 0.5 * (t.sine - r.cosine), f.a.constant, f.m.constant},
             .of_angle = {},
-            .of_cos = {-f.t, -f.r, 0, 0},
-            .of_sin = {-f.r, f.t, f.a_sine, f.m_sine},
-            .of_cos2 = {r, -t, 0, 0},
-            .of_sin2 = {-t, -r, 0, 0}};
+            .of_cos = {-t.constant, -r.constant, f.a.cosine, f.m.cosine},
+            .of_sin = {-r.constant, t.constant, f.a.sine, f.m.sine},
+            .of_cos2 = {-minus, -plus, 0, 0},
+            .of_sin2 = {-plus, minus, 0, 0}};
 }
 
-TurnSeries load_integral(const EdgeLoad& f) {
-    const double t = 0.25 * f.t_sine, r = 0.25 * f.r_sine;
+TurnSeries load_integral(const EdgeLoad& load) {
+    const TurnSeries f = load_series(load);
     return {.of_one = {},
-            .of_angle = {-2 * r, 2 * t, f.a, f.m},
-            .of_cos = {f.r, -f.t, -f.a_sine, -f.m_sine},
-            .of_sin = {-f.t, -f.r, 0, 0},
-            .of_cos2 = {t, r, 0, 0},
-            .of_sin2 = {r, -t, 0, 0}};
+            .of_angle = f.of_one,
+            .of_cos = f.of_sin * -1,
+            .of_sin = f.of_cos,
+            .of_cos2 = f.of_sin2 * -0.5,
+            .of_sin2 = f.of_cos2 * 0.5};
 }
 
 }  // namespace tribo::milling

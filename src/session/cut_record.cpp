@@ -51,8 +51,7 @@ void each_engaged(std::span<const CutStretch> stretches, const MillSetup& setup,
         for (std::size_t n = stretches.size() * share / kShares; n < last; ++n) {
             const CutStretch& s = stretches[n];
             milling::ForceModel& model = models[s.cutter];
-            model.engage(s.engagement, {change.chip_factor() * s.feed.feed_per_tooth_mm,
-                                        change.chip_factor() * s.feed.axial_feed_per_tooth_mm});
+            model.engage(s.engagement, change.chip_factor() * s.feed);
             visit(n, s, model);
         }
     });

@@ -21,7 +21,7 @@ struct CutStretch {
     double spindle_rpm = 0;
     Vec3 tip_mm;  // in the middle
     milling::ToolFrame frame;
-    milling::FeedPerTooth feed;
+    milling::ToolTravel feed;
     std::size_t cutter = 0;
     milling::Engagement engagement;
     double chip_mm3_per_s = 0;

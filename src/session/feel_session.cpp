@@ -63,7 +63,7 @@ haptics::TextureMap texture_map(std::span<const CutStretch> cut, const contact::
     parallel(found.size(), [&](std::size_t n) {
         const CutStretch& s = *places[n * step];
         surface::TextureOptions options;
-        options.pitch_along_mm = s.feed.feed_per_tooth_mm;
+        options.pitch_along_mm = s.feed.across_mm;
         found[n] = surface::textured_triangles(machined, {s.tip_mm, s.frame.z, s.frame.x}, options);
     });
     std::vector<contact::TextureRecord> records;

@@ -140,7 +140,7 @@ void LiveMill::work_out_forces(std::size_t first) {
         rows_[n].mean_force_n = length(force.mean_n);
         rows_[n].peak_force_n = force.peak_force_n;
         rows_[n].mean_torque_nm = force.mean_torque_nm;
-        rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.feed_per_tooth_mm;
+        rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.across_mm;
         felt_[n].force_n = force.mean_n;
         felt_[n].spindle_angle_rad = changed_phase_rad(s, change_);
         felt_[n].spindle_rad_per_s = change_.angle_factor() * s.spindle_rpm / 60 * math::kTwoPi;

@@ -84,8 +84,9 @@ class MillSession::Run {
     struct Row {
         std::size_t move = 0, cutter = 0;
         double start_s = 0, end_s = 0, angle_rad = 0, turns = 0;
-        milling::FeedPerTooth feed;
+        milling::ToolTravel feed;
         milling::ForcePeaks peaks;
+        double edge_torque_nmm = 0;  // mean, of kte alone
         contact::ForceSpectrum spectrum;
         milling::CutRow cut;
     };
@@ -161,10 +162,12 @@ class MillSession::Run {
         row.turns = turns_;
         row.angle_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
         std::swap(row.cut, cut);  // both keep their room
-        const double speed = end > start ? row.cut.length_mm / (end - start) : 0;
-        const double per_tooth = speed * 60 / (rpm * setup_.cutters[cutter].flutes);
-        row.feed = {per_tooth * row.cut.pose.across, per_tooth * row.cut.pose.down};
-        if (setup_.engagement) {
+        const double teeth = (end - start) * rpm / 60 * setup_.cutters[cutter].flutes;
+        row.feed = (teeth > 0 ? 1 / teeth : 0) * row.cut.pose.travel;
+        if (!setup_.engagement) {
+            row.feed = row.cut.reconciled * row.feed;
+        } else {
+            row.cut.reconciled = 1;
             row.cut.engagement.clear();
             row.cut.engagement.bands.push_back({0, setup_.engagement->axial_depth_mm,
                                                 setup_.engagement->entry_rad, setup_.engagement->exit_rad});
@@ -180,6 +183,7 @@ class MillSession::Run {
                 model.engage(row.cut.engagement, row.feed);
                 model.spectrum(setup_.harmonics, row.spectrum);
                 row.peaks = model.peaks();
+                row.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
             }
         });
     }
@@ -190,6 +194,9 @@ class MillSession::Run {
         totals_.cutting_s += seconds;
         cutting_at_[row.cutter] += seconds;
         force_seconds_ += length(p.mean_n) * seconds;
+        const double turned_rad = rpm / 60 * math::kTwoPi * seconds;
+        totals_.work_j += 1e-3 * p.mean_torque_nmm * turned_rad;
+        totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - row.edge_torque_nmm) * turned_rad;
         totals_.chip_mm3 += row.cut.chip_mm3;
         totals_.peak_force_n = std::max(totals_.peak_force_n, p.peak_force_n);
         totals_.peak_torque_nmm = std::max(totals_.peak_torque_nmm, p.peak_torque_nmm);
@@ -200,6 +207,7 @@ class MillSession::Run {
         const Hull h = hull(row.cut.engagement);
         milling::ForceRow values;
         values.t_s = row.start_s;
+        values.duration_s = seconds;
         values.line = setup_.moves[row.move].line;
         values.tip_mm = row.cut.pose.tip_mm;
         values.axis = row.cut.pose.frame.z;
@@ -214,6 +222,7 @@ class MillSession::Run {
         values.mean_torque_nm = 1e-3 * p.mean_torque_nmm;
         values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
         values.removed_mm3 = row.cut.removed_mm3;
+        values.reconciled = row.cut.reconciled;
         sinks.row({values, row.cut.engagement, row.spectrum, row.cut.pose.frame, row.feed, p, row.cutter,
                    row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0, row.turns});
     }
@@ -229,6 +238,9 @@ class MillSession::Run {
         totals_.duration_s = end_s_;
         totals_.removed_mm3 = stock_.removed_mm3();
         totals_.remaining_mm3 = setup_.blank_volume_mm3 - totals_.removed_mm3;
+        if (totals_.fed_mm3 > 0 && !setup_.engagement)
+            totals_.energy_balance =
+                totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);
         totals_.mean_force_n = totals_.cutting_s > 0 ? force_seconds_ / totals_.cutting_s : 0;
         const auto longest = std::max_element(cutting_at_.begin(), cutting_at_.end()) - cutting_at_.begin();
         for (std::size_t n = 0; n < setup_.moves.size(); ++n) {

@@ -53,7 +53,7 @@ TEST(JobCutter, of_unequal_pitch_has_lines_at_the_spindles_frequency) {
         {{"job.toml", slot_job("helix_deg = 30\npitch_deg = [150, 210]\n", kEdges)}, {"p.nc", kSlot}});
     ASSERT_EQ(run.error, "");
     const KeptRow& row = middle(run);
-    EXPECT_NEAR(row.feed.feed_per_tooth_mm, 0.1, 1e-6);
+    EXPECT_NEAR(row.feed.across_mm, 0.1, 1e-6);
     ASSERT_EQ(row.spectrum.order_step, 1);
     const reference::Cut cut = definition(run, row);
     const double mean = size(row.spectrum.harmonics.at(0));
@@ -183,7 +183,7 @@ TEST(JobCutter, is_the_one_whose_number_the_program_calls) {
         EXPECT_EQ(row.cutter, row.values.tip_mm.y < 15 ? 0u : 1u);
         EXPECT_EQ(row.values.spindle_rpm, row.cutter == 0 ? 6000 : 12000);
         // mm per minute over teeth per minute
-        EXPECT_NEAR(row.feed.feed_per_tooth_mm, row.cutter == 0 ? 0.05 : 600.0 / 36000, 1e-6);
+        EXPECT_NEAR(row.feed.across_mm, row.cutter == 0 ? 0.05 : 600.0 / 36000, 1e-6);
     }
     EXPECT_GT(rows_of[0], 70);
     EXPECT_GT(rows_of[1], 70);

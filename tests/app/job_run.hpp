@@ -16,7 +16,7 @@ struct KeptRow {
     milling::ForceRow values;
     milling::Engagement engagement;
     contact::ForceSpectrum spectrum;
-    milling::FeedPerTooth feed;
+    milling::ToolTravel feed;
     std::size_t cutter = 0;
     double chip_mm3_per_s = 0;
 };

@@ -12,7 +12,7 @@ TEST(ForcesCsv, HasTheColumnsThatOthersReadInTheirOrder) {
         forces_csv_header,
         "t_s,line,tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,spindle_rpm,feed_mm_per_min,entry_deg,"
         "exit_deg,axial_depth_mm,mean_fx_n,mean_fy_n,mean_fz_n,peak_fx_n,peak_fy_n,peak_fz_n,peak_fxy_n,"
-        "mean_torque_nm,peak_torque_nm,removed_mm3\n");
+        "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled\n");
 }
 
 TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
@@ -32,12 +32,15 @@ TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
     row.mean_torque_nm = 0.5;
     row.peak_torque_nm = 1.251;
     row.removed_mm3 = 6;
+    row.duration_s = 0.125;
+    row.reconciled = 1.0125;
     std::string csv;
     append_force_row(csv, row);
     EXPECT_EQ(
         csv,
         "0.030000,12,1.500000,-2.000000,0.000000,0.000000,0.600000,0.800000,6000.00,900.00,90.000,180.123,"
-        "2.000000,-50.750,111.970,29.670,-171.100,218.400,45.700,225.600,0.50000,1.25100,6.000000\n");
+        "2.000000,-50.75000,111.97000,29.67000,-171.10000,218.40000,45.70000,225.60000,0.50000000,"
+        "1.25100000,6.000000000,0.125000000,1.0125\n");
     EXPECT_EQ(std::ranges::count(csv, ','), std::ranges::count(forces_csv_header, ','));
 }
 

@@ -24,8 +24,8 @@ std::uint64_t force() {
         milling::ForceModel model(cutter, material->coefficients);
         milling::Engagement engagement;
         engagement.bands = {{0, 1.5, 0.2, 2.9}, {1.5, 4, 0, 1.1}, {1.5, 4, 2, 2.6}};
-        engagement.bottom_fraction = 0.25;
-        model.engage(engagement, {0.08, 0.02});
+        engagement.bottom = {{0.5, 3, 1, 4}};
+        model.engage(engagement, {0.08, 0.02, 0.004, -0.002});
         const auto add = [&hash](const contact::ToolForce& f) {
             hash.add(f.force_n);
             hash.add(f.torque_nmm);

@@ -39,7 +39,8 @@ ToolForce sliced(const Cut& c, double theta) {
             double phi = std::fmod(theta + 2 * kPi * j / c.cutter.flutes - lag_per_mm * z, 2 * kPi);
             if (phi < 0) phi += 2 * kPi;
             if (phi < band.entry_rad || phi > band.exit_rad) continue;
-            const ToolForce f = reference::per_mm(c, phi, kappa, j, lag_per_mm * z, reference::plain_chip);
+            const reference::Place place{c.cutter.radius_mm() - r + r * std::sin(kappa), z, kappa};
+            const ToolForce f = reference::per_mm(c, phi, place, j, lag_per_mm * z, reference::plain_chip);
             sum.force_n += (to - from) * r / kSlices * f.force_n;
             sum.torque_nmm += (to - from) * r / kSlices * f.torque_nmm;
         }
@@ -120,7 +121,7 @@ TEST(BallForce, goes_over_into_the_cylinder_for_a_small_corner) {
 TEST(BallForce, follows_a_ramp_down_and_up) {
     Cut c = ball_cut();
     for (const double axial : {0.05, 0.01, -0.01}) {
-        c.feed.axial_feed_per_tooth_mm = axial;
+        c.feed.down_mm = axial;
         c.engagement.bands[0] = {0, 3, 0, 2 * kPi};
         const EngagedEdges edges = engaged(c);
         const ToolForce mean = mean_force(edges);

@@ -33,7 +33,7 @@ Cutter flat(double diameter) {
 }
 
 CutPose at(Vec3 tip) {
-    return {tip, tool_frame({0, 0, 1}, {1, 0, 0}, {1, 0, 0}), 1, 0};
+    return {tip, tool_frame({0, 0, 1}, {1, 0, 0}, {1, 0, 0}), {.across_mm = 1}};
 }
 
 TEST(EngagementProbe, sees_a_slot_from_side_to_side) {
@@ -46,7 +46,7 @@ TEST(EngagementProbe, sees_a_slot_from_side_to_side) {
     EXPECT_DOUBLE_EQ(e.bands[0].exit_rad, pi);
     EXPECT_NEAR(e.bands[0].z0_mm, 0, 1e-9);
     EXPECT_NEAR(e.bands[0].z1_mm, 3, 0.01);
-    EXPECT_EQ(e.bottom_fraction, 0);
+    EXPECT_TRUE(e.bottom.empty());
 }
 
 RC_GTEST_PROP(EngagementProbe, finds_the_angle_of_any_radial_immersion, ()) {
@@ -67,7 +67,7 @@ TEST(EngagementProbe, finds_the_height_of_a_step) {
     EngagementProbe probe(flat(10));
     Engagement e;
     probe.measure(f, at({20, 15, -3}), e);
-    EXPECT_NEAR(chip_area_mm2(flat(10), e, 1, 0), 5 * (3 + 2), 0.01 * 25);
+    EXPECT_NEAR(chip_mm3(flat(10), e, {1, 0}), 5 * (3 + 2), 0.01 * 25);
     double top_right = 0;
     for (const EngagementBand& b : e.bands) {
         if (b.exit_rad > 3) top_right = std::max(top_right, b.z1_mm);
@@ -96,7 +96,7 @@ TEST(EngagementProbe, gives_the_chip_area_of_a_ball_slot) {
         probe.measure(f, at({20, 15, -depth}), e);
         const double round = std::min(depth, 4.0), half = std::acos(1 - round / 4);
         const double section = 16 * (half - std::sin(half) * std::cos(half)) + 8 * (depth - round);
-        EXPECT_NEAR(chip_area_mm2(ball, e, 1, 0) / section, 1, 0.005) << depth;
+        EXPECT_NEAR(chip_mm3(ball, e, {1, 0}) / section, 1, 0.005) << depth;
     }
 }
 
@@ -105,14 +105,12 @@ TEST(EngagementProbe, gives_the_whole_bottom_of_a_plunge) {
     EngagementProbe probe(flat(10));
     Engagement e;
     CutPose pose = at({20, 15, -1e-3});
-    pose.across = 0;
-    pose.down = 1;
+    pose.travel = {0, 1};
     probe.measure(f, pose, e);
-    EXPECT_EQ(e.bottom_fraction, 1);
-    EXPECT_NEAR(chip_area_mm2(flat(10), e, 0, 1), pi * 25, 1e-9);
+    EXPECT_NEAR(chip_mm3(flat(10), e, {0, 1}), pi * 25, 1e-9);
     pose.tip_mm.x = 0;  // half of it over the edge
     probe.measure(f, pose, e);
-    EXPECT_NEAR(e.bottom_fraction, 0.5, 0.03);
+    EXPECT_NEAR(chip_mm3(flat(10), e, {0, 1}), pi * 25 / 2, 0.01 * 25);
 }
 
 TEST(EngagementProbe, gives_the_area_of_a_plunging_ball) {
@@ -122,11 +120,10 @@ TEST(EngagementProbe, gives_the_area_of_a_plunging_ball) {
     EngagementProbe probe(ball);
     Engagement e;
     CutPose pose = at({20, 15, -2});
-    pose.across = 0;
-    pose.down = 1;
+    pose.travel = {0, 1};
     probe.measure(f, pose, e);
     const double r = std::sqrt(16.0 - 4.0);
-    EXPECT_NEAR(chip_area_mm2(ball, e, 0, 1) / (pi * r * r), 1, 0.01);
+    EXPECT_NEAR(chip_mm3(ball, e, {0, 1}) / (pi * r * r), 1, 0.01);
 }
 
 TEST(EngagementProbe, sees_nothing_where_it_cut_before) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "milling/engagement_probe.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {
@@ -62,7 +63,7 @@ TEST(Force, mean_of_a_slot_is_elementary) {
     const ToolForce mean = mean_force(engaged(c));
     EXPECT_NEAR(mean.force_n.x, -na * (f * c.k.krc / 4 + c.k.kre / kPi), 1e-10);
     EXPECT_NEAR(mean.force_n.y, na * (f * c.k.ktc / 4 + c.k.kte / kPi), 1e-10);
-    EXPECT_NEAR(mean.force_n.z, na * (f * c.k.kac / kPi + c.k.kae / 2), 1e-10);
+    EXPECT_NEAR(mean.force_n.z, -na * (f * c.k.kac / kPi + c.k.kae / 2), 1e-10);
     EXPECT_NEAR(mean.torque_nmm, na * 6 * (f * c.k.ktc / kPi + c.k.kte / 2), 1e-9);
 }
 
@@ -86,7 +87,7 @@ TEST(Force, two_thousand_random_segments_agree_with_simpson) {
             const double weight = (i == 0 || i == kIntervals ? 1 : i % 2 == 1 ? 4 : 2) / (3.0 * kIntervals);
             const double phi = low + (high - low) * i / kIntervals;
             const double t = k.ktc * feed * std::sin(phi) + k.kte, r = k.krc * feed * std::sin(phi) + k.kre;
-            const double a = k.kac * feed * std::sin(phi) + k.kae, w = weight * height;
+            const double a = -(k.kac * feed * std::sin(phi) + k.kae), w = weight * height;
             sum.force_n +=
                 w * Vec3{-t * std::cos(phi) - r * std::sin(phi), t * std::sin(phi) - r * std::cos(phi), a};
             sum.torque_nmm += w * radius * t;
@@ -210,20 +211,64 @@ TEST(Force, is_nothing_where_the_tool_moves_away) {
     EXPECT_TRUE(spectrum.empty());
 }
 
-TEST(Force, plunging_bottom_gives_thrust_and_torque_by_the_annulus) {
+TEST(Force, of_a_bottom_that_plunges_is_that_of_radial_edges) {
     Cut c = reference::cases()[1].cut;
     c.engagement.bands.clear();
-    c.engagement.bottom_fraction = 0.5;
+    c.engagement.bottom = {{0, 6, 0, kPi}};
     c.feed = {0, 0.04};
-    const ToolForce f = force_at(engaged(c), 1.0);
-    // Four edges 6 mm long, half of the turn each: thrust (Krc h + Kre) per mm, torque (Ktc h + Kte) r per
-    // mm.
-    EXPECT_NEAR(f.force_n.z, 4 * 0.5 * 6 * (168.8 * 0.04 + 26.6), 1e-9);
-    EXPECT_NEAR(f.torque_nmm, 4 * 0.5 * 18 * (767.01 * 0.04 + 27.7), 1e-9);
-    EXPECT_EQ(f.force_n.x, 0);
-    EXPECT_EQ(f.force_n.y, 0);
-    c.feed.axial_feed_per_tooth_mm = -0.04;  // climbing: the bottom leaves the material
+    const EngagedEdges edges = engaged(c);
+    // Four edges 6 mm long, two of them in material: thrust (Krc h + Kre) per mm, torque (Ktc h + Kte) r per
+    // mm, and towards +y what pushes the two edges sideways.
+    const ToolForce f = force_at(edges, 1.0);
+    EXPECT_NEAR(f.force_n.z, 2 * 6 * (168.8 * 0.04 + 26.6), 1e-9);
+    EXPECT_NEAR(f.torque_nmm, 2 * 18 * (767.01 * 0.04 + 27.7), 1e-9);
+    const ToolForce mean = mean_force(edges);
+    EXPECT_NEAR(mean.force_n.y, 4 / (2 * kPi) * 2 * 6 * (767.01 * 0.04 + 27.7), 1e-9);
+    EXPECT_NEAR(mean.force_n.x, 4 / (2 * kPi) * 2 * 6 * (222 * 0.04 + 0.7), 1e-9);
+    c.feed.down_mm = -0.04;  // climbing: the bottom leaves the material
     EXPECT_TRUE(engaged(c).empty());
+}
+
+// Any cutter with any rigid motion, against quadrature of the definition. Pieces judge where a chip begins in
+// their middle, so both stay a little apart.
+RC_GTEST_PROP(Force, of_any_rigid_motion_is_its_definition, ()) {
+    Cut c = reference::cases()[static_cast<std::size_t>(*rc::gen::inRange(0, 4))].cut;
+    c.cutter.kind = *rc::gen::element(CutterKind::flat, CutterKind::ball, CutterKind::bull);
+    c.cutter.corner_mm = 2.5;
+    c.cutter.helix_deg = *rc::gen::element(-40.0, 0.0, 20.0, 45.0);
+    const auto part = [] { return 0.01 * *rc::gen::inRange(-100, 101); };
+    c.feed = {0.1 * std::abs(part()), 0.05 * part(), 0.02 * part(), 0.02 * part()};
+    const double radius = c.cutter.radius_mm();
+    const double entry = 3 + 3 * part(), exit = std::min(2 * kPi, entry + 0.2 + 2 * std::abs(part()));
+    c.engagement.bands = {{0.5 + 0.4 * part(), 4 + 2 * part(), entry, exit}};
+    if (c.cutter.kind != CutterKind::ball) c.engagement.bottom = {{0.2 * radius, 0.5 * radius, entry, exit}};
+    const EngagedEdges edges = engaged(c);
+    const contact::ForceHarmonic exact = reference::harmonic(c, 0, 40, 4);
+    const ToolForce expected = {{exact.x.real(), exact.y.real(), exact.z.real()}, exact.torque.real()};
+    const double size = reference::size(expected, radius);
+    // Without edge coefficients the mean torque is ktc times what the chips take out of the metal.
+    const double teeth = c.cutter.flutes / (2 * kPi);
+    const double shear = mean_force(edges).torque_nmm - edges.mean_edge_torque_nmm();
+    const double chips = c.k.ktc * teeth * chip_mm3(c.cutter, c.engagement, c.feed);
+    Cut around = c;
+    for (auto& band : around.engagement.bands) band.entry_rad = 0, band.exit_rad = 2 * kPi;
+    for (auto& band : around.engagement.bottom) band.entry_rad = 0, band.exit_rad = 2 * kPi;
+    const double most = c.k.ktc * teeth * chip_mm3(c.cutter, around.engagement, c.feed);
+    RC_ASSERT(std::abs(shear - chips) < 0.01 * (chips + most) + 0.1);
+    // A sliver of a window is judged as well as the whole turn.
+    const double whole = reference::size(mean_force(engaged(around)), radius);
+    RC_ASSERT(difference(mean_force(edges), expected, radius) < 0.01 * (size + whole) + 0.1);
+}
+
+TEST(Force, pulls_a_right_hand_tool_out_of_its_holder_and_pushes_a_left_hand_one) {
+    Cut c = reference::cases()[0].cut;
+    const ToolForce right = mean_force(engaged(c));
+    c.cutter.helix_deg = -c.cutter.helix_deg;
+    const ToolForce left = mean_force(engaged(c));
+    EXPECT_LT(right.force_n.z, -20);
+    EXPECT_NEAR(left.force_n.z, -right.force_n.z, 1e-9);
+    EXPECT_NEAR(left.force_n.x, right.force_n.x, 1e-9);
+    EXPECT_NEAR(left.torque_nmm, right.torque_nmm, 1e-9);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ TEST(NoAllocation, in_a_force_model_that_has_seen_its_pieces) {
             const long before = allocations;
             double sum = 0;
             for (int i = 0; i < 10; ++i) {
-                c.feed.feed_per_tooth_mm = 0.05 - 1e-3 * i;
+                c.feed.across_mm = 0.05 - 1e-3 * i;
                 model.engage(c.engagement, c.feed);
                 model.spectrum(16, spectrum);
                 sum += model.peaks().peak_force_n + model.at(0.1 * i).torque_nmm + model.mean().torque_nmm;

@@ -44,10 +44,11 @@ TEST(PublishedForce, table_of_printed_and_corrected_is_met) {
     }
 }
 
-// Ktc = Kt, Krc = eta Kt / cos(helix), Kac = Kt tan(helix): the same force as the engine's closed form.
+// Ktc = Kt, Krc = eta Kt / cos(helix), Kac = -Kt tan(helix), as the paper's axial force points to the shank:
+// the same force as the engine's closed form.
 TEST(PublishedForce, corrected_is_the_engines_force_with_these_coefficients) {
     const CuttingCoefficients k{
-        .ktc = 800, .krc = 240 / std::cos(kCut.helix_rad), .kac = 800 * std::tan(kCut.helix_rad)};
+        .ktc = 800, .krc = 240 / std::cos(kCut.helix_rad), .kac = -800 * std::tan(kCut.helix_rad)};
     for (const auto& [entry, exit] : {std::pair{20.0, 60.0}, {0.0, 180.0}, {90.0, 170.0}}) {
         const double height = 6 * rad(exit - entry) / std::tan(kCut.helix_rad);
         const Vec3 f = flute_segment_force(k, 6, 0.1, rad(entry), rad(exit), height).force_n;
@@ -93,10 +94,10 @@ TEST(PublishedForce, printed_factor_is_wrong_by_half_the_cotangent_of_the_helix)
 TEST(PublishedForce, over_a_turn_corrected_is_the_engine_without_edge_forces) {
     reference::Cut c = reference::cases()[1].cut;
     c.k.kte = c.k.kre = c.k.kae = 0;
-    c.k.kac = c.k.ktc * std::tan(rad(30));
+    c.k.kac = -c.k.ktc * std::tan(rad(30));
     EngagedEdges edges(c.cutter, c.k);
     edges.engage(c.engagement, c.feed);
-    const PublishedCut cut = published_cut(c.cutter, c.k, c.feed.feed_per_tooth_mm).value();
+    const PublishedCut cut = published_cut(c.cutter, c.k, c.feed.across_mm).value();
     for (int i = 0; i < 50; ++i) {
         const Vec3 f = published_force_at(PublishedForm::corrected, cut, edges, 0.13 * i);
         EXPECT_LT(length(f - force_at(edges, 0.13 * i).force_n), 1e-9);

@@ -38,7 +38,7 @@ RC_GTEST_PROP(Runout, chips_of_all_teeth_add_up_to_the_feed, ()) {
             double sum = 0;
             for (const EngagedEdge& e : edges.edges()) {
                 if (z < e.z0_mm || z >= e.z1_mm || phi < e.entry_rad || phi >= e.exit_rad) continue;
-                const double h = e.chip.across_mm * std::sin(phi) + e.chip.offset_mm;
+                const double h = e.chip.travel.across_mm * std::sin(phi) + e.chip.offset_mm;
                 RC_ASSERT(h > -1e-12);
                 sum += h;
             }

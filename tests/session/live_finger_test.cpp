@@ -298,7 +298,7 @@ TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
     }
     EXPECT_GT(textures, 5);
     EXPECT_GT(most_n, 0.2);
-    EXPECT_LE(most_n, 3.3 + 1e-6);
+    EXPECT_LE(most_n, haptics::kSimulatedLimits.max_force_n);
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The tool's frame (README of this room, "Frame"): x along the feed, y to its left, z to the shank.
+#pragma once
+
+#include "base/vec3.hpp"
+
+namespace tribo::milling {
+
+struct ToolFrame {
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+};
+
+// Frame for an axis and a direction of travel. A plunge has no feed direction across the axis: `last_x`,
+// projected on the plane normal to the axis, stands in.
+ToolFrame tool_frame(Vec3 axis, Vec3 travel, Vec3 last_x);
+
+}  // namespace tribo::milling
