@@ -274,7 +274,7 @@ class CurvedSweep final : public field::Shape {
     double distance_below(Vec3 point, double bound) const override {
         const Vec3 d = point - start_;
         Floors floors;
-        sweep_kernels().floors(tool_, instants_, d, floors);
+        sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         return std::max(nearest(floors, d, bound).distance,
                         static_cast<double>(floors.lowest) - tool_.length_mm);
     }
@@ -284,7 +284,7 @@ class CurvedSweep final : public field::Shape {
     Vec3 gradient(Vec3 point) const override {
         const Vec3 d = point - start_;
         Floors floors;
-        sweep_kernels().floors(tool_, instants_, d, floors);
+        sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         const Least<double> least = nearest(floors, d, kNever);
         if (static_cast<double>(floors.lowest) - tool_.length_mm <= least.distance)
             return swept_normal(tool_, view(line_, d, least.t), least.t);
@@ -307,14 +307,9 @@ class CurvedSweep final : public field::Shape {
     static CurvedLine line_of(const motion::Move& move) {
         const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
         const Vec3 a = move.start.axis, b = move.end.axis;
-        CurvedLine line;
-        line.tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm);
-        line.tip2 = move.end.tip_mm - move.start.tip_mm - line.tip1;
-        line.axis0 = a;
-        line.axis1 = 2 * (middle.axis_control - a);
-        line.axis2 = b - a - line.axis1;
-        line.stretches = stretches_needed(line);
-        return line;
+        const Vec3 tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm),
+                   axis1 = 2 * (middle.axis_control - a);
+        return {tip1, move.end.tip_mm - move.start.tip_mm - tip1, a, axis1, b - a - axis1};
     }
     // A straight tip and an axis that turns along the great circle at an even pace, to the fifth order.
     static motion::Quadratic even_turn(const motion::Move& move) {
@@ -323,7 +318,6 @@ class CurvedSweep final : public field::Shape {
         const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
         return {middle.tip_mm, (2 * size) * middle.axis - 0.5 * (move.start.axis + move.end.axis)};
     }
-    static int stretches_needed(const CurvedLine& line);
     Least<double> nearest(const Floors& floors, Vec3 d, double bound) const {
         const Profile<double> p(tool_);
         return by_kind(tool_.kind,
@@ -337,7 +331,7 @@ class CurvedSweep final : public field::Shape {
 };
 
 // One stretch must be short enough that each part of the tool comes nearest at most once over it.
-int CurvedSweep::stretches_needed(const CurvedLine& c) {
+int stretches_needed(const CurvedLine& c) {
     const Vec3 leaving = c.tip1 + 2 * c.tip2;
     const double speed = std::max(length(c.tip1), length(leaving));
     const double turn = std::max(length(c.axis1), length(c.axis1 + 2 * c.axis2));
@@ -347,7 +341,41 @@ int CurvedSweep::stretches_needed(const CurvedLine& c) {
     return bow < kFirst ? 1 : bow < 4 * kFirst ? 2 : bow < 8 * kFirst ? 4 : SeenFrame::kMostStretches;
 }
 
+// The control points of the Bezier form bound a polynomial.
+TravelBounds bounds_of(const CurvedLine& c) {
+    TravelBounds b;
+    b.middle = tip_at(c, 0.5);
+    const Vec3 tips[3] = {{}, 0.5 * c.tip1, c.tip1 + c.tip2};
+    const Vec3 axes[3] = {c.axis0, c.axis0 + 0.5 * c.axis1, c.axis0 + c.axis1 + c.axis2};
+    const Vec3 rates[2] = {c.axis1, c.axis1 + 2 * c.axis2};
+    const Vec3 along = normalized(axes[0] + axes[2]);
+    double least_size = 1, turned = 0;
+    for (int k = 0; k < 3; ++k) {
+        b.spread = std::max(b.spread, length(tips[k] - b.middle));
+        least_size = std::min(least_size, dot(axes[k], along));
+        turned = std::max(turned, length(cross(2 * c.axis2, axes[k])));
+    }
+    least_size = std::max(least_size, 0.1);
+    b.speed = std::max(length(c.tip1), length(c.tip1 + 2 * c.tip2));
+    b.tip_bend = 2 * length(c.tip2);
+    b.turn = std::max(length(rates[0]), length(rates[1])) / least_size;
+    // Of axis . axis', half the rate of its square.
+    const double growth =
+        std::max(std::max(std::abs(dot(axes[0], rates[0])), std::abs(dot(axes[2], rates[1]))),
+                 std::max(std::abs(dot(axes[0], rates[1]) + 2 * dot(axes[1], rates[0])),
+                          std::abs(2 * dot(axes[1], rates[1]) + dot(axes[2], rates[0]))) /
+                     3);
+    b.turn_rate = (turned + 2 * b.turn * growth) / (least_size * least_size);
+    return b;
+}
+
 }  // namespace
+
+CurvedLine::CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 axis_2)
+    : tip1(tip_1), tip2(tip_2), axis0(axis_0), axis1(axis_1), axis2(axis_2) {
+    stretches = stretches_needed(*this);
+    bounds = bounds_of(*this);
+}
 
 CurvedInstants::CurvedInstants(const CurvedLine& line) {
     for (int k = 0; k < kCount; ++k) {

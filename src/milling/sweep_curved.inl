@@ -11,44 +11,59 @@ inline Vec3 axis_at(const CurvedLine& c, double t) {
     return normalized(c.axis0 + t * (c.axis1 + t * c.axis2));
 }
 
+// For a point relative to the tip at the start. In a frame that follows the axis and does not spin the point
+// runs along q with q' = -v - w x d and q'' = -a + 2 w x v - w' x d + w x (w x d): d the point from the tip,
+// v and a speed and acceleration of the tip, w the turn of the axis.
+template <class T>
+TRIBO_LANES PointBounds<T> bounds_of(const Profile<T>& p, const TravelBounds& b, T x, T y, T z) {
+    const T dx = x - broadcast<T>(b.middle.x), dy = y - broadcast<T>(b.middle.y),
+            dz = z - broadcast<T>(b.middle.z);
+    const T reach = sqrt(dx * dx + dy * dy + dz * dz) + broadcast<T>(b.spread);
+    return {
+        broadcast<T>(b.tip_bend + 2 * b.turn * b.speed) + broadcast<T>(b.turn_rate + b.turn * b.turn) * reach,
+        broadcast<T>(b.speed) + broadcast<T>(b.turn) * reach, broadcast<T>(0), p.R, reach};
+}
+
 // Fills Floors for one point: eight instants at once.
 template <CutterKind kind>
-TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const float (&point)[3],
-                               Floors& out) {
+TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
+                               const float (&point)[3], Floors& out) {
     constexpr bool kEdge = kind == CutterKind::flat;
-    // At 40 mm from the start, mm.
-    constexpr float kRounding = 1e-4f;
-    F8 d[3], axis[3], z = splat(0.0f), dz = splat(0.0f);
+    // What single precision may be off, per mm from the tip.
+    constexpr float kRounding = 1e-6f;
+    const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
+    F8 d[3], axis[3], z = splat(0.0f), dz = splat(0.0f), along = splat(0.0f);
     for (int k = 0; k < 3; ++k) {
         d[k] = splat(point[k]) - load(c.tip[k]);
         axis[k] = load(c.axis[k]);
         z += d[k] * axis[k];
-        dz += d[k] * load(c.axis_rate[k]) - axis[k] * load(c.tip_rate[k]);
+        dz += d[k] * load(c.axis_rate[k]);
+        along += axis[k] * load(c.tip_rate[k]);
     }
-    F8 rho_squared = splat(0.0f), half_rate = splat(0.0f);
+    F8 rho_squared = splat(0.0f), half_rate = splat(0.0f), way_squared = splat(0.0f);
     for (int k = 0; k < 3; ++k) {
-        const F8 radial = d[k] - z * axis[k];
+        const F8 radial = d[k] - z * axis[k], way = load(c.tip_rate[k]) + z * load(c.axis_rate[k]);
         rho_squared += radial * radial;
-        half_rate -= radial * (load(c.tip_rate[k]) + z * load(c.axis_rate[k]));
+        half_rate -= radial * way;
+        way_squared += way * way;
     }
-    Valley<F8> v;
-    v.a = instant<kind>(p, rho_squared, half_rate, z, dz);
-    v.b = {next(v.a.distance), next(v.a.slope), next(v.a.drho), next(v.a.dz), next(v.a.gap)};
-    const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
-    v.lo = splat(0.0f);
-    v.hi = width;
-    const F8 ends = min(v.a.distance, v.b.distance);
-    const auto valley = is_valley(v.a, v.b);
-    // A parted stretch may hold more than one valley, each no deeper than the way to its middle allows.
-    const F8 speed = max(max(abs(v.a.drho), abs(v.b.drho)), max(abs(v.a.dz), abs(v.b.dz)));
-    F8 floor = select(valley, floor_of<kEdge>(v, valley), ends);
-    floor = select(is_parted(v.a, v.b), min(floor, ends - speed * width), floor);
-    store(out.floor, min(floor, ends) - splat(kRounding));
-    store(out.distance, v.a.distance);
-    store(out.slope, v.a.slope);
-    store(out.drho, v.a.drho);
-    store(out.dz, v.a.dz);
-    store(out.gap, v.a.gap);
+    const PointBounds<F8> bounds =
+        bounds_of<F8>(p, travel, splat(point[0]), splat(point[1]), splat(point[2]));
+    const F8 reach = bounds.reach;
+    const F8 rounding = splat(kRounding) * reach * (splat(1.0f) + width * bounds.speed / p.R);
+    Stretch<F8> s;
+    s.a = instant<kind>(p, rho_squared, half_rate, z, dz - along, way_squared - along * along);
+    s.b = {next(s.a.distance), next(s.a.slope), next(s.a.drho),
+           next(s.a.dz),       next(s.a.gap),   next(s.a.way_squared)};
+    s.lo = splat(0.0f);
+    s.hi = width;
+    store(out.floor, floor_of<kEdge>(s, bounds) - rounding);
+    store(out.distance, s.a.distance - rounding);
+    store(out.slope, s.a.slope);
+    store(out.drho, s.a.drho);
+    store(out.dz, s.a.dz);
+    store(out.gap, s.a.gap);
+    store(out.way_squared, s.a.way_squared);
     out.lowest = z[0];
     for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = z[k] < out.lowest ? z[k] : out.lowest;
 }
@@ -58,15 +73,32 @@ template <CutterKind kind>
 Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, const Floors& floors, Vec3 point,
                              double bound) {
     constexpr bool kEdge = kind == CutterKind::flat;
+    const PointBounds<double> bounds = bounds_of<double>(p, c.bounds, point.x, point.y, point.z);
     const auto at = [&](double t) {
         const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
         const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
-        const double per = 1 / std::sqrt(dot(n, n)), z = dot(d, n) * per;
-        const double dz = (dot(d, turning) - z * per * dot(n, turning) - dot(velocity, n)) * per;
-        return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz);
+        const double per_squared = 1 / dot(n, n), per = std::sqrt(per_squared), z = dot(d, n) * per;
+        const double growth = dot(n, turning) * per_squared, along = dot(velocity, n) * per;
+        const double dz = (dot(d, turning) * per - z * growth) - along;
+        const Vec3 way = velocity + (z * per) * (turning - growth * n);
+        return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz,
+                             dot(way, way) - along * along);
     };
     constexpr int kStretches = CurvedInstants::kCount - 1;
     Least<double> least{bound, 0};
+    const auto exact = [&](double t) {
+        const Instant<double> i = at(t);
+        take(least, i.distance, t);
+        return i;
+    };
+    const auto is_open = [&](double floor) { return floor < least.distance - kSettled<double>; };
+    // Single precision tells well enough how the distance runs at an end that cannot be the nearest instant.
+    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact) {
+        if (!is_open(floor_of<kEdge>(s, bounds))) return;
+        if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
+        if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
+        search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, least, at);
+    };
     unsigned open = (1u << kStretches) - 1;  // a bit per stretch that was not looked at yet
     while (true) {
         int k = -1;
@@ -80,35 +112,22 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
         if (k < 0) return least;
         open &= ~(1u << k);
         const auto seen = [&](int n) {
-            return Instant<double>{floors.distance[n], floors.slope[n], floors.drho[n], floors.dz[n],
-                                   floors.gap[n]};
+            return Instant<double>{floors.distance[n], floors.slope[n], floors.drho[n],
+                                   floors.dz[n],       floors.gap[n],   floors.way_squared[n]};
         };
-        Valley<double> v{static_cast<double>(k) / kStretches, static_cast<double>(k + 1) / kStretches,
-                         seen(k), seen(k + 1)};
-        if (is_parted(v.a, v.b)) {
-            v.a = at(v.lo);
-            v.b = at(v.hi);
-            over_sides<kEdge>(v, at, [&](const Valley<double>& side) {
-                take(least, side.a.distance, side.lo);
-                take(least, side.b.distance, side.hi);
-                const bool valley = is_valley(side.a, side.b);
-                descend<kEdge>(side, valley ? floor_of<kEdge>(side, valley) : kNever, valley, least, at);
-            });
-        } else if (!is_valley(v.a, v.b)) {
-            const double end = v.a.distance < v.b.distance ? v.lo : v.hi;
-            take(least, at(end).distance, end);
+        Stretch<double> s{static_cast<double>(k) / kStretches, static_cast<double>(k + 1) / kStretches,
+                          seen(k), seen(k + 1)};
+        if (s.a.slope < 0 && s.b.slope > 0) {
+            const double t = next_look<kEdge>(s, bounds, true, 0.0);
+            const Instant<double> middle = exact(t);
+            look_through({s.lo, t, s.a, middle}, false, true);
+            look_through({t, s.hi, middle, s.b}, true, false);
+        } else if (s.a.distance < s.b.distance) {
+            s.a = exact(s.lo);
+            look_through(s, true, false);
         } else {
-            // Single precision tells well enough where to look first and which end is of no more use.
-            const double t = next_look<kEdge>(v, true, 0);
-            const Instant<double> c = at(t);
-            take(least, c.distance, t);
-            if (c.slope < 0) {
-                v = {t, v.hi, c, at(v.hi)};
-            } else {
-                v = {v.lo, t, at(v.lo), c};
-            }
-            const bool valley = is_valley(v.a, v.b);
-            descend<kEdge>(v, valley ? floor_of<kEdge>(v, valley) : kNever, valley, least, at);
+            s.b = exact(s.hi);
+            look_through(s, false, true);
         }
     }
 }
@@ -129,8 +148,13 @@ struct SeenFrame {
     // What each entry is for the point (0, 0, 0), and how it grows with the point's coordinates.
     float constant[kEntries] = {}, by_x[kEntries] = {}, by_y[kEntries] = {}, by_z[kEntries] = {};
     int stretches;
+    // A bound of twice the speed at which the frame spins about the axis, radians per t: across it the frame
+    // stands still only at t = 0.
+    float spin;
 
-    explicit SeenFrame(const CurvedLine& line) : stretches(line.stretches) {
+    explicit SeenFrame(const CurvedLine& line)
+        : stretches(line.stretches),
+          spin(static_cast<float>(2.5 * line.bounds.turn * std::min(line.bounds.turn, 1.0))) {
         struct Row {
             Vec3 axis;
             double constant;
@@ -193,11 +217,12 @@ struct SeenRow {
 };
 
 template <CutterKind kind>
-TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
+TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointBounds<F8>& bounds) {
     F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
-                             value[0] * rate[0] + value[1] * rate[1], value[2], rate[2]);
+                             value[0] * rate[0] + value[1] * rate[1], value[2], rate[2],
+                             rate[0] * rate[0] + rate[1] * rate[1]);
     };
     F8 coefficients[SeenFrame::kCoefficients];
     for (int i = 0; i < SeenFrame::kCoefficients; ++i) coefficients[i] = row.entry(i);
@@ -224,6 +249,6 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row) {
         return seen(value, rate);
     };
     const F8 distance = least_over_unit < kind == CutterKind::flat,
-             F8 > (row.frame.stretches, node, at).distance;
+             F8 > (row.frame.stretches, bounds, node, at).distance;
     return max(distance, lowest - p.L);
 }

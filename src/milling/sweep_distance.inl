@@ -121,36 +121,43 @@ TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, 
 }
 
 // The tool at one instant as a point sees it, from rho^2, half its derivative by t, z and its derivative by
-// t.
+// t, and the square of the point's speed across the axis.
 template <CutterKind kind, class T>
-TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, T z, T dz) {
-    const T zero = broadcast<T>(0), one = broadcast<T>(1), tiny = broadcast<T>(1e-30);
+TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, T z, T dz, T way_squared) {
+    const T zero = broadcast<T>(0), tiny = broadcast<T>(1e-30);
     if constexpr (kind == CutterKind::ball) {
         const T below = min(z - p.R, zero), out = sqrt(rho_squared + below * below);
-        return {out - p.R, (half_rate + below * dz) / max(out, tiny), zero, dz, one};
+        return {out - p.R,  (half_rate + below * dz) / max(out, tiny), zero, zero, broadcast<T>(kNever),
+                way_squared};
     }
     const T rho = sqrt(rho_squared), drho = half_rate / max(rho, tiny);
     if constexpr (kind == CutterKind::flat) {
         const T side = rho - p.R, gap = side + z;
         const auto on_side = gap >= zero;
-        return {select(on_side, side, -z), select(on_side, drho, -dz), drho, dz, gap};
+        return {select(on_side, side, -z), select(on_side, drho, -dz), drho, dz, gap, way_squared};
     }
     const T side = rho - p.core, under = p.r - z;
     const T out_side = max(side, zero), out_under = max(under, zero);
     const T out = sqrt(out_side * out_side + out_under * out_under);
     const T inner = select(side >= under, drho, -dz);
     return {out + min(max(side, under), zero) - p.r,
-            select(out > zero, (out_side * drho - out_under * dz) / max(out, tiny), inner), drho, dz, one};
+            select(out > zero, (out_side * drho - out_under * dz) / max(out, tiny), inner),
+            zero,
+            zero,
+            min(side, -under),
+            way_squared};
 }
 
 template <class T>
 TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+    const T zero = broadcast<T>(0);
     const auto at = [&](T t) {
         const T dx = x - t * l.across;
-        return instant<CutterKind::bull>(p, dx * dx + y * y, -dx * l.across, z - t * l.rise, -l.rise);
+        return instant<CutterKind::bull>(p, dx * dx + y * y, -dx * l.across, z - t * l.rise, -l.rise,
+                                         l.across * l.across);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return least_over_unit<false, T>(1, node, at);
+    return least_over_unit<false, T>(1, PointBounds<T>{zero, zero, zero, p.R, zero}, node, at);
 }
 
 // Along and across the axis at once: where the tool comes nearest, its flat top apart.

@@ -9,14 +9,14 @@
 
 namespace tribo::milling {
 
-// A curved travel as one point sees it. Lower bounds of the distance between neighbouring instants (the last
-// entry is of no use), less what single precision may be off; at the instants themselves the distance with
-// its derivative and what else sweep_search.inl's Instant holds; the least height above the tip among them,
-// mm.
+// A curved travel as one point sees it. What a search must go below between neighbouring instants (the last
+// entry is of no use), and the distance at the instants themselves, both less what single precision may be
+// off; what else sweep_search.inl's Instant holds; the least height above the tip among them, mm.
 struct Floors {
     float floor[CurvedInstants::kCount];
     float distance[CurvedInstants::kCount], slope[CurvedInstants::kCount];
     float drho[CurvedInstants::kCount], dz[CurvedInstants::kCount], gap[CurvedInstants::kCount];
+    float way_squared[CurvedInstants::kCount];
     float lowest;
 };
 
@@ -29,7 +29,7 @@ struct SweepKernels {
                 float* out);
     void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&, float* out);
     // `point` relative to the tip at the start.
-    void (*floors)(const ToolProfile&, const CurvedInstants&, Vec3 point, Floors& out);
+    void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
 };
 
 const SweepKernels& sweep_kernels();

@@ -102,7 +102,9 @@ void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& a
     const SeenFrame frame(line);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b) {
-            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c])));
+            PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
+            bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
+            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c]), bounds));
             out += kLatticeEdge;
         }
     }
@@ -121,17 +123,18 @@ void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, con
     }
 }
 
-void floors(const ToolProfile& tool, const CurvedInstants& at, Vec3 point, Floors& out) {
+void floors(const ToolProfile& tool, const CurvedInstants& at, const TravelBounds& travel, Vec3 point,
+            Floors& out) {
     const Profile<F8> p(tool);
     const float seen[3] = {static_cast<float>(point.x), static_cast<float>(point.y),
                            static_cast<float>(point.z)};
     switch (tool.kind) {
         case CutterKind::flat:
-            return curved_floors<CutterKind::flat>(p, at, seen, out);
+            return curved_floors<CutterKind::flat>(p, at, travel, seen, out);
         case CutterKind::ball:
-            return curved_floors<CutterKind::ball>(p, at, seen, out);
+            return curved_floors<CutterKind::ball>(p, at, travel, seen, out);
         case CutterKind::bull:
-            return curved_floors<CutterKind::bull>(p, at, seen, out);
+            return curved_floors<CutterKind::bull>(p, at, travel, seen, out);
     }
 }
 

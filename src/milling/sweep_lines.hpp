@@ -40,11 +40,21 @@ struct ArcLine {
     double radius = 0, end_x = 1, end_y = 0;
 };
 
+// Bounds over t in 0..1 of how the tool moves, from the control points of tip and axis: derivatives by t, mm
+// and radians. A point at the distance d from `middle` is never farther than d + spread from the tip.
+struct TravelBounds {
+    Vec3 middle;  // of the tip path, relative to its start
+    double spread = 0, speed = 0, tip_bend = 0, turn = 0, turn_rate = 0;
+};
+
 // Tip and axis as t^0, t^1, t^2 coefficients, in stock coordinates, the tip relative to its start; the axis
 // is made unit.
 struct CurvedLine {
     Vec3 tip1, tip2, axis0, axis1, axis2;
     int stretches = 4;  // of t, looked through one by one
+    TravelBounds bounds{};
+
+    CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 axis_2);
 };
 
 // The tool at even instants of a curved travel, and how it moves there: what single precision tells of where

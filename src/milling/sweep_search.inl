@@ -2,19 +2,40 @@
 // The least distance over the instants t in 0..1 of a travel, for T = double or F8 (sweep_distance.inl says
 // how this file is included). Every lane is searched as if it were alone: its result does not depend on its
 // neighbours.
+//
+// The search is branch and bound, and its bound is true. As the tool sees it the point runs along a curve
+// q(t), and the distance F(q) to the tool is convex with slope at most 1 (the tool is a convex solid). So F
+// lies above its tangent planes, and with |q''| <= bend
+//     g(s) >= g(t) + g'(t) (s - t) - bend (s - t)^2 / 2,   g(t) = F(q(t)).
+// Two such parabolas, from the ends of a stretch, bound what is between them. Beside a round side g is even
+// convex: g'' >= (way^2 - g'^2) / rho - bend, with way the speed of the point across the axis, and rho its
+// distance from the axis (of a ball: from its centre).
 
 // The distance to the tool at one instant; `slope`, `drho` and `dz` are derivatives by t: of the distance, of
-// the point's distance to the axis and of its height above the tip. A flat cutter has an edge, where `gap` =
-// distance to the side less distance to the bottom passes zero; a rounded bottom is smooth (gap 1).
+// the point's distance to the axis and of its height above the tip. `way_squared` is the square of its speed
+// across the axis. `gap` tells how far the point is beside the tool's side: more than 0 there. For a flat
+// cutter it is distance to the side less distance to the bottom, which meet in an edge.
 template <class T>
 struct Instant {
-    T distance, slope, drho, dz, gap;
+    T distance, slope, drho, dz, gap, way_squared;
 };
 template <bool kEdge, class T>
 TRIBO_LANES Instant<T> blend(Mask<T> m, const Instant<T>& a, const Instant<T>& b) {
-    return {select(m, a.distance, b.distance), select(m, a.slope, b.slope), select(m, a.drho, b.drho),
-            select(m, a.dz, b.dz), kEdge ? select(m, a.gap, b.gap) : a.gap};
+    return {select(m, a.distance, b.distance),
+            select(m, a.slope, b.slope),
+            kEdge ? select(m, a.drho, b.drho) : a.drho,
+            kEdge ? select(m, a.dz, b.dz) : a.dz,
+            select(m, a.gap, b.gap),
+            select(m, a.way_squared, b.way_squared)};
 }
+
+// What holds for one point over the whole travel: at most this |q''| and |q'|, at most this error of
+// way_squared by a frame that spins, the radius that makes a distance to the side a distance to the axis, and
+// the distance from the tip.
+template <class T>
+struct PointBounds {
+    T bend, speed, way_error, radius, reach;
+};
 
 // Above every distance, mm.
 constexpr double kNever = 1e30;
@@ -24,42 +45,57 @@ struct Least {
     T distance, t;
 };
 
-// A stretch of t over which the distance first falls, then rises.
+// A stretch of t.
 template <class T>
-struct Valley {
+struct Stretch {
     T lo, hi;
     Instant<T> a, b;  // at lo and hi
 };
-
-template <class T>
-TRIBO_LANES Mask<T> is_valley(const Instant<T>& a, const Instant<T>& b) {
-    return both(a.slope<broadcast<T>(0), b.slope> broadcast<T>(0));
+template <bool kEdge, class T>
+TRIBO_LANES Stretch<T> blend(Mask<T> m, const Stretch<T>& u, const Stretch<T>& v) {
+    return {select(m, u.lo, v.lo), select(m, u.hi, v.hi), blend<kEdge>(m, u.a, v.a),
+            blend<kEdge>(m, u.b, v.b)};
 }
 
-// What the valley may go down to. Without the edge between its ends: where the tangents meet, or the bottom
-// of the parabola with the mean curvature, whichever is lower, less what a bottom that the point leaves ever
-// faster lies below its tangent. With the edge between them: as far as the part that is not nearest has come
-// at an end, if from there it only gets farther towards the other end.
+// How far the least distance found in a valley may stand above its bottom, mm, and how far any distance may
+// lie below the least that was found, mm.
+template <class T>
+constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
+template <class T>
+constexpr double kProven = std::is_same_v<T, double> ? 1e-5 : 4e-5;
+
+// How much g' may fall per t over the stretch: 0 where g is convex.
+template <class T>
+TRIBO_LANES T bend_of(const Stretch<T>& s, T width, const PointBounds<T>& p) {
+    const T bow = p.bend * width, steep = max(abs(s.a.slope), abs(s.b.slope)) + bow;
+    const T rho = max(s.a.distance, s.b.distance) + broadcast<T>(0.125) * bow * width + p.radius;
+    const T way = min(s.a.way_squared, s.b.way_squared) - p.speed * bow - p.way_error;
+    const auto convex = both(min(s.a.gap, s.b.gap) > broadcast<T>(0.75) * p.speed * width,
+                             way - steep * steep >= p.bend * rho);
+    return select(convex, broadcast<T>(0), p.bend);
+}
+
+// What the search has to go below over the stretch before it may stop: of the true bound, that much more than
+// `kProven` allows for; and in a valley, the bottom that the slopes at its ends let expect.
 template <bool kEdge, class T>
-TRIBO_LANES T floor_of(const Valley<T>& v, Mask<T> valley) {
-    const T zero = broadcast<T>(0), half = broadcast<T>(0.5);
-    const Instant<T>&a = v.a, &b = v.b;
-    const T width = v.hi - v.lo, steepness = select(valley, b.slope - a.slope, broadcast<T>(1));
-    const T meet = (a.distance - b.distance + b.slope * width) / steepness;
+TRIBO_LANES T floor_of(const Stretch<T>& s, const PointBounds<T>& p) {
+    const T zero = broadcast<T>(0), half = broadcast<T>(0.5), tiny = broadcast<T>(1e-30);
+    const Instant<T>&a = s.a, &b = s.b;
+    const T width = s.hi - s.lo, bend = bend_of(s, width, p), ends = min(a.distance, b.distance);
+    const T bow = half * bend * width;
+    const T steepness = max(b.slope - a.slope + bow + bow, tiny);
+    const T meet = min(max((a.distance - b.distance + (b.slope + bow) * width) / steepness, zero), width);
+    const T bound = min(ends, a.distance + meet * (a.slope - half * bend * meet));
+    const auto valley = both(a.slope<zero, b.slope> zero);
     const T gentle = min(-a.slope, b.slope);
-    const T parabola = min(a.distance, b.distance) - half * gentle * gentle * width / steepness;
-    const T smooth = min(parabola, a.distance + a.slope * meet) - half * max(b.dz - a.dz, zero) * width;
-    if constexpr (!kEdge) return smooth;
-    const T deep = broadcast<T>(-1e30);
-    const T rate_a = select(a.gap < zero, a.drho, -a.dz), rate_b = select(b.gap < zero, b.drho, -b.dz);
-    const T from_a = select(rate_a < zero, deep, a.distance - abs(a.gap));
-    const T from_b = select(rate_b > zero, deep, b.distance - abs(b.gap));
-    return select(a.gap * b.gap < zero, max(from_a, from_b), smooth);
+    T bottom = min(a.distance, b.distance) - half * gentle * gentle * width / steepness;
+    if constexpr (kEdge) bottom = select(a.gap * b.gap < zero, bound, bottom);
+    return min(bound + broadcast<T>(kProven<T> - kSettled<T>), select(valley, bottom, ends));
 }
 
 // From lo to the least of the cubic with the distances and slopes of both ends.
 template <class T>
-TRIBO_LANES T to_bottom(const Valley<T>& v, T width, T steepness) {
+TRIBO_LANES T to_bottom(const Stretch<T>& v, T width, T steepness) {
     const T chord = v.a.slope + v.b.slope + broadcast<T>(3) * (v.a.distance - v.b.distance) / width;
     const T root = sqrt(max(chord * chord - v.a.slope * v.b.slope, broadcast<T>(0)));
     return width - width * (v.b.slope + root - chord) / (steepness + root + root);
@@ -68,7 +104,7 @@ TRIBO_LANES T to_bottom(const Valley<T>& v, T width, T steepness) {
 // From lo to where the cubic with the gaps and gap rates of both ends is zero: two steps of Newton from the
 // chord's zero.
 template <class T>
-TRIBO_LANES T to_edge(const Valley<T>& v, T width, Mask<T> crosses) {
+TRIBO_LANES T to_edge(const Stretch<T>& v, T width, Mask<T> crosses) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), two = broadcast<T>(2), three = broadcast<T>(3);
     const T change = v.b.gap - v.a.gap, p = width * (v.a.drho + v.a.dz), q = width * (v.b.drho + v.b.dz);
     const T c2 = three * change - two * p - q, c3 = p + q - two * change;
@@ -81,92 +117,25 @@ TRIBO_LANES T to_edge(const Valley<T>& v, T width, Mask<T> crosses) {
     return u * width;
 }
 
-// Where to look next in a valley: its bottom after the cubic, the edge where it crosses one. A cubic that
-// follows the distance badly leaves one end where it is, so every third step is a tangents' meeting.
+// Where to look next. In a valley: at its bottom after the cubic, at the edge where it crosses one; a cubic
+// that follows the distance badly leaves one end where it is, so every third step halves. Elsewhere only the
+// bound is too low: close to the nearer end, so that both parts rise above it.
 template <bool kEdge, class T>
-TRIBO_LANES T next_look(const Valley<T>& v, Mask<T> active, int step) {
-    const T one = broadcast<T>(1), width = select(active, v.hi - v.lo, one);
-    const T steepness = select(active, v.b.slope - v.a.slope, one);
-    T wanted = step % 3 == 2 ? (v.a.distance - v.b.distance + v.b.slope * width) / steepness
-                             : to_bottom(v, width, steepness);
+TRIBO_LANES T next_look(const Stretch<T>& v, const PointBounds<T>& p, Mask<T> active, T looks) {
+    const T zero = broadcast<T>(0), one = broadcast<T>(1), half = broadcast<T>(0.5);
+    const T width = select(active, v.hi - v.lo, one);
+    const auto valley = both(active, both(v.a.slope<zero, v.b.slope> zero));
+    const T change = abs(v.b.slope - v.a.slope);
+    T wanted = to_bottom(v, width, select(valley, change, one));
     if constexpr (kEdge) {
-        const auto crosses = both(active, v.a.gap * v.b.gap < broadcast<T>(0));
+        const auto crosses = both(valley, v.a.gap * v.b.gap < zero);
         if (any(crosses)) wanted = select(crosses, to_edge(v, width, crosses), wanted);
     }
-    return v.lo + min(max(wanted, broadcast<T>(0.02) * width), broadcast<T>(0.98) * width);
-}
-
-// How far the least distance found may stand above the true one before the search goes on, mm.
-template <class T>
-constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
-
-// Goes down one valley. Lanes that are settled stay as they are.
-template <bool kEdge, class T, class F>
-TRIBO_LANES void descend(Valley<T> v, T floor, Mask<T> valley, Least<T>& least, const F& at) {
-    const T zero = broadcast<T>(0), settled = broadcast<T>(kSettled<T>);
-    auto active = both(valley, floor < least.distance - settled);
-    constexpr int kMostSteps = std::is_same_v<T, double> ? 40 : 12;
-    for (int step = 0; step < kMostSteps && any(active); ++step) {
-        const T t = next_look<kEdge>(v, active, step);
-        const Instant<T> c = at(t);
-        const auto better = both(active, c.distance < least.distance);
-        least.distance = select(better, c.distance, least.distance);
-        least.t = select(better, t, least.t);
-        const auto falling = both(active, c.slope < zero), rising = both(active, c.slope >= zero);
-        v.lo = select(falling, t, v.lo);
-        v.a = blend<kEdge>(falling, c, v.a);
-        v.hi = select(rising, t, v.hi);
-        v.b = blend<kEdge>(rising, c, v.b);
-        active = both(active, floor_of<kEdge>(v, active) < least.distance - settled);
-    }
-}
-
-// Where within a stretch the point comes closest to the tip's plane from above, or farthest from the axis:
-// there one of the tool's parts first nears the point, then leaves it again, and both sides may hold a
-// valley.
-template <class T>
-TRIBO_LANES Mask<T> is_parted(const Instant<T>& a, const Instant<T>& b) {
-    const T zero = broadcast<T>(0);
-    return either(both(a.dz<zero, b.dz> zero), both(a.drho > zero, b.drho < zero));
-}
-
-// Calls visit(valley) for the stretch, or for its two sides where it is parted, over each of which the
-// distance is taken to fall at first or rise at last.
-template <bool kEdge, class T, class F, class V>
-TRIBO_LANES void over_sides(Valley<T> v, const F& at, const V& visit) {
-    const T zero = broadcast<T>(0), one = broadcast<T>(1);
-    const auto parted = is_parted(v.a, v.b);
-    if (any(parted)) {
-        const auto lowest = both(v.a.dz<zero, v.b.dz> zero);
-        const T rate_a = select(lowest, v.a.dz, v.a.drho), rate_b = select(lowest, v.b.dz, v.b.drho);
-        const T share = rate_a / select(parted, rate_a - rate_b, one);
-        const T middle = select(parted, v.lo + share * (v.hi - v.lo), v.hi);
-        Instant<T> m = blend<kEdge>(parted, at(middle), v.b);
-        // Where that part is the nearest the distance is level: one way down each side.
-        const T level = broadcast<T>(0.05) * abs(rate_b - rate_a), slope = m.slope;
-        const auto is_level = both(parted, abs(slope) < level);
-        m.slope = select(is_level, level, slope);
-        visit(Valley<T>{v.lo, middle, v.a, m});
-        m.slope = select(is_level, -level, slope);
-        v.lo = middle;
-        v.a = m;
-    }
-    visit(v);
-}
-
-// The sides of `count` equal stretches that make up 0..1.
-template <bool kEdge, class T, class N, class F, class V>
-TRIBO_LANES void over_stretches(int count, const N& node, const F& at, const V& visit) {
-    Valley<T> v;
-    v.lo = broadcast<T>(0);
-    v.a = node(0);
-    for (int k = 1; k <= count; ++k) {
-        v.hi = broadcast<T>(static_cast<double>(k) / count);
-        v.b = node(k);
-        over_sides<kEdge>(v, at, visit);
-        v.lo = v.hi;
-        v.a = v.b;
-    }
+    const T bent = broadcast<T>(0.375) * p.bend * width / max(change, broadcast<T>(1e-30));
+    const T near = min(max(bent, broadcast<T>(0.1)), half);
+    const T one_sided = select(v.a.distance < v.b.distance, near, one - near);
+    const T share = select(looks == broadcast<T>(2), half, select(valley, wanted / width, one_sided));
+    return v.lo + width * min(max(share, broadcast<T>(0.02)), broadcast<T>(0.98));
 }
 
 template <class T>
@@ -176,32 +145,89 @@ TRIBO_LANES void take(Least<T>& least, T distance, T t) {
     least.t = select(better, t, least.t);
 }
 
-// The least over the whole travel. node(k) is at(k / count), perhaps at less cost.
+// Looks through a stretch, its ends being known, until nothing in it can lie below the least: depth first,
+// each lane with a stack of its own for what it puts aside.
+template <bool kEdge, class T, class F>
+TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, Least<T>& least, const F& at) {
+    const T zero = broadcast<T>(0), one = broadcast<T>(1), never = broadcast<T>(kNever),
+            settled = broadcast<T>(kSettled<T>);
+    constexpr int kDepth = std::is_same_v<T, double> ? 32 : 12;
+    constexpr double kMostLooks = std::is_same_v<T, double> ? 200 : 50;
+    Stretch<T> aside[kDepth];
+    T floors[kDepth], depth = zero, looks = zero, since_halving = zero;
+    int used = 0;  // the greatest depth of any lane
+    while (true) {
+        for (auto idle = both(floor >= least.distance - settled, depth > zero); any(idle);
+             idle = both(floor >= least.distance - settled, depth > zero)) {
+            for (int n = 0; n < used; ++n) {
+                const auto top = both(idle, depth == broadcast<T>(n + 1));
+                s = blend<kEdge>(top, aside[n], s);
+                floor = select(top, floors[n], floor);
+            }
+            depth = select(idle, depth - one, depth);
+            if (!any(depth >= broadcast<T>(used))) --used;
+        }
+        const auto active = both(floor < least.distance - settled, looks < broadcast<T>(kMostLooks));
+        if (!any(active)) return;
+        const T t = next_look<kEdge>(s, p, active, since_halving);
+        looks = looks + one;
+        since_halving = select(since_halving == broadcast<T>(2), zero, since_halving + one);
+        const Instant<T> c = at(t);
+        take(least, select(active, c.distance, never), t);
+        const Stretch<T> left{s.lo, t, s.a, c}, right{t, s.hi, c, s.b};
+        const T below_left = floor_of<kEdge>(left, p), below_right = floor_of<kEdge>(right, p);
+        const auto left_first = below_left < below_right;
+        const T second = max(below_left, below_right);
+        const auto two = both(both(active, second < least.distance - settled), depth < broadcast<T>(kDepth));
+        if (any(two)) {
+            const Stretch<T> other = blend<kEdge>(left_first, right, left);
+            for (int n = 0; n <= used && n < kDepth; ++n) {
+                const auto here = both(two, depth == broadcast<T>(n));
+                aside[n] = blend<kEdge>(here, other, aside[n]);
+                floors[n] = select(here, second, floors[n]);
+            }
+            depth = select(two, depth + one, depth);
+            if (any(depth > broadcast<T>(used))) ++used;
+        }
+        floor = select(active, min(below_left, below_right), never);
+        s = blend<kEdge>(left_first, left, right);
+    }
+}
+
+// The least over the whole travel, looked through in `count` equal stretches, the deepest first. node(k) is
+// at(k / count), perhaps at less cost.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over_unit(int count, const N& node, const F& at) {
-    const T zero = broadcast<T>(0), never = broadcast<T>(kNever);
-    Least<T> least{never, zero};
-    Valley<T> deepest{};
-    T floor = never, second = never;  // of the deepest valley, of the next
-    over_stretches<kEdge, T>(count, node, at, [&](const Valley<T>& v) {
-        take(least, v.a.distance, v.lo);
-        take(least, v.b.distance, v.hi);
-        const auto valley = is_valley(v.a, v.b);
-        const T under = select(valley, floor_of<kEdge>(v, valley), never);
+TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, const N& node, const F& at) {
+    const T never = broadcast<T>(kNever);
+    Least<T> least{never, broadcast<T>(0)};
+    Stretch<T> deepest{};
+    T floor = never, second = never;  // of the deepest stretch, of the next
+    const auto over_stretches = [&](const auto& visit) {
+        Stretch<T> s;
+        s.lo = broadcast<T>(0);
+        s.a = node(0);
+        for (int k = 1; k <= count; ++k) {
+            s.hi = broadcast<T>(static_cast<double>(k) / count);
+            s.b = node(k);
+            visit(s);
+            s.lo = s.hi;
+            s.a = s.b;
+        }
+    };
+    over_stretches([&](const Stretch<T>& s) {
+        take(least, s.a.distance, s.lo);
+        take(least, s.b.distance, s.hi);
+        const T under = floor_of<kEdge>(s, p);
         const auto deeper = under < floor;
         second = min(second, select(deeper, floor, under));
         floor = select(deeper, under, floor);
-        deepest.lo = select(deeper, v.lo, deepest.lo);
-        deepest.hi = select(deeper, v.hi, deepest.hi);
-        deepest.a = blend<kEdge>(deeper, v.a, deepest.a);
-        deepest.b = blend<kEdge>(deeper, v.b, deepest.b);
+        deepest = blend<kEdge>(deeper, s, deepest);
     });
-    descend<kEdge>(deepest, floor, floor < never, least, at);
+    search<kEdge>(deepest, floor, p, least, at);
     if (!any(second < least.distance - broadcast<T>(kSettled<T>))) return least;
-    // Another valley may be deeper still.
-    over_stretches<kEdge, T>(count, node, at, [&](const Valley<T>& v) {
-        const auto valley = both(is_valley(v.a, v.b), v.lo != deepest.lo);
-        descend<kEdge>(v, floor_of<kEdge>(v, valley), valley, least, at);
+    over_stretches([&](const Stretch<T>& s) {
+        const T under = select(s.lo != deepest.lo, floor_of<kEdge>(s, p), never);
+        search<kEdge>(s, under, p, least, at);
     });
     return least;
 }
