@@ -177,7 +177,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         }
         Brick& brick = tables_->pool[u.ref];
         const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
-        shapes[number]->sample(lattice(u.coord), carved.data());
+        shapes[number]->sample_near(lattice(u.coord), near_, carved.data());
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
         const CarveResult result =
             brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,

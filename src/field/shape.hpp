@@ -41,6 +41,10 @@ class Shape {
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
     // distance_mm at all nodes in single precision, out[a + 8 b + 64 c], the same bits whatever the machine.
     virtual void sample(const Lattice& lattice, float* out) const = 0;
+    // sample() where the distance is within `near_mm` of zero, else something beyond that on the same side.
+    virtual void sample_near(const Lattice& lattice, double /*near_mm*/, float* out) const {
+        sample(lattice, out);
+    }
 };
 
 }  // namespace tribo::field

@@ -300,7 +300,11 @@ class CurvedSweep final : public field::Shape {
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
-        sweep_kernels().curved(tool_, line_, start_, lattice, out);
+        sample_near(lattice, kNever, out);
+    }
+
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sweep_kernels().curved(tool_, line_, start_, lattice, near_mm, out);
     }
 
   private:

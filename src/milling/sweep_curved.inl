@@ -97,7 +97,7 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
         if (!is_open(floor_of<kEdge>(s, bounds))) return;
         if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
         if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
-        search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, least, at);
+        search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, kNever, least, at);
     };
     unsigned open = (1u << kStretches) - 1;  // a bit per stretch that was not looked at yet
     while (true) {
@@ -217,7 +217,7 @@ struct SeenRow {
 };
 
 template <CutterKind kind>
-TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointBounds<F8>& bounds) {
+TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointBounds<F8>& bounds, F8 near) {
     F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
@@ -249,6 +249,6 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointB
         return seen(value, rate);
     };
     const F8 distance = least_over_unit < kind == CutterKind::flat,
-             F8 > (row.frame.stretches, bounds, node, at).distance;
+             F8 > (row.frame.stretches, bounds, near, node, at).distance;
     return max(distance, lowest - p.L);
 }

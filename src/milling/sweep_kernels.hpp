@@ -27,7 +27,9 @@ struct SweepKernels {
                      const field::Lattice&, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
-    void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&, float* out);
+    // Exact within `near_mm` of the surface, else beyond it on the right side.
+    void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&,
+                   double near_mm, float* out);
     // `point` relative to the tip at the start.
     void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
 };

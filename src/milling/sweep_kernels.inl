@@ -97,29 +97,31 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
 }
 
 template <CutterKind kind>
-void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, float* out) {
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, double near_mm,
+               float* out) {
     const Profile<F8> p(tool);
     const SeenFrame frame(line);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b) {
             PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
             bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
-            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c]), bounds));
+            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c]), bounds,
+                                        broadcast<F8>(near_mm)));
             out += kLatticeEdge;
         }
     }
 }
 
 void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, const field::Lattice& lattice,
-            float* out) {
+            double near_mm, float* out) {
     const Offsets at(lattice, reference);
     switch (tool.kind) {
         case CutterKind::flat:
-            return curved_of<CutterKind::flat>(tool, line, at, out);
+            return curved_of<CutterKind::flat>(tool, line, at, near_mm, out);
         case CutterKind::ball:
-            return curved_of<CutterKind::ball>(tool, line, at, out);
+            return curved_of<CutterKind::ball>(tool, line, at, near_mm, out);
         case CutterKind::bull:
-            return curved_of<CutterKind::bull>(tool, line, at, out);
+            return curved_of<CutterKind::bull>(tool, line, at, near_mm, out);
     }
 }
 

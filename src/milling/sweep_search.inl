@@ -145,20 +145,28 @@ TRIBO_LANES void take(Least<T>& least, T distance, T t) {
     least.t = select(better, t, least.t);
 }
 
+// What a floor must be below to be worth a look: beyond `near` on both sides of the surface the sign will do.
+template <class T>
+TRIBO_LANES T goal_of(const Least<T>& least, T near) {
+    return select(least.distance > -near, min(least.distance - broadcast<T>(kSettled<T>), near),
+                  broadcast<T>(-kNever));
+}
+
 // Looks through a stretch, its ends being known, until nothing in it can lie below the least: depth first,
 // each lane with a stack of its own for what it puts aside.
 template <bool kEdge, class T, class F>
-TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, Least<T>& least, const F& at) {
-    const T zero = broadcast<T>(0), one = broadcast<T>(1), never = broadcast<T>(kNever),
-            settled = broadcast<T>(kSettled<T>);
+TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, Least<T>& least,
+                        const F& at) {
+    const T zero = broadcast<T>(0), one = broadcast<T>(1), never = broadcast<T>(kNever);
     constexpr int kDepth = std::is_same_v<T, double> ? 32 : 12;
     constexpr double kMostLooks = std::is_same_v<T, double> ? 200 : 50;
     Stretch<T> aside[kDepth];
     T floors[kDepth], depth = zero, looks = zero, since_halving = zero;
     int used = 0;  // the greatest depth of any lane
     while (true) {
-        for (auto idle = both(floor >= least.distance - settled, depth > zero); any(idle);
-             idle = both(floor >= least.distance - settled, depth > zero)) {
+        T goal = goal_of(least, near);
+        for (auto idle = both(floor >= goal, depth > zero); any(idle);
+             idle = both(floor >= goal, depth > zero)) {
             for (int n = 0; n < used; ++n) {
                 const auto top = both(idle, depth == broadcast<T>(n + 1));
                 s = blend<kEdge>(top, aside[n], s);
@@ -167,7 +175,7 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, Least<T>
             depth = select(idle, depth - one, depth);
             if (!any(depth >= broadcast<T>(used))) --used;
         }
-        const auto active = both(floor < least.distance - settled, looks < broadcast<T>(kMostLooks));
+        const auto active = both(floor < goal, looks < broadcast<T>(kMostLooks));
         if (!any(active)) return;
         const T t = next_look<kEdge>(s, p, active, since_halving);
         looks = looks + one;
@@ -178,7 +186,8 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, Least<T>
         const T below_left = floor_of<kEdge>(left, p), below_right = floor_of<kEdge>(right, p);
         const auto left_first = below_left < below_right;
         const T second = max(below_left, below_right);
-        const auto two = both(both(active, second < least.distance - settled), depth < broadcast<T>(kDepth));
+        goal = goal_of(least, near);
+        const auto two = both(both(active, second < goal), depth < broadcast<T>(kDepth));
         if (any(two)) {
             const Stretch<T> other = blend<kEdge>(left_first, right, left);
             for (int n = 0; n <= used && n < kDepth; ++n) {
@@ -197,7 +206,7 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, Least<T>
 // The least over the whole travel, looked through in `count` equal stretches, the deepest first. node(k) is
 // at(k / count), perhaps at less cost.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, const N& node, const F& at) {
+TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near, const N& node, const F& at) {
     const T never = broadcast<T>(kNever);
     Least<T> least{never, broadcast<T>(0)};
     Stretch<T> deepest{};
@@ -223,11 +232,11 @@ TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, const N
         floor = select(deeper, under, floor);
         deepest = blend<kEdge>(deeper, s, deepest);
     });
-    search<kEdge>(deepest, floor, p, least, at);
-    if (!any(second < least.distance - broadcast<T>(kSettled<T>))) return least;
+    search<kEdge>(deepest, floor, p, near, least, at);
+    if (!any(second < goal_of(least, near))) return least;
     over_stretches([&](const Stretch<T>& s) {
         const T under = select(s.lo != deepest.lo, floor_of<kEdge>(s, p), never);
-        search<kEdge>(s, under, p, least, at);
+        search<kEdge>(s, under, p, near, least, at);
     });
     return least;
 }
