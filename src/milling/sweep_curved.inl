@@ -93,7 +93,7 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     };
     const auto is_open = [&](double floor) { return floor < least.distance - kSettled<double>; };
     // Single precision tells well enough how the distance runs at an end that cannot be the nearest instant.
-    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact) {
+    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact) [[gnu::noinline]] {
         if (!is_open(floor_of<kEdge>(s, bounds))) return;
         if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
         if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
@@ -138,8 +138,10 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
 // 40 mm from the tip, 20 mm of path.
 struct SeenFrame {
     static constexpr int kDegree = 5, kCoefficients = 3 * (kDegree + 1), kMostStretches = 8;
-    static constexpr int kEntries = 72;  // coefficients, then x, y, z and their derivatives at every node
-    static_assert(kEntries >= kCoefficients + 6 * (kMostStretches + 1) && kEntries % kLatticeEdge == 0);
+    // The coefficients, then from kNodes on x, y, z and their derivatives at every node.
+    static constexpr int kNodes = 24, kEntries = 80;
+    static_assert(kNodes >= kCoefficients && kEntries >= kNodes + 6 * (kMostStretches + 1));
+    static_assert(kNodes % kLatticeEdge == 0 && kEntries % kLatticeEdge == 0);
     // (1 - cos((2 i + 1) pi / 12)) / 2
     static constexpr double kPoints[kDegree + 1] = {0.017037086855465844, 0.14644660940672624,
                                                     0.3705904774487396,   0.6294095225512604,
@@ -194,30 +196,34 @@ struct SeenFrame {
                     rate = {h * rate.axis + value.axis, h * rate.constant + value.constant};
                     value = {h * value.axis + table[i][k].axis, h * value.constant + table[i][k].constant};
                 }
-                put(kCoefficients + 6 * n + k, value);
-                put(kCoefficients + 6 * n + 3 + k, rate);
+                put(kNodes + 6 * n + k, value);
+                put(kNodes + 6 * n + 3 + k, rate);
             }
         }
     }
 };
 
-// One row of nodes: entries at y and z, still growing with x.
+// One row of nodes: entries at y and z, still growing with x. Few rows need the coefficients.
 struct SeenRow {
     const SeenFrame& frame;
-    F8 x;
+    F8 x, y, z;
     float at_zero[SeenFrame::kEntries];
 
-    TRIBO_LANES SeenRow(const SeenFrame& f, F8 px, float py, float pz) : frame(f), x(px) {
-        const F8 y = splat(py), z = splat(pz);
-        for (int i = 0; i < SeenFrame::kEntries; i += kLatticeEdge) {
-            store(at_zero + i, load(f.constant + i) + z * load(f.by_z + i) + y * load(f.by_y + i));
+    TRIBO_LANES SeenRow(const SeenFrame& f, F8 px, float py, float pz)
+        : frame(f), x(px), y(splat(py)), z(splat(pz)) {
+        fill(SeenFrame::kNodes, SeenFrame::kNodes + 6 * (f.stretches + 1));
+    }
+    TRIBO_LANES void fill(int first, int end) {
+        for (int i = first; i < end; i += kLatticeEdge) {
+            store(at_zero + i,
+                  load(frame.constant + i) + z * load(frame.by_z + i) + y * load(frame.by_y + i));
         }
     }
     TRIBO_LANES F8 entry(int i) const { return splat(at_zero[i]) + x * splat(frame.by_x[i]); }
 };
 
 template <CutterKind kind>
-TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointBounds<F8>& bounds, F8 near) {
+TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<F8>& bounds, F8 near) {
     F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
@@ -225,8 +231,13 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointB
                              rate[0] * rate[0] + rate[1] * rate[1]);
     };
     F8 coefficients[SeenFrame::kCoefficients];
-    for (int i = 0; i < SeenFrame::kCoefficients; ++i) coefficients[i] = row.entry(i);
+    bool has_coefficients = false;
     const auto at = [&](F8 t) {
+        if (!has_coefficients) {
+            has_coefficients = true;
+            row.fill(0, SeenFrame::kCoefficients);
+            for (int i = 0; i < SeenFrame::kCoefficients; ++i) coefficients[i] = row.entry(i);
+        }
         F8 value[3], rate[3];
         for (int k = 0; k < 3; ++k) {
             value[k] = coefficients[3 * SeenFrame::kDegree + k];
@@ -242,7 +253,7 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, const SeenRow& row, const PointB
         return seen(value, rate);
     };
     const auto node = [&](int n) {
-        const int first = SeenFrame::kCoefficients + 6 * n;
+        const int first = SeenFrame::kNodes + 6 * n;
         const F8 value[3] = {row.entry(first), row.entry(first + 1), row.entry(first + 2)};
         const F8 rate[3] = {row.entry(first + 3), row.entry(first + 4), row.entry(first + 5)};
         lowest = min(lowest, value[2]);

@@ -96,18 +96,33 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
     }
 }
 
+// A row all of whose nodes lie beyond `near` of the surface, as the slope of at most 1 tells from a row
+// beside it. `known` bounds the distance from below where it is more than near, from above where less than
+// -near.
+TRIBO_LANES bool is_far_row(F8 known, F8 step, F8 near, F8& row) {
+    const F8 above = known - step, below = known + step;
+    row = select(above >= near, above, below);
+    return !any(both(above<near, below> - near));
+}
+
 template <CutterKind kind>
-void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, double near_mm,
-               float* out) {
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, double cell_mm,
+               double near_mm, float* out) {
     const Profile<F8> p(tool);
     const SeenFrame frame(line);
+    const F8 near = broadcast<F8>(near_mm), step = broadcast<F8>(cell_mm + 2 * kProven<F8>);
     for (int c = 0; c < kLatticeEdge; ++c) {
-        for (int b = 0; b < kLatticeEdge; ++b) {
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            F8 row;
+            if ((b > 0 && is_far_row(load(out - kLatticeEdge), step, near, row)) ||
+                (c > 0 && is_far_row(load(out - kLatticeEdge * kLatticeEdge), step, near, row))) {
+                store(out, row);
+                continue;
+            }
             PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
             bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
-            store(out, curved_row<kind>(p, SeenRow(frame, at.x, at.y[b], at.z[c]), bounds,
-                                        broadcast<F8>(near_mm)));
-            out += kLatticeEdge;
+            SeenRow seen(frame, at.x, at.y[b], at.z[c]);
+            store(out, curved_row<kind>(p, seen, bounds, near));
         }
     }
 }
@@ -117,11 +132,11 @@ void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, con
     const Offsets at(lattice, reference);
     switch (tool.kind) {
         case CutterKind::flat:
-            return curved_of<CutterKind::flat>(tool, line, at, near_mm, out);
+            return curved_of<CutterKind::flat>(tool, line, at, lattice.cell_mm, near_mm, out);
         case CutterKind::ball:
-            return curved_of<CutterKind::ball>(tool, line, at, near_mm, out);
+            return curved_of<CutterKind::ball>(tool, line, at, lattice.cell_mm, near_mm, out);
         case CutterKind::bull:
-            return curved_of<CutterKind::bull>(tool, line, at, near_mm, out);
+            return curved_of<CutterKind::bull>(tool, line, at, lattice.cell_mm, near_mm, out);
     }
 }
 

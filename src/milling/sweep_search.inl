@@ -204,39 +204,53 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
 }
 
 // The least over the whole travel, looked through in `count` equal stretches, the deepest first. node(k) is
-// at(k / count), perhaps at less cost.
+// at(k / count), perhaps at less cost. Farther than `near` from the tool: a bound of the distance on that
+// side.
 template <bool kEdge, class T, class N, class F>
 TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near, const N& node, const F& at) {
-    const T never = broadcast<T>(kNever);
-    Least<T> least{never, broadcast<T>(0)};
-    Stretch<T> deepest{};
+    const T zero = broadcast<T>(0), never = broadcast<T>(kNever);
+    Least<T> least{never, zero};
+    Stretch<T> s{}, deepest{};
     T floor = never, second = never;  // of the deepest stretch, of the next
-    const auto over_stretches = [&](const auto& visit) {
-        Stretch<T> s;
-        s.lo = broadcast<T>(0);
+    const auto begin = [&] {
+        s.lo = zero;
         s.a = node(0);
-        for (int k = 1; k <= count; ++k) {
-            s.hi = broadcast<T>(static_cast<double>(k) / count);
-            s.b = node(k);
-            visit(s);
-            s.lo = s.hi;
-            s.a = s.b;
-        }
     };
-    over_stretches([&](const Stretch<T>& s) {
-        take(least, s.a.distance, s.lo);
+    const auto reach = [&](int k) {
+        s.hi = broadcast<T>(static_cast<double>(k) / count);
+        s.b = node(k);
+    };
+    const auto go_on = [&] {
+        s.lo = s.hi;
+        s.a = s.b;
+    };
+    begin();
+    take(least, s.a.distance, s.lo);
+    for (int k = 1; k <= count; ++k, go_on()) {
+        reach(k);
         take(least, s.b.distance, s.hi);
         const T under = floor_of<kEdge>(s, p);
         const auto deeper = under < floor;
         second = min(second, select(deeper, floor, under));
         floor = select(deeper, under, floor);
         deepest = blend<kEdge>(deeper, s, deepest);
-    });
-    search<kEdge>(deepest, floor, p, near, least, at);
-    if (!any(second < goal_of(least, near))) return least;
-    over_stretches([&](const Stretch<T>& s) {
-        const T under = select(s.lo != deepest.lo, floor_of<kEdge>(s, p), never);
-        search<kEdge>(s, under, p, near, least, at);
-    });
-    return least;
+    }
+    const auto is_far = floor >= near;
+    const T bound = floor - broadcast<T>(kProven<T> - kSettled<T>);
+    const T searched = deepest.lo;
+    s = deepest;
+    for (int k = 0; k <= count; ++k) {
+        if (k > 0) {
+            reach(k);
+            floor = select(s.lo != searched, floor_of<kEdge>(s, p), never);
+        }
+        if (any(floor < goal_of(least, near))) search<kEdge>(s, floor, p, near, least, at);
+        if (k == 0) {
+            if (!any(second < goal_of(least, near))) break;
+            begin();
+        } else {
+            go_on();
+        }
+    }
+    return {select(is_far, bound, least.distance), least.t};
 }
