@@ -60,10 +60,14 @@ long_play() {
         build/release/tests/test_app --gtest_also_run_disabled_tests --gtest_filter='LiveSoak.DISABLED_*'
 }
 
-# Tests that are named DISABLED_, as they take minutes: the whole grid of strokes of a probe over milled stock.
+# Tests that are named DISABLED_, as they take minutes: the whole grid of strokes of a probe over milled stock, ten
+# million points of five-axis sweeps.
 long_tests() {
-    configure_and_build release --target test_haptics &&
-        build/release/tests/test_haptics --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_*' --gtest_brief=1
+    configure_and_build release --target test_haptics test_milling || return 1
+    local room
+    for room in haptics milling; do
+        "build/release/tests/test_$room" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_*' --gtest_brief=1 || return 1
+    done
 }
 
 test_preset asan

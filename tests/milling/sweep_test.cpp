@@ -10,6 +10,7 @@
 #include <optional>
 #include <rapidcheck/gtest.h>
 
+#include "milling/brute_sweep.hpp"
 #include "milling/sweep_kernels.hpp"
 #include "motion/program.hpp"
 
@@ -17,32 +18,6 @@ namespace tribo::milling {
 namespace {
 
 using motion::Move;
-
-// Distance to the tool at one instant, in its plainest form.
-double tool_distance(const Cutter& c, const motion::ToolPose& pose, Vec3 p) {
-    const Vec3 d = p - pose.tip_mm;
-    const double z = dot(d, pose.axis), rho = length(d - z * pose.axis);
-    const double corner = c.corner_radius_mm(), side = rho - (c.radius_mm() - corner), under = corner - z;
-    double distance = std::max(rho - c.radius_mm(), -z);
-    if (side > 0 && under > 0) distance = std::hypot(side, under) - corner;
-    return std::max(distance, z - c.length_mm);
-}
-
-double brute_distance(const Cutter& c, const Move& m, Vec3 p) {
-    constexpr int kInstants = 400;
-    double best = 1e300, at = 0;
-    const auto distance = [&](double t) { return tool_distance(c, motion::pose_at(m, t), p); };
-    for (int n = 0; n <= kInstants; ++n) {
-        const double d = distance(n / double{kInstants});
-        if (d < best) best = d, at = n / double{kInstants};
-    }
-    double lo = std::max(0.0, at - 1.0 / kInstants), hi = std::min(1.0, at + 1.0 / kInstants);
-    for (int n = 0; n < 80; ++n) {
-        const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
-        (distance(a) < distance(b) ? hi : lo) = distance(a) < distance(b) ? b : a;
-    }
-    return std::min(best, distance(0.5 * (lo + hi)));
-}
 
 double number(double lo, double hi) {
     return lo + (hi - lo) * 1e-6 * *rc::gen::inRange(0, 1000001);
@@ -130,6 +105,10 @@ bool under_the_cap(const Cutter& c, const Move& m, Vec3 p) {
     return true;
 }
 
+// What the search of a sweep proves, 1e-5 mm, what the brute force is good to, 3e-6, and what the quadratic
+// that stands for an even turn of 0.3 rad is off at 30 mm, 1e-5.
+constexpr double kProvenMm = 2.5e-5;
+
 void surface_is_exact(const Cutter& c, const Move& m, double tolerance) {
     const auto sweep = make_sweep(c, m);
     for (int n = 0; n < 12; ++n) {
@@ -143,13 +122,13 @@ void surface_is_exact(const Cutter& c, const Move& m, double tolerance) {
 
 RC_GTEST_PROP(Sweep, straight_surface_is_exact, ()) {
     const Cutter c = any_cutter();
-    surface_is_exact(c, any_straight(), c.kind == CutterKind::bull ? 1e-4 : 1e-6);
+    surface_is_exact(c, any_straight(), c.kind == CutterKind::bull ? kProvenMm : 4e-6);
 }
 RC_GTEST_PROP(Sweep, arc_surface_is_exact, ()) {
-    surface_is_exact(any_cutter(), any_arc(), 1e-6);
+    surface_is_exact(any_cutter(), any_arc(), 4e-6);
 }
 RC_GTEST_PROP(Sweep, curved_surface_is_good_to_a_tenth_of_a_micrometre, ()) {
-    surface_is_exact(any_cutter(), any_curved(), 1e-4);
+    surface_is_exact(any_cutter(), any_curved(), kProvenMm);
 }
 
 Move any_move(double share = 1) {
@@ -182,10 +161,8 @@ RC_GTEST_PROP(Sweep, sides_agree_with_the_brute_force, ()) {
         const Vec3 p = motion::pose_at(m, number(0, 1)).tip_mm + 2 * c.radius_mm() * vector(1);
         if (!under_the_cap(c, m, p)) continue;
         const double truth = brute_distance(c, m, p), d = sweep->distance_mm(p);
-        if (std::abs(truth) > 1e-3) RC_ASSERT((truth < 0) == (d < 0));
+        RC_ASSERT(std::abs(d - truth) < kProvenMm);
         if (truth < 0) RC_ASSERT(box.inflated(1e-9).contains(p));
-        // Never promises more room than there is, but for a thousandth.
-        RC_ASSERT(d <= 1.001 * std::max(truth, 0.0) + 1e-4);
     }
 }
 
