@@ -131,7 +131,7 @@ class StraightSweep final : public field::Shape {
         if (reach > 0 && off * off + q.y * q.y >= reach * reach) return bound;
         return by_kind(tool_.kind, [&]<CutterKind kind>() {
             return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
-                                   : ramp_distance<kind>(p, l, q.x, q.y, q.z);
+                                   : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
         });
     }
 
@@ -140,7 +140,7 @@ class StraightSweep final : public field::Shape {
         const Profile<double> p(tool_);
         const Line<double> l(line_);
         const auto nearest = by_kind(tool_.kind, [&]<CutterKind kind>() {
-            if (line_.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z);
+            if (line_.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
             const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
             return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
         });
@@ -157,7 +157,11 @@ class StraightSweep final : public field::Shape {
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
-        sweep_kernels().straight(tool_, line_, frame_, start_, lattice, out);
+        sample_near(lattice, kNever, out);
+    }
+
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sweep_kernels().straight(tool_, line_, frame_, start_, lattice, near_mm, out);
     }
 
   private:

@@ -149,7 +149,7 @@ TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, 
 }
 
 template <class T>
-TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, T z, T near) {
     const T zero = broadcast<T>(0);
     const auto at = [&](T t) {
         const T dx = x - t * l.across;
@@ -157,20 +157,20 @@ TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, 
                                          l.across * l.across);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return least_over_unit<false, T>(1, PointBounds<T>{zero, zero, zero, p.R, zero}, broadcast<T>(kNever),
-                                     node, at);
+    return least_over_unit<false, T>(1, PointBounds<T>{zero, zero, zero, p.R, zero}, near, node, at);
 }
 
-// Along and across the axis at once: where the tool comes nearest, its flat top apart.
+// Along and across the axis at once: where the tool comes nearest, its flat top apart; of a bull-nose cutter
+// exactly only within `near` of it.
 template <CutterKind kind, class T>
-TRIBO_LANES Least<T> ramp_nearest(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_nearest(const Profile<T>& p, const Line<T>& l, T x, T y, T z, T near) {
     if constexpr (kind == CutterKind::flat) return ramp_flat(p, l, x, y, z);
     if constexpr (kind == CutterKind::ball) return ramp_ball(p, l, x, y, z);
-    return ramp_bull(p, l, x, y, z);
+    return ramp_bull(p, l, x, y, z, near);
 }
 template <CutterKind kind, class T>
-TRIBO_LANES T ramp_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
-    return capped(p, l, ramp_nearest<kind>(p, l, x, y, z).distance, z);
+TRIBO_LANES T ramp_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z, T near) {
+    return capped(p, l, ramp_nearest<kind>(p, l, x, y, z, near).distance, z);
 }
 
 // Distance to the swept path in the plane of an arc about the origin that starts on the x axis and turns to

@@ -23,11 +23,12 @@ struct Floors {
 // `reference` is what positions are taken relative to before they become floats: the tip at the start, an
 // arc's centre at the height of the tip.
 struct SweepKernels {
+    // Where a search is needed: exact within `near_mm` of the surface, else beyond it on the right side.
     void (*straight)(const ToolProfile&, const StraightLine&, const Frame&, Vec3 reference,
-                     const field::Lattice&, float* out);
+                     const field::Lattice&, double near_mm, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
-    // Exact within `near_mm` of the surface, else beyond it on the right side.
+    // Likewise.
     void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&,
                    double near_mm, float* out);
     // `point` relative to the tip at the start.

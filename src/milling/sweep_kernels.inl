@@ -33,46 +33,81 @@ struct Offsets {
     }
 };
 
-// Calls distance(x, y, z) with the coordinates of each row of nodes in the frame.
-template <class F>
-TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, float* out, const F& distance) {
+// Rows all of whose nodes lie beyond `near` of the surface, as the slope of at most 1 tells from a row beside
+// them: what is above near bounds the distance from below, what is under -near from above.
+struct FarRows {
+    F8 near, step;
+
+    FarRows(double near_mm, double cell_mm)
+        : near(broadcast<F8>(near_mm)), step(broadcast<F8>(cell_mm + 2 * kProven<F8>)) {}
+
+    // Whether row b of layer c is one, and is filled now. `out` has all rows before it.
+    TRIBO_LANES bool fills(int b, int c, float* out) const {
+        return (b > 0 && fills(load(out - kLatticeEdge), out)) ||
+               (c > 0 && fills(load(out - kLatticeEdge * kLatticeEdge), out));
+    }
+
+  private:
+    TRIBO_LANES bool fills(F8 beside, float* out) const {
+        const F8 above = beside - step, below = beside + step;
+        if (any(both(above<near, below> - near))) return false;
+        store(out, select(above >= near, above, below));
+        return true;
+    }
+};
+
+// No row is skipped where a distance costs less than to tell.
+struct NoFarRows {
+    TRIBO_LANES bool fills(int /*b*/, int /*c*/, float* /*out*/) const { return false; }
+};
+
+// Calls distance(x, y, z) with the coordinates in the frame of each row of nodes that is not far.
+template <class Far, class F>
+TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, const Far& far, float* out,
+                           const F& distance) {
     const auto part = [](double u) { return static_cast<float>(u); };
     const F8 along_x = at.x * splat(part(frame.x.x)), along_y = at.x * splat(part(frame.y.x)),
              along_z = at.x * splat(part(frame.z.x));
     for (int c = 0; c < kLatticeEdge; ++c) {
         const float z[3] = {at.z[c] * part(frame.x.z), at.z[c] * part(frame.y.z), at.z[c] * part(frame.z.z)};
-        for (int b = 0; b < kLatticeEdge; ++b) {
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            if (far.fills(b, c, out)) continue;
             const float y = at.y[b];
             store(out, distance(along_x + splat(y * part(frame.x.y) + z[0]),
                                 along_y + splat(y * part(frame.y.y) + z[1]),
                                 along_z + splat(y * part(frame.z.y) + z[2])));
-            out += kLatticeEdge;
         }
     }
 }
 
 template <CutterKind kind>
 void straight_of(const ToolProfile& tool, const StraightLine& line, const Frame& frame, const Offsets& at,
-                 float* out) {
+                 const FarRows& far, float* out) {
     const Profile<F8> p(tool);
     const Line<F8> l(line);
     if (line.rise == 0) {
-        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return level_distance<kind>(p, l, x, y, z); });
+        over_rows(at, frame, NoFarRows(), out,
+                  [&](F8 x, F8 y, F8 z) { return level_distance<kind>(p, l, x, y, z); });
+    } else if constexpr (kind == CutterKind::bull) {
+        over_rows(at, frame, far, out,
+                  [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z, far.near); });
     } else {
-        over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z); });
+        over_rows(at, frame, NoFarRows(), out,
+                  [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z, far.near); });
     }
 }
 
 void straight(const ToolProfile& tool, const StraightLine& line, const Frame& frame, Vec3 reference,
-              const field::Lattice& lattice, float* out) {
+              const field::Lattice& lattice, double near_mm, float* out) {
     const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
         case CutterKind::flat:
-            return straight_of<CutterKind::flat>(tool, line, frame, at, out);
+            return straight_of<CutterKind::flat>(tool, line, frame, at, far, out);
         case CutterKind::ball:
-            return straight_of<CutterKind::ball>(tool, line, frame, at, out);
+            return straight_of<CutterKind::ball>(tool, line, frame, at, far, out);
         case CutterKind::bull:
-            return straight_of<CutterKind::bull>(tool, line, frame, at, out);
+            return straight_of<CutterKind::bull>(tool, line, frame, at, far, out);
     }
 }
 
@@ -80,7 +115,8 @@ template <CutterKind kind>
 void arc_of(const ToolProfile& tool, const ArcLine& line, const Frame& frame, const Offsets& at, float* out) {
     const Profile<F8> p(tool);
     const Round<F8> a(line);
-    over_rows(at, frame, out, [&](F8 x, F8 y, F8 z) { return arc_distance<kind>(p, a, x, y, z); });
+    over_rows(at, frame, NoFarRows(), out,
+              [&](F8 x, F8 y, F8 z) { return arc_distance<kind>(p, a, x, y, z); });
 }
 
 void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 reference,
@@ -96,33 +132,18 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
     }
 }
 
-// A row all of whose nodes lie beyond `near` of the surface, as the slope of at most 1 tells from a row
-// beside it. `known` bounds the distance from below where it is more than near, from above where less than
-// -near.
-TRIBO_LANES bool is_far_row(F8 known, F8 step, F8 near, F8& row) {
-    const F8 above = known - step, below = known + step;
-    row = select(above >= near, above, below);
-    return !any(both(above<near, below> - near));
-}
-
 template <CutterKind kind>
-void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, double cell_mm,
-               double near_mm, float* out) {
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, const FarRows& far,
+               float* out) {
     const Profile<F8> p(tool);
     const SeenFrame frame(line);
-    const F8 near = broadcast<F8>(near_mm), step = broadcast<F8>(cell_mm + 2 * kProven<F8>);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
-            F8 row;
-            if ((b > 0 && is_far_row(load(out - kLatticeEdge), step, near, row)) ||
-                (c > 0 && is_far_row(load(out - kLatticeEdge * kLatticeEdge), step, near, row))) {
-                store(out, row);
-                continue;
-            }
+            if (far.fills(b, c, out)) continue;
             PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
             bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
             SeenRow seen(frame, at.x, at.y[b], at.z[c]);
-            store(out, curved_row<kind>(p, seen, bounds, near));
+            store(out, curved_row<kind>(p, seen, bounds, far.near));
         }
     }
 }
@@ -130,13 +151,14 @@ void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& a
 void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, const field::Lattice& lattice,
             double near_mm, float* out) {
     const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
         case CutterKind::flat:
-            return curved_of<CutterKind::flat>(tool, line, at, lattice.cell_mm, near_mm, out);
+            return curved_of<CutterKind::flat>(tool, line, at, far, out);
         case CutterKind::ball:
-            return curved_of<CutterKind::ball>(tool, line, at, lattice.cell_mm, near_mm, out);
+            return curved_of<CutterKind::ball>(tool, line, at, far, out);
         case CutterKind::bull:
-            return curved_of<CutterKind::bull>(tool, line, at, lattice.cell_mm, near_mm, out);
+            return curved_of<CutterKind::bull>(tool, line, at, far, out);
     }
 }
 

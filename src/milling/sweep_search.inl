@@ -235,8 +235,7 @@ TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near,
         floor = select(deeper, under, floor);
         deepest = blend<kEdge>(deeper, s, deepest);
     }
-    const auto is_far = floor >= near;
-    const T bound = floor - broadcast<T>(kProven<T> - kSettled<T>);
+    const T bound = max(near, floor - broadcast<T>(kProven<T> - kSettled<T>));
     const T searched = deepest.lo;
     s = deepest;
     for (int k = 0; k <= count; ++k) {
@@ -252,5 +251,5 @@ TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near,
             go_on();
         }
     }
-    return {select(is_far, bound, least.distance), least.t};
+    return {select(least.distance > near, bound, least.distance), least.t};
 }

@@ -184,6 +184,26 @@ RC_GTEST_PROP(Sweep, lattice_agrees_with_the_exact_distance, ()) {
     }
 }
 
+RC_GTEST_PROP(Sweep, lattice_near_the_surface_agrees_there_and_keeps_the_side_elsewhere, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move();
+    const auto sweep = make_sweep(c, m);
+    const double cell = number(0.05, 0.6), near = 1.8 * cell;
+    const field::Lattice lattice{motion::pose_at(m, number(0, 1)).tip_mm + c.radius_mm() * vector(1), cell,
+                                 *rc::gen::inRange(-8, 2), *rc::gen::inRange(-8, 2), -4};
+    float all[field::kLatticeNodes], some[field::kLatticeNodes];
+    sweep->sample(lattice, all);
+    sweep->sample_near(lattice, near, some);
+    // Twice what single precision lets the search prove.
+    constexpr float kTwice = 1e-4f;
+    const auto edge = static_cast<float>(near);
+    for (int n = 0; n < field::kLatticeNodes; ++n) {
+        if (std::abs(all[n]) < edge - kTwice) RC_ASSERT(std::abs(some[n] - all[n]) < kTwice);
+        if (all[n] >= edge) RC_ASSERT(some[n] >= edge - kTwice && some[n] <= all[n] + kTwice);
+        if (all[n] <= -edge) RC_ASSERT(some[n] <= kTwice - edge && some[n] >= all[n] - kTwice);
+    }
+}
+
 RC_GTEST_PROP(Sweep, lattices_share_the_bits_of_shared_nodes, ()) {
     const Cutter c = any_cutter();
     const Move m = any_move();
@@ -206,10 +226,10 @@ RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) 
     float a[field::kLatticeNodes], b[field::kLatticeNodes];
     const auto same = [&] { return std::equal(a, a + field::kLatticeNodes, b); };
     const StraightLine line{number(0, 5), *rc::gen::inRange(0, 2) == 0 ? 0 : number(-3, 3)};
-    sweep_kernels_sse2()->straight(tool, line, frame, vector(2), lattice, a);
+    sweep_kernels_sse2()->straight(tool, line, frame, vector(2), lattice, 1e30, a);
     const Vec3 from = vector(2);
-    sweep_kernels_sse2()->straight(tool, line, frame, from, lattice, a);
-    sweep_kernels_v3()->straight(tool, line, frame, from, lattice, b);
+    sweep_kernels_sse2()->straight(tool, line, frame, from, lattice, 1e30, a);
+    sweep_kernels_v3()->straight(tool, line, frame, from, lattice, 1e30, b);
     RC_ASSERT(same());
     const ArcLine arc{number(0.5, 5), 0.6, 0.8};
     sweep_kernels_sse2()->arc(tool, arc, frame, from, lattice, a);
