@@ -277,6 +277,14 @@ class CurvedSweep final : public field::Shape {
 
     double distance_below(Vec3 point, double bound) const override {
         const Vec3 d = point - start_;
+        // Longer than this, too many instants matter for one to tell.
+        constexpr double kShort = 0.25;
+        if (bound < kNever && line_.bounds.speed < kShort * tool_.radius_mm) {
+            const Profile<double> p(tool_);
+            const double least =
+                by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });
+            if (least >= bound) return bound;
+        }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         return std::max(nearest(floors, d, bound).distance,

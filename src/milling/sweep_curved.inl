@@ -68,22 +68,34 @@ TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, co
     for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = z[k] < out.lowest ? z[k] : out.lowest;
 }
 
+template <CutterKind kind>
+TRIBO_LANES Instant<double> curved_instant(const Profile<double>& p, const CurvedLine& c, Vec3 point,
+                                           double t) {
+    const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
+    const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
+    const double per_squared = 1 / dot(n, n), per = std::sqrt(per_squared), z = dot(d, n) * per;
+    const double growth = dot(n, turning) * per_squared, along = dot(velocity, n) * per;
+    const double dz = (dot(d, turning) * per - z * growth) - along;
+    const Vec3 way = velocity + (z * per) * (turning - growth * n);
+    return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz,
+                         dot(way, way) - along * along);
+}
+
+// A lower bound of the distance from the middle instant alone: cheap, and of use where the travel is short.
+template <CutterKind kind>
+double curved_bound(const Profile<double>& p, const CurvedLine& c, Vec3 point) {
+    const Instant<double> middle = curved_instant<kind>(p, c, point, 0.5);
+    const double bend = bounds_of<double>(p, c.bounds, point.x, point.y, point.z).bend;
+    return middle.distance - 0.5 * std::abs(middle.slope) - 0.125 * bend;
+}
+
 // Where the tool comes nearest, its flat top apart, if that is below `bound`.
 template <CutterKind kind>
 Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, const Floors& floors, Vec3 point,
                              double bound) {
     constexpr bool kEdge = kind == CutterKind::flat;
     const PointBounds<double> bounds = bounds_of<double>(p, c.bounds, point.x, point.y, point.z);
-    const auto at = [&](double t) {
-        const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
-        const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
-        const double per_squared = 1 / dot(n, n), per = std::sqrt(per_squared), z = dot(d, n) * per;
-        const double growth = dot(n, turning) * per_squared, along = dot(velocity, n) * per;
-        const double dz = (dot(d, turning) * per - z * growth) - along;
-        const Vec3 way = velocity + (z * per) * (turning - growth * n);
-        return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz,
-                             dot(way, way) - along * along);
-    };
+    const auto at = [&](double t) { return curved_instant<kind>(p, c, point, t); };
     constexpr int kStretches = CurvedInstants::kCount - 1;
     Least<double> least{bound, 0};
     const auto exact = [&](double t) {

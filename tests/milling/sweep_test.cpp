@@ -166,6 +166,19 @@ RC_GTEST_PROP(Sweep, sides_agree_with_the_brute_force, ()) {
     }
 }
 
+RC_GTEST_PROP(Sweep, distance_below_a_bound_is_the_distance_or_from_the_bound_up, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_move(number(0.01, 1));
+    const auto sweep = make_sweep(c, m);
+    for (int n = 0; n < 20; ++n) {
+        const Vec3 p = motion::pose_at(m, number(0, 1)).tip_mm + 2 * c.radius_mm() * vector(1);
+        const double d = sweep->distance_mm(p), bound = d + number(-0.5, 0.5) * number(0, 1);
+        const double below = sweep->distance_below(p, bound);
+        if (bound > d + kProvenMm) RC_ASSERT(std::abs(below - d) < kProvenMm);
+        if (bound < d) RC_ASSERT(below >= bound - kProvenMm);
+    }
+}
+
 RC_GTEST_PROP(Sweep, lattice_agrees_with_the_exact_distance, ()) {
     const Cutter c = any_cutter();
     const Move m = any_move();
