@@ -105,12 +105,13 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     };
     const auto is_open = [&](double floor) { return floor < least.distance - kSettled<double>; };
     // Single precision tells well enough how the distance runs at an end that cannot be the nearest instant.
-    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact) [[gnu::noinline]] {
-        if (!is_open(floor_of<kEdge>(s, bounds))) return;
-        if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
-        if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
-        search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, kNever, least, at);
-    };
+    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact)
+                                  __attribute__((noinline)) {
+                                      if (!is_open(floor_of<kEdge>(s, bounds))) return;
+                                      if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
+                                      if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
+                                      search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, kNever, least, at);
+                                  };
     unsigned open = (1u << kStretches) - 1;  // a bit per stretch that was not looked at yet
     while (true) {
         int k = -1;
