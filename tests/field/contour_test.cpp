@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "field/box_shape.hpp"
+#include "self_intersection.hpp"
 #include "test_shapes.hpp"
 
 namespace tribo::field {
@@ -89,6 +90,42 @@ TEST(Contour, keeps_corners_sharp) {
     f.carve(std::make_unique<BoxShape>(Box3{{10.1, 8.2, -6.3}, {20.4, 17.7, 5}}));
     const TriangleMesh mesh = contour(f);
     EXPECT_NEAR(area_mm2(mesh), 2 * (40 * 30 + 40 * 10 + 30 * 10) + 2 * 6.3 * (10.3 + 9.5), 0.05);
+}
+
+void expect_solid(const TriangleMesh& mesh) {
+    EXPECT_TRUE(is_closed(mesh));
+    const tribo::test::SelfIntersections found(mesh);
+    EXPECT_EQ(found.pairs().size(), 0u);
+}
+
+TEST(Contour, of_grooves_does_not_meet_itself) {
+    for (const double cell : {0.2, 0.37, 0.8}) {
+        auto f = block(cell);
+        for (double y = 5; y < 26; y += 2) {
+            f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
+            f.carve(std::make_unique<BallPass>(Vec3{y, -10, 2.6}, Vec3{y + 2, 50, 2.6}, 4));
+        }
+        expect_solid(contour(f));
+    }
+}
+
+// The wall stands anywhere between the nodes, which it meets or not.
+TEST(Contour, keeps_a_wall_that_is_thinner_than_a_cell) {
+    for (const double cell : {0.3, 0.5}) {
+        for (const double width : {0.02, 0.1, 0.25}) {
+            for (double y = 15; y < 16; y += 0.237) {
+                auto f = block(cell);
+                f.carve(std::make_unique<BoxShape>(Box3{{-5, y - 6, -6.3}, {50, y, 5}}));
+                f.carve(std::make_unique<BoxShape>(Box3{{-5, y + width, -6.3}, {50, y + width + 6, 5}}));
+                const TriangleMesh mesh = contour(f);
+                expect_solid(mesh);
+                // Its top and its ends, 40 + 2 x 6.3 mm long, become a ridge within their cells.
+                EXPECT_NEAR(volume_mm3(mesh), 40 * 30 * 10 - 40 * 6.3 * 12,
+                            0.5 * cell * width * (40 + 2 * 6.3) + 0.01 * cell * cell * 40)
+                    << cell << " " << width << " " << y;
+            }
+        }
+    }
 }
 
 TEST(Contour, of_nothing_is_empty) {

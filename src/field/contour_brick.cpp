@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "field/contour_brick.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "field/quadric.hpp"
+
+namespace tribo::field {
+namespace {
+
+// Crossing `ordinal` of edge e of a cell, in one number.
+constexpr int kMostCrossings = 2 * kCellEdges;
+
+// The face of a cell with normal `axis` at its lower (0) or upper (1) side: its edges as FaceSegment counts
+// them.
+constexpr int face_edge(int axis, int side, int edge) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    return edge == 0   ? 4 * u + 2 * side
+           : edge == 1 ? 4 * v + side + 2
+           : edge == 2 ? 4 * u + 1 + 2 * side
+                       : 4 * v + side;
+}
+
+// Whether the surface is in one piece in a cell with these corners inside (bit a + 2 b + 4 c), none of its
+// edges crossed twice: material that meets across the diagonal of a face does not hang together, air does.
+constexpr bool is_one_piece(unsigned corners) {
+    const auto pieces = [](unsigned set, bool diagonals) {
+        int count = 0;
+        while (set != 0) {
+            ++count;
+            unsigned piece = set & (~set + 1), before = 0;
+            while (piece != before) {
+                before = piece;
+                for (unsigned n = 0; n < 8; ++n) {
+                    if ((set >> n & 1) == 0) continue;
+                    for (unsigned m = 0; m < 8; ++m) {
+                        const unsigned way = n ^ m;
+                        const bool edge = way == 1 || way == 2 || way == 4;
+                        const bool diagonal = way == 3 || way == 5 || way == 6;
+                        if ((piece >> m & 1) != 0 && (edge || (diagonal && diagonals))) piece |= 1U << n;
+                    }
+                }
+            }
+            set &= ~piece;
+        }
+        return count;
+    };
+    return pieces(corners, false) == 1 && pieces(~corners & 0xff, true) == 1;
+}
+
+constexpr std::array<bool, 256> kOnePiece = [] {
+    std::array<bool, 256> table{};
+    for (unsigned corners = 1; corners < 255; ++corners) table[corners] = is_one_piece(corners);
+    return table;
+}();
+
+class BrickContour {
+  public:
+    BrickContour(const CarvedField& field, BrickCoord coord)
+        : field_(field), coord_(coord), nodes_(field, coord) {}
+
+    BrickSurface surface(const ContourOptions& options) {
+        BrickSurface s;
+        s.coord = coord_;
+        if (!nodes_.has_surface()) return s;
+        nodes_.find_crossings();
+        if (nodes_.list().empty()) return s;
+        keep_edges(s);
+        if (is_plane(options)) {
+            s.flat = true;
+            Vec3 mean;
+            for (const Crossing& c : nodes_.list()) mean += c.point;
+            const Vec3 lo = nodes_.node_mm(0);
+            s.vertices.push_back(
+                to_float(into(lo, kBrickCells, mean / static_cast<double>(nodes_.list().size()))));
+            return s;
+        }
+        s.cell.assign(kCells, BrickSurface::kNone);
+        for (int c = 0; c < kBrickCells; ++c) {
+            for (int b = 0; b < kBrickCells; ++b) {
+                for (int a = 0; a < kBrickCells; ++a) place_vertices(s, a, b, c);
+            }
+        }
+        return s;
+    }
+
+  private:
+    void keep_edges(BrickSurface& s) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int node = 0; node < kLatticeNodes; ++node) {
+                const EdgeCrossings e = nodes_.crossings(axis, node);
+                if (e.count == 0) continue;
+                const double off = contour_margin(field_);
+                const auto at = [&](int n) {
+                    return nodes_.crossing(static_cast<std::size_t>(e.first + n)).along;
+                };
+                const auto keep = [&](int n, double along) {
+                    s.edges.push_back({static_cast<std::uint16_t>(kLatticeNodes * axis + node),
+                                       static_cast<std::uint8_t>(n), nodes_.inside(node),
+                                       static_cast<float>(along)});
+                };
+                const double first = std::clamp(at(0), off, 1 - e.count * off);
+                keep(0, first);
+                if (e.count < 2) continue;
+                keep(1, std::clamp(at(1), first + off, 1 - off));
+                const double gap = field_.cell_mm() * (at(1) - at(0));
+                s.thinnest_mm = s.thinnest_mm > 0 ? std::min(s.thinnest_mm, gap) : gap;
+            }
+        }
+    }
+
+    Vec3 into(Vec3 low, int cells, Vec3 p) const {
+        const double off = contour_margin(field_) * field_.cell_mm();
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = std::clamp(p[axis], low[axis] + off, low[axis] + cells * field_.cell_mm() - off);
+        return p;
+    }
+
+    // Distance to the surface of one shape and the direction out of the material that it bounds.
+    double distance(ShapeId shape, Vec3 p) const {
+        const double d = field_.shape(shape).distance_mm(p);
+        return shape == 0 ? d : -d;
+    }
+    Vec3 normal(ShapeId shape, Vec3 p) const {
+        const Vec3 g = field_.shape(shape).gradient(p);
+        return shape == 0 ? g : -g;
+    }
+
+    // The plane that touches the face of a crossing beside `p`: a share `back` of the way to the crossing, so
+    // that it is still this face of its shape that answers and not the one that it meets at p.
+    struct Tangent {
+        Vec3 point, normal;
+    };
+    Tangent tangent_near(const Crossing& x, Vec3 p, double back) const {
+        const Vec3 beside = lerp(p - dot(p - x.point, x.normal) * x.normal, x.point, back);
+        const Vec3 n = normal(x.shape, beside);
+        constexpr double kSameFace = 0.8;  // cosine of the turn within a cell
+        if (dot(n, x.normal) < kSameFace) return {x.point, x.normal};
+        return {beside - distance(x.shape, beside) * n, n};
+    }
+
+    bool is_plane(const ContourOptions& options) const {
+        const Crossing& first = nodes_.list().front();
+        for (const Crossing& c : nodes_.list()) {
+            if (squared_length(c.normal - first.normal) >= options.flat_angle_rad * options.flat_angle_rad ||
+                std::abs(dot(c.point - first.point, first.normal)) >= options.flat_cells * field_.cell_mm())
+                return false;
+        }
+        return true;
+    }
+
+    // The crossings of a cell, and which of them one piece of the surface connects.
+    struct Pieces {
+        std::array<std::uint8_t, kMostCrossings> piece;  // of each crossing that there is
+        std::array<const Crossing*, kMostCrossings> at{};
+        int count = 0;
+        bool simple = true;  // no edge is crossed twice
+    };
+    Pieces find_pieces(int n) const {
+        Pieces p;
+        for (int e = 0; e < kCellEdges; ++e) {
+            const int axis = e / 4;
+            const int node = n + (e & 1 ? kStep[(axis + 1) % 3] : 0) + (e & 2 ? kStep[(axis + 2) % 3] : 0);
+            const EdgeCrossings x = nodes_.crossings(axis, node);
+            p.simple &= x.count < 2;
+            for (int k = 0; k < x.count; ++k) {
+                const auto id = static_cast<std::size_t>(2 * e + k);
+                p.at[id] = &nodes_.crossing(static_cast<std::size_t>(x.first + k));
+                p.piece[id] = 0;
+                p.count = 1;
+            }
+        }
+        if (p.count == 0) return p;
+        unsigned corners = 0;
+        for (unsigned c = 0; c < 8; ++c) {
+            const int node = n + (c & 1 ? kStep[0] : 0) + (c & 2 ? kStep[1] : 0) + (c & 4 ? kStep[2] : 0);
+            corners |= nodes_.inside(node) ? 1U << c : 0;
+        }
+        if (!p.simple || !kOnePiece[corners]) connect(n, p);
+        return p;
+    }
+
+    void connect(int n, Pieces& p) const {
+        std::array<std::size_t, kMostCrossings> parent;
+        for (std::size_t id = 0; id < kMostCrossings; ++id) parent[id] = id;
+        const auto root = [&](std::size_t id) {
+            while (parent[id] != id) id = parent[id];
+            return id;
+        };
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int side = 0; side < 2; ++side) {
+                const FaceSegments f = nodes_.segments(n + side * kStep[axis], axis);
+                for (int k = 0; k < f.count; ++k) {
+                    const FaceSegment& s = f.all[static_cast<std::size_t>(k)];
+                    const auto id = [&](FaceSegment::End end) {
+                        return root(
+                            static_cast<std::size_t>(2 * face_edge(axis, side, end.edge) + end.ordinal));
+                    };
+                    const std::size_t from = id(s.from), to = id(s.to);
+                    parent[std::max(from, to)] = std::min(from, to);
+                }
+            }
+        }
+        p.count = 0;
+        for (std::size_t id = 0; id < kMostCrossings; ++id) {
+            if (!p.at[id]) continue;
+            p.piece[id] = root(id) == id ? static_cast<std::uint8_t>(p.count++) : p.piece[root(id)];
+        }
+    }
+
+    void place_vertices(BrickSurface& s, int a, int b, int c) const {
+        const int n = node_index(a, b, c);
+        const Pieces p = find_pieces(n);
+        if (p.count == 0) return;
+        const auto first = static_cast<std::uint16_t>(s.vertices.size());
+        const int cell = cell_index(a, b, c);
+        s.cell[static_cast<std::size_t>(cell)] = p.count == 1 ? first : BrickSurface::kSeveral;
+        if (p.count > 1) {
+            BrickSurface::SeveralPieces several;
+            several.cell = static_cast<std::uint16_t>(cell);
+            several.thin = !p.simple;
+            for (std::size_t id = 0; id < kMostCrossings; ++id) {
+                several.vertex[id / 2][id % 2] =
+                    p.at[id] ? static_cast<std::uint16_t>(first + p.piece[id]) : BrickSurface::kNone;
+            }
+            s.several.push_back(several);
+        }
+        for (int piece = 0; piece < p.count; ++piece) s.vertices.push_back(to_float(vertex(p, piece, n)));
+        for (int axis = 0; axis < 3; ++axis) keep_if_crowded(s, n, 3 * cell + axis);
+    }
+
+    void keep_if_crowded(BrickSurface& s, int node, int face) const {
+        const int axis = face % 3, u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const int count = nodes_.crossings(u, node).count + nodes_.crossings(v, node).count +
+                          nodes_.crossings(u, node + kStep[v]).count +
+                          nodes_.crossings(v, node + kStep[u]).count;
+        const FaceSegments f = count > 1 ? nodes_.segments(node, axis) : FaceSegments{};
+        if (f.count < 2 && !f.has_thin) return;
+        BrickSurface::CrowdedFace crowded{static_cast<std::uint16_t>(face), f, {}};
+        for (int k = 0; k < f.count; ++k) {
+            const FaceSegment& seg = f.all[static_cast<std::size_t>(k)];
+            const Lattice lattice = field_.lattice(coord_);
+            const Vec3 from = s.on_face(lattice, node, axis, seg.from);
+            const Vec3 to = s.on_face(lattice, node, axis, seg.to);
+            Vec3 middle = 0.5 * (from + to);
+            // Around the end of a wall the segment comes back to the edge from which it starts.
+            if (seg.from.edge == seg.to.edge) {
+                const bool along_u = seg.from.edge % 2 == 0;
+                const double depth = 0.25 * tribo::distance(from, to);
+                middle[along_u ? v : u] += seg.from.edge == 0 || seg.from.edge == 3 ? depth : -depth;
+            }
+            crowded.middle[static_cast<std::size_t>(k)] = to_float(middle);
+        }
+        s.crowded.push_back(crowded);
+    }
+
+    // Where a wall or slit that is thinner than a cell ends in this one: its crossings lie on two planes that
+    // do not say how far it goes on. As far as the way from the middle of them into the cell stays in it.
+    std::optional<Vec3> end_of_wall(const Pieces& pieces, int piece, Vec3 middle, Vec3 low) const {
+        Vec3 across;
+        for (std::size_t id = 0; id < kMostCrossings; id += 2) {
+            if (!pieces.at[id + 1] || pieces.piece[id] != piece || pieces.piece[id + 1] != piece) continue;
+            across = pieces.at[id]->normal - pieces.at[id + 1]->normal;
+        }
+        if (across == Vec3{}) return std::nullopt;
+        const double half = 0.5 * field_.cell_mm();
+        across = normalized(across);
+        Vec3 way = low + Vec3{half, half, half} - middle;
+        way -= dot(way, across) * across;
+        const double reach = 2 * half;
+        if (length(way) < 1e-3 * half) return std::nullopt;
+        way = normalized(way);
+        const auto distance_at = [&](double s) {
+            return field_.exact(nodes_.ref(), middle + s * way).distance_mm;
+        };
+        double in = 0, out = reach;
+        const bool wall = distance_at(in) < 0;
+        if ((distance_at(out) < 0) == wall) return std::nullopt;
+        constexpr int kHalvings = 30;
+        for (int n = 0; n < kHalvings; ++n) {
+            const double s = 0.5 * (in + out);
+            ((distance_at(s) < 0) == wall ? in : out) = s;
+        }
+        return middle + in * way;
+    }
+
+    Vec3 vertex(const Pieces& pieces, int piece, int node) const {
+        Quadric quadric;
+        std::array<const Crossing*, kMostCrossings> around;
+        std::size_t count = 0;
+        for (std::size_t id = 0; id < kMostCrossings; ++id) {
+            if (!pieces.at[id] || pieces.piece[id] != piece) continue;
+            around[count++] = pieces.at[id];
+            quadric.add(pieces.at[id]->point, pieces.at[id]->normal);
+        }
+        const Vec3 lo = nodes_.node_mm(node);
+        const auto into_cell = [&](Vec3 p) { return into(lo, 1, p); };
+        if (const std::optional<Vec3> end = end_of_wall(pieces, piece, quadric.mean(), lo))
+            return into_cell(*end);
+        // Several pieces stay apart where each is in the hull of its own crossings.
+        if (pieces.count > 1 && pieces.simple) return into_cell(quadric.mean());
+        // Planes through the crossings miss a curved surface by their sagitta; Newton steps take that away:
+        // onto the one surface where it is smooth, onto the meeting of its faces where it is not.
+        constexpr double kSmooth = 0.1;  // rad
+        Vec3 p;
+        if (quadric.is_flat(kSmooth)) {
+            p = into_cell(quadric.mean());
+            const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
+            if (std::abs(e.distance_mm) < 0.5 * field_.cell_mm()) p -= e.distance_mm * normal(e.shape, p);
+        } else {
+            p = into_cell(quadric.solve());
+            for (const double back : {0.3, 0.03}) {
+                Quadric planes;
+                for (std::size_t k = 0; k < count; ++k) {
+                    const Tangent t = tangent_near(*around[k], p, back);
+                    planes.add(t.point, t.normal);
+                }
+                p = into_cell(planes.solve());
+            }
+        }
+        return into_cell(p);
+    }
+
+    const CarvedField& field_;
+    BrickCoord coord_;
+    BrickNodes nodes_;
+};
+
+}  // namespace
+
+double contour_margin(const CarvedField& field) {
+    constexpr double kLeast = 1e-3, kUlps = 8;
+    const Box3 box = field.blank().bounds_mm();
+    double most = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    constexpr double kUlp = 0x1p-23;  // of numbers up to two
+    return std::min(0.25, std::max(kLeast, kUlps * kUlp * most / field.cell_mm()));
+}
+
+int BrickSurface::crossings(int axis, int node, const EdgePoint*& first) const {
+    const auto at = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
+    const auto found = std::lower_bound(edges.begin(), edges.end(), at,
+                                        [](const EdgePoint& e, std::uint16_t n) { return e.edge < n; });
+    int count = 0;
+    for (auto e = found; e != edges.end() && e->edge == at; ++e) ++count;
+    first = count > 0 ? &*found : nullptr;
+    return count;
+}
+
+Vec3 edge_point(const Lattice& lattice, const EdgePoint& e) {
+    Vec3 p = node_mm(lattice, e.edge % kLatticeNodes);
+    p[e.edge / kLatticeNodes] += lattice.cell_mm * static_cast<double>(e.along);
+    return p;
+}
+
+Vec3 BrickSurface::on_face(const Lattice& lattice, int node, int axis, FaceSegment::End end) const {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const int from = end.edge == 1 ? node + kStep[u] : end.edge == 2 ? node + kStep[v] : node;
+    const EdgePoint* first = nullptr;
+    crossings(end.edge % 2 == 0 ? u : v, from, first);
+    return edge_point(lattice, first[end.ordinal]);
+}
+
+BrickSurface find_surface(const CarvedField& field, BrickCoord coord, const ContourOptions& options) {
+    return BrickContour(field, coord).surface(options);
+}
+
+}  // namespace tribo::field
