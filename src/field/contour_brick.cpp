@@ -228,8 +228,66 @@ class BrickContour {
             }
             s.several.push_back(several);
         }
-        for (int piece = 0; piece < p.count; ++piece) s.vertices.push_back(to_float(vertex(p, piece, n)));
+        std::array<Vec3, kMostCrossings> placed;
+        for (int piece = 0; piece < p.count; ++piece)
+            placed[static_cast<std::size_t>(piece)] = vertex(p, piece, n);
+        if (p.count > 1 && !p.simple) part_pieces(p, n, placed);
+        for (int piece = 0; piece < p.count; ++piece)
+            s.vertices.push_back(to_float(placed[static_cast<std::size_t>(piece)]));
         for (int axis = 0; axis < 3; ++axis) keep_if_crowded(s, n, 3 * cell + axis);
+    }
+
+    // Takes the vertices of two pieces back to the middle of their crossings where no plane parts the pieces
+    // with the vertices that are wanted.
+    void part_pieces(const Pieces& p, int node, std::array<Vec3, kMostCrossings>& placed) const {
+        std::array<bool, kMostCrossings> back{};
+        for (int i = 0; i < p.count; ++i) {
+            for (int j = 0; j < i; ++j) {
+                if (is_parted(p, i, j, placed)) continue;
+                back[static_cast<std::size_t>(i)] = back[static_cast<std::size_t>(j)] = true;
+            }
+        }
+        for (int i = 0; i < p.count; ++i) {
+            if (!back[static_cast<std::size_t>(i)]) continue;
+            Vec3 sum;
+            int count = 0;
+            for (std::size_t id = 0; id < kMostCrossings; ++id) {
+                if (!p.at[id] || p.piece[id] != i) continue;
+                sum += p.at[id]->point;
+                ++count;
+            }
+            placed[static_cast<std::size_t>(i)] = into(nodes_.node_mm(node), 1, sum / count);
+        }
+    }
+
+    // Whether one of the planes across the normals at the crossings of two pieces, or across the way from one
+    // vertex to the other, has all of one on one side of it and all of the other on the other.
+    bool is_parted(const Pieces& p, int i, int j,
+                   const std::array<Vec3, kMostCrossings>& placed) const {
+        const Vec3 vertex_i = placed[static_cast<std::size_t>(i)], vertex_j = placed[static_cast<std::size_t>(j)];
+        const auto parts = [&](Vec3 across) {
+            double most_i = dot(across, vertex_i), least_i = most_i;
+            double most_j = dot(across, vertex_j), least_j = most_j;
+            for (std::size_t id = 0; id < kMostCrossings; ++id) {
+                if (!p.at[id] || (p.piece[id] != i && p.piece[id] != j)) continue;
+                double& most = p.piece[id] == i ? most_i : most_j;
+                double& least = p.piece[id] == i ? least_i : least_j;
+                const double at = dot(across, p.at[id]->point);
+                // Vertices on faces stand a little off an edge to which the surface comes back.
+                const bool comes_back = p.at[id ^ 1] && p.piece[id ^ 1] == p.piece[id];
+                const double off =
+                    comes_back ? tribo::distance(p.at[id]->point, p.at[id ^ 1]->point) * length(across) : 0;
+                most = std::max(most, at + off);
+                least = std::min(least, at - off);
+            }
+            const double gap = contour_margin(field_) * field_.cell_mm() * length(across);
+            return most_i + gap < least_j || most_j + gap < least_i;
+        };
+        if (parts(vertex_i - vertex_j)) return true;
+        for (std::size_t id = 0; id < kMostCrossings; ++id) {
+            if (p.at[id] && (p.piece[id] == i || p.piece[id] == j) && parts(p.at[id]->normal)) return true;
+        }
+        return false;
     }
 
     void keep_if_crowded(BrickSurface& s, int node, int face) const {
