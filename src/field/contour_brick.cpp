@@ -262,9 +262,9 @@ class BrickContour {
 
     // Whether one of the planes across the normals at the crossings of two pieces, or across the way from one
     // vertex to the other, has all of one on one side of it and all of the other on the other.
-    bool is_parted(const Pieces& p, int i, int j,
-                   const std::array<Vec3, kMostCrossings>& placed) const {
-        const Vec3 vertex_i = placed[static_cast<std::size_t>(i)], vertex_j = placed[static_cast<std::size_t>(j)];
+    bool is_parted(const Pieces& p, int i, int j, const std::array<Vec3, kMostCrossings>& placed) const {
+        const Vec3 vertex_i = placed[static_cast<std::size_t>(i)],
+                   vertex_j = placed[static_cast<std::size_t>(j)];
         const auto parts = [&](Vec3 across) {
             double most_i = dot(across, vertex_i), least_i = most_i;
             double most_j = dot(across, vertex_j), least_j = most_j;
@@ -306,9 +306,22 @@ class BrickContour {
             Vec3 middle = 0.5 * (from + to);
             // Around the end of a wall the segment comes back to the edge from which it starts.
             if (seg.from.edge == seg.to.edge) {
-                const bool along_u = seg.from.edge % 2 == 0;
-                const double depth = 0.25 * tribo::distance(from, to);
-                middle[along_u ? v : u] += seg.from.edge == 0 || seg.from.edge == 3 ? depth : -depth;
+                const int along = seg.from.edge % 2 == 0 ? u : v, into = seg.from.edge % 2 == 0 ? v : u;
+                const double sense = seg.from.edge == 0 || seg.from.edge == 3 ? 1 : -1;
+                double depth = 0.25 * tribo::distance(from, to);
+                // No further than half the way to the segments around it.
+                for (int other = 0; other < f.count; ++other) {
+                    const FaceSegment& o = f.all[static_cast<std::size_t>(other)];
+                    if (o.from.edge == o.to.edge) continue;
+                    const Vec3 p = s.on_face(lattice, node, axis, o.from);
+                    const Vec3 q = s.on_face(lattice, node, axis, o.to);
+                    for (const Vec3 at : {from, middle, to}) {
+                        const double share = (at[along] - p[along]) / (q[along] - p[along]);
+                        if (share >= 0 && share <= 1)
+                            depth = std::min(depth, 0.5 * sense * (lerp(p, q, share)[into] - at[into]));
+                    }
+                }
+                middle[into] += sense * std::max(depth, 0.0);
             }
             crowded.middle[static_cast<std::size_t>(k)] = to_float(middle);
         }
