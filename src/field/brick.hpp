@@ -37,6 +37,13 @@ struct Brick {
     // else it may be kUnlisted.
     std::array<std::uint16_t, kLatticeNodes> winner;
     std::vector<ShapeId> shapes;  // those that give the distance at some node near the surface
+    // Nodes in a wall that is thinner than a cell, in order: how much less material is around them than the
+    // distance, which knows of one side of the wall, says.
+    struct Thin {
+        std::uint16_t node;
+        float missing_cells;  // 0..1
+    };
+    std::vector<Thin> thin;
 };
 
 constexpr int node_index(int a, int b, int c) {
@@ -49,6 +56,24 @@ struct CarveResult {
     bool won = false;      // the shape gives the distance at some node near the surface
     float least_mm = 0;    // smallest distance left
     double removed_cells = 0;
+};
+
+// What one carve changes about walls that are thinner than a cell; see ThinWalls::find.
+class ThinWalls {
+  public:
+    // Looks at a brick before `shape_mm` (at its nodes) is taken out of it.
+    void find(const Brick& brick, const float* shape_mm, float cell_mm);
+    // Once it is: notes in the brick what its thin nodes miss now, and gives how much more of it (in cells)
+    // was removed than its distances say.
+    double update(Brick& brick, float cell_mm) const;
+    bool none() const { return nodes_.empty(); }
+
+  private:
+    struct Node {
+        std::uint16_t node;
+        float filled, missing;  // cells: what is there after the carve; what was missing before it
+    };
+    std::vector<Node> nodes_;
 };
 
 // Forgets the shapes that give the distance at no node within `near_mm` of the surface.

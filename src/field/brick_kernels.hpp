@@ -19,6 +19,11 @@ struct BrickKernels {
     // Brick::kUnlisted at those that moved further out.
     CarveResult (*carve)(float* distance_mm, std::uint16_t* winner, const float* shape_mm,
                          std::uint16_t index, float near_mm, float cell_mm);
+    // To be asked before that: which nodes are less than half a cell from both the surface of the material
+    // and that of the shape, and these not one surface, in bits: node n is bit n % 8 of near_both[n / 8].
+    // Whether any is.
+    bool (*find_near_both)(const float* distance_mm, const float* shape_mm, float cell_mm,
+                           std::uint8_t* near_both);
     // Volume of the material in cells.
     double (*volume_cells)(const float* distance_mm, float cell_mm);
 };

@@ -55,6 +55,21 @@ CarveResult carve(float* distance, std::uint16_t* winner, const float* shape, st
     return result;
 }
 
+bool find_near_both(const float* distance, const float* shape, float cell, std::uint8_t* near_both) {
+    const F8 half = splat(0.5f * cell), tie = splat(kTieCells * cell);
+    bool found = false;
+    for (int row = 0; row < kLatticeEdge * kLatticeEdge; ++row) {
+        const F8 own = load(distance + kLatticeEdge * row), other = -load(shape + kLatticeEdge * row);
+        const I8 near = both(both(abs(own) < half, abs(other) < half), abs(own - other) > tie);
+        near_both[row] = 0;
+        if (!any(near)) continue;
+        found = true;
+        for (int n = 0; n < kLatticeEdge; ++n)
+            near_both[row] = static_cast<std::uint8_t>(near_both[row] | (near[n] != 0 ? 1 << n : 0));
+    }
+    return found;
+}
+
 double volume_cells(const float* distance, float cell) {
     const F8 per_cell = splat(1 / cell);
     F8 full = splat(0.0f);
@@ -66,7 +81,7 @@ double volume_cells(const float* distance, float cell) {
     return sum(full * kShareOfRow);
 }
 
-constexpr BrickKernels kKernels{carve, volume_cells};
+constexpr BrickKernels kKernels{carve, find_near_both, volume_cells};
 
 }  // namespace
 }  // namespace tribo::field

@@ -77,6 +77,7 @@ double CarvedField::blank_brick_volume(BrickCoord b) const {
 void CarvedField::fill_from_blank(Brick& brick) const {
     const auto floor = static_cast<float>(-near_);
     brick.shapes.clear();
+    brick.thin.clear();
     if (blank().distance_mm(centre(brick.coord)) < -brick_radius_ - near_) {
         brick.distance_mm.fill(floor);
         brick.winner.fill(Brick::kUnlisted);
@@ -168,6 +169,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         fill_from_blank(tables_->pool[u.ref]);
     }
     std::array<float, kLatticeNodes> carved;
+    ThinWalls walls;
     for (std::size_t n = u.first; n < u.last; ++n) {
         if ((cuts_[n] & 1) != 0) {
             removed_by_cut_[n] =
@@ -179,17 +181,19 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
         shapes[number]->sample_near(lattice(u.coord), near_, carved.data());
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
+        walls.find(brick, carved.data(), static_cast<float>(cell_));
         const CarveResult result =
             brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
                                   static_cast<float>(near_), static_cast<float>(cell_));
-        if (!result.changed) continue;
+        if (!result.changed && walls.none()) continue;
         u.drop = false;
         if (result.least_mm > FieldQuery::kClearCells * cell_) {
             removed_by_cut_[n] = brick.volume_mm3;
             u.air = true;
             return;
         }
-        removed_by_cut_[n] = result.removed_cells * cell_ * cell_ * cell_;
+        const double removed = result.removed_cells + walls.update(brick, static_cast<float>(cell_));
+        removed_by_cut_[n] = removed * cell_ * cell_ * cell_;
         brick.volume_mm3 -= removed_by_cut_[n];
         if (!result.won) continue;
         brick.shapes.push_back(static_cast<ShapeId>(tables_->shapes.size() + number));

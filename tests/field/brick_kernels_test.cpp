@@ -73,6 +73,18 @@ RC_GTEST_PROP(BrickKernels, of_old_and_new_processors_give_the_same_bits, ()) {
     Winners old_winner;
     old_winner.fill(1);
     Winners new_winner = old_winner;
+    std::array<std::uint8_t, kLatticeNodes / 8> old_both, new_both;
+    const bool any =
+        brick_kernels_sse2()->find_near_both(old_nodes.data(), shape.data(), kCell, old_both.data());
+    RC_ASSERT(any ==
+              brick_kernels_v3()->find_near_both(new_nodes.data(), shape.data(), kCell, new_both.data()));
+    RC_ASSERT(old_both == new_both);
+    for (std::size_t n = 0; n < kLatticeNodes; ++n) {
+        const float own = old_nodes[n], other = -shape[n];
+        const bool both = std::abs(own) < kCell / 2 && std::abs(other) < kCell / 2 &&
+                          std::abs(own - other) > kTieCells * kCell;
+        RC_ASSERT((old_both[n / 8] >> n % 8 & 1) == (both ? 1 : 0));
+    }
     const CarveResult a =
         brick_kernels_sse2()->carve(old_nodes.data(), old_winner.data(), shape.data(), 2, kNear, kCell);
     const CarveResult b =
