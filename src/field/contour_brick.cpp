@@ -60,7 +60,7 @@ constexpr std::array<bool, 256> kOnePiece = [] {
 class BrickContour {
   public:
     BrickContour(const CarvedField& field, BrickCoord coord)
-        : field_(field), coord_(coord), nodes_(field, coord) {}
+        : field_(field), coord_(coord), margin_(contour_margin(field)), nodes_(field, coord) {}
 
     BrickSurface surface(const ContourOptions& options) {
         BrickSurface s;
@@ -93,7 +93,7 @@ class BrickContour {
             for (int node = 0; node < kLatticeNodes; ++node) {
                 const EdgeCrossings e = nodes_.crossings(axis, node);
                 if (e.count == 0) continue;
-                const double off = contour_margin(field_);
+                const double off = margin_;
                 const auto at = [&](int n) {
                     return nodes_.crossing(static_cast<std::size_t>(e.first + n)).along;
                 };
@@ -113,7 +113,7 @@ class BrickContour {
     }
 
     Vec3 into(Vec3 low, int cells, Vec3 p) const {
-        const double off = contour_margin(field_) * field_.cell_mm();
+        const double off = margin_ * field_.cell_mm();
         for (int axis = 0; axis < 3; ++axis)
             p[axis] = std::clamp(p[axis], low[axis] + off, low[axis] + cells * field_.cell_mm() - off);
         return p;
@@ -161,6 +161,12 @@ class BrickContour {
     };
     Pieces find_pieces(int n) const {
         Pieces p;
+        unsigned corners = 0;
+        for (unsigned c = 0; c < 8; ++c) {
+            const int node = n + (c & 1 ? kStep[0] : 0) + (c & 2 ? kStep[1] : 0) + (c & 4 ? kStep[2] : 0);
+            corners |= nodes_.inside(node) ? 1U << c : 0;
+        }
+        if ((corners == 0 || corners == 0xff) && !nodes_.has_thin()) return p;
         for (int e = 0; e < kCellEdges; ++e) {
             const int axis = e / 4;
             const int node = n + (e & 1 ? kStep[(axis + 1) % 3] : 0) + (e & 2 ? kStep[(axis + 2) % 3] : 0);
@@ -173,13 +179,7 @@ class BrickContour {
                 p.count = 1;
             }
         }
-        if (p.count == 0) return p;
-        unsigned corners = 0;
-        for (unsigned c = 0; c < 8; ++c) {
-            const int node = n + (c & 1 ? kStep[0] : 0) + (c & 2 ? kStep[1] : 0) + (c & 4 ? kStep[2] : 0);
-            corners |= nodes_.inside(node) ? 1U << c : 0;
-        }
-        if (!p.simple || !kOnePiece[corners]) connect(n, p);
+        if (p.count > 0 && (!p.simple || !kOnePiece[corners])) connect(n, p);
         return p;
     }
 
@@ -280,7 +280,7 @@ class BrickContour {
                 most = std::max(most, at + off);
                 least = std::min(least, at - off);
             }
-            const double gap = contour_margin(field_) * field_.cell_mm() * length(across);
+            const double gap = margin_ * field_.cell_mm() * length(across);
             return most_i + gap < least_j || most_j + gap < least_i;
         };
         if (parts(vertex_i - vertex_j)) return true;
@@ -397,6 +397,7 @@ class BrickContour {
 
     const CarvedField& field_;
     BrickCoord coord_;
+    double margin_;
     BrickNodes nodes_;
 };
 

@@ -20,6 +20,41 @@ constexpr int coordinate(int node, int axis) {
                        : node / (kLatticeEdge * kLatticeEdge);
 }
 
+// A node on the border of a brick and the same node in the bricks that share it, which are counted as in
+// BrickNodes::around.
+struct BorderNode {
+    std::uint16_t node = 0;
+    std::uint16_t count = 0;
+    std::array<std::uint8_t, 8> brick{};
+    std::array<std::uint16_t, 8> node_there{};
+};
+constexpr std::size_t kBorderNodes =
+    kLatticeNodes - (kLatticeEdge - 2) * (kLatticeEdge - 2) * (kLatticeEdge - 2);
+
+constexpr std::array<BorderNode, kBorderNodes> kBorder = [] {
+    std::array<BorderNode, kBorderNodes> all{};
+    std::size_t count = 0;
+    for (int node = 0; node < kLatticeNodes; ++node) {
+        const int at[3] = {coordinate(node, 0), coordinate(node, 1), coordinate(node, 2)};
+        const auto low = [&](int axis) { return at[axis] == 0 ? -1 : 0; };
+        const auto high = [&](int axis) { return at[axis] == kBrickCells ? 1 : 0; };
+        BorderNode border;
+        border.node = static_cast<std::uint16_t>(node);
+        for (int k = low(2); k <= high(2); ++k) {
+            for (int j = low(1); j <= high(1); ++j) {
+                for (int i = low(0); i <= high(0); ++i) {
+                    border.brick[border.count] =
+                        static_cast<std::uint8_t>((i + 1) + 3 * ((j + 1) + 3 * (k + 1)));
+                    border.node_there[border.count++] = static_cast<std::uint16_t>(node_index(
+                        at[0] - kBrickCells * i, at[1] - kBrickCells * j, at[2] - kBrickCells * k));
+                }
+            }
+        }
+        if (border.count > 1) all[count++] = border;
+    }
+    return all;
+}();
+
 // One end of a way, on one side of the surface.
 struct End {
     double at, distance_mm;  // along the way, mm; from the surface, > 0
@@ -79,33 +114,18 @@ void BrickNodes::find_around() {
 // Air wins, then the first brick with nodes of its own.
 void BrickNodes::agree_on_border() {
     if (untouched_around_) return;
-    for (int node = 0; node < kLatticeNodes; ++node) {
-        int at[3], low[3], high[3];
-        bool border = false;
-        for (int axis = 0; axis < 3; ++axis) {
-            at[axis] = coordinate(node, axis);
-            low[axis] = at[axis] == 0 ? -1 : 0;
-            high[axis] = at[axis] == kBrickCells ? 1 : 0;
-            border |= low[axis] != high[axis];
-        }
-        if (!border) continue;
+    const float clear = kAirCells * static_cast<float>(field_.cell_mm());
+    for (const BorderNode& border : kBorder) {
         bool air = false;
         const float* first = nullptr;
-        for (int dk = low[2]; dk <= high[2]; ++dk) {
-            for (int dj = low[1]; dj <= high[1]; ++dj) {
-                for (int di = low[0]; di <= high[0]; ++di) {
-                    const BrickRef ref = around(di, dj, dk);
-                    air |= ref == kAir;
-                    if (ref < kFirstBrick || first) continue;
-                    first = &field_.brick(ref).distance_mm[static_cast<std::size_t>(node_index(
-                        at[0] - kBrickCells * di, at[1] - kBrickCells * dj, at[2] - kBrickCells * dk))];
-                }
-            }
+        for (std::size_t n = 0; n < border.count; ++n) {
+            const BrickRef ref = around_[border.brick[n]];
+            air |= ref == kAir;
+            if (ref >= kFirstBrick && !first) first = &field_.brick(ref).distance_mm[border.node_there[n]];
         }
-        float& value = value_[static_cast<std::size_t>(node)];
+        float& value = value_[border.node];
         if (first) value = *first;
-        if (air && value < kAirCells * static_cast<float>(field_.cell_mm()))
-            value = kAirCells * static_cast<float>(field_.cell_mm());
+        if (air && value < clear) value = clear;
     }
 }
 
@@ -139,19 +159,24 @@ BrickRef BrickNodes::ref_between(int from, int to) const {
 }
 
 void BrickNodes::find_crossings() {
+    const auto cell = static_cast<float>(field_.cell_mm());
     for (int axis = 0; axis < 3; ++axis) {
-        for (int node = 0; node < kLatticeNodes; ++node) {
-            EdgeCrossings& e = edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)];
-            e = {};
+        auto& edges = edges_[static_cast<std::size_t>(axis)];
+        edges.fill({});
+        const int step = kStep[axis];
+        for (int node = 0; node + step < kLatticeNodes; ++node) {
+            const float d0 = value_[static_cast<std::size_t>(node)];
+            const float d1 = value_[static_cast<std::size_t>(node + step)];
+            const bool across = (d0 < 0) != (d1 < 0);
+            if (!across && std::abs(d0) + std::abs(d1) >= cell) continue;
             if (coordinate(node, axis) == kBrickCells) continue;
-            const double d0 = static_cast<double>(value_[static_cast<std::size_t>(node)]);
-            const double d1 = static_cast<double>(value_[static_cast<std::size_t>(node + kStep[axis])]);
-            if ((d0 < 0) == (d1 < 0)) {
-                if (std::abs(d0) + std::abs(d1) < field_.cell_mm()) find_thin(axis, node);
+            if (!across) {
+                find_thin(axis, node);
                 continue;
             }
-            e = {static_cast<std::uint16_t>(list_.size()), 1};
-            list_.push_back(find_crossing(ref_between(node, node + kStep[axis]), axis, node, 0, 1, d0, d1));
+            edges[static_cast<std::size_t>(node)] = {static_cast<std::uint16_t>(list_.size()), 1};
+            list_.push_back(find_crossing(ref_between(node, node + step), axis, node, 0, 1,
+                                          static_cast<double>(d0), static_cast<double>(d1)));
         }
     }
 }
@@ -217,6 +242,7 @@ void BrickNodes::find_thin(int axis, int node) {
     const Crossing first = find_crossing(ref, axis, node, 0, t, d0, d);
     const Crossing second = find_crossing(ref, axis, node, t, 1, d, d1);
     if (second.along - first.along < kThinnest) return;
+    has_thin_ = true;
     edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)] = {
         static_cast<std::uint16_t>(list_.size()), 2};
     list_.push_back(first);

@@ -63,6 +63,8 @@ class BrickNodes {
     }
     const Crossing& crossing(std::size_t n) const { return list_[n]; }
     const std::vector<Crossing>& list() const { return list_; }
+    // Whether an edge is crossed twice.
+    bool has_thin() const { return has_thin_; }
 
     // How the crossings of the face with the lower corner `node` and the normal `axis` hang together.
     FaceSegments segments(int node, int axis) const;
@@ -90,7 +92,7 @@ class BrickNodes {
     BrickCoord coord_;
     Lattice lattice_;
     BrickRef ref_;
-    bool untouched_around_ = true;
+    bool untouched_around_ = true, has_thin_ = false;
     std::array<BrickRef, 27> around_;
     std::array<float, kLatticeNodes> value_;
     std::array<std::array<EdgeCrossings, kLatticeNodes>, 3> edges_;
