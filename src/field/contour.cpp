@@ -7,13 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "field/contour_brick.hpp"
+#include "field/contour_faces.hpp"
 #include "field/contour_polygon.hpp"
 
 namespace tribo::field {
 namespace {
 
-constexpr std::uint32_t kNoVertex = 0xffffffff;
 // Vertices of a brick's own triangles, counted from here until the mesh is put together.
 constexpr std::uint32_t kOwn = 0x80000000;
 
@@ -46,197 +45,6 @@ std::vector<BrickCoord> candidate_bricks(const CarvedField& field, BrickCoord fi
     }
     return found;
 }
-
-struct Cell {
-    BrickCoord brick;
-    int a, b, c;
-};
-
-// The surface of each brick, by coordinate.
-class SurfaceTable {
-  public:
-    // Of surfaces in bricks from `first` on up to `last`.
-    SurfaceTable(const CarvedField& field, std::vector<BrickSurface>& surfaces, BrickCoord first,
-                 BrickCoord last, const TriangleMesh& mesh)
-        : field_(field),
-          surfaces_(surfaces),
-          mesh_(mesh),
-          first_(first),
-          index_(from_first(last)),
-          margin_(contour_margin(field)) {
-        for (std::size_t n = 0; n < surfaces.size(); ++n) {
-            index_.set(from_first(surfaces[n].coord), static_cast<BrickRef>(n) + kFirstBrick);
-        }
-    }
-
-    double margin() const { return margin_; }
-    const CarvedField& field() const { return field_; }
-
-    // Coordinates of a cell counted from brick `b`, -1..6 along each axis.
-    static Cell cell(BrickCoord b, int a, int bb, int c) {
-        if (a < 0) --b.i, a += kBrickCells;
-        if (bb < 0) --b.j, bb += kBrickCells;
-        if (c < 0) --b.k, c += kBrickCells;
-        return {b, a, bb, c};
-    }
-    const BrickSurface* surface(BrickCoord b) const {
-        const BrickCoord at = from_first(b);
-        if (!index_.contains(at) || index_.get(at) < kFirstBrick) return nullptr;
-        return &surfaces_[index_.get(at) - kFirstBrick];
-    }
-    // The vertex of a cell at a crossing of one of its edges; kNoVertex where the surface does not pass.
-    std::uint32_t vertex(const Cell& at, int edge, int ordinal) const {
-        const BrickSurface* s = surface(at.brick);
-        if (!s) return kNoVertex;
-        if (s->flat) return s->first_vertex;
-        const auto cell = static_cast<std::uint16_t>(cell_index(at.a, at.b, at.c));
-        std::uint16_t v = s->cell[cell];
-        if (v == BrickSurface::kSeveral)
-            v = pieces(*s, cell).vertex[static_cast<std::size_t>(edge)][static_cast<std::size_t>(ordinal)];
-        return v == BrickSurface::kNone ? kNoVertex : s->first_vertex + v;
-    }
-    // The vertex on the lower face of a cell along an axis, or kNoVertex.
-    std::uint32_t on_face(const Cell& at, int axis, int edge, int ordinal) const {
-        const BrickSurface* s = surface(at.brick);
-        if (!s || s->on_faces.empty()) return kNoVertex;
-        const std::uint16_t key = BrickSurface::key(3 * cell_index(at.a, at.b, at.c) + axis, edge, ordinal);
-        const auto found =
-            std::lower_bound(s->on_faces.begin(), s->on_faces.end(), key,
-                             [](const BrickSurface::OnFace& f, std::uint16_t k) { return f.key < k; });
-        return found != s->on_faces.end() && found->key == key ? found->vertex : kNoVertex;
-    }
-    static const BrickSurface::SeveralPieces& pieces(const BrickSurface& s, std::uint16_t cell) {
-        return *std::lower_bound(
-            s.several.begin(), s.several.end(), cell,
-            [](const BrickSurface::SeveralPieces& p, std::uint16_t c) { return p.cell < c; });
-    }
-    Vec3 position(std::uint32_t vertex) const { return mesh_.position(vertex); }
-
-  private:
-    BrickCoord from_first(BrickCoord b) const { return {b.i - first_.i, b.j - first_.j, b.k - first_.k}; }
-
-    const CarvedField& field_;
-    const std::vector<BrickSurface>& surfaces_;
-    const TriangleMesh& mesh_;
-    BrickCoord first_;
-    BrickIndex index_;
-    double margin_;
-};
-
-// What the surface passes on one face between two cells: a vertex for each segment, at both its ends.
-struct FaceVertex {
-    Point3f position;
-    std::uint16_t key0, key1;
-};
-
-class FaceVertices {
-  public:
-    FaceVertices(const SurfaceTable& table, const BrickSurface& surface)
-        : table_(table), s_(surface), lattice_(table.field().lattice(surface.coord)) {}
-
-    std::vector<FaceVertex> find() {
-        for (int c = 0; c < kBrickCells; ++c) {
-            for (int b = 0; b < kBrickCells; ++b) {
-                for (int a = 0; a < kBrickCells; ++a) {
-                    // Inside a flat brick nothing is needed.
-                    if (s_.flat && a > 0 && b > 0 && c > 0) continue;
-                    if (!s_.flat &&
-                        s_.cell[static_cast<std::size_t>(cell_index(a, b, c))] == BrickSurface::kNone)
-                        continue;
-                    const int at[3] = {a, b, c};
-                    for (int axis = 0; axis < 3; ++axis) {
-                        if (s_.flat && at[axis] > 0) continue;
-                        look_at(
-                            SurfaceTable::cell(s_.coord, a - (axis == 0), b - (axis == 1), c - (axis == 2)),
-                            {s_.coord, a, b, c}, axis);
-                    }
-                }
-            }
-        }
-        return std::move(found_);
-    }
-
-  private:
-    static bool is_several(const BrickSurface& s, const Cell& at) {
-        return !s.flat &&
-               s.cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))] == BrickSurface::kSeveral;
-    }
-
-    void look_at(const Cell& below, const Cell& above, int axis) {
-        const BrickSurface* lower = surface_of(below);
-        if (!lower || (lower->flat && s_.flat)) return;
-        const int cell = cell_index(above.a, above.b, above.c);
-        const int node = node_index(above.a, above.b, above.c);
-        const auto face = static_cast<std::uint16_t>(3 * cell + axis);
-        const auto crowded =
-            std::lower_bound(s_.crowded.begin(), s_.crowded.end(), face,
-                             [](const BrickSurface::CrowdedFace& f, std::uint16_t n) { return f.face < n; });
-        const bool several = is_several(s_, above) || is_several(*lower, below);
-        if (crowded != s_.crowded.end() && crowded->face == face) {
-            if (crowded->segments.count == 1 && !several) return;
-            for (int k = 0; k < crowded->segments.count; ++k)
-                add(face, crowded->segments.all[static_cast<std::size_t>(k)],
-                    crowded->middle[static_cast<std::size_t>(k)]);
-            return;
-        }
-        if (!several && !lower->flat && !s_.flat) return;
-        FaceSegment segment;
-        if (!only_segment(node, axis, segment)) return;
-        if (!several) {
-            const std::uint32_t p = any_vertex(*lower, below), q = any_vertex(s_, above);
-            if (p == kNoVertex || q == kNoVertex || passes(node, axis, p, q)) return;
-        }
-        add(face, segment,
-            to_float(0.5 * (s_.on_face(lattice_, node, axis, segment.from) +
-                            s_.on_face(lattice_, node, axis, segment.to))));
-    }
-
-    // The one segment of a face that is crossed at two of its edges.
-    bool only_segment(int node, int axis, FaceSegment& segment) const {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        int count = 0;
-        for (std::uint8_t e = 0; e < 4; ++e) {
-            const int from = e == 1 ? node + kStep[u] : e == 2 ? node + kStep[v] : node;
-            const EdgePoint* first = nullptr;
-            if (s_.crossings(e % 2 == 0 ? u : v, from, first) == 0) continue;
-            (count++ == 0 ? segment.from : segment.to) = {e, 0};
-        }
-        return count == 2;
-    }
-
-    static std::uint32_t any_vertex(const BrickSurface& s, const Cell& at) {
-        if (s.flat) return s.first_vertex;
-        const std::uint16_t v = s.cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))];
-        return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
-    }
-
-    // Whether the way from one vertex to the other passes through the face.
-    bool passes(int node, int axis, std::uint32_t p, std::uint32_t q) const {
-        const Vec3 corner = node_mm(lattice_, node);
-        const Vec3 a = table_.position(p) - corner, b = table_.position(q) - corner;
-        const Vec3 x = lerp(a, b, a[axis] / (a[axis] - b[axis]));
-        const double low = table_.margin() * lattice_.cell_mm,
-                     high = (1 - table_.margin()) * lattice_.cell_mm;
-        for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
-            if (!(x[side] > low && x[side] < high)) return false;
-        }
-        return true;
-    }
-
-    void add(int face, const FaceSegment& s, const Point3f& at) {
-        found_.push_back({at, BrickSurface::key(face, s.from.edge, s.from.ordinal),
-                          BrickSurface::key(face, s.to.edge, s.to.ordinal)});
-    }
-
-    const BrickSurface* surface_of(const Cell& at) const {
-        return at.brick == s_.coord ? &s_ : table_.surface(at.brick);
-    }
-
-    const SurfaceTable& table_;
-    const BrickSurface& s_;
-    Lattice lattice_;
-    std::vector<FaceVertex> found_;
-};
 
 struct BrickTriangles {
     std::vector<Triangle> triangles;
@@ -353,7 +161,7 @@ std::vector<BrickSurface> find_surfaces(const CarvedField& field, BrickCoord fir
     }
     const SurfaceTable table(field, found, first, last, mesh);
     std::vector<std::vector<FaceVertex>> on_faces(found.size());
-    parallel(found.size(), [&](std::size_t n) { on_faces[n] = FaceVertices(table, found[n]).find(); });
+    parallel(found.size(), [&](std::size_t n) { on_faces[n] = find_face_vertices(table, found[n]); });
     for (std::size_t n = 0; n < found.size(); ++n) {
         for (const FaceVertex& f : on_faces[n]) {
             const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());

@@ -11,52 +11,6 @@
 namespace tribo::field {
 namespace {
 
-// Crossing `ordinal` of edge e of a cell, in one number.
-constexpr int kMostCrossings = 2 * kCellEdges;
-
-// The face of a cell with normal `axis` at its lower (0) or upper (1) side: its edges as FaceSegment counts
-// them.
-constexpr int face_edge(int axis, int side, int edge) {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    return edge == 0   ? 4 * u + 2 * side
-           : edge == 1 ? 4 * v + side + 2
-           : edge == 2 ? 4 * u + 1 + 2 * side
-                       : 4 * v + side;
-}
-
-// Whether the surface is in one piece in a cell with these corners inside (bit a + 2 b + 4 c), none of its
-// edges crossed twice: material that meets across the diagonal of a face does not hang together, air does.
-constexpr bool is_one_piece(unsigned corners) {
-    const auto pieces = [](unsigned set, bool diagonals) {
-        int count = 0;
-        while (set != 0) {
-            ++count;
-            unsigned piece = set & (~set + 1), before = 0;
-            while (piece != before) {
-                before = piece;
-                for (unsigned n = 0; n < 8; ++n) {
-                    if ((set >> n & 1) == 0) continue;
-                    for (unsigned m = 0; m < 8; ++m) {
-                        const unsigned way = n ^ m;
-                        const bool edge = way == 1 || way == 2 || way == 4;
-                        const bool diagonal = way == 3 || way == 5 || way == 6;
-                        if ((piece >> m & 1) != 0 && (edge || (diagonal && diagonals))) piece |= 1U << n;
-                    }
-                }
-            }
-            set &= ~piece;
-        }
-        return count;
-    };
-    return pieces(corners, false) == 1 && pieces(~corners & 0xff, true) == 1;
-}
-
-constexpr std::array<bool, 256> kOnePiece = [] {
-    std::array<bool, 256> table{};
-    for (unsigned corners = 1; corners < 255; ++corners) table[corners] = is_one_piece(corners);
-    return table;
-}();
-
 class BrickContour {
   public:
     BrickContour(const CarvedField& field, BrickCoord coord)
@@ -106,8 +60,6 @@ class BrickContour {
                 keep(0, first);
                 if (e.count < 2) continue;
                 keep(1, std::clamp(at(1), first + off, 1 - off));
-                const double gap = field_.cell_mm() * (at(1) - at(0));
-                s.thinnest_mm = s.thinnest_mm > 0 ? std::min(s.thinnest_mm, gap) : gap;
             }
         }
     }
@@ -152,68 +104,9 @@ class BrickContour {
         return true;
     }
 
-    // The crossings of a cell, and which of them one piece of the surface connects.
-    struct Pieces {
-        std::array<std::uint8_t, kMostCrossings> piece;  // of each crossing that there is
-        std::array<const Crossing*, kMostCrossings> at{};
-        int count = 0;
-        bool simple = true;  // no edge is crossed twice
-    };
-    Pieces find_pieces(int n) const {
-        Pieces p;
-        unsigned corners = 0;
-        for (unsigned c = 0; c < 8; ++c) {
-            const int node = n + (c & 1 ? kStep[0] : 0) + (c & 2 ? kStep[1] : 0) + (c & 4 ? kStep[2] : 0);
-            corners |= nodes_.inside(node) ? 1U << c : 0;
-        }
-        if ((corners == 0 || corners == 0xff) && !nodes_.has_thin()) return p;
-        for (int e = 0; e < kCellEdges; ++e) {
-            const int axis = e / 4;
-            const int node = n + (e & 1 ? kStep[(axis + 1) % 3] : 0) + (e & 2 ? kStep[(axis + 2) % 3] : 0);
-            const EdgeCrossings x = nodes_.crossings(axis, node);
-            p.simple &= x.count < 2;
-            for (int k = 0; k < x.count; ++k) {
-                const auto id = static_cast<std::size_t>(2 * e + k);
-                p.at[id] = &nodes_.crossing(static_cast<std::size_t>(x.first + k));
-                p.piece[id] = 0;
-                p.count = 1;
-            }
-        }
-        if (p.count > 0 && (!p.simple || !kOnePiece[corners])) connect(n, p);
-        return p;
-    }
-
-    void connect(int n, Pieces& p) const {
-        std::array<std::size_t, kMostCrossings> parent;
-        for (std::size_t id = 0; id < kMostCrossings; ++id) parent[id] = id;
-        const auto root = [&](std::size_t id) {
-            while (parent[id] != id) id = parent[id];
-            return id;
-        };
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int side = 0; side < 2; ++side) {
-                const FaceSegments f = nodes_.segments(n + side * kStep[axis], axis);
-                for (int k = 0; k < f.count; ++k) {
-                    const FaceSegment& s = f.all[static_cast<std::size_t>(k)];
-                    const auto id = [&](FaceSegment::End end) {
-                        return root(
-                            static_cast<std::size_t>(2 * face_edge(axis, side, end.edge) + end.ordinal));
-                    };
-                    const std::size_t from = id(s.from), to = id(s.to);
-                    parent[std::max(from, to)] = std::min(from, to);
-                }
-            }
-        }
-        p.count = 0;
-        for (std::size_t id = 0; id < kMostCrossings; ++id) {
-            if (!p.at[id]) continue;
-            p.piece[id] = root(id) == id ? static_cast<std::uint8_t>(p.count++) : p.piece[root(id)];
-        }
-    }
-
     void place_vertices(BrickSurface& s, int a, int b, int c) const {
         const int n = node_index(a, b, c);
-        const Pieces p = find_pieces(n);
+        const CellPieces p = find_pieces(nodes_, n);
         if (p.count == 0) return;
         const auto first = static_cast<std::uint16_t>(s.vertices.size());
         const int cell = cell_index(a, b, c);
@@ -221,7 +114,6 @@ class BrickContour {
         if (p.count > 1) {
             BrickSurface::SeveralPieces several;
             several.cell = static_cast<std::uint16_t>(cell);
-            several.thin = !p.simple;
             for (std::size_t id = 0; id < kMostCrossings; ++id) {
                 several.vertex[id / 2][id % 2] =
                     p.at[id] ? static_cast<std::uint16_t>(first + p.piece[id]) : BrickSurface::kNone;
@@ -239,55 +131,19 @@ class BrickContour {
 
     // Takes the vertices of two pieces back to the middle of their crossings where no plane parts the pieces
     // with the vertices that are wanted.
-    void part_pieces(const Pieces& p, int node, std::array<Vec3, kMostCrossings>& placed) const {
+    void part_pieces(const CellPieces& p, int node, std::array<Vec3, kMostCrossings>& placed) const {
         std::array<bool, kMostCrossings> back{};
-        for (int i = 0; i < p.count; ++i) {
-            for (int j = 0; j < i; ++j) {
-                if (is_parted(p, i, j, placed)) continue;
-                back[static_cast<std::size_t>(i)] = back[static_cast<std::size_t>(j)] = true;
+        const double gap = margin_ * field_.cell_mm();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (p.are_parted(static_cast<int>(i), placed[i], static_cast<int>(j), placed[j], gap))
+                    continue;
+                back[i] = back[j] = true;
             }
         }
-        for (int i = 0; i < p.count; ++i) {
-            if (!back[static_cast<std::size_t>(i)]) continue;
-            Vec3 sum;
-            int count = 0;
-            for (std::size_t id = 0; id < kMostCrossings; ++id) {
-                if (!p.at[id] || p.piece[id] != i) continue;
-                sum += p.at[id]->point;
-                ++count;
-            }
-            placed[static_cast<std::size_t>(i)] = into(nodes_.node_mm(node), 1, sum / count);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
+            if (back[i]) placed[i] = into(nodes_.node_mm(node), 1, p.middle(static_cast<int>(i)));
         }
-    }
-
-    // Whether one of the planes across the normals at the crossings of two pieces, or across the way from one
-    // vertex to the other, has all of one on one side of it and all of the other on the other.
-    bool is_parted(const Pieces& p, int i, int j, const std::array<Vec3, kMostCrossings>& placed) const {
-        const Vec3 vertex_i = placed[static_cast<std::size_t>(i)],
-                   vertex_j = placed[static_cast<std::size_t>(j)];
-        const auto parts = [&](Vec3 across) {
-            double most_i = dot(across, vertex_i), least_i = most_i;
-            double most_j = dot(across, vertex_j), least_j = most_j;
-            for (std::size_t id = 0; id < kMostCrossings; ++id) {
-                if (!p.at[id] || (p.piece[id] != i && p.piece[id] != j)) continue;
-                double& most = p.piece[id] == i ? most_i : most_j;
-                double& least = p.piece[id] == i ? least_i : least_j;
-                const double at = dot(across, p.at[id]->point);
-                // Vertices on faces stand a little off an edge to which the surface comes back.
-                const bool comes_back = p.at[id ^ 1] && p.piece[id ^ 1] == p.piece[id];
-                const double off =
-                    comes_back ? tribo::distance(p.at[id]->point, p.at[id ^ 1]->point) * length(across) : 0;
-                most = std::max(most, at + off);
-                least = std::min(least, at - off);
-            }
-            const double gap = margin_ * field_.cell_mm() * length(across);
-            return most_i + gap < least_j || most_j + gap < least_i;
-        };
-        if (parts(vertex_i - vertex_j)) return true;
-        for (std::size_t id = 0; id < kMostCrossings; ++id) {
-            if (p.at[id] && (p.piece[id] == i || p.piece[id] == j) && parts(p.at[id]->normal)) return true;
-        }
-        return false;
     }
 
     void keep_if_crowded(BrickSurface& s, int node, int face) const {
@@ -330,10 +186,10 @@ class BrickContour {
 
     // Where a wall or slit that is thinner than a cell ends in this one: its crossings lie on two planes that
     // do not say how far it goes on. As far as the way from the middle of them into the cell stays in it.
-    std::optional<Vec3> end_of_wall(const Pieces& pieces, int piece, Vec3 middle, Vec3 low) const {
+    std::optional<Vec3> end_of_wall(const CellPieces& pieces, int piece, Vec3 middle, Vec3 low) const {
         Vec3 across;
         for (std::size_t id = 0; id < kMostCrossings; id += 2) {
-            if (!pieces.at[id + 1] || pieces.piece[id] != piece || pieces.piece[id + 1] != piece) continue;
+            if (!pieces.has(id, piece) || !pieces.comes_back(id)) continue;
             across = pieces.at[id]->normal - pieces.at[id + 1]->normal;
         }
         if (across == Vec3{}) return std::nullopt;
@@ -358,12 +214,12 @@ class BrickContour {
         return middle + in * way;
     }
 
-    Vec3 vertex(const Pieces& pieces, int piece, int node) const {
+    Vec3 vertex(const CellPieces& pieces, int piece, int node) const {
         Quadric quadric;
         std::array<const Crossing*, kMostCrossings> around;
         std::size_t count = 0;
         for (std::size_t id = 0; id < kMostCrossings; ++id) {
-            if (!pieces.at[id] || pieces.piece[id] != piece) continue;
+            if (!pieces.has(id, piece)) continue;
             around[count++] = pieces.at[id];
             quadric.add(pieces.at[id]->point, pieces.at[id]->normal);
         }

@@ -9,7 +9,7 @@
 
 #include "base/mesh.hpp"
 #include "field/contour.hpp"
-#include "field/contour_nodes.hpp"
+#include "field/contour_pieces.hpp"
 
 namespace tribo::field {
 
@@ -18,9 +18,6 @@ inline constexpr int kCells = kBrickCells * kBrickCells * kBrickCells;
 constexpr int cell_index(int a, int b, int c) {
     return a + kBrickCells * (b + kBrickCells * c);
 }
-
-// Edges of a cell: 4 axis + 1 where it lies at the upper end along axis + 1, + 2 along axis + 2.
-inline constexpr int kCellEdges = 12;
 
 // A crossing, as much of it as the polygon around it needs.
 struct EdgePoint {
@@ -36,7 +33,6 @@ struct BrickSurface {
     // Vertices of a cell in which the surface has several pieces, by edge and crossing.
     struct SeveralPieces {
         std::uint16_t cell;
-        bool thin;  // a wall or slit that is thinner than a cell is there
         std::array<std::array<std::uint16_t, 2>, kCellEdges> vertex;
     };
     // The lower face of a cell along an axis where the surface passes more than once, and where it passes.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Vertices on the faces between cells: where the way from one cell's vertex to the next one's does not pass
+// through their face, and where the surface passes a face, or one of the cells beside it, more than once.
+#pragma once
+
+#include "field/contour_table.hpp"
+
+namespace tribo::field {
+
+// One for a segment, known by the crossings at both its ends (BrickSurface::key).
+struct FaceVertex {
+    Point3f position;
+    std::uint16_t key0, key1;
+};
+
+// Of the lower faces of the cells of one brick.
+std::vector<FaceVertex> find_face_vertices(const SurfaceTable& table, const BrickSurface& surface);
+
+}  // namespace tribo::field
