@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "../field/self_intersection.hpp"
 #include "field/box_shape.hpp"
 #include "field/contour.hpp"
 #include "field/mesh_shape.hpp"
+#include "field/self_intersection.hpp"
 #include "milling/sweep.hpp"
 #include "motion/moves.hpp"
 
