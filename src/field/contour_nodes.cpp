@@ -304,7 +304,7 @@ bool BrickNodes::is_joined(int node, int axis, const std::array<FaceSegment::End
         return end.edge + (end.edge < 2 ? along : 1 - along) + (n >= count ? 4 : 0);
     };
     const auto middle = [&](int n) {  // between crossing n and the next
-        const double s = std::fmod(0.5 * (way(n) + way(n + 1)), 4.0);
+        const double once = 0.5 * (way(n) + way(n + 1)), s = once < 4 ? once : once - 4;
         const double a = s < 1 ? s : s < 2 ? 1 : s < 3 ? 3 - s : 0;
         const double b = s < 1 ? 0 : s < 2 ? s - 1 : s < 3 ? 1 : 4 - s;
         Vec3 p = corner;
