@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "field/contour.hpp"
+#include "field/surface_points.hpp"
 #include "formats/stl.hpp"
 #include "io/gltf.hpp"
 #include "io/picture.hpp"
@@ -136,6 +137,8 @@ io::FileResult<void> RenderOutputs::compare(const session::MillSession& session,
     // Cusps are sharpened from the samples: a cell apart is enough to find them.
     options.spacing_mm = std::max(
         session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
+    const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel_);
+    options.machined_mm = points;
     const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
     designed_.emplace(*std::move(designed));
     summary.gouge_max_mm = d.gouge.mm;

@@ -19,6 +19,22 @@ std::uint32_t bits_of(float value) {
     return std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value);
 }
 
+using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
+
+// Sorted; the other way round where `turned`.
+std::vector<DirectedEdge> directed_edges(const TriangleMesh& mesh, bool turned) {
+    std::vector<DirectedEdge> edges;
+    edges.reserve(3 * mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            edges.push_back(turned ? DirectedEdge{b, a} : DirectedEdge{a, b});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
 }  // namespace
 
 Box3 bounds(const TriangleMesh& mesh) {
@@ -48,20 +64,13 @@ double volume_mm3(const TriangleMesh& mesh) {
 }
 
 bool is_closed(const TriangleMesh& mesh) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> forward, backward;
-    forward.reserve(3 * mesh.triangles.size());
-    backward.reserve(3 * mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
-            forward.emplace_back(a, b);
-            backward.emplace_back(b, a);
-        }
-    }
-    std::sort(forward.begin(), forward.end());
-    std::sort(backward.begin(), backward.end());
-    return !forward.empty() && forward == backward &&
-           std::adjacent_find(forward.begin(), forward.end()) == forward.end();
+    const std::vector<DirectedEdge> edges = directed_edges(mesh, false);
+    return !edges.empty() && edges == directed_edges(mesh, true) &&
+           std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+bool is_watertight(const TriangleMesh& mesh) {
+    return !mesh.triangles.empty() && directed_edges(mesh, false) == directed_edges(mesh, true);
 }
 
 void weld_exactly(TriangleMesh& mesh) {

@@ -28,6 +28,9 @@ double area_mm2(const TriangleMesh& mesh);
 double volume_mm3(const TriangleMesh& mesh);
 // True when every edge is shared by exactly two triangles that run through it in opposite directions.
 bool is_closed(const TriangleMesh& mesh);
+// True when every edge is run through as often in one direction as in the other, by however many triangles:
+// enough for a winding number.
+bool is_watertight(const TriangleMesh& mesh);
 // A triangle that uses a vertex twice.
 constexpr bool is_degenerate(const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];

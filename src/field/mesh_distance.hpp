@@ -28,6 +28,9 @@ class MeshDistance {
         return describe(point_mm, tree_.nearest(point_mm, guess));
     }
 
+    // As of MeshTree.
+    int winding(Vec3 point_mm) const { return tree_.winding(point_mm); }
+
     const TriangleMesh& mesh() const { return mesh_; }
     const MeshNormals& normals() const { return normals_; }
     Box3 bounds_mm() const { return tree_.bounds_mm(); }

@@ -32,6 +32,29 @@ double half_area(const Box3& box) {
     return s.x * s.y + s.y * s.z + s.z * s.x;
 }
 
+// Seen along z: 1 where the edge from `a` to `b` passes the point upwards (in y) on its right (larger x), -1
+// downwards, else 0. Of the two ends the lower one belongs to the edge; the arithmetic is the same for the
+// edge from `b` to `a`.
+int passes(Vec3 p, Vec3 a, Vec3 b) {
+    if ((a.y <= p.y) == (b.y <= p.y)) return 0;
+    const bool up = a.y <= p.y;
+    const Vec3 low = up ? a : b, high = up ? b : a;
+    const double left = (high.x - low.x) * (p.y - low.y) - (p.x - low.x) * (high.y - low.y);
+    return left > 0 ? (up ? 1 : -1) : 0;
+}
+
+// 1 or -1 where the triangle lies above the point and shows it its back or its front.
+int winding_above(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+    const int side = passes(p, a, b) + passes(p, b, c) + passes(p, c, a);
+    if (side == 0) return 0;
+    const double low = std::min({a.z, b.z, c.z}), high = std::max({a.z, b.z, c.z});
+    if (p.z < low) return side;
+    const Vec3 n = cross(b - a, c - a);
+    // Steep triangles tell their height badly, but it is between their corners'.
+    const double z = n.z != 0 ? a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z : low;
+    return p.z < std::clamp(z, low, high) ? side : 0;
+}
+
 }  // namespace
 
 TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
@@ -45,12 +68,15 @@ TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const double d3 = dot(ab, bp), d4 = dot(ac, bp);
     if (d3 >= 0 && d4 <= d3) return answer(b, TrianglePlace::corner1);
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return answer(a + d1 / (d1 - d3) * ab, TrianglePlace::edge0);
+    // d1 - d3 is the edge's length squared: without one it is no edge to divide by.
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3)
+        return answer(a + d1 / (d1 - d3) * ab, TrianglePlace::edge0);
     const Vec3 cp = p - c;
     const double d5 = dot(ab, cp), d6 = dot(ac, cp);
     if (d6 >= 0 && d5 <= d6) return answer(c, TrianglePlace::corner2);
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return answer(a + d2 / (d2 - d6) * ac, TrianglePlace::edge2);
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6)
+        return answer(a + d2 / (d2 - d6) * ac, TrianglePlace::edge2);
     const double va = d3 * d6 - d5 * d4;
     if (va <= 0 && d4 >= d3 && d5 >= d6) {
         return answer(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), TrianglePlace::edge1);
@@ -231,6 +257,29 @@ MeshTree::Nearest MeshTree::nearest(Vec3 point_mm, std::uint32_t guess) const {
     Nearest best = measure(point_mm, corners_[place_of_[guess]]);
     search(point_mm, best);
     return best;
+}
+
+int MeshTree::winding(Vec3 p) const {
+    std::array<std::uint32_t, kMaxDepth> waiting;
+    std::size_t count = 0;
+    int windings = 0;
+    for (std::uint32_t at = 0;;) {
+        const Node& node = nodes_[at];
+        if (axis_gap(p.x, node.min[0], node.max[0]) == 0 && axis_gap(p.y, node.min[1], node.max[1]) == 0 &&
+            p.z <= static_cast<double>(node.max[2])) {
+            if (node.triangles == 0) {
+                waiting[count++] = node.first;
+                ++at;
+                continue;
+            }
+            for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) {
+                const Corners& t = corners_[i];
+                windings += winding_above(p, wide(t.a), wide(t.b), wide(t.c));
+            }
+        }
+        if (count == 0) return windings;
+        at = waiting[--count];
+    }
 }
 
 Box3 MeshTree::bounds_mm() const {

@@ -40,6 +40,12 @@ class MeshTree {
     // The same answer, faster when `guess` is a triangle not far from the closest one.
     Nearest nearest(Vec3 point_mm, std::uint32_t guess) const;
 
+    // How often a watertight mesh winds around a point: 1 inside, 0 outside, others where it overlaps or
+    // folds over itself. Counts the triangles above the point, with the sign of the side that they show.
+    // Triangles that share an edge agree on which side of it a point is, so none is missed and none counted
+    // twice.
+    int winding(Vec3 point_mm) const;
+
     Box3 bounds_mm() const;
     std::size_t bytes() const;
 

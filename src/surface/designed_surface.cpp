@@ -2,6 +2,7 @@
 #include "surface/designed_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tribo::surface {
@@ -38,8 +39,16 @@ void sample_triangle(Vec3 a, Vec3 b, Vec3 c, const SurfaceSample& whole, double 
 
 }  // namespace
 
-DesignedSurface::DesignedSurface(TriangleMesh mesh, bool closed)
-    : distance_(std::move(mesh)), area_(tribo::area_mm2(distance_.mesh())), closed_(closed) {}
+DesignedSurface::DesignedSurface(TriangleMesh mesh, bool watertight)
+    : distance_(std::move(mesh)), area_(tribo::area_mm2(distance_.mesh())), watertight_(watertight) {}
+
+field::MeshPoint DesignedSurface::sided(Vec3 point_mm, field::MeshPoint found) const {
+    if (!watertight_) return found;
+    found.on_border = false;
+    const double d = std::abs(found.distance_mm);
+    found.distance_mm = distance_.winding(point_mm) > 0 ? -d : d;
+    return found;
+}
 
 Result<DesignedSurface> DesignedSurface::make(TriangleMesh mesh, Vec3 up) {
     weld_exactly(mesh);
@@ -47,9 +56,9 @@ Result<DesignedSurface> DesignedSurface::make(TriangleMesh mesh, Vec3 up) {
     if (!(tribo::area_mm2(mesh) > 0)) {
         return fail("the designed surface has no area", "check that the model holds a surface");
     }
-    const bool closed = is_closed(mesh);
+    const bool watertight = is_watertight(mesh);
     double outward = 0;
-    if (closed) {
+    if (watertight) {
         outward = volume_mm3(mesh);
     } else {
         for (const Triangle& t : mesh.triangles) {
@@ -60,7 +69,7 @@ Result<DesignedSurface> DesignedSurface::make(TriangleMesh mesh, Vec3 up) {
     if (outward < 0) {
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     }
-    return DesignedSurface(std::move(mesh), closed);
+    return DesignedSurface(std::move(mesh), watertight);
 }
 
 std::vector<SurfaceSample> DesignedSurface::sample(double spacing_mm) const {

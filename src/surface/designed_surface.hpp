@@ -24,28 +24,35 @@ class DesignedSurface {
     // either side. A closed surface is turned when it is inside out. Refused: no triangle with an area.
     static Result<DesignedSurface> make(TriangleMesh mesh, Vec3 up = {0, 0, 1});
 
-    // The closest point, with the distance negative behind the surface: where material must stay. Beyond the
-    // border of an open surface the side is that of the nearest triangle's plane.
-    field::MeshPoint closest(Vec3 point_mm) const { return distance_.closest(point_mm); }
-    double signed_distance_mm(Vec3 point_mm) const { return distance_.closest(point_mm).distance_mm; }
+    // The closest point, with the distance negative behind the surface: where material must stay. The side of
+    // a watertight surface is told by its winding number, so folds and slivers of its mesh do not mislead it,
+    // and it has no border. Beyond the border of an open surface the side is that of the nearest triangle's
+    // plane.
+    field::MeshPoint closest(Vec3 point_mm) const { return sided(point_mm, distance_.closest(point_mm)); }
+    // The same, faster where `guess` is the triangle of an answer near by.
+    field::MeshPoint closest(Vec3 point_mm, std::uint32_t guess) const {
+        return sided(point_mm, distance_.closest(point_mm, guess));
+    }
+    double signed_distance_mm(Vec3 point_mm) const { return closest(point_mm).distance_mm; }
 
     // Points spread over the surface, at most spacing_mm > 0 apart within a triangle, and at least one in
     // each.
     std::vector<SurfaceSample> sample(double spacing_mm) const;
 
-    const field::MeshDistance& distance() const { return distance_; }
     const TriangleMesh& mesh() const { return distance_.mesh(); }
     double area_mm2() const { return area_; }
-    bool closed() const { return closed_; }
-    // Edges whose two triangles point to different sides: there "outside" is not to be trusted.
+    bool watertight() const { return watertight_; }
+    // Edges whose two triangles point to different sides: there the side of an open surface is not to be
+    // trusted.
     std::size_t turned_edges() const { return distance_.normals().turned_edges(); }
 
   private:
-    DesignedSurface(TriangleMesh mesh, bool closed);
+    DesignedSurface(TriangleMesh mesh, bool watertight);
+    field::MeshPoint sided(Vec3 point_mm, field::MeshPoint found) const;
 
     field::MeshDistance distance_;
     double area_;
-    bool closed_;
+    bool watertight_;
 };
 
 }  // namespace tribo::surface

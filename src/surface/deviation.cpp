@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "surface/height.hpp"
+#include "surface/nearest_height.hpp"
 #include "surface/scallop.hpp"
 
 namespace tribo::surface {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kChunk = 256;     // samples that one task measures
 constexpr std::size_t kSharpened = 16;  // samples from which each extreme is sharpened
-constexpr double kOffBlank = 1e-3;      // this far outside the blank's surface is outside, mm
+constexpr double kOffBlank = 1e-3;      // no deeper in the blank than this is on its surface, mm
 constexpr double kFlatScallop = 1e-4;   // lower rest is noise of the field, not a scallop, mm
 constexpr double kCrestFall = 0.75;     // most height half way to a pass, over the crest's
 constexpr int kMostMoves = 200;         // rounds of a climb; twenty do
@@ -24,7 +24,10 @@ class Comparison {
   public:
     Comparison(const contact::DistanceField& machined, const DesignedSurface& designed,
                const DeviationOptions& options)
-        : machined_(machined), designed_(designed), options_(options) {
+        : machined_(machined),
+          designed_(designed),
+          options_(options),
+          height_(machined, designed, options.limit_mm, options.blank) {
         const double finest = std::sqrt(2.7 * designed.area_mm2() / static_cast<double>(kMaxSamples));
         report_.spacing_mm = std::max(options.spacing_mm, finest);
     }
@@ -36,32 +39,21 @@ class Comparison {
         report_.rest = sharpest(by_height(1), 1);
         report_.gouge = sharpest(by_height(-1), -1);
         report_.scallop = sharpest(scallops(), 1);
+        const MachinedExtremes other = farthest_machined(machined_, designed_, options_.blank,
+                                                         options_.machined_mm, report_.spacing_mm, parallel);
+        if (other.rest.mm > report_.rest.mm) report_.rest = other.rest;
+        if (other.gouge.mm > report_.gouge.mm) report_.gouge = other.gouge;
         return std::move(report_);
     }
 
   private:
-    // Signed height over a point of the designed surface; none where that says nothing about the cutting.
-    std::optional<double> height(Vec3 point, Vec3 normal) const {
-        const auto found = height_over(machined_, point, normal, options_.limit_mm);
-        if (!options_.blank || (found && *found >= 0)) return found;
-        if (options_.blank->distance_mm(point) > kOffBlank) return std::nullopt;
-        // Down to where the blank ended, if that comes first: what was not there was not gouged.
-        const double lowest = found.value_or(-options_.limit_mm);
-        for (double t = 0; t > lowest;) {
-            const double depth = options_.blank->distance_mm(point + t * normal);
-            if (depth > kOffBlank) return t;
-            t += std::min(depth, -kOffBlank);
-        }
-        return found;
-    }
-
     void measure_all(const ParallelFor& parallel) {
         const std::vector<SurfaceSample> samples = designed_.sample(report_.spacing_mm);
         std::vector<double> heights(samples.size());
         parallel((samples.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
             const std::size_t end = std::min(samples.size(), (chunk + 1) * kChunk);
             for (std::size_t i = chunk * kChunk; i < end; ++i) {
-                heights[i] = height(samples[i].point_mm, samples[i].normal)
+                heights[i] = height_.at(samples[i].point_mm, samples[i].normal, samples[i].triangle)
                                  .value_or(std::numeric_limits<double>::quiet_NaN());
             }
         });
@@ -162,9 +154,8 @@ class Comparison {
         const SurfaceSample& s = report_.samples[i];
         const double half_way = 0.5 * std::min(crossing.first_mm, crossing.second_mm);
         for (const double way : {half_way, -half_way}) {
-            const field::MeshPoint at =
-                designed_.distance().closest(s.point_mm + way * crossing.way, s.triangle);
-            const auto h = height(at.point_mm, at.normal);
+            const field::MeshPoint at = designed_.closest(s.point_mm + way * crossing.way, s.triangle);
+            const auto h = height_.at(at.point_mm, at.normal, at.triangle);
             if (!h || *h > kCrestFall * height_of(i)) return false;
         }
         return true;
@@ -172,9 +163,10 @@ class Comparison {
 
     // True where the machined surface is still the blank's: no cutter was there.
     bool is_blank(std::size_t i) const {
+        if (!options_.blank) return false;
         const SurfaceSample& s = report_.samples[i];
-        return options_.blank &&
-               options_.blank->distance_mm(s.point_mm + height_of(i) * s.normal) > -kOffBlank;
+        const auto top = height_over(machined_, s.point_mm, s.normal, options_.limit_mm);
+        return !top || options_.blank->distance_mm(s.point_mm + *top * s.normal) > -kOffBlank;
     }
 
     // Climbs from each sample, staying within the spacing of it, and gives the best top.
@@ -193,16 +185,17 @@ class Comparison {
         const double diagonal = std::sqrt(0.5);
         const Vec3 ways[] = {
             u, -u, v, -v, diagonal * (u + v), diagonal * (u - v), -diagonal * (u + v), diagonal * (v - u)};
-        DeviationExtreme best{side * height(start.point_mm, start.normal).value_or(0), start.point_mm};
+        DeviationExtreme best{side * height_.at(start.point_mm, start.normal, start.triangle).value_or(0),
+                              start.point_mm};
         std::uint32_t triangle = start.triangle;
         int moves = 0;
         for (double step = report_.spacing_mm / 2; step > report_.spacing_mm / 65536 && moves < kMostMoves;) {
             bool climbed = false;
             ++moves;
             for (const Vec3 way : ways) {
-                const field::MeshPoint at = designed_.distance().closest(best.at_mm + step * way, triangle);
+                const field::MeshPoint at = designed_.closest(best.at_mm + step * way, triangle);
                 if (distance(at.point_mm, start.point_mm) > report_.spacing_mm) continue;
-                const auto h = height(at.point_mm, at.normal);
+                const auto h = height_.at(at.point_mm, at.normal, at.triangle);
                 if (!h || side * *h <= best.mm) continue;
                 best = {side * *h, at.point_mm};
                 triangle = at.triangle;
@@ -216,6 +209,7 @@ class Comparison {
     const contact::DistanceField& machined_;
     const DesignedSurface& designed_;
     const DeviationOptions& options_;
+    NearestHeight height_;
     DeviationReport report_;
 };
 
@@ -233,8 +227,7 @@ std::vector<float> deviations_of(const TriangleMesh& machined, const DesignedSur
         const std::size_t end = std::min(result.size(), (chunk + 1) * kChunk);
         std::uint32_t guess = 0;
         for (std::size_t i = chunk * kChunk; i < end; ++i) {
-            const auto found =
-                designed.distance().closest(machined.position(static_cast<std::uint32_t>(i)), guess);
+            const auto found = designed.closest(machined.position(static_cast<std::uint32_t>(i)), guess);
             result[i] = static_cast<float>(found.distance_mm);
             guess = found.triangle;
         }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "contact/distance_field.hpp"
 #include "field/shape.hpp"
 #include "surface/designed_surface.hpp"
+#include "surface/machined_side.hpp"
 
 namespace tribo::surface {
 
@@ -26,11 +28,9 @@ struct DeviationOptions {
     // What the part was cut from. With it, nothing outside it counts as gouged, and where its own surface
     // still stands there is no scallop; without it, samples under which no material is found are left out.
     const field::Shape* blank = nullptr;
-};
-
-struct DeviationExtreme {
-    double mm = 0;  // >= 0; 0: none
-    Vec3 at_mm;     // on the designed surface
+    // Points of the machined surface (field/surface_points.hpp). With them the extremes of rest and gouge are
+    // looked for from the machined side too.
+    std::span<const Vec3> machined_mm = {};
 };
 
 // Shares of the measured area by deviation: bin i holds those from first_mm + i bin_mm.
@@ -40,7 +40,8 @@ struct DeviationHistogram {
 };
 
 struct DeviationReport {
-    // Rest: material above the designed surface, wherever. Scallop: a crest of rest with a pass on both
+    // Rest: material outside the design, gouge: design that is missing; how far from the nearest point of the
+    // design. Scallop: a crest of rest with a pass on both
     // sides: samples that were touched and are less than half as high stand opposite each other around it
     // (scallop.hpp), no more than pass_width_mm apart; half way to the nearer one the surface has fallen by a
     // quarter on both sides; and its top is not the blank's own surface.
@@ -56,10 +57,12 @@ struct DeviationReport {
     std::vector<float> heights_mm;       // one per sample, signed
 };
 
-// Samples of one comparison, about: 10 us each, 80 bytes.
+// Samples of one comparison, about: 10 us each, 80 bytes; and so many points of the machined surface, 2 us
+// and 24 bytes.
 inline constexpr std::size_t kMaxSamples = 400'000;
 
-// Measures, from samples of the designed surface, how high the machined part stands along the normal. The
+// Measures how far the machined part stands off the design, counted to the nearest point of the design: from
+// samples of the designed surface (nearest_height.hpp), and rest and gouge from the machined side too. The
 // machined field must stay as it is meanwhile. Same bits whatever `parallel` does.
 DeviationReport compare(const contact::DistanceField& machined, const DesignedSurface& designed,
                         const DeviationOptions& options = {}, const ParallelFor& parallel = serial_for);

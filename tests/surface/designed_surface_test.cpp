@@ -17,7 +17,7 @@ TEST(DesignedSurface, an_open_surface_faces_up_however_it_was_exported) {
     for (int turned = 0; turned < 2; ++turned) {
         const auto surface = DesignedSurface::make(mesh);
         ASSERT_TRUE(surface.has_value());
-        EXPECT_FALSE(surface->closed());
+        EXPECT_FALSE(surface->watertight());
         EXPECT_EQ(surface->signed_distance_mm({5, 5, 2}), 2);
         EXPECT_EQ(surface->signed_distance_mm({5, 5, -2}), -2);
         for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
@@ -39,7 +39,7 @@ TEST(DesignedSurface, a_closed_surface_is_turned_outside_out) {
         {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}, {}};
     const auto surface = DesignedSurface::make(mesh);
     ASSERT_TRUE(surface.has_value());
-    EXPECT_TRUE(surface->closed());
+    EXPECT_TRUE(surface->watertight());
     EXPECT_NEAR(surface->signed_distance_mm({1, 1, -1}), 1, 1e-12);
     EXPECT_LT(surface->signed_distance_mm({0.5, 0.5, 0.5}), 0);
 }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "surface/machined_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "field/surface_points.hpp"
+
+namespace tribo::surface {
+namespace {
+
+constexpr std::size_t kChunk = 256;  // points that one task measures
+constexpr std::size_t kClimbs = 16;  // points from which each extreme is climbed to
+constexpr double kOnBlank = 1e-3;    // no deeper in the blank than this is on its surface, mm
+constexpr int kMostMoves = 200;      // rounds of a climb; twenty do
+
+class MachinedSide {
+  public:
+    MachinedSide(const contact::DistanceField& machined, const DesignedSurface& designed,
+                 const field::Shape* blank)
+        : machined_(machined), designed_(designed), blank_(blank) {}
+
+    // Signed distance to the design; 0 where that says nothing.
+    double measure(Vec3 point, std::uint32_t& triangle, Vec3& foot) const {
+        const field::MeshPoint near = designed_.closest(point, triangle);
+        triangle = near.triangle;
+        foot = near.point_mm;
+        if (near.on_border) return 0;
+        if (near.distance_mm < 0 && blank_ && blank_->distance_mm(point) > -kOnBlank) return 0;
+        return near.distance_mm;
+    }
+
+    // Pattern search along the machined surface in eight directions, the step halved where none leads up.
+    DeviationExtreme climb(Vec3 start, double side, double spacing) const {
+        std::uint32_t triangle = 0;
+        DeviationExtreme best;
+        best.mm = std::max(0.0, side * measure(start, triangle, best.at_mm));
+        Vec3 at = start;
+        const double diagonal = std::sqrt(0.5);
+        int moves = 0;
+        for (double step = spacing; step > spacing / 65536 && moves < kMostMoves; ++moves) {
+            const Vec3 n = machined_.normal(at), u = any_perpendicular(n), v = cross(n, u);
+            const Vec3 ways[] = {u,
+                                 -u,
+                                 v,
+                                 -v,
+                                 diagonal * (u + v),
+                                 diagonal * (u - v),
+                                 -diagonal * (u + v),
+                                 diagonal * (v - u)};
+            Vec3 higher = at;
+            for (const Vec3 way : ways) {
+                const auto next = field::onto_surface(machined_, at + step * way);
+                Vec3 foot;
+                if (!next) continue;
+                const double d = side * measure(*next, triangle, foot);
+                if (d <= best.mm) continue;
+                best = {d, foot};
+                higher = *next;
+            }
+            if (higher == at) step /= 2;
+            at = higher;
+        }
+        return best;
+    }
+
+  private:
+    const contact::DistanceField& machined_;
+    const DesignedSurface& designed_;
+    const field::Shape* blank_;
+};
+
+}  // namespace
+
+MachinedExtremes farthest_machined(const contact::DistanceField& machined, const DesignedSurface& designed,
+                                   const field::Shape* blank, std::span<const Vec3> points, double spacing_mm,
+                                   const ParallelFor& parallel) {
+    if (!designed.watertight() && designed.turned_edges() > 0) return {};
+    const MachinedSide side(machined, designed, blank);
+    std::vector<double> heights(points.size());
+    parallel((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
+        std::uint32_t triangle = 0;
+        Vec3 foot;
+        for (std::size_t i = chunk * kChunk; i < end; ++i) {
+            heights[i] = side.measure(points[i], triangle, foot);
+        }
+    });
+    const auto farthest = [&](double sign) {
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (sign * heights[i] > 0) order.push_back(i);
+        }
+        const std::size_t kept = std::min(order.size(), kClimbs);
+        std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end(),
+                          [&](std::size_t a, std::size_t b) {
+                              return heights[a] != heights[b] ? sign * heights[a] > sign * heights[b] : a < b;
+                          });
+        order.resize(kept);
+        DeviationExtreme best;
+        for (const std::size_t i : order) {
+            const DeviationExtreme top = side.climb(points[i], sign, spacing_mm);
+            if (top.mm > best.mm) best = top;
+        }
+        return best;
+    };
+    return {farthest(-1), farthest(1)};
+}
+
+}  // namespace tribo::surface

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "surface/nearest_height.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/height.hpp"
+
+namespace tribo::surface {
+namespace {
+
+constexpr double kOffBlank = 1e-3;  // this far outside the blank's surface is outside, mm
+constexpr double kNoDoubt = 1e-4;   // lower heights are taken as they are, mm
+constexpr int kMostBalls = 16;      // balls tried; three to five are the rule
+constexpr double kLeastShrink = 0.99;
+// A ball is the point's own where the design comes no nearer to its centre than this share of its radius.
+// Facets of a curved design meet at angles up to 25 degrees without hiding each other.
+constexpr double kOwn = 0.9;
+
+}  // namespace
+
+std::optional<NearestHeight::Way> NearestHeight::way(Vec3 point, Vec3 normal) const {
+    const auto found = height_over(machined_, point, normal, limit_);
+    const bool in_material = found ? *found >= 0 : machined_.distance_mm(point) < 0;
+    if (in_material) return Way{found.value_or(limit_), !found};
+    const Way down{found.value_or(-limit_), !found};
+    if (!blank_) return down;
+    if (blank_->distance_mm(point) > kOffBlank) return std::nullopt;
+    // Down to where the blank ended, if that comes first: what was not there was not gouged.
+    for (double t = 0; t > down.mm;) {
+        const double depth = blank_->distance_mm(point + t * normal);
+        if (depth > kOffBlank) return Way{t, false};
+        t += std::min(depth, -kOffBlank);
+    }
+    return down;
+}
+
+std::optional<double> NearestHeight::at(Vec3 point, Vec3 normal, std::uint32_t triangle) const {
+    const auto found = way(point, normal);
+    if (!found) return std::nullopt;
+    const double side = found->mm < 0 ? -1 : 1;
+    double radius = std::abs(found->mm), farthest = 0;
+    if (radius <= kNoDoubt) return found->mm;
+    for (int n = 0; n < kMostBalls; ++n) {
+        const Vec3 centre = point + side * radius * normal;
+        const field::MeshPoint near = designed_.closest(centre, triangle);
+        const double off = side * near.distance_mm;  // negative: beyond another face of the design
+        if (off >= kOwn * radius) {
+            if (n == 0 && found->is_open) return std::nullopt;
+            return side * std::max(off, farthest);
+        }
+        if (!near.on_border) farthest = std::max(farthest, off);
+        // The ball through the point that was found, which is in this one.
+        const Vec3 chord = near.point_mm - point;
+        const double along = 2 * side * dot(chord, normal);
+        if (!(along > 0)) break;
+        radius = std::min(kLeastShrink * radius, squared_length(chord) / along);
+        triangle = near.triangle;
+    }
+    return side * farthest;
+}
+
+}  // namespace tribo::surface
