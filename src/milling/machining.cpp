@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field/shape_overlap.hpp"
 #include "milling/sweep.hpp"
 #include "motion/path.hpp"
 
@@ -88,11 +89,11 @@ struct Machining::Sweep {
 };
 
 Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
-                     std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options,
+                     std::span<const std::unique_ptr<const field::Shape>> fixtures, MachiningOptions options,
                      ParallelFor parallel)
     : stock_(stock),
       cutters_(cutters),
-      fixtures_(std::move(fixtures)),
+      fixtures_(fixtures),
       options_(options),
       parallel_(std::move(parallel)),
       probes_(kShares) {
@@ -191,7 +192,7 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
         sweep.collisions.push_back({number, kind, best, motion::pose_at(move, best).tip_mm});
     };
     for (const auto& fixture : fixtures_) {
-        if (const auto place = field::CarvedView(*fixture).overlap(*sweep.shape, kClearance))
+        if (const auto place = field::shared_place(*sweep.shape, *fixture, kClearance))
             report(CollisionKind::tool_in_fixture, *place);
     }
     for (const Cylinder& part : bodies_[sweep.step.cutter]) {
@@ -206,7 +207,7 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
         if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
             report(part.in_stock, *place);
         for (const auto& fixture : fixtures_) {
-            if (const auto place = field::CarvedView(*fixture).overlap(*solid, kClearance))
+            if (const auto place = field::shared_place(*solid, *fixture, kClearance))
                 report(CollisionKind::holder_in_fixture, *place);
         }
     }

@@ -59,9 +59,9 @@ struct MachiningOptions {
 
 class Machining {
   public:
-    // The field and the cutters must outlive it. Fixtures are only ever tested, never cut.
+    // The field, the cutters and the fixtures must outlive it. Fixtures are only ever tested, never cut.
     Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
-              std::vector<std::unique_ptr<field::CarvedField>> fixtures, MachiningOptions options = {},
+              std::span<const std::unique_ptr<const field::Shape>> fixtures, MachiningOptions options = {},
               ParallelFor parallel = serial_for);
     ~Machining();
 
@@ -84,7 +84,7 @@ class Machining {
 
     field::CarvedField& stock_;
     std::span<const Cutter> cutters_;
-    std::vector<std::unique_ptr<field::CarvedField>> fixtures_;
+    std::span<const std::unique_ptr<const field::Shape>> fixtures_;
     MachiningOptions options_;
     ParallelFor parallel_;
     std::vector<std::vector<EngagementProbe>> probes_;  // by share of the work, then by cutter

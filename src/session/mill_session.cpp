@@ -18,13 +18,6 @@ constexpr std::size_t kShares = 8;
 
 constexpr double kDegPerRad = 180 / math::kPi;
 
-std::vector<std::unique_ptr<field::CarvedField>> fixture_fields(
-    std::vector<std::unique_ptr<const field::Shape>>& shapes, double cell) {
-    std::vector<std::unique_ptr<field::CarvedField>> fields;
-    for (auto& shape : shapes) fields.push_back(std::make_unique<field::CarvedField>(std::move(shape), cell));
-    return fields;
-}
-
 // The range over all bands, in degrees and mm.
 struct Hull {
     double entry_deg = 0, exit_deg = 0, axial_depth_mm = 0;
@@ -51,7 +44,7 @@ class MillSession::Run {
           parallel_(std::move(parallel)),
           schedule_(*motion::schedule(setup_.moves, setup_.timing)),
           stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
-          machining_(stock_, setup_.cutters, fixture_fields(setup_.fixtures, setup_.cell_mm), {}, parallel_) {
+          machining_(stock_, setup_.cutters, setup_.fixtures, {}, parallel_) {
         for (auto& share : models_) {
             for (const milling::Cutter& cutter : setup_.cutters)
                 share.emplace_back(cutter, setup_.coefficients);
