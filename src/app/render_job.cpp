@@ -15,6 +15,7 @@
 #include "io/program_file.hpp"
 #include "motion/path.hpp"
 #include "session/job_completion.hpp"
+#include "session/part_in_stock.hpp"
 
 namespace tribo::app {
 namespace {
@@ -115,6 +116,9 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double>
         return std::unexpected(io::Failure(error));
     }
     loaded.setup = std::move(*setup);
+    if (loaded.part) {
+        session::warn_of_part_outside(loaded.part->mesh, *loaded.setup.blank, call.job, loaded.warnings);
+    }
     return loaded;
 }
 

@@ -11,6 +11,7 @@
 #include "session/job_assumption.hpp"
 #include "session/job_completion.hpp"
 #include "session/live_mill.hpp"
+#include "session/part_in_stock.hpp"
 #include "wasm/mill_files.hpp"
 
 namespace tribo::wasm {
@@ -119,6 +120,7 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
         return std::unexpected(std::move(error));
     }
     loaded.setup = std::move(*setup);
+    if (loaded.part) session::warn_of_part_outside(*loaded.part, *loaded.setup.blank, name, loaded.warnings);
     if (auto fits = check_memory(loaded.setup, name); !fits) return std::unexpected(fits.error());
     return loaded;
 }
