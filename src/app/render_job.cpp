@@ -7,15 +7,15 @@
 
 #include "app/listening.hpp"
 #include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
 #include "field/mesh_shape.hpp"
 #include "io/job_toml.hpp"
 #include "io/memory.hpp"
 #include "io/model_file.hpp"
 #include "io/program_file.hpp"
-#include "motion/path.hpp"
 #include "session/job_completion.hpp"
+#include "session/memory_estimate.hpp"
 #include "session/part_in_stock.hpp"
+#include "surface/deviation.hpp"
 
 namespace tribo::app {
 namespace {
@@ -41,22 +41,35 @@ io::FileResult<Solid> read_solid(const formats::JobSolid& solid) {
     return Solid{std::move(*shape), volume};
 }
 
+// What a run holds whatever it does, bytes, measured: the program itself; the report's picture and page; the
+// sound's tables.
+constexpr double kProgramBytes = 15 * kMegabyte, kReportBytes = 58 * kMegabyte, kSoundBytes = 10 * kMegabyte;
+constexpr double kReportVertexBytes = 80;  // of the whole mesh, while the report thins it out
+// Of a comparison with a design: a sample with its copy, a point of the machined surface; of the design, a
+// triangle in trees and tables.
+constexpr double kSampleBytes = 150, kPointBytes = 40, kTriangleBytes = 300;
+
 // The most that the run may hold at once, bytes, at a spacing of the grid.
-double bytes_at(const RenderCall& call, const session::MillSetup& setup, double cell) {
-    const Box3 blank = setup.blank->bounds_mm();
-    const Vec3 s = blank.size();
-    const double faces = 2 * (s.x * s.y + s.y * s.z + s.z * s.x);
-    double swept = 0;
-    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
-        const milling::Cutter& c = setup.cutters[setup.cutter_of_move[n]];
-        swept += motion::path_length_mm(setup.moves[n]) * c.diameter_mm;
+double bytes_at(const RenderCall& call, const LoadedJob& loaded, const session::MemoryEstimate& estimate,
+                double cell) {
+    const bool report = call.wants("report");
+    double mesh = 0, kept = 0, comparison = 0, after = 0;
+    if (call.wants("mesh") || report) {
+        mesh = estimate.mesh_bytes(cell);
+        kept = 40 * estimate.vertices(cell);
     }
-    // A cut surface lies within the blank: repeated passes make no more of it than a few layers of its faces.
-    const double surface = std::min(faces + 2 * swept, 3 * faces);
-    double bytes = field::CarvedField::estimated_bytes(blank, cell, surface);
-    if (call.wants("mesh") || call.wants("report")) bytes += surface / (cell * cell) * 60;
-    constexpr double kPerMove = sizeof(motion::Move) + 2 * sizeof(motion::MoveTiming) + 320;
-    return bytes + kPerMove * static_cast<double>(setup.moves.size()) + 30 * kMegabyte;
+    if (loaded.part) {
+        const double samples = std::min(static_cast<double>(surface::kMaxSamples),
+                                        2.7 * area_mm2(loaded.part->mesh) / (cell * cell));
+        const double points = std::min(static_cast<double>(surface::kMaxSamples),
+                                       30 * estimate.cut_bricks(cell) + estimate.vertices(cell));
+        comparison = samples * kSampleBytes + points * kPointBytes;
+        after += static_cast<double>(loaded.part->mesh.triangles.size()) * kTriangleBytes;
+    }
+    if (report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
+    const double sound = call.wants("sound") ? kSoundBytes : 0;
+    return kProgramBytes + sound + estimate.session_bytes(cell) +
+           std::max({mesh, kept + comparison, kept + after});
 }
 
 }  // namespace
@@ -125,21 +138,28 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double>
 Result<void> check_memory(const RenderCall& call, const LoadedJob& loaded) {
     const double budget =
         call.memory_mb ? *call.memory_mb * kMegabyte : static_cast<double>(io::default_memory_budget_bytes());
-    const double need = bytes_at(call, loaded.setup, loaded.setup.cell_mm);
+    const auto need_at = [&](double cell) {
+        return bytes_at(call, loaded, session::MemoryEstimate(loaded.setup, cell), cell);
+    };
+    const double need = need_at(loaded.setup.cell_mm);
     if (budget <= 0 || need <= budget) return {};
-    double fits = loaded.setup.cell_mm;
     const Vec3 size = loaded.setup.blank->bounds_mm().size();
     const double largest = std::max({size.x, size.y, size.z});
-    while (fits < largest && bytes_at(call, loaded.setup, fits) > budget) fits *= 1.05;
+    double fits = loaded.setup.cell_mm, least = need;
+    while (fits < largest && least > budget) {
+        fits *= 1.1;
+        least = need_at(fits);
+    }
     char cause[160], remedy[160];
     std::snprintf(cause, sizeof cause,
-                  "the job may take %.0f MB at a resolution of %.3g mm, and %.0f MB are allowed",
+                  "the job takes about %.0f MB at a resolution of %.3g mm, and %.0f MB are allowed",
                   need / kMegabyte, loaded.setup.cell_mm, budget / kMegabyte);
     if (fits < largest) {
-        std::snprintf(remedy, sizeof remedy, "try --resolution %.3g, or allow more with --memory", fits);
+        std::snprintf(remedy, sizeof remedy, "try --resolution %.2g, or allow more with --memory",
+                      std::ceil(fits * 1e3) / 1e3);
     } else {
         std::snprintf(remedy, sizeof remedy, "allow at least %.0f MB with --memory",
-                      std::ceil(bytes_at(call, loaded.setup, largest) / kMegabyte));
+                      std::ceil(least / kMegabyte));
     }
     return fail_at(call.job, 0, 0, cause, remedy);
 }

@@ -11,9 +11,6 @@
 namespace tribo::field {
 namespace {
 
-// The first node stands this many cells outside the blank: a fraction that keeps nodes off the round
-// coordinates where programs put their planes, so that signs at nodes are seldom a matter of rounding.
-constexpr double kMarginCells = 2.37;
 // Work is handed to other threads from this many bricks on; below it the hand-over costs more than it saves.
 constexpr std::size_t kParallelBricks = 64;
 constexpr std::size_t kParallelShapes = 8;
@@ -27,7 +24,9 @@ constexpr std::size_t kPruneEvery = 8, kPruneEverySearched = 1;
 // Along each axis, whole numbers: a cell may be asked for that is finer than any grid could be.
 Vec3 bricks_along(const Box3& blank, double cell) {
     const double brick = kBrickCells * cell;
-    const auto bricks = [&](double extent) { return std::ceil((extent + 2 * kMarginCells * cell) / brick); };
+    const auto bricks = [&](double extent) {
+        return std::ceil((extent + 2 * CarvedField::kMarginCells * cell) / brick);
+    };
     const Vec3 s = blank.size();
     return {bricks(s.x), bricks(s.y), bricks(s.z)};
 }
@@ -270,14 +269,14 @@ void CarvedField::point_to(BrickCoord coord, BrickRef ref) {
     if (old) show_->retire(std::move(old));
 }
 
-double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2) {
+double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double cut_bricks,
+                                    double touched_bricks) {
     const Vec3 n = bricks_along(blank_mm, cell_mm);
-    const double bricks = n.x * n.y * n.z;
-    const double brick_edge = kBrickCells * cell_mm;
-    // A surface passes through about two bricks per brick face of its area: it is seldom centred in a layer.
-    const double touched = std::min(bricks, 2 * surface_mm2 / (brick_edge * brick_edge));
-    const double chunk = kChunkEdge * kChunkEdge * kChunkEdge;
-    return touched * (sizeof(Brick) + 64) + bricks * (sizeof(BrickRef) + sizeof(void*) / chunk);
+    constexpr double kLists = 96;  // of shapes in a brick, with what the heap adds
+    constexpr double kChunk = kChunkEdge * kChunkEdge * kChunkEdge;
+    // Of a chunk some half is touched.
+    return cut_bricks * (sizeof(Brick) + kLists) + 2 * touched_bricks * sizeof(BrickRef) +
+           n.x * n.y * n.z * (sizeof(void*) / kChunk);
 }
 
 }  // namespace tribo::field

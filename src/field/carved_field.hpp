@@ -20,6 +20,9 @@ class CarvedField final : public contact::DistanceField {
   public:
     // Nodes within this many cells of the surface decide which shapes a brick keeps.
     static constexpr double kNearCells = 1.8;
+    // The first node stands this many cells outside the blank: a fraction that keeps nodes off the round
+    // coordinates where programs put their planes, so that signs at nodes are seldom a matter of rounding.
+    static constexpr double kMarginCells = 2.37;
 
     // cell_mm > 0: the spacing of the grid. It bounds what can be found (a shape whose share of the surface
     // is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R), not
@@ -75,9 +78,10 @@ class CarvedField final : public contact::DistanceField {
     BrickCoord brick_at(Vec3 point_mm) const { return tables_->query.brick_at(point_mm); }
     bool contains(BrickCoord b) const { return tables_->index.contains(b); }
 
-    // Memory that a field over this blank takes when `surface_mm2` of it have been cut (bricks and chunk
-    // tables), bytes.
-    static double estimated_bytes(const Box3& blank_mm, double cell_mm, double surface_mm2);
+    // Memory that a field over this blank takes, bytes: with so many bricks that hold a cut surface, and so
+    // many that are no longer as they were in the blank, these among them.
+    static double estimated_bytes(const Box3& blank_mm, double cell_mm, double cut_bricks,
+                                  double touched_bricks);
 
   private:
     // One shape's part in one brick: brick number, shape number and whether the shape holds all of the brick,

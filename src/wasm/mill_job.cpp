@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "wasm/mill_job.hpp"
 
+#include <cmath>
+
 #include "base/decimal.hpp"
 #include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
 #include "field/mesh_shape.hpp"
 #include "io/file_names.hpp"
 #include "io/job_toml.hpp"
@@ -11,6 +12,7 @@
 #include "session/job_assumption.hpp"
 #include "session/job_completion.hpp"
 #include "session/live_mill.hpp"
+#include "session/memory_estimate.hpp"
 #include "session/part_in_stock.hpp"
 #include "wasm/mill_files.hpp"
 
@@ -57,16 +59,18 @@ Result<formats::Job> job_of(const std::string& name, bool& assumed) {
 }
 
 Result<void> check_memory(const session::MillSetup& setup, const std::string& name) {
-    const Box3 blank = setup.blank->bounds_mm();
-    const Vec3 s = blank.size();
     const auto bytes = [&](double cell) {
-        return field::CarvedField::estimated_bytes(blank, cell, 6 * (s.x * s.y + s.y * s.z + s.z * s.x));
+        const session::MemoryEstimate estimate(setup, cell);
+        return estimate.session_bytes(cell) + estimate.mesh_bytes(cell);
     };
-    if (bytes(setup.cell_mm) <= kMostBytes) return {};
-    double cell = setup.cell_mm;
+    const double need = bytes(setup.cell_mm);
+    if (need <= kMostBytes) return {};
+    double cell = 1.1 * setup.cell_mm;
     while (bytes(cell) > kMostBytes) cell *= 1.1;
     return fail_at(name, 0, 0,
-                   "at a grid of " + format_decimal(setup.cell_mm) + " mm the part does not fit into a page",
+                   "at a grid of " + format_decimal(setup.cell_mm) + " mm the part takes about " +
+                       format_decimal(std::round(need / 1e6)) + " MB, and a page has " +
+                       format_decimal(kMostBytes / 1e6),
                    "use the program, or a grid of about " + format_decimal(static_cast<float>(cell)) + " mm");
 }
 

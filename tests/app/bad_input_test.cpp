@@ -146,7 +146,7 @@ const BadInput kCases[] = {
     {"stock_unit_is_no_length", [](Parts& p) { p.stock = stock_from("m.obj") + "unit_mm = 0\n"; },
      "'unit_mm'"},
     // The call.
-    {"no_room_in_memory", [](Parts& p) { p.call = {"--resolution", "0.01", "--memory", "50"}; },
+    {"no_room_in_memory", [](Parts& p) { p.call = {"--resolution", "0.01", "--memory", "150"}; },
      "try --resolution"},
     {"grid_finer_than_anything", [](Parts& p) { p.call = {"--resolution", "1e-9"}; }, "--resolution"},
     {"sample_rate_too_low", [](Parts& p) { p.call = {"--sample-rate", "8000"}; }, "--sample-rate"},
