@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "app/render.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/job_files.hpp"
 #include "app/progress.hpp"
 #include "app/render_outputs.hpp"
 #include "app/threads.hpp"
@@ -38,6 +40,7 @@ io::Summary summary_of(const RenderCall& call, const LoadedJob& loaded, const se
     s.work_j = t.work_j;
     s.energy_balance = t.energy_balance;
     s.resolution_mm = session.setup().cell_mm;
+    s.stock_record = session::stock_record(session.setup(), loaded.stock_hash);
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
     if (t.removed_mm3 == 0) {
@@ -89,6 +92,12 @@ int render(const RenderCall& call) {
     if (auto fits = check_memory(call, *loaded); !fits) return report(fits.error());
     auto folder = io::OutputFolder::open(call.out);
     if (!folder) return report(folder.error());
+    const auto& sources = loaded->stock_folders;
+    if (std::find(sources.begin(), sources.end(), folder->path()) != sources.end()) {
+        return report(Error{call.out, 0, 0,
+                            "the job begins with the stock of this folder, which it would replace",
+                            "name another folder, or let [stock] from name the earlier job itself"});
+    }
     report(loaded->warnings);
 
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
@@ -109,6 +118,7 @@ int render(const RenderCall& call) {
         if (!session.run(sinks)) return interrupted_exit_code();
     }
     io::Summary summary = summary_of(call, *loaded, session);
+    summary.stock_record->job = relative_to(folder->path(), call.job);
     if (auto done = outputs.finish(session, summary); !done) return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/job_files.hpp"
 #include "app/listening.hpp"
-#include "field/box_shape.hpp"
-#include "field/mesh_shape.hpp"
 #include "io/job_toml.hpp"
 #include "io/memory.hpp"
 #include "io/model_file.hpp"
@@ -22,54 +21,6 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-struct Solid {
-    std::unique_ptr<const field::Shape> shape;
-    double volume_mm3 = 0;
-};
-
-io::FileResult<Solid> read_solid(const formats::JobSolid& solid) {
-    if (!solid.model) return Solid{std::make_unique<field::BoxShape>(solid.box_mm), solid.box_mm.volume()};
-    auto model = io::read_model_file(*solid.model);
-    if (!model) return std::unexpected(model.error());
-    auto shape = field::MeshShape::make(std::move(model->mesh));
-    if (!shape) {
-        Error error = shape.error();
-        error.file = solid.model->path;
-        return std::unexpected(io::Failure(error));
-    }
-    const double volume = volume_mm3((*shape)->mesh());
-    return Solid{std::move(*shape), volume};
-}
-
-// What a run holds whatever it does, bytes, measured: the program itself; the report's picture and page; the
-// sound's tables.
-constexpr double kProgramBytes = 15 * kMegabyte, kReportBytes = 58 * kMegabyte, kSoundBytes = 10 * kMegabyte;
-constexpr double kReportVertexBytes = 80;  // of the whole mesh, while the report thins it out
-// Of a comparison with a design: a sample with its copy, a point of the machined surface; of the design, a
-// triangle in trees and tables.
-constexpr double kSampleBytes = 150, kPointBytes = 40, kTriangleBytes = 300;
-
-// The most that the run may hold at once, bytes, at a spacing of the grid.
-double bytes_at(const RenderCall& call, const LoadedJob& loaded, const session::MemoryEstimate& estimate,
-                double cell) {
-    const bool report = call.wants("report");
-    double mesh = 0, kept = 0, comparison = 0, after = 0;
-    if (call.wants("mesh") || report) {
-        mesh = estimate.mesh_bytes(cell);
-        kept = 40 * estimate.vertices(cell);
-    }
-    if (loaded.part) {
-        const double samples = std::min(static_cast<double>(surface::kMaxSamples),
-                                        2.7 * area_mm2(loaded.part->mesh) / (cell * cell));
-        const double points = std::min(static_cast<double>(surface::kMaxSamples),
-                                       30 * estimate.cut_bricks(cell) + estimate.vertices(cell));
-        comparison = samples * kSampleBytes + points * kPointBytes;
-        after += static_cast<double>(loaded.part->mesh.triangles.size()) * kTriangleBytes;
-    }
-    if (report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
-    const double sound = call.wants("sound") ? kSoundBytes : 0;
-    return kProgramBytes + sound + estimate.session_bytes(cell) +
-           std::max({mesh, kept + comparison, kept + after});
 }
 
 }  // namespace
@@ -87,10 +38,13 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double>
     }
     session::MillInputs inputs;
     inputs.program = std::move(*program);
-    auto blank = read_solid(loaded.job.stock);
-    if (!blank) return std::unexpected(blank.error());
-    inputs.blank = std::move(blank->shape);
-    inputs.blank_volume_mm3 = blank->volume_mm3;
+    auto begun = read_stock(loaded.job, loaded.warnings);
+    if (!begun) return std::unexpected(begun.error());
+    inputs.blank = std::move(begun->stock.blank);
+    inputs.blank_volume_mm3 = begun->stock.blank_volume_mm3;
+    inputs.earlier = std::move(begun->stock.earlier);
+    loaded.stock_hash = begun->stock.hash;
+    loaded.stock_folders = std::move(begun->folders);
     for (const formats::JobSolid& fixture : loaded.job.fixtures) {
         auto solid = read_solid(fixture);
         if (!solid) return std::unexpected(solid.error());

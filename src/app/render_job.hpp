@@ -3,8 +3,11 @@
 // memory.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/render.hpp"
 #include "formats/job.hpp"
@@ -20,6 +23,8 @@ struct LoadedJob {
     formats::Job job;
     milling::Material material;
     session::MillSetup setup;
+    std::uint64_t stock_hash = 0;            // of the stock it begins with: session::JobStock
+    std::vector<std::string> stock_folders;  // renders that this comes from: StockOnDisk
     std::optional<formats::Model> part;
     sound::SoundtrackOptions track;  // head and voices, where sound is asked for
     Warnings warnings;

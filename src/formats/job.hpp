@@ -10,6 +10,7 @@
 
 #include "base/vec3.hpp"
 #include "formats/dialect.hpp"
+#include "formats/work_frame.hpp"
 #include "milling/coefficients.hpp"
 #include "milling/cutter.hpp"
 #include "motion/keyframe_motion.hpp"
@@ -27,6 +28,12 @@ struct ModelFile {
 struct JobSolid {
     Box3 box_mm;  // empty where `model` is given
     std::optional<ModelFile> model;
+};
+
+// The stock as an earlier job leaves it.
+struct JobStockFrom {
+    std::string path;          // a job file, or the folder of its render
+    int line = 0, column = 0;  // of the key in this job's file
 };
 
 // Either a name out of the library of materials (milling/materials.hpp) or coefficients of one's own.
@@ -102,9 +109,12 @@ struct JobMachine {
 };
 
 struct Job {
-    std::string file;               // as the user named it
-    std::optional<ModelFile> part;  // the designed surface
-    JobSolid stock;
+    std::string file;                        // as the user named it
+    std::optional<ModelFile> part;           // the designed surface
+    JobSolid stock;                          // empty where `stock_from` is given
+    std::optional<JobStockFrom> stock_from;  // an earlier job
+    // This job's coordinates in those of the earlier job: unit axes, right-handed. Absent: the same.
+    std::optional<WorkFrame> setup;
     std::vector<JobSolid> fixtures;
     std::vector<milling::Cutter> cutters;  // at least one; numbers differ
     JobMaterial material;

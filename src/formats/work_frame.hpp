@@ -13,10 +13,8 @@ struct WorkFrame {
 
     Vec3 direction_in_stock(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
     Vec3 in_stock(Vec3 p) const { return origin_mm + direction_in_stock(p); }
-    Vec3 from_stock(Vec3 p) const {
-        const Vec3 d = p - origin_mm;
-        return {dot(d, x), dot(d, y), dot(d, z)};
-    }
+    Vec3 direction_from_stock(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+    Vec3 from_stock(Vec3 p) const { return direction_from_stock(p - origin_mm); }
     bool is_tilted() const { return z != Vec3{0, 0, 1}; }
 
     // This frame, shifted by `by` of its own coordinates.

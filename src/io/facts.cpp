@@ -294,7 +294,12 @@ Facts describe(const formats::Model& model) {
 Facts describe(const formats::Job& job, const Facts* program, const Facts* part) {
     Builder b("job");
     b.line("format", "job");
-    add_solid(b, job.stock, "stock");
+    if (job.stock_from) {
+        b.json["stock"]["from"] = job.stock_from->path;
+        b.line("stock", "as " + job.stock_from->path + " leaves it");
+    } else {
+        add_solid(b, job.stock, "stock");
+    }
     b.json["cutters"] = Json::array();
     for (const milling::Cutter& cutter : job.cutters) {
         b.json["cutters"].push_back(cutter_json(cutter));

@@ -12,7 +12,6 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::array kPartKeys{"surface"sv, "unit_mm"sv};
-constexpr std::array kSolidKeys{"box_mm"sv, "mesh"sv, "unit_mm"sv};
 constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                       "kte_n_per_mm"sv,  "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
@@ -42,37 +41,13 @@ constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "pr
 constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
 
 constexpr double kLargestGainDb = 120;
-constexpr double kLargestUnitMm = 1e6;  // a kilometre; coordinates stay far from overflow
 constexpr double kLargestFriction = 10;
-
-std::optional<double> unit_mm(TomlSection& section) {
-    return section.number("unit_mm", {0, kLargestUnitMm, true});
-}
 
 }  // namespace
 
 formats::ModelFile read_part(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[part]", kPartKeys);
-    return {section.required_path("surface"), unit_mm(section)};
-}
-
-formats::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label) {
-    TomlSection section(file, table, label, kSolidKeys);
-    formats::JobSolid solid;
-    if (section.has("box_mm") && section.has("mesh")) {
-        section.fail("mesh", label + " has both 'box_mm' and 'mesh'", "keep one of them");
-    } else if (section.has("mesh")) {
-        solid.model = formats::ModelFile{section.required_path("mesh"), unit_mm(section)};
-    } else if (section.has("box_mm")) {
-        solid.box_mm = section.box("box_mm").value_or(Box3{});
-        if (section.has("unit_mm")) {
-            section.fail("unit_mm", "'unit_mm' belongs to a mesh; a box is in mm", "remove it");
-        }
-    } else {
-        section.fail("", label + " has neither 'box_mm' nor 'mesh'",
-                     "write box_mm = [[x, y, z], [x, y, z]] or mesh = \"FILE\"");
-    }
-    return solid;
+    return {section.required_path("surface"), read_unit_mm(section)};
 }
 
 formats::JobMaterial read_material(TomlFile& file, const toml::table& table) {
@@ -168,7 +143,7 @@ formats::JobPath read_path(TomlFile& file, const toml::table& table) {
         const Result<motion::Machine> known = motion::named_machine(path.machine);
         if (!known) section.fail("machine", known.error().cause, known.error().remedy);
     }
-    path.unit_mm = unit_mm(section).value_or(1);
+    path.unit_mm = read_unit_mm(section).value_or(1);
     return path;
 }
 

@@ -3,6 +3,7 @@
 // back is then of no use. Private to io/.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,14 @@
 
 namespace tribo::io {
 
+// Millimetres per unit of a model or of keyframes, where the section says it.
+std::optional<double> read_unit_mm(TomlSection& section);
 formats::ModelFile read_part(TomlFile& file, const toml::table& table);
 formats::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label);
+// [stock]: a solid, or an earlier job.
+void read_stock(TomlFile& file, const toml::table& table, formats::Job& job);
+// [setup]: the frame of this job in the stock of the earlier one.
+formats::WorkFrame read_setup(TomlFile& file, const toml::table& table);
 // [cutter] or every [[cutter]], and [holder] for those without one of their own.
 std::vector<milling::Cutter> read_cutters(TomlSection& job);
 formats::JobMaterial read_material(TomlFile& file, const toml::table& table);

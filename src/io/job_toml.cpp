@@ -12,13 +12,21 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kJobKeys{"part"sv, "stock"sv,      "cutter"sv, "holder"sv,  "material"sv, "process"sv,
-                              "path"sv, "engagement"sv, "sound"sv,  "haptics"sv, "fixture"sv,  "machine"sv};
+constexpr std::array kJobKeys{"part"sv,     "stock"sv,   "setup"sv,  "cutter"sv,     "holder"sv,
+                              "material"sv, "process"sv, "path"sv,   "engagement"sv, "sound"sv,
+                              "haptics"sv,  "fixture"sv, "machine"sv};
 
 void read_all(TomlSection& root, formats::Job& job) {
     if (const auto* table = root.only_table("part")) job.part = read_part(root.file(), *table);
     if (const auto* table = root.only_table("stock")) {
-        job.stock = read_solid(root.file(), *table, "[stock]");
+        read_stock(root.file(), *table, job);
+    }
+    if (const auto* table = root.only_table("setup")) {
+        job.setup = read_setup(root.file(), *table);
+        if (!job.stock_from) {
+            root.fail("setup", "[setup] belongs to a stock that an earlier job leaves",
+                      "write from = \"FIRST.toml\" into [stock], or remove [setup]");
+        }
     }
     job.cutters = read_cutters(root);
     if (const auto* table = root.only_table("material")) {

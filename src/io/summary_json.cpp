@@ -2,6 +2,7 @@
 #include "io/summary_json.hpp"
 
 #include "io/json.hpp"
+#include "io/stock_record_json.hpp"
 
 namespace tribo::io {
 namespace {
@@ -37,6 +38,7 @@ std::string summary_json(const Summary& s) {
     set(json, "gouge_max_mm", s.gouge_max_mm);
     set(json, "rest_max_mm", s.rest_max_mm);
     set(json, "scallop_max_mm", s.scallop_max_mm);
+    if (s.stock_record) json["stock_record"] = stock_record_json(*s.stock_record);
     if (s.as_published) json["as_published"] = true;
     json["collisions"] = Json::array();
     for (const SummaryCollision& c : s.collisions) {

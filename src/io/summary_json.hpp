@@ -9,6 +9,7 @@
 
 #include "base/result.hpp"
 #include "base/vec3.hpp"
+#include "formats/stock_record.hpp"
 
 namespace tribo::io {
 
@@ -37,6 +38,7 @@ struct Summary {
     std::optional<std::uint64_t> triangles;  // absent where no mesh was asked for
     double resolution_mm = 0;
     std::optional<double> gouge_max_mm, rest_max_mm, scallop_max_mm;  // where a designed surface is given
+    std::optional<formats::StockRecord> stock_record;
     bool as_published = false;
     std::vector<SummaryCollision> collisions;
     Warnings warnings;

@@ -60,7 +60,7 @@ void add_cutter(formats::Job& job, const motion::Program& program, int number, W
 }  // namespace
 
 Result<void> complete_job(formats::Job& job, const motion::Program& program, Warnings& warnings) {
-    if (job.stock.box_mm.empty() && !job.stock.model) {
+    if (!job.stock_from && job.stock.box_mm.empty() && !job.stock.model) {
         if (!program.stock) {
             return fail_at(job.file, 0, 0, "the job has no [stock], and the program declares none",
                            "add [stock] with box_mm or mesh");

@@ -49,6 +49,8 @@ class MillSession::Run {
             for (const milling::Cutter& cutter : setup_.cutters)
                 share.emplace_back(cutter, setup_.coefficients);
         }
+        carve(stock_, setup_.earlier);
+        removed_earlier_mm3_ = stock_.removed_mm3();
         end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
     }
@@ -72,6 +74,7 @@ class MillSession::Run {
     field::CarvedField stock_;
     MillTotals totals_;
     double end_s_ = 0, now_s_ = 0;
+    double removed_earlier_mm3_ = 0;  // by jobs before this one
 
   private:
     struct Row {
@@ -229,8 +232,8 @@ class MillSession::Run {
 
     void finish() {
         totals_.duration_s = end_s_;
-        totals_.removed_mm3 = stock_.removed_mm3();
-        totals_.remaining_mm3 = setup_.blank_volume_mm3 - totals_.removed_mm3;
+        totals_.removed_mm3 = stock_.removed_mm3() - removed_earlier_mm3_;
+        totals_.remaining_mm3 = setup_.blank_volume_mm3 - stock_.removed_mm3();
         if (totals_.fed_mm3 > 0 && !setup_.engagement)
             totals_.energy_balance =
                 totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);

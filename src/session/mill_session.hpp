@@ -19,6 +19,7 @@
 #include "milling/machining.hpp"
 #include "motion/program.hpp"
 #include "motion/timing.hpp"
+#include "session/earlier_cuts.hpp"
 
 namespace tribo::session {
 
@@ -35,6 +36,7 @@ struct MillSetup {
     milling::CuttingCoefficients coefficients;
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
+    std::vector<EarlierCuts> earlier;  // carved before the session begins, in this order
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
     std::optional<PrescribedEngagement> engagement;
     motion::TimingOptions timing;
@@ -68,8 +70,8 @@ struct MillCollision {
 
 struct MillTotals {
     double duration_s = 0, cutting_s = 0;
-    double path_mm = 0;  // feed moves
-    double removed_mm3 = 0, remaining_mm3 = 0;
+    double path_mm = 0;                         // feed moves
+    double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; in the end
     double chip_mm3 = 0;  // as measured, before they are reconciled: should equal what feed moves removed
     double fed_mm3 = 0;   // removed by feed moves
     double mean_force_n = 0, peak_force_n = 0;
@@ -92,7 +94,7 @@ struct MillSinks {
 
 class MillSession {
   public:
-    // The setup is as prepare_mill() checked it.
+    // The setup is as prepare_mill() checked it. Earlier cuts are carved here.
     MillSession(MillSetup setup, ParallelFor parallel);
     ~MillSession();
 

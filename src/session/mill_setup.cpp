@@ -119,9 +119,8 @@ Result<motion::Program> keyframe_program(const formats::Job& job, std::span<cons
     return program;
 }
 
-Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const MillOptions& options,
-                               Warnings& warnings) {
-    const motion::Program& program = inputs.program;
+Result<MillSetup> prepare_moves(const formats::Job& job, const motion::Program& program,
+                                const MillOptions& options, Warnings& warnings) {
     if (program.has_rotary_words && program.machine.empty()) {
         return fail_at(program.source, program.first_rotary_line, 0,
                        "rotary words mean nothing without a machine",
@@ -141,7 +140,6 @@ Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const
     MillSetup setup;
     setup.cutters = job.cutters;
     setup.coefficients = material->coefficients;
-    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(job, inputs.blank->bounds_mm()));
     setup.until_s = options.until_s;
     setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
     setup.timing.acceleration_mm_per_s2 = job.machine.acceleration_mm_per_s2;
@@ -178,10 +176,20 @@ Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const
         if (error.file.empty()) error.file = program.source;
         return std::unexpected(error);
     }
+    return setup;
+}
+
+Result<MillSetup> prepare_mill(const formats::Job& job, MillInputs inputs, const MillOptions& options,
+                               Warnings& warnings) {
+    auto prepared = prepare_moves(job, inputs.program, options, warnings);
+    if (!prepared) return std::unexpected(prepared.error());
+    MillSetup setup = *std::move(prepared);
+    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(job, inputs.blank->bounds_mm()));
     warn_where_the_grid_is_coarse(setup, job.file, warnings);
     warn_of_passes_below_the_grid(setup, job.file, warnings);
     setup.blank = std::move(inputs.blank);
     setup.blank_volume_mm3 = inputs.blank_volume_mm3;
+    setup.earlier = std::move(inputs.earlier);
     setup.fixtures = std::move(inputs.fixtures);
     return setup;
 }

@@ -17,6 +17,7 @@ struct MillInputs {
     motion::Program program;  // of keyframes: made by keyframe_program()
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
+    std::vector<EarlierCuts> earlier;  // as in MillSetup
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
 };
 
@@ -38,6 +39,10 @@ Result<milling::Material> job_material(const formats::Job& job);
 // Keyframes as a program: one C2 rational motion through them, or straight from one to the next.
 Result<motion::Program> keyframe_program(const formats::Job& job, std::span<const motion::Keyframe> keyframes,
                                          const std::string& source);
+
+// The part of prepare_mill() that needs no stock: moves, cutters, speeds and times. Without a grid.
+Result<MillSetup> prepare_moves(const formats::Job& job, const motion::Program& program,
+                                const MillOptions& options, Warnings& warnings);
 
 // Refuses what cannot run (no spindle speed, a tool without a match, rotary words without a machine), with
 // the program's line; `warnings` gains what was assumed.

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/decimal.hpp"
-#include "field/box_shape.hpp"
-#include "field/mesh_shape.hpp"
 #include "io/file_names.hpp"
 #include "io/job_toml.hpp"
 #include "io/program_file.hpp"
 #include "session/job_assumption.hpp"
 #include "session/job_completion.hpp"
+#include "session/job_stock.hpp"
 #include "session/live_mill.hpp"
 #include "session/memory_estimate.hpp"
 #include "session/part_in_stock.hpp"
@@ -22,23 +21,34 @@ namespace {
 // A module may hold 4 GB, and a phone's page much less.
 constexpr double kMostBytes = 1.2e9;
 
-struct Solid {
-    std::unique_ptr<const field::Shape> shape;
-    double volume_mm3 = 0;
-};
-
-Result<Solid> solid_of(const formats::JobSolid& solid) {
-    if (!solid.model) return Solid{std::make_unique<field::BoxShape>(solid.box_mm), solid.box_mm.volume()};
+Result<session::Solid> solid_of(const formats::JobSolid& solid) {
+    if (!solid.model) return session::box_solid(solid.box_mm);
     auto model = read_model(*solid.model);
     if (!model) return std::unexpected(model.error());
-    auto shape = field::MeshShape::make(std::move(model->mesh));
-    if (!shape) {
-        Error error = shape.error();
-        error.file = solid.model->path;
-        return std::unexpected(std::move(error));
-    }
-    const double volume = volume_mm3((*shape)->mesh());
-    return Solid{std::move(*shape), volume};
+    return session::mesh_solid(std::move(model->mesh), solid.model->path);
+}
+
+// Earlier jobs among the files in memory; folders of renders are not among them.
+session::JobFiles job_files() {
+    session::JobFiles files;
+    files.job = [](const std::string& file) -> Result<formats::Job> {
+        auto job = io::read_job(file);
+        if (!job) return std::unexpected(Error(job.error()));
+        return *std::move(job);
+    };
+    files.program = [](const formats::Job& job) -> Result<motion::Program> {
+        auto program = io::read_program(job);
+        if (!program) return std::unexpected(Error(program.error()));
+        return *std::move(program);
+    };
+    files.solid = solid_of;
+    files.source = [](const std::string& path) -> Result<session::StockSource> {
+        if (io::extension_of(path) == ".toml") return session::StockSource{path, {}};
+        return fail("a page takes the stock from a job alone, not from '" + path + "'",
+                    "name the earlier job (.toml) and drop it too, or use the program");
+    };
+    files.identity = [](const std::string& file) { return file; };
+    return files;
 }
 
 Result<formats::Job> job_of(const std::string& name, bool& assumed) {
@@ -91,10 +101,11 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
     }
     session::MillInputs inputs;
     inputs.program = std::move(*program);
-    auto blank = solid_of(job->stock);
-    if (!blank) return std::unexpected(blank.error());
-    inputs.blank = std::move(blank->shape);
-    inputs.blank_volume_mm3 = blank->volume_mm3;
+    auto stock = session::read_stock(*job, job_files(), loaded.warnings);
+    if (!stock) return std::unexpected(stock.error());
+    inputs.blank = std::move(stock->blank);
+    inputs.blank_volume_mm3 = stock->blank_volume_mm3;
+    inputs.earlier = std::move(stock->earlier);
     for (const formats::JobSolid& fixture : job->fixtures) {
         auto solid = solid_of(fixture);
         if (!solid) return std::unexpected(solid.error());

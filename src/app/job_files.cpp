@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "app/job_files.hpp"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "io/file_names.hpp"
+#include "io/job_toml.hpp"
+#include "io/model_file.hpp"
+#include "io/program_file.hpp"
+#include "io/stock_record_json.hpp"
+
+namespace tribo::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string identity(const std::string& file) {
+    std::error_code error;
+    const fs::path path = fs::weakly_canonical(file, error);
+    return error ? file : path.string();
+}
+
+// Input errors carry no file: they are about the `from` that names the path.
+io::FileResult<session::StockSource> read_source(const std::string& path, std::vector<std::string>& folders) {
+    constexpr const char* kName = "name an earlier job (.toml) or the folder of its render";
+    const auto refuse = [&](const std::string& cause, std::string remedy) {
+        return std::unexpected(io::Failure({"", 0, 0, "'" + path + "' " + cause, std::move(remedy)}));
+    };
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) return refuse("to take the stock from is not there", kName);
+    if (!fs::is_directory(status)) {
+        if (io::extension_of(path) == ".toml") return session::StockSource{path, {}};
+        return refuse("is no job (.toml) and no folder of a render",
+                      std::string(kName) + "; a model of the stock is mesh = \"FILE\"");
+    }
+    auto record = io::read_stock_record(path);
+    if (!record) {
+        if (record.error().fault == io::Fault::system) return std::unexpected(record.error());
+        return refuse(record.error().cause, record.error().remedy);
+    }
+    folders.push_back(identity(path));
+    const fs::path job = record->job;
+    const std::string file = (job.is_absolute() ? job : (path / job)).lexically_normal().string();
+    if (!fs::exists(file, error)) {
+        return refuse("was rendered from '" + file + "', which is gone",
+                      "bring it back, or begin with mesh = \"machined.stl\" of the folder");
+    }
+    return session::StockSource{file, *std::move(record)};
+}
+
+}  // namespace
+
+io::FileResult<session::Solid> read_solid(const formats::JobSolid& solid) {
+    if (!solid.model) return session::box_solid(solid.box_mm);
+    auto model = io::read_model_file(*solid.model);
+    if (!model) return std::unexpected(model.error());
+    auto made = session::mesh_solid(std::move(model->mesh), solid.model->path);
+    if (!made) return std::unexpected(io::Failure(made.error()));
+    return *std::move(made);
+}
+
+io::FileResult<StockOnDisk> read_stock(const formats::Job& job, Warnings& warnings) {
+    StockOnDisk read;
+    io::Fault fault = io::Fault::input;
+    const auto noting_fault = [&fault](auto result) {
+        using Value = typename decltype(result)::value_type;
+        if (result) return Result<Value>(*std::move(result));
+        fault = result.error().fault;
+        return Result<Value>(std::unexpected(Error(result.error())));
+    };
+    session::JobFiles files;
+    files.job = [&](const std::string& file) { return noting_fault(io::read_job(file)); };
+    files.program = [&](const formats::Job& j) { return noting_fault(io::read_program(j)); };
+    files.solid = [&](const formats::JobSolid& solid) { return noting_fault(read_solid(solid)); };
+    files.source = [&](const std::string& path) { return noting_fault(read_source(path, read.folders)); };
+    files.identity = identity;
+    auto stock = session::read_stock(job, files, warnings);
+    if (!stock) return std::unexpected(io::Failure(stock.error(), fault));
+    read.stock = *std::move(stock);
+    return read;
+}
+
+std::string relative_to(const std::string& folder, const std::string& file) {
+    std::error_code error;
+    const fs::path path = fs::proximate(fs::weakly_canonical(file, error), folder, error);
+    return error ? file : path.string();
+}
+
+}  // namespace tribo::app

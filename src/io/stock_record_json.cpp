@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "io/stock_record_json.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace tribo::io {
+namespace {
+
+constexpr const char* kKey = "stock_record";
+constexpr std::uint64_t kLargestSummaryBytes = std::uint64_t{64} << 20;
+
+// Sixteen hexadecimal digits: JSON's numbers are doubles for many readers, and would lose bits.
+std::string hex(std::uint64_t value) {
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text(16, '0');
+    for (std::size_t n = 0; n < 16; ++n) text[n] = digits[value >> (60 - 4 * n) & 15];
+    return text;
+}
+
+std::optional<std::uint64_t> hash_of(const Json& record, const char* key) {
+    const auto found = record.find(key);
+    if (found == record.end() || !found->is_string()) return {};
+    const auto& text = found->get_ref<const std::string&>();
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    if (text.size() != 16 || error != std::errc{} || end != text.data() + 16) return {};
+    return value;
+}
+
+std::string text_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+}  // namespace
+
+Json stock_record_json(const formats::StockRecord& record) {
+    Json json;
+    json["job"] = record.job;
+    set(json, "until_s", record.until_s);
+    json["stock"] = hex(record.stock);
+    json["cutters"] = hex(record.cutters);
+    json["moves"] = hex(record.moves);
+    return json;
+}
+
+FileResult<formats::StockRecord> read_stock_record(const std::string& folder) {
+    const auto refuse = [&](std::string cause, std::string remedy) {
+        return std::unexpected(Failure({folder, 0, 0, std::move(cause), std::move(remedy)}));
+    };
+    const auto text = read_file(folder + "/summary.json", kLargestSummaryBytes);
+    if (!text && text.error().fault == Fault::system) return std::unexpected(text.error());
+    const Json json = text ? Json::parse(*text, nullptr, false) : Json();
+    if (!json.is_object() || !text_of(json, "schema").starts_with("tribo.summary/")) {
+        return refuse("is no folder that tribo render wrote (no summary.json of its own in it)",
+                      "name an earlier job (.toml) or the folder of its render");
+    }
+    const auto found = json.find(kKey);
+    if (found == json.end() || !found->is_object()) {
+        return refuse("was rendered by a version that does not say which stock it shows",
+                      "render its job again, or name the job itself");
+    }
+    formats::StockRecord record;
+    record.version = text_of(json, "version");
+    record.job = text_of(*found, "job");
+    const auto stock = hash_of(*found, "stock"), cutters = hash_of(*found, "cutters"),
+               moves = hash_of(*found, "moves");
+    const auto until = found->find("until_s");
+    const bool ends = until != found->end();
+    if (ends && until->is_number()) record.until_s = until->get<double>();
+    if (record.job.empty() || record.job.find('\0') != std::string::npos || !stock || !cutters || !moves ||
+        (ends && !(record.until_s && std::isfinite(*record.until_s) && *record.until_s >= 0))) {
+        return refuse("holds a summary.json whose stock_record is damaged",
+                      "render its job again, or name the job itself");
+    }
+    record.stock = *stock;
+    record.cutters = *cutters;
+    record.moves = *moves;
+    return record;
+}
+
+}  // namespace tribo::io

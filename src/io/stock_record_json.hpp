@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The key "stock_record" of a render's summary.json: how a later job finds out which stock the folder shows.
+#pragma once
+
+#include <string>
+
+#include "formats/stock_record.hpp"
+#include "io/files.hpp"
+#include "io/json.hpp"
+
+namespace tribo::io {
+
+Json stock_record_json(const formats::StockRecord& record);
+
+// Out of the summary.json of a folder. Refuses a folder that Tribo did not render, and one of an older
+// version, which left no record.
+FileResult<formats::StockRecord> read_stock_record(const std::string& folder);
+
+}  // namespace tribo::io
