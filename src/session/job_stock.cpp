@@ -106,7 +106,7 @@ class ChainReader {
             return refuse("the job begins with the stock that it leaves itself: " + circle + again->file,
                           "let the first of the jobs begin with box_mm or mesh");
         }
-        if (open_.size() == kLongestChain) {
+        if (open_.size() > kLongestChain) {
             return refuse(
                 "more than " + std::to_string(kLongestChain) + " jobs begin with each other's stock",
                 "render an early one, and begin with mesh = \"machined.stl\" of its folder");

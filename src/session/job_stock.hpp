@@ -40,7 +40,7 @@ struct JobStock {
     std::uint64_t hash = 0;            // of all that decides it
 };
 
-// More jobs in a row are taken for a mistake.
+// More earlier jobs in a row are taken for a mistake.
 inline constexpr std::size_t kLongestChain = 100;
 
 // Reads the job's blank, or the earlier jobs with all that decides the stock they leave: their designed
