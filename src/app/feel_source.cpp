@@ -56,14 +56,17 @@ std::optional<contact::ForceTable> FeelSource::baked(std::uint64_t key) const {
 }
 
 bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
-    milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel);
     Progress progress;
+    const auto milling = [&](const char* stage) {
+        return [&progress, stage](double fraction) {
+            progress.update(stage, fraction);
+            return !interrupted();
+        };
+    };
+    milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel, milling("earlier jobs"));
     session::MillSinks sinks;
     if (call_.mode == "cut") sinks.row = [this](const session::MillRow& row) { record_.add(row); };
-    sinks.progress = [&](double fraction) {
-        progress.update("milling", fraction);
-        return !interrupted();
-    };
+    sinks.progress = milling("milling");
     return milled_->run(sinks);
 }
 

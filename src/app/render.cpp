@@ -102,21 +102,23 @@ int render(const RenderCall& call) {
 
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
     const Box3 blank = loaded->setup.blank->bounds_mm();
-    session::MillSession session(std::move(loaded->setup), parallel);
-    RenderOutputs outputs(call, *loaded, *folder, parallel);
-    if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
-    {
-        Progress progress;
-        session::MillSinks sinks;
-        if (outputs.needs_rows()) {
-            sinks.row = [&](const session::MillRow& row) { outputs.add(row, session.setup()); };
-        }
-        sinks.progress = [&](double fraction) {
-            progress.update("milling", fraction);
+    std::optional<Progress> progress(std::in_place);
+    const auto milling = [&](const char* stage) {
+        return [&progress, stage](double fraction) {
+            progress->update(stage, fraction);
             return !interrupted();
         };
-        if (!session.run(sinks)) return interrupted_exit_code();
+    };
+    session::MillSession session(std::move(loaded->setup), parallel, milling("earlier jobs"));
+    RenderOutputs outputs(call, *loaded, *folder, parallel);
+    if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
+    session::MillSinks sinks;
+    if (outputs.needs_rows()) {
+        sinks.row = [&](const session::MillRow& row) { outputs.add(row, session.setup()); };
     }
+    sinks.progress = milling("milling");
+    if (!session.run(sinks)) return interrupted_exit_code();
+    progress.reset();
     io::Summary summary = summary_of(call, *loaded, session);
     summary.stock_record->job = relative_to(folder->path(), call.job);
     if (auto done = outputs.finish(session, summary); !done) return report(done.error());

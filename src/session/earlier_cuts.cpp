@@ -12,6 +12,10 @@
 namespace tribo::session {
 namespace {
 
+// Many, so that all threads have work; few enough that a stop is heard soon.
+constexpr std::size_t kCarvedAtOnce = 256;
+static_assert(kCarvedAtOnce <= field::CarvedField::kMostAtOnce);
+
 void add(Hash& hash, const motion::ToolPose& pose) {
     hash.add(pose.tip_mm);
     hash.add(pose.axis);
@@ -91,20 +95,22 @@ motion::Move in_frame(const motion::Move& move, const formats::WorkFrame& frame)
     return turned;
 }
 
-void carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier) {
+bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
+           const std::function<bool(double fraction)>& progress) {
+    std::size_t all = 0, done = 0;
+    for (const EarlierCuts& cuts : earlier) all += cuts.moves.size();
     std::vector<std::unique_ptr<const field::Shape>> shapes;
-    std::array<double, field::CarvedField::kMostAtOnce> removed_mm3;
-    const auto carve_shapes = [&] {
-        stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));
-        shapes.clear();
-    };
+    std::array<double, kCarvedAtOnce> removed_mm3;
     for (const EarlierCuts& cuts : earlier) {
         for (std::size_t n = 0; n < cuts.moves.size(); ++n) {
             shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], cuts.moves[n]));
-            if (shapes.size() == field::CarvedField::kMostAtOnce) carve_shapes();
+            if (++done < all && shapes.size() < kCarvedAtOnce) continue;
+            stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));
+            shapes.clear();
+            if (progress && !progress(static_cast<double>(done) / static_cast<double>(all))) return false;
         }
     }
-    carve_shapes();
+    return true;
 }
 
 }  // namespace tribo::session

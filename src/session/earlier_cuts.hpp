@@ -36,7 +36,9 @@ std::uint64_t hash_of_cutters(const EarlierCuts& cuts);
 // opposite to them, and its origin is 0.
 motion::Move in_frame(const motion::Move& move, const formats::WorkFrame& frame);
 
-// Carves all of them. The carving thread's; other threads through the field's own ParallelFor.
-void carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier);
+// Carves all of them. The carving thread's; other threads through the field's own ParallelFor. `progress`
+// hears now and then which fraction is done, and may be empty; false stops, and is given back.
+bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
+           const std::function<bool(double fraction)>& progress);
 
 }  // namespace tribo::session

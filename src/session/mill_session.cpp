@@ -39,7 +39,7 @@ Hull hull(const milling::Engagement& e) {
 
 class MillSession::Run {
   public:
-    Run(MillSetup setup, ParallelFor parallel)
+    Run(MillSetup setup, ParallelFor parallel, const std::function<bool(double fraction)>& progress)
         : setup_(std::move(setup)),
           parallel_(std::move(parallel)),
           schedule_(*motion::schedule(setup_.moves, setup_.timing)),
@@ -49,13 +49,14 @@ class MillSession::Run {
             for (const milling::Cutter& cutter : setup_.cutters)
                 share.emplace_back(cutter, setup_.coefficients);
         }
-        carve(stock_, setup_.earlier);
+        stopped_ = !carve(stock_, setup_.earlier, progress);
         removed_earlier_mm3_ = stock_.removed_mm3();
         end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
     }
 
     bool run_to(double to_s, const MillSinks& sinks) {
+        if (stopped_) return false;
         limit_s_ = std::min(to_s, end_s_);
         while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
@@ -75,6 +76,7 @@ class MillSession::Run {
     MillTotals totals_;
     double end_s_ = 0, now_s_ = 0;
     double removed_earlier_mm3_ = 0;  // by jobs before this one
+    bool stopped_ = false;            // while their cuts were carved
 
   private:
     struct Row {
@@ -262,8 +264,9 @@ class MillSession::Run {
     double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
 };
 
-MillSession::MillSession(MillSetup setup, ParallelFor parallel)
-    : run_(std::make_unique<Run>(std::move(setup), std::move(parallel))) {}
+MillSession::MillSession(MillSetup setup, ParallelFor parallel,
+                         const std::function<bool(double fraction)>& progress)
+    : run_(std::make_unique<Run>(std::move(setup), std::move(parallel), progress)) {}
 MillSession::~MillSession() = default;
 
 bool MillSession::run(const MillSinks& sinks) {

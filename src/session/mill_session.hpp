@@ -94,8 +94,10 @@ struct MillSinks {
 
 class MillSession {
   public:
-    // The setup is as prepare_mill() checked it. Earlier cuts are carved here.
-    MillSession(MillSetup setup, ParallelFor parallel);
+    // The setup is as prepare_mill() checked it. Earlier cuts are carved here; `progress` is told as
+    // MillSinks tell it, and where it stops them the session mills nothing.
+    MillSession(MillSetup setup, ParallelFor parallel,
+                const std::function<bool(double fraction)>& progress = {});
     ~MillSession();
 
     // Mills on to the end. False: stopped by `progress`; the stock is then somewhere in between.
