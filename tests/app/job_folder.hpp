@@ -20,6 +20,7 @@ class JobFolder {
     // Renders `job.toml` into `out`; `more` are further arguments.
     Outcome render(const std::vector<std::string>& more = {}) const;
     std::string get(const std::string& name) const { return scratch_.get("out/" + name); }
+    std::string file(const std::string& name) const { return scratch_.get(name); }
     ForceColumns forces() const;
     nlohmann::json summary() const { return nlohmann::json::parse(get("summary.json")); }
     const std::string& path() const { return scratch_.path(); }
