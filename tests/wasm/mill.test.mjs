@@ -83,6 +83,29 @@ test("the plate comes out of the module as it does natively", async () => {
   assert.ok(sounds.length > 10);
 });
 
+test("a second set-up mills on where the first one stopped", async () => {
+  const mill = new Mill(await load("tribo"));
+  const text = (lines) => new TextEncoder().encode(lines.join("\n"));
+  const rest = ['[cutter]', 'kind = "flat"', 'diameter_mm = 6', '[material]', 'name = "al7075-t6"', '[path]'];
+  mill.file("a.nc", text(["G21 G90 M3 S6000 F600", "G0 X-5 Y10 Z-2", "G1 X35"]));
+  mill.file("a.toml", text(["[stock]", "box_mm = [[0, 0, -10], [30, 20, 0]]", ...rest, 'gcode = "a.nc"']));
+  const second = (from) => text(["[stock]", `from = "${from}"`, ...rest, 'gcode = "a.nc"']);
+  mill.file("b.toml", second("a.toml"));
+  // The same slot again meets nothing: no row of a cut comes, which is frame 4.
+  const rows = (job) => {
+    assert.ok(mill.open(job, 0.5), mill.said());
+    mill.x.mill_seek(1e9);
+    return mill.tick(0, 0xffffffff).filter((frame) => frame[0] === 4).length;
+  };
+  assert.ok(rows("a.toml") > 0);
+  assert.equal(rows("b.toml"), 0);
+  for (const [from, words] of [["b.toml", /begins with the stock that it leaves itself/], ["gone.toml", /not here/], ["out", /a page takes the stock from a job alone/]]) {
+    mill.file("b.toml", second(from));
+    assert.equal(mill.open("b.toml", 0.5), false);
+    assert.match(mill.said(), words);
+  }
+});
+
 // Amplitude of a tone in the left channel of what the ear gives.
 function tone(samples, hz, rate) {
   let re = 0, im = 0;

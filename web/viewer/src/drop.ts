@@ -15,14 +15,32 @@ function megabytes(bytes: number): string {
   return `${(bytes / 1e6).toFixed(0)} MB`;
 }
 
+function lastName(path: string): string {
+  return path.slice(path.lastIndexOf("/") + 1);
+}
+
+// Of several jobs those whose stock no other one begins with (`[stock] from`): the last of a chain of set-ups.
+function lastJobs(jobs: JobFile[]): JobFile[] {
+  const earlier = new Set<string>();
+  for (const job of jobs) {
+    const text = new TextDecoder().decode(job.bytes);
+    for (const [, , name] of text.matchAll(/\bfrom\s*=\s*(["'])(.*?)\1/g)) earlier.add(lastName(name));
+  }
+  return jobs.filter((job) => !earlier.has(lastName(job.name)));
+}
+
 // Of files with folders in their names ("bowl/bowl.toml"), the files of one drop or choice.
 export function sort(files: JobFile[], before: Order | undefined): Wanted {
   if (files.length === 0) return { refused: "there was no file in it" };
   const recording = files.find((f) => f.name.endsWith(".tribo"));
   if (recording) return { recording };
-  const jobs = files.filter((f) => f.name.endsWith(".toml"));
+  const tables = files.filter((f) => f.name.endsWith(".toml"));
+  const jobs = tables.length > 1 ? lastJobs(tables) : tables;
   const programs = files.filter((f) => PROGRAMS.test(f.name));
   const models = files.filter((f) => MODELS.test(f.name));
+  if (jobs.length === 0 && tables.length > 0) {
+    return { refused: `each of the ${tables.length} jobs begins with the stock of another; let the first begin with box_mm or mesh` };
+  }
   if (jobs.length > 1) {
     return { refused: `there are ${jobs.length} jobs (${jobs.map((f) => f.name).join(", ")}); drop one, with the files that it names` };
   }

@@ -168,6 +168,15 @@ describe("a drop", () => {
     expect(sort([file("s.stl")], before)).toMatchObject({ order: { job: "p.nc", part: "s.stl" } });
     expect(sort([file("run.tribo")], undefined)).toMatchObject({ recording: { name: "run.tribo" } });
   });
+  it("of a chain of set-ups is the last job", () => {
+    const job = (name: string, text: string) => ({ name, bytes: new TextEncoder().encode(text).buffer });
+    const first = job("p/a.toml", "[stock]\nbox_mm = 1"), second = job("p/b.toml", "[stock]\nfrom = 'a.toml'");
+    const third = job("p/c.toml", '[stock]\nfrom="../p/b.toml"');
+    expect(sort([third, first, second], undefined)).toMatchObject({ order: { job: "p/c.toml" } });
+    expect(sort([second, first], undefined)).toMatchObject({ order: { job: "p/b.toml" } });
+    const round = job("p/a.toml", '[stock]\nfrom = "b.toml"');
+    expect(sort([second, round], undefined)).toMatchObject({ refused: expect.stringContaining("the stock of another") });
+  });
   it("is refused in words", () => {
     expect(sort([file("a.toml"), file("b.toml")], undefined)).toMatchObject({ refused: expect.stringContaining("2 jobs") });
     expect(sort([file("s.stl")], undefined)).toMatchObject({ refused: expect.stringContaining("together with a program") });
