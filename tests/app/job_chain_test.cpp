@@ -128,6 +128,20 @@ TEST_F(JobChain, may_begin_with_keyframes_a_rotary_machine_and_other_tools) {
     EXPECT_NEAR(removed_mm3("job.toml"), 0, 1e-9);
 }
 
+TEST_F(JobChain, of_the_examples_leaves_the_part_of_the_drawing) {
+    const Outcome run = run_tribo({"render", std::string(TRIBO_SOURCE_DIR) + "/examples/housing/bottom.toml",
+                                   "--out", "out", "--only", "summary", "--resolution", "0.4"},
+                                  folder.path());
+    ASSERT_EQ(run.code, 0) << run.err;
+    constexpr double pi = 3.14159265358979;
+    const auto round = [](double diameter, double depth) { return pi / 4 * diameter * diameter * depth; };
+    const double outside = (56 * 36 - (4 - pi) * 8 * 8) * 20;
+    EXPECT_NEAR(folder.summary()["remaining_mm3"].get<double>(),
+                outside - round(28, 9) - round(22, 3) - round(14, 8), 10);
+    EXPECT_TRUE(folder.summary()["collisions"].empty());
+    EXPECT_TRUE(folder.summary()["warnings"].empty());
+}
+
 TEST_F(JobChain, is_looked_at_and_felt_as_any_job) {
     const Outcome inspect = run_tribo({"inspect", "job.toml", "--json"}, folder.path());
     ASSERT_EQ(inspect.code, 0) << inspect.err;

@@ -35,7 +35,7 @@ std::vector<std::string> blocks(const std::string& text) {
 
 TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::vector<std::string> shown = blocks(page("job.md"));
-    ASSERT_EQ(shown.size(), 2u);
+    ASSERT_EQ(shown.size(), 3u);
     const auto job = parse_job(shown[0], "job.md");
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->cutters.size(), 2u);
@@ -49,6 +49,10 @@ TEST(Docs, job_page_shows_a_job_that_is_read) {
     ASSERT_TRUE(other) << other.error().text();
     EXPECT_TRUE(other->engagement.has_value());
     EXPECT_TRUE(other->material.coefficients.has_value());
+    const auto second = parse_job(shown[2], "job.md");
+    ASSERT_TRUE(second) << second.error().text();
+    EXPECT_EQ(second->stock_from.value().path, "top.toml");
+    EXPECT_EQ(second->setup.value().y, (Vec3{0, -1, 0}));
 }
 
 TEST(Docs, job_page_lists_every_material_with_its_numbers) {
