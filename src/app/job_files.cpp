@@ -9,17 +9,24 @@
 #include "io/job_toml.hpp"
 #include "io/model_file.hpp"
 #include "io/program_file.hpp"
-#include "io/stock_record_json.hpp"
+#include "io/stock_record.hpp"
 
 namespace tribo::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string identity(const std::string& file) {
+// Absolute, with links in its folders resolved. A link to a job stays: what the job names is found from where
+// the link stands.
+fs::path resolved(const std::string& file) {
     std::error_code error;
-    const fs::path path = fs::weakly_canonical(file, error);
-    return error ? file : path.string();
+    const fs::path absolute = fs::absolute(file, error);
+    const fs::path folder = fs::weakly_canonical(absolute.parent_path(), error);
+    return error ? fs::path(file) : folder / absolute.filename();
+}
+
+std::string identity(const std::string& file) {
+    return resolved(file).string();
 }
 
 // Input errors carry no file: they are about the `from` that names the path.
@@ -41,9 +48,12 @@ io::FileResult<session::StockSource> read_source(const std::string& path, std::v
         if (record.error().fault == io::Fault::system) return std::unexpected(record.error());
         return refuse(record.error().cause, record.error().remedy);
     }
-    folders.push_back(identity(path));
-    const fs::path job = record->job;
-    const std::string file = (job.is_absolute() ? job : (path / job)).lexically_normal().string();
+    const fs::path folder = fs::weakly_canonical(path, error);
+    folders.push_back(folder.string());
+    // By the name that was given where that leads to the same file: messages show it.
+    std::string file = (path / fs::path(record->job)).lexically_normal().string();
+    const fs::path counted = (folder / record->job).lexically_normal();
+    if (fs::exists(counted, error) && !fs::equivalent(file, counted, error)) file = counted.string();
     if (!fs::exists(file, error)) {
         return refuse("was rendered from '" + file + "', which is gone",
                       "bring it back, or begin with mesh = \"machined.stl\" of the folder");
@@ -84,9 +94,7 @@ io::FileResult<StockOnDisk> read_stock(const formats::Job& job, Warnings& warnin
 }
 
 std::string relative_to(const std::string& folder, const std::string& file) {
-    std::error_code error;
-    const fs::path path = fs::proximate(fs::weakly_canonical(file, error), folder, error);
-    return error ? file : path.string();
+    return resolved(file).lexically_proximate(folder).string();
 }
 
 }  // namespace tribo::app

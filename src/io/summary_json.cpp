@@ -2,7 +2,6 @@
 #include "io/summary_json.hpp"
 
 #include "io/json.hpp"
-#include "io/stock_record_json.hpp"
 
 namespace tribo::io {
 namespace {
@@ -12,6 +11,24 @@ void set_with_band(Json& json, const std::string& key, double value, const Summa
     if (std::isfinite(value) && s.force_low_factor < s.force_high_factor) {
         json[key + "_band"] = {value * s.force_low_factor, value * s.force_high_factor};
     }
+}
+
+// Sixteen hexadecimal digits: JSON's numbers are doubles for many readers, and would lose bits.
+std::string hex(std::uint64_t value) {
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text(16, '0');
+    for (std::size_t n = 0; n < 16; ++n) text[n] = digits[value >> (60 - 4 * n) & 15];
+    return text;
+}
+
+Json stock_record_json(const formats::StockRecord& record) {
+    Json json;
+    json["job"] = record.job;
+    set(json, "until_s", record.until_s);
+    json["stock"] = hex(record.stock);
+    json["cutters"] = hex(record.cutters);
+    json["moves"] = hex(record.moves);
+    return json;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct JobFiles {
     std::function<Result<motion::Program>(const formats::Job&)> program;
     std::function<Result<Solid>(const formats::JobSolid&)> solid;
     std::function<Result<StockSource>(const std::string& path)> source;
-    std::function<std::string(const std::string& file)> identity;  // equal for two names of one file
+    std::function<std::string(const std::string& file)> identity;  // equal where two names are surely one job
 };
 
 // In the coordinates of the job that begins with it.

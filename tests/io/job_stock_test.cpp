@@ -6,7 +6,7 @@
 
 #include "io/job_toml.hpp"
 #include "io/scratch.hpp"
-#include "io/stock_record_json.hpp"
+#include "io/stock_record.hpp"
 #include "io/summary_json.hpp"
 
 namespace tribo::io {

@@ -6,11 +6,8 @@
 
 #include "formats/stock_record.hpp"
 #include "io/files.hpp"
-#include "io/json.hpp"
 
 namespace tribo::io {
-
-Json stock_record_json(const formats::StockRecord& record);
 
 // Out of the summary.json of a folder. Refuses a folder that Tribo did not render, and one of an older
 // version, which left no record.

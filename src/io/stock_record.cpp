@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "io/stock_record_json.hpp"
+#include "io/stock_record.hpp"
 
 #include <charconv>
 #include <cmath>
+
+#include "io/json.hpp"
 
 namespace tribo::io {
 namespace {
@@ -10,14 +12,7 @@ namespace {
 constexpr const char* kKey = "stock_record";
 constexpr std::uint64_t kLargestSummaryBytes = std::uint64_t{64} << 20;
 
-// Sixteen hexadecimal digits: JSON's numbers are doubles for many readers, and would lose bits.
-std::string hex(std::uint64_t value) {
-    constexpr char digits[] = "0123456789abcdef";
-    std::string text(16, '0');
-    for (std::size_t n = 0; n < 16; ++n) text[n] = digits[value >> (60 - 4 * n) & 15];
-    return text;
-}
-
+// Sixteen hexadecimal digits.
 std::optional<std::uint64_t> hash_of(const Json& record, const char* key) {
     const auto found = record.find(key);
     if (found == record.end() || !found->is_string()) return {};
@@ -34,16 +29,6 @@ std::string text_of(const Json& object, const char* key) {
 }
 
 }  // namespace
-
-Json stock_record_json(const formats::StockRecord& record) {
-    Json json;
-    json["job"] = record.job;
-    set(json, "until_s", record.until_s);
-    json["stock"] = hex(record.stock);
-    json["cutters"] = hex(record.cutters);
-    json["moves"] = hex(record.moves);
-    return json;
-}
 
 FileResult<formats::StockRecord> read_stock_record(const std::string& folder) {
     const auto refuse = [&](std::string cause, std::string remedy) {
