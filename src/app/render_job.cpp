@@ -21,6 +21,35 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
+// What a run holds whatever it does, bytes, measured: the program itself; the report's picture and page; the
+// sound's tables.
+constexpr double kProgramBytes = 15 * kMegabyte, kReportBytes = 58 * kMegabyte, kSoundBytes = 10 * kMegabyte;
+constexpr double kReportVertexBytes = 80;  // of the whole mesh, while the report thins it out
+// Of a comparison with a design: a sample with its copy, a point of the machined surface; of the design, a
+// triangle in trees and tables.
+constexpr double kSampleBytes = 150, kPointBytes = 40, kTriangleBytes = 300;
+
+// The most that the run may hold at once, bytes, at a spacing of the grid.
+double bytes_at(const RenderCall& call, const LoadedJob& loaded, const session::MemoryEstimate& estimate,
+                double cell) {
+    const bool report = call.wants("report");
+    double mesh = 0, kept = 0, comparison = 0, after = 0;
+    if (call.wants("mesh") || report) {
+        mesh = estimate.mesh_bytes(cell);
+        kept = 40 * estimate.vertices(cell);
+    }
+    if (loaded.part) {
+        const double samples = std::min(static_cast<double>(surface::kMaxSamples),
+                                        2.7 * area_mm2(loaded.part->mesh) / (cell * cell));
+        const double points = std::min(static_cast<double>(surface::kMaxSamples),
+                                       30 * estimate.cut_bricks(cell) + estimate.vertices(cell));
+        comparison = samples * kSampleBytes + points * kPointBytes;
+        after += static_cast<double>(loaded.part->mesh.triangles.size()) * kTriangleBytes;
+    }
+    if (report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
+    const double sound = call.wants("sound") ? kSoundBytes : 0;
+    return kProgramBytes + sound + estimate.session_bytes(cell) +
+           std::max({mesh, kept + comparison, kept + after});
 }
 
 }  // namespace

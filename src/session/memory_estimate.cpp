@@ -113,21 +113,33 @@ double steps_of(const motion::Move& move, const milling::Cutter& cutter, double 
     return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
 }
 
+// Calls visit(move, cutter, whether it is the last) for the moves of earlier jobs and the setup's own.
+template <class Visit>
+void over_moves(const MillSetup& setup, const Visit& visit) {
+    std::size_t left = setup.moves.size();
+    for (const EarlierCuts& cuts : setup.earlier) left += cuts.moves.size();
+    for (const EarlierCuts& cuts : setup.earlier) {
+        for (std::size_t n = 0; n < cuts.moves.size(); ++n)
+            visit(cuts.moves[n], cuts.cutters[cuts.cutter_of_move[n]], --left == 0);
+    }
+    for (std::size_t n = 0; n < setup.moves.size(); ++n)
+        visit(setup.moves[n], setup.cutters[setup.cutter_of_move[n]], --left == 0);
+}
+
 // Looks at cells that marking would take.
 double tests_at(const MillSetup& setup, double edge) {
     const Vec3 blank = setup.blank->bounds_mm().size();
     double tests = 0, travelled = 0;
-    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
-        const milling::Cutter& c = setup.cutters[setup.cutter_of_move[n]];
+    over_moves(setup, [&](const motion::Move& move, const milling::Cutter& c, bool is_last) {
         // Short moves share their poses.
-        travelled += travel_mm(setup.moves[n], c);
-        if (travelled < 0.5 * edge && n + 1 < setup.moves.size()) continue;
+        travelled += travel_mm(move, c);
+        if (travelled < 0.5 * edge && !is_last) return;
         const auto cells = [&](double extent, double room) { return std::min(extent, room) / edge + 1; };
         const double across = c.diameter_mm + 2 * (kToCorner + kNearEdges) * edge;
         tests += (travelled / (0.5 * edge) + 1) * cells(across, blank.x) * cells(across, blank.y) *
                  cells(c.length_mm + 2 * (kToCorner + kNearEdges) * edge, blank.z);
         travelled = 0;
-    }
+    });
     return tests;
 }
 
@@ -142,24 +154,19 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
     while (cells() > kMostCells || tests_at(setup, coarse_mm_) > kMostTests) coarse_mm_ *= 1.3;
     CoarseStock stock(*setup.blank, coarse_mm_);
     double travelled = 0;
-    std::size_t last_cutter = setup.cutters.size();
-    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
-        const motion::Move& move = setup.moves[n];
+    const milling::Cutter* last_cutter = nullptr;
+    over_moves(setup, [&](const motion::Move& move, const milling::Cutter& cutter, bool is_last) {
         ++moves_;
         if (move.quadratic || move.start.axis != move.end.axis) ++curved_moves_;
-        if (move.kind == motion::MoveKind::dwell) continue;
-        const std::size_t number = setup.cutter_of_move[n];
-        const milling::Cutter& cutter = setup.cutters[number];
+        if (move.kind == motion::MoveKind::dwell) return;
         travelled += travel_mm(move, cutter);
-        const bool is_last = n + 1 == setup.moves.size();
-        if (number == last_cutter && travelled < 0.5 * coarse_mm_ && !is_last) continue;
+        if (&cutter == last_cutter && travelled < 0.5 * coarse_mm_ && !is_last) return;
         const double steps = steps_of(move, cutter, coarse_mm_);
-        for (double s = number == last_cutter ? 1 : 0; s <= steps; ++s) {
+        for (double s = &cutter == last_cutter ? 1 : 0; s <= steps; ++s)
             stock.sweep(cutter, motion::pose_at(move, s / steps));
-        }
         travelled = 0;
-        last_cutter = number;
-    }
+        last_cutter = &cutter;
+    });
     surface_cells_ = stock.most_surface_cells();
     touched_cells_ = stock.touched_cells();
 }
