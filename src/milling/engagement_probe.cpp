@@ -2,6 +2,7 @@
 #include "milling/engagement_probe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -9,8 +10,10 @@
 namespace tribo::milling {
 namespace {
 
-// Circles at first on the bottom, on the rounded part and on the cylinder, and at most of one part.
-constexpr int kFirstOnBottom = 2, kFirstOnCorner = 4, kFirstOnCylinder = 3;
+// Where the stretches begin whose middles have the first circles of a part: near its ends, where what is
+// engaged often changes, they are short.
+constexpr std::array kFirstStretches{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
+// Circles of one part at most.
 constexpr std::size_t kMostLevels = 56;
 // Splitting goes on until no circle may change the chips' area by more than this share, and what is smaller
 // than this is not looked for, R^2.
@@ -125,10 +128,10 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
     return level;
 }
 
-void EngagementProbe::start(double s0, double s1, int count, const field::CarvedView& stock,
-                            const CutPose& pose) {
-    for (int n = 0; n < count; ++n) {
-        levels_.push_back(look(s0 + (s1 - s0) * n / count, s0 + (s1 - s0) * (n + 1) / count, stock, pose));
+void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose) {
+    for (std::size_t n = 0; n + 1 < kFirstStretches.size(); ++n) {
+        levels_.push_back(
+            look(s0 + (s1 - s0) * kFirstStretches[n], s0 + (s1 - s0) * kFirstStretches[n + 1], stock, pose));
     }
 }
 
@@ -212,7 +215,9 @@ MaterialArc EngagementProbe::closing_arc(const Level& level, const Level& inner,
     MaterialArc arc = arcs_[level.first + number];
     const MaterialArc& before = arcs_[inner.first + number];
     const double width = arc.to_rad - arc.from_rad, wider = before.to_rad - before.from_rad;
-    if (!(width < wider)) return arc;
+    // A fall of less than that is as good as none.
+    constexpr double kLevelRad = 1e-4;
+    if (!(width < wider - kLevelRad)) return arc;
     const double fall = (wider * wider - width * width) / std::abs(level.s() - inner.s());  // per mm
     const double half = 0.5 * (level.s1 - level.s0);
     // Wider than that it ends at a step, somewhere between.
@@ -311,7 +316,7 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     if (low <= 0 && bottom > core_mm_ && (pose.travel.down_mm > 0 || pose.travel.turns())) {
         levels_.clear();
         arcs_.clear();
-        start(core_mm_, bottom, kFirstOnBottom, stock, pose);
+        start(core_mm_, bottom, stock, pose);
         refine(stock, pose);
         add_bands(pose, out);
     }
@@ -319,8 +324,8 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     const double middle = std::clamp(corner, s0, s1);
     levels_.clear();
     arcs_.clear();
-    if (middle > s0) start(s0, middle, kFirstOnCorner, stock, pose);
-    if (s1 > middle) start(middle, s1, kFirstOnCylinder, stock, pose);
+    if (middle > s0) start(s0, middle, stock, pose);
+    if (s1 > middle) start(middle, s1, stock, pose);
     refine(stock, pose);
     add_bands(pose, out);
 }

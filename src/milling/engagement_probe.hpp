@@ -48,7 +48,7 @@ class EngagementProbe {
     };
     // Heights at which the envelope can meet the blank at all; false: none.
     bool clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low, double& high) const;
-    void start(double s0, double s1, int count, const field::CarvedView& stock, const CutPose& pose);
+    void start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
     Level look(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
     // Fills Level::error; gives the chips' area as it is known now.
     double judge();

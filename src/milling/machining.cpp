@@ -273,31 +273,27 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     return count;
 }
 
-// Chips are reconciled with what the stock lost over the latest kEnoughCells of it: of fewer the grid knows
-// the volume only roughly. Up to kSlack the difference is left to the grid's rounding. Nothing depends on how
-// many steps are run at once.
-void Machining::reconcile(Machined& out) {
-    constexpr double kEnoughCells = 400;
+// Chips are reconciled with what the stock lost in their step. The grid knows the volume to some cells only:
+// kRoughCells more stand on both sides, so that the factor of a short step tends to 1. Up to kSlack the
+// difference is left to the grid's rounding. Each step is reconciled alone, so that nothing depends on how
+// many are run at once.
+void Machining::reconcile(Machined& out) const {
+    constexpr double kRoughCells = 100;
     constexpr double kSlack = 0.005;
     // Beyond these the engagement missed what was cut, and no factor makes a force of it.
     constexpr double kLeast = 0.5, kMost = 2;
-    const double cell = stock_.cell_mm(), enough = kEnoughCells * cell * cell * cell;
-    std::size_t first = 0;
-    for (std::size_t step = 0; step < sweeps_.size(); ++step) {
+    const double cell = stock_.cell_mm(), rough = kRoughCells * cell * cell * cell;
+    for (std::size_t first = 0; first < out.row_count;) {
+        const std::size_t step = out.rows[first].step;
         std::size_t last = first;
         double chips = 0;
         for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
-        if (sweeps_[step].is_rapid()) continue;
-        const double kept = enough / (enough + std::max(chips, out.removed_mm3[step]));
-        lost_mm3_ = kept * lost_mm3_ + out.removed_mm3[step];
-        chips_mm3_ = kept * chips_mm3_ + chips;
-        const double ratio = chips_mm3_ > 0 ? lost_mm3_ / chips_mm3_ : 1;
+        const double ratio = std::clamp((out.removed_mm3[step] + rough) / (chips + rough), kLeast, kMost);
         const double off = std::max(std::abs(ratio - 1) - kSlack, 0.0);
-        const double factor = std::clamp(ratio > 1 ? 1 + off : 1 - off, kLeast, kMost);
         for (; first < last; ++first) {
             CutRow& row = out.rows[first];
-            row.removed_mm3 = std::clamp(ratio, kLeast, kMost) * row.chip_mm3;
-            row.reconciled = factor;
+            row.removed_mm3 = ratio * row.chip_mm3;
+            row.reconciled = ratio > 1 ? 1 + off : 1 - off;
         }
     }
 }

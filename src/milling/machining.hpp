@@ -80,7 +80,7 @@ class Machining {
     field::CarvedView before(const Sweep& sweep) const;
     void find_contact(Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
-    void reconcile(Machined& out);
+    void reconcile(Machined& out) const;
 
     field::CarvedField& stock_;
     std::span<const Cutter> cutters_;
@@ -93,8 +93,7 @@ class Machining {
     // Of the run that is going on.
     std::vector<Sweep> sweeps_;
     std::vector<std::unique_ptr<const field::Shape>> shapes_;
-    std::vector<double> removed_;          // by shape
-    double lost_mm3_ = 0, chips_mm3_ = 0;  // of the latest feed moves, the older the less
+    std::vector<double> removed_;  // by shape
 };
 
 }  // namespace tribo::milling

@@ -32,8 +32,8 @@ class Scan {
     // Illinois form. Far from the surface the clear way tells the side, where the exact distance of a brick
     // may not; near it both are the same.
     double border(double outside, double inside) const {
-        constexpr int kSteps = 12;
-        constexpr double kAngle = 1e-6, kDepth = 1e-8;  // rad, mm
+        constexpr int kSteps = 20;
+        constexpr double kAngle = 1e-9, kDepth = 1e-11;  // rad, mm
         double out = way(outside), in = way(inside);
         double angle = inside;
         int last = 0;

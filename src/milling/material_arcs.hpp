@@ -30,7 +30,7 @@ struct ClearPiece {
 
 // Appends the arcs of `circle` between the rotations `from` and `to` that lie in material, in order. A step
 // along the circle is as long as nothing can be missed, but at least a small share of the cell or of the
-// range: a rib thinner than that may be missed. Borders are found to about 1e-6 rad.
+// range: a rib thinner than that may be missed. Borders are found to about 1e-9 rad.
 // `clear` is filled with the pieces between, looked at in steps. No allocation while both have room.
 void material_arcs(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
                    std::vector<MaterialArc>& arcs, std::vector<ClearPiece>& clear);
