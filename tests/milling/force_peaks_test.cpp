@@ -101,7 +101,8 @@ RC_GTEST_PROP(Peaks, agree_with_dense_samples_for_any_cutter_and_cut, ()) {
     ForceModel model(c.cutter, c.k);
     model.engage(c.engagement, c.feed);
     const ForcePeaks dense = sampled(model.edges(), 20000);
-    RC_ASSERT(difference(model.peaks(), dense, 6) < 2e-3 * (1 + dense.peak_force_n));
+    // With jumps of bottom edges between samples 3 in a thousand.
+    RC_ASSERT(difference(model.peaks(), dense, 6) < 3e-3 * (1 + dense.peak_force_n));
 }
 
 TEST(Peaks, of_nothing_are_nothing) {

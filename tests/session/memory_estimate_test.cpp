@@ -65,7 +65,7 @@ RC_GTEST_PROP(MemoryEstimate, counts_the_bricks_of_any_program, ()) {
     }
     if (most < 100) return;
     RC_ASSERT(estimate > 0.5 * most);
-    RC_ASSERT(estimate < 2 * most);
+    RC_ASSERT(estimate <= 2 * most);
 }
 
 // Engraving in a large plate takes what the engraving takes, not what the plate could; a coarser look at a
