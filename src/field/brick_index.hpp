@@ -38,6 +38,7 @@ struct BrickTable {
         const BrickChunk* chunk = chunks[chunk_number(b)];
         return chunk ? chunk->refs[place(b)] : kUntouched;
     }
+    bool is_untouched_chunk(BrickCoord b) const { return !chunks[chunk_number(b)]; }
     std::size_t chunk_number(BrickCoord b) const {
         return static_cast<std::size_t>(b.i / kChunkEdge) +
                chunks_i * (static_cast<std::size_t>(b.j / kChunkEdge) +

@@ -68,6 +68,8 @@ class CarvedField final : public contact::DistanceField {
     double brick_radius_mm() const { return brick_radius_; }
     BrickRef ref(BrickCoord b) const { return tables_->index.get(b); }
     const Brick& brick(BrickRef ref) const { return tables_->pool[ref]; }
+    // Whether all bricks of the index's chunk that holds `b` are untouched; false where it is not known.
+    bool is_untouched_chunk(BrickCoord b) const { return tables_->index.table().is_untouched_chunk(b); }
     std::size_t bricks_in_use() const { return tables_->pool.in_use(); }
     std::size_t shapes_carved() const { return tables_->shapes.size() - 1; }
     std::size_t bytes() const { return tables_->pool.bytes() + tables_->index.bytes(); }

@@ -5,46 +5,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "field/contour_candidates.hpp"
 #include "field/contour_faces.hpp"
 #include "field/contour_polygon.hpp"
 
 namespace tribo::field {
 namespace {
 
-// Vertices of a brick's own triangles, counted from here until the mesh is put together.
-constexpr std::uint32_t kOwn = 0x80000000;
-
-// All bricks from `first` on up to `last` that the surface may pass through, in the order of their
-// coordinates.
-std::vector<BrickCoord> candidate_bricks(const CarvedField& field, BrickCoord first, BrickCoord last) {
-    const double radius = field.brick_radius_mm() + field.cell_mm();
-    const auto untouched_around = [&](BrickCoord b) {
-        for (int k = b.k - 1; k <= b.k + 1; ++k) {
-            for (int j = b.j - 1; j <= b.j + 1; ++j) {
-                for (int i = b.i - 1; i <= b.i + 1; ++i) {
-                    if (field.contains({i, j, k}) && field.ref({i, j, k}) != kUntouched) return false;
-                }
-            }
-        }
-        return true;
-    };
-    std::vector<BrickCoord> found;
-    for (int k = first.k; k < last.k; ++k) {
-        for (int j = first.j; j < last.j; ++j) {
-            for (int i = first.i; i < last.i; ++i) {
-                const BrickRef ref = field.ref({i, j, k});
-                if (ref == kAir) continue;
-                if (ref == kUntouched && untouched_around({i, j, k}) &&
-                    std::abs(field.blank().distance_mm(field.centre({i, j, k}))) > radius)
-                    continue;
-                found.push_back({i, j, k});
-            }
-        }
-    }
-    return found;
-}
+// Bricks in hand at once, about: enough for all threads, few enough that what is known of them stays small.
+constexpr std::size_t kBatch = 16384;
 
 struct BrickTriangles {
     std::vector<Triangle> triangles;
@@ -146,45 +119,98 @@ class BrickPolygons {
     BrickTriangles out_;
 };
 
-// The surfaces of the bricks from `first` on up to `last`; their vertices, in order, become the mesh's.
-std::vector<BrickSurface> find_surfaces(const CarvedField& field, BrickCoord first, BrickCoord last,
-                                        const ParallelFor& parallel, const ContourOptions& options,
-                                        TriangleMesh& mesh) {
-    const std::vector<BrickCoord> bricks = candidate_bricks(field, first, last);
-    std::vector<BrickSurface> found(bricks.size());
-    parallel(bricks.size(), [&](std::size_t n) { found[n] = find_surface(field, bricks[n], options); });
-    std::erase_if(found, [](const BrickSurface& s) { return s.vertices.empty(); });
-    for (BrickSurface& s : found) {
-        s.first_vertex = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), s.vertices.begin(), s.vertices.end());
-        s.vertices = {};
-    }
-    const SurfaceTable table(field, found, first, last, mesh);
-    std::vector<std::vector<FaceVertex>> on_faces(found.size());
-    parallel(found.size(), [&](std::size_t n) { on_faces[n] = find_face_vertices(table, found[n]); });
-    for (std::size_t n = 0; n < found.size(); ++n) {
-        for (const FaceVertex& f : on_faces[n]) {
-            const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());
-            mesh.positions.push_back(f.position);
-            found[n].on_faces.push_back({f.key0, vertex});
-            found[n].on_faces.push_back({f.key1, vertex});
-        }
-        std::sort(found[n].on_faces.begin(), found[n].on_faces.end(),
-                  [](const auto& a, const auto& b) { return a.key < b.key; });
-    }
-    return found;
-}
+// Makes a mesh batch by batch.
+class Contour {
+  public:
+    // Only the bricks from `first` on get triangles; those from `back` on are looked at.
+    Contour(const CarvedField& field, BrickCoord back, BrickCoord first, BrickCoord last,
+            const ParallelFor& parallel, const ContourOptions& options)
+        : field_(field),
+          back_(back),
+          first_(first),
+          last_(last),
+          parallel_(parallel),
+          options_(options),
+          table_(field, back, last) {}
 
-void append(TriangleMesh& mesh, const BrickTriangles& part) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), part.own.begin(), part.own.end());
-    for (Triangle t : part.triangles) {
-        for (std::uint32_t& v : t) {
-            if (v >= kOwn) v = v - kOwn + first;
+    TriangleMesh mesh() {
+        CandidateBricks candidates(field_, back_, last_);
+        std::vector<BrickCoord> bricks;
+        int layers = 0;
+        for (int k = back_.k; k < last_.k; ++k) {
+            candidates.append_layer(k, bricks);
+            if (++layers < table_.most_layers() && bricks.size() < kBatch && k + 1 < last_.k) continue;
+            for (std::size_t from = 0; from < bricks.size(); from += kBatch)
+                add(std::span(bricks).subspan(from, std::min(kBatch, bricks.size() - from)));
+            bricks.clear();
+            layers = 0;
         }
-        mesh.triangles.push_back(t);
+        return join();
     }
-}
+
+  private:
+    void add(std::span<const BrickCoord> bricks) {
+        std::vector<BrickSurface> found(bricks.size());
+        parallel_(bricks.size(),
+                  [&](std::size_t n) { found[n] = find_surface(field_, bricks[n], options_); });
+        table_.begin(std::move(found));
+        const std::span<const BrickSurface> batch = table_.batch();
+        std::vector<std::vector<SurfaceTable::FaceVertex>> on_faces(batch.size());
+        parallel_(batch.size(), [&](std::size_t n) { on_faces[n] = find_face_vertices(table_, batch[n]); });
+        for (std::size_t n = 0; n < batch.size(); ++n) {
+            if (!on_faces[n].empty()) table_.add_on_faces(n, on_faces[n]);
+        }
+        std::vector<BrickTriangles> parts(batch.size());
+        parallel_(batch.size(), [&](std::size_t n) {
+            const BrickCoord b = batch[n].coord;
+            if (b.i >= first_.i && b.j >= first_.j && b.k >= first_.k)
+                parts[n] = BrickPolygons(table_, batch[n]).find();
+        });
+        for (const BrickTriangles& part : parts) append(part);
+        table_.end();
+    }
+
+    void append(const BrickTriangles& part) {
+        const auto before = static_cast<std::uint32_t>(own_.size());
+        own_.insert(own_.end(), part.own.begin(), part.own.end());
+        for (Triangle t : part.triangles) {
+            for (std::uint32_t& v : t) {
+                if (v >= kOwn) v += before;
+            }
+            triangles_.push_back(t);
+        }
+    }
+
+    // Vertices of cells first, then those on faces, then those of the bricks' own triangles.
+    TriangleMesh join() {
+        TriangleMesh mesh;
+        mesh.positions = std::move(table_.in_cells());
+        const auto on_faces = static_cast<std::uint32_t>(mesh.positions.size());
+        const auto own = on_faces + static_cast<std::uint32_t>(table_.on_faces().size());
+        mesh.positions.reserve(own + own_.size());
+        mesh.positions.insert(mesh.positions.end(), table_.on_faces().begin(), table_.on_faces().end());
+        mesh.positions.insert(mesh.positions.end(), own_.begin(), own_.end());
+        mesh.triangles = std::move(triangles_);
+        for (Triangle& t : mesh.triangles) {
+            for (std::uint32_t& v : t) {
+                if (v >= kOwn) {
+                    v = v - kOwn + own;
+                } else if (v >= kOnFace) {
+                    v = v - kOnFace + on_faces;
+                }
+            }
+        }
+        return mesh;
+    }
+
+    const CarvedField& field_;
+    BrickCoord back_, first_, last_;
+    const ParallelFor& parallel_;
+    const ContourOptions& options_;
+    SurfaceTable table_;
+    std::vector<Triangle> triangles_;
+    std::vector<Point3f> own_;
+};
 
 // Drops the vertices that no triangle uses.
 void drop_unused(TriangleMesh& mesh) {
@@ -207,16 +233,7 @@ void drop_unused(TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel, const ContourOptions& options) {
-    TriangleMesh mesh;
-    std::vector<BrickSurface> found = find_surfaces(field, {}, field.size(), parallel, options, mesh);
-    const SurfaceTable table(field, found, {}, field.size(), mesh);
-    std::vector<BrickTriangles> parts(found.size());
-    parallel(found.size(), [&](std::size_t n) { parts[n] = BrickPolygons(table, found[n]).find(); });
-    for (BrickTriangles& part : parts) {
-        append(mesh, part);
-        part = {};
-    }
-    return mesh;
+    return Contour(field, {}, {}, field.size(), parallel, options).mesh();
 }
 
 TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord last,
@@ -225,13 +242,8 @@ TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord
     last = {std::min(last.i, size.i), std::min(last.j, size.j), std::min(last.k, size.k)};
     // A brick's triangles reach for vertices one brick back.
     const BrickCoord back{std::max(first.i - 1, 0), std::max(first.j - 1, 0), std::max(first.k - 1, 0)};
-    TriangleMesh mesh;
-    std::vector<BrickSurface> found = find_surfaces(field, back, last, serial_for, options, mesh);
-    const SurfaceTable table(field, found, back, last, mesh);
-    for (const BrickSurface& s : found) {
-        if (s.coord.i < first.i || s.coord.j < first.j || s.coord.k < first.k) continue;
-        append(mesh, BrickPolygons(table, s).find());
-    }
+    const ParallelFor serial = serial_for;
+    TriangleMesh mesh = Contour(field, back, first, last, serial, options).mesh();
     drop_unused(mesh);
     return mesh;
 }

@@ -11,6 +11,13 @@
 namespace tribo::field {
 namespace {
 
+// Crossings on the lower faces of a flat brick as a rule: a plane along two axes.
+constexpr std::size_t kFlatEdges = 2 * kLatticeEdge - 1;
+
+constexpr bool is_on_lower_face(int node) {
+    return node < kStep[2] || node % kStep[2] < kStep[1] || node % kStep[1] == 0;
+}
+
 class BrickContour {
   public:
     BrickContour(const CarvedField& field, BrickCoord coord)
@@ -22,9 +29,9 @@ class BrickContour {
         if (!nodes_.has_surface()) return s;
         nodes_.find_crossings();
         if (nodes_.list().empty()) return s;
+        s.flat = is_plane(options);
         keep_edges(s);
-        if (is_plane(options)) {
-            s.flat = true;
+        if (s.flat) {
             Vec3 mean;
             for (const Crossing& c : nodes_.list()) mean += c.point;
             const Vec3 lo = nodes_.node_mm(0);
@@ -43,10 +50,13 @@ class BrickContour {
 
   private:
     void keep_edges(BrickSurface& s) const {
+        s.edges.reserve(s.flat ? kFlatEdges : nodes_.list().size());
         for (int axis = 0; axis < 3; ++axis) {
             for (int node = 0; node < kLatticeNodes; ++node) {
                 const EdgeCrossings e = nodes_.crossings(axis, node);
                 if (e.count == 0) continue;
+                // Inside a flat brick nobody asks for them.
+                if (s.flat && !is_on_lower_face(node)) continue;
                 const double off = margin_;
                 const auto at = [&](int n) {
                     return nodes_.crossing(static_cast<std::size_t>(e.first + n)).along;

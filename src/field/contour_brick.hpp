@@ -54,12 +54,11 @@ struct BrickSurface {
     BrickCoord coord;
     bool flat = false;                   // one vertex stands for all cells
     std::uint32_t first_vertex = 0;      // in the whole mesh
-    double thinnest_mm = 0;              // of the walls and slits that no node shows; 0: there is none
     std::vector<std::uint16_t> cell;     // vertex of each cell, kNone or kSeveral; empty for a flat brick
     std::vector<SeveralPieces> several;  // by cell
     std::vector<CrowdedFace> crowded;    // by face
     std::vector<OnFace> on_faces;        // by key
-    std::vector<EdgePoint> edges;        // of all edges of the brick, by edge and ordinal
+    std::vector<EdgePoint> edges;        // by edge and ordinal; of a flat brick those on its lower faces
     std::vector<Point3f> vertices;
 
     // How often an edge is crossed, and the first of its crossings.

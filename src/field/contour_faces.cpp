@@ -11,7 +11,8 @@ class FaceVertices {
     FaceVertices(const SurfaceTable& table, const BrickSurface& surface)
         : table_(table), s_(surface), lattice_(table.field().lattice(surface.coord)) {}
 
-    std::vector<FaceVertex> find() {
+    std::vector<SurfaceTable::FaceVertex> find() {
+        if (s_.flat && flat_below()) return {};
         for (int c = 0; c < kBrickCells; ++c) {
             for (int b = 0; b < kBrickCells; ++b) {
                 for (int a = 0; a < kBrickCells; ++a) {
@@ -34,21 +35,27 @@ class FaceVertices {
     }
 
   private:
-    static bool is_several(const BrickSurface& s, const Cell& at) {
-        return !s.flat &&
-               s.cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))] == BrickSurface::kSeveral;
+    // Whether the bricks below along each axis are flat too or have no surface.
+    bool flat_below() const {
+        const BrickCoord b = s_.coord;
+        for (const BrickCoord at :
+             {BrickCoord{b.i - 1, b.j, b.k}, BrickCoord{b.i, b.j - 1, b.k}, BrickCoord{b.i, b.j, b.k - 1}}) {
+            if (!table_.surface(at).is_flat()) return false;
+        }
+        return true;
     }
 
     void look_at(const Cell& below, const Cell& above, int axis) {
-        const BrickSurface* lower = surface_of(below);
-        if (!lower || (lower->flat && s_.flat)) return;
+        const KnownSurface lower = surface_of(below.brick);
+        if (lower.is_empty() || (lower.is_flat() && s_.flat)) return;
         const int cell = cell_index(above.a, above.b, above.c);
         const int node = node_index(above.a, above.b, above.c);
         const auto face = static_cast<std::uint16_t>(3 * cell + axis);
         const auto crowded =
             std::lower_bound(s_.crowded.begin(), s_.crowded.end(), face,
                              [](const BrickSurface::CrowdedFace& f, std::uint16_t n) { return f.face < n; });
-        const bool several = is_several(s_, above) || is_several(*lower, below);
+        const KnownSurface own{s_.first_vertex, &s_};
+        const bool several = own.is_several(cell) || lower.is_several(cell_index(below.a, below.b, below.c));
         if (crowded != s_.crowded.end() && crowded->face == face) {
             if (crowded->segments.count == 1 && !several) return;
             for (int k = 0; k < crowded->segments.count; ++k)
@@ -56,11 +63,11 @@ class FaceVertices {
                     crowded->middle[static_cast<std::size_t>(k)]);
             return;
         }
-        if (!several && !lower->flat && !s_.flat) return;
+        if (!several && !lower.is_flat() && !s_.flat) return;
         FaceSegment segment;
         if (!only_segment(node, axis, segment)) return;
         if (!several) {
-            const std::uint32_t p = any_vertex(*lower, below), q = any_vertex(s_, above);
+            const std::uint32_t p = any_vertex(lower, below), q = any_vertex(own, above);
             if (p == kNoVertex || q == kNoVertex || passes(node, axis, p, q)) return;
         }
         add(face, segment,
@@ -81,9 +88,9 @@ class FaceVertices {
         return count == 2;
     }
 
-    static std::uint32_t any_vertex(const BrickSurface& s, const Cell& at) {
-        if (s.flat) return s.first_vertex;
-        const std::uint16_t v = s.cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))];
+    static std::uint32_t any_vertex(const KnownSurface& s, const Cell& at) {
+        if (s.is_flat()) return s.first_vertex;
+        const std::uint16_t v = s.details->cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))];
         return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
     }
 
@@ -105,19 +112,20 @@ class FaceVertices {
                           BrickSurface::key(face, s.to.edge, s.to.ordinal)});
     }
 
-    const BrickSurface* surface_of(const Cell& at) const {
-        return at.brick == s_.coord ? &s_ : table_.surface(at.brick);
+    KnownSurface surface_of(BrickCoord b) const {
+        return b == s_.coord ? KnownSurface{s_.first_vertex, &s_} : table_.surface(b);
     }
 
     const SurfaceTable& table_;
     const BrickSurface& s_;
     Lattice lattice_;
-    std::vector<FaceVertex> found_;
+    std::vector<SurfaceTable::FaceVertex> found_;
 };
 
 }  // namespace
 
-std::vector<FaceVertex> find_face_vertices(const SurfaceTable& table, const BrickSurface& surface) {
+std::vector<SurfaceTable::FaceVertex> find_face_vertices(const SurfaceTable& table,
+                                                         const BrickSurface& surface) {
     return FaceVertices(table, surface).find();
 }
 

@@ -7,13 +7,8 @@
 
 namespace tribo::field {
 
-// One for a segment, known by the crossings at both its ends (BrickSurface::key).
-struct FaceVertex {
-    Point3f position;
-    std::uint16_t key0, key1;
-};
-
 // Of the lower faces of the cells of one brick.
-std::vector<FaceVertex> find_face_vertices(const SurfaceTable& table, const BrickSurface& surface);
+std::vector<SurfaceTable::FaceVertex> find_face_vertices(const SurfaceTable& table,
+                                                         const BrickSurface& surface);
 
 }  // namespace tribo::field

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The vertices of all bricks of a contour, by cell and by face.
+// The vertices of a contour by cell and by face, of as many bricks as those that come next need.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
+#include <span>
 #include <vector>
 
 #include "field/contour_brick.hpp"
@@ -12,27 +14,50 @@ namespace tribo::field {
 
 inline constexpr std::uint32_t kNoVertex = 0xffffffff;
 
+// While a mesh grows its vertices are counted by kind: those of cells, those on faces, and those of a
+// brick's own triangles.
+inline constexpr std::uint32_t kOnFace = 0x40000000, kOwn = 0x80000000;
+
+// What is known of a brick.
+struct KnownSurface {
+    std::uint32_t first_vertex = kNoVertex;  // kNoVertex: it has no surface
+    const BrickSurface* details = nullptr;   // null: flat, without vertices on its faces
+
+    bool is_empty() const { return first_vertex == kNoVertex; }
+    bool is_flat() const { return !details || details->flat; }
+    // Of a brick with details.
+    bool is_several(int cell) const {
+        return !is_flat() && details->cell[static_cast<std::size_t>(cell)] == BrickSurface::kSeveral;
+    }
+};
+
 struct Cell {
     BrickCoord brick;
     int a, b, c;
 };
 
-// The surface of each brick, by coordinate.
+// Bricks come in batches, in order of their coordinates: along i, then j, then k. Triangles and vertices of
+// a brick reach for bricks one back in each coordinate, so only those since then are kept, and of flat
+// bricks only the number of their vertex.
 class SurfaceTable {
   public:
     // Of surfaces in bricks from `first` on up to `last`.
-    SurfaceTable(const CarvedField& field, std::vector<BrickSurface>& surfaces, BrickCoord first,
-                 BrickCoord last, const TriangleMesh& mesh)
-        : field_(field),
-          surfaces_(surfaces),
-          mesh_(mesh),
-          first_(first),
-          index_(from_first(last)),
-          margin_(contour_margin(field)) {
-        for (std::size_t n = 0; n < surfaces.size(); ++n) {
-            index_.set(from_first(surfaces[n].coord), static_cast<BrickRef>(n) + kFirstBrick);
-        }
-    }
+    SurfaceTable(const CarvedField& field, BrickCoord first, BrickCoord last);
+
+    // Layers that a batch may have.
+    int most_layers() const { return layers_ - 1; }
+
+    // The bricks that come next; those without vertices are left out. Vertices of cells get their numbers.
+    void begin(std::vector<BrickSurface> batch);
+    std::span<const BrickSurface> batch() const { return batch_; }
+    // Vertices on faces of a brick of the batch, in order; one per segment.
+    struct FaceVertex {
+        Point3f position;
+        std::uint16_t key0, key1;  // the crossings at both ends of the segment, BrickSurface::key
+    };
+    void add_on_faces(std::size_t n, const std::vector<FaceVertex>& found);
+    // Nothing more is asked for the batch but by those that come after it.
+    void end();
 
     double margin() const { return margin_; }
     const CarvedField& field() const { return field_; }
@@ -44,25 +69,29 @@ class SurfaceTable {
         if (c < 0) --b.k, c += kBrickCells;
         return {b, a, bb, c};
     }
-    const BrickSurface* surface(BrickCoord b) const {
-        const BrickCoord at = from_first(b);
-        if (!index_.contains(at) || index_.get(at) < kFirstBrick) return nullptr;
-        return &surfaces_[index_.get(at) - kFirstBrick];
+    // Of the batch, or one back.
+    KnownSurface surface(BrickCoord b) const {
+        if (b.i < first_.i || b.j < first_.j || b.k < first_.k) return {};
+        const Slot& slot = slots_[place(b)];
+        if (slot.details == kNoDetails) return {slot.first_vertex, nullptr};
+        return {slot.first_vertex, slot.details >= kInBatch ? &batch_[slot.details - kInBatch]
+                                                            : &kept_[slot.details - forgotten_]};
     }
     // The vertex of a cell at a crossing of one of its edges; kNoVertex where the surface does not pass.
     std::uint32_t vertex(const Cell& at, int edge, int ordinal) const {
-        const BrickSurface* s = surface(at.brick);
-        if (!s) return kNoVertex;
-        if (s->flat) return s->first_vertex;
+        const KnownSurface s = surface(at.brick);
+        if (s.is_flat()) return s.first_vertex;
         const auto cell = static_cast<std::uint16_t>(cell_index(at.a, at.b, at.c));
-        std::uint16_t v = s->cell[cell];
-        if (v == BrickSurface::kSeveral)
-            v = pieces(*s, cell).vertex[static_cast<std::size_t>(edge)][static_cast<std::size_t>(ordinal)];
-        return v == BrickSurface::kNone ? kNoVertex : s->first_vertex + v;
+        std::uint16_t v = s.details->cell[cell];
+        if (v == BrickSurface::kSeveral) {
+            v = pieces(*s.details, cell)
+                    .vertex[static_cast<std::size_t>(edge)][static_cast<std::size_t>(ordinal)];
+        }
+        return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
     }
     // The vertex on the lower face of a cell along an axis, or kNoVertex.
     std::uint32_t on_face(const Cell& at, int axis, int edge, int ordinal) const {
-        const BrickSurface* s = surface(at.brick);
+        const BrickSurface* s = surface(at.brick).details;
         if (!s || s->on_faces.empty()) return kNoVertex;
         const std::uint16_t key = BrickSurface::key(3 * cell_index(at.a, at.b, at.c) + axis, edge, ordinal);
         const auto found =
@@ -75,17 +104,38 @@ class SurfaceTable {
             s.several.begin(), s.several.end(), cell,
             [](const BrickSurface::SeveralPieces& p, std::uint16_t c) { return p.cell < c; });
     }
-    Vec3 position(std::uint32_t vertex) const { return mesh_.position(vertex); }
+    Vec3 position(std::uint32_t vertex) const {
+        return to_double(vertex < kOnFace ? in_cells_[vertex] : on_faces_[vertex - kOnFace]);
+    }
+
+    // All vertices so far; taken when the last batch is done.
+    std::vector<Point3f>& in_cells() { return in_cells_; }
+    std::vector<Point3f>& on_faces() { return on_faces_; }
 
   private:
-    BrickCoord from_first(BrickCoord b) const { return {b.i - first_.i, b.j - first_.j, b.k - first_.k}; }
+    static constexpr std::uint32_t kInBatch = 0x80000000, kNoDetails = kNoVertex;
+    struct Slot {
+        std::uint32_t first_vertex = kNoVertex;
+        std::uint32_t details = kNoDetails;  // number in the batch above kInBatch, or of all that were kept
+    };
+
+    std::size_t place(BrickCoord b) const {
+        return static_cast<std::size_t>(b.i - first_.i) +
+               static_cast<std::size_t>(size_i_) *
+                   (static_cast<std::size_t>(b.j - first_.j) +
+                    static_cast<std::size_t>(size_j_) * static_cast<std::size_t>((b.k - first_.k) % layers_));
+    }
+    void rise_to(int k);
 
     const CarvedField& field_;
-    const std::vector<BrickSurface>& surfaces_;
-    const TriangleMesh& mesh_;
     BrickCoord first_;
-    BrickIndex index_;
+    int size_i_, size_j_, layers_, top_;
     double margin_;
+    std::vector<Slot> slots_;  // of the last layers_ layers, in turn
+    std::vector<BrickSurface> batch_;
+    std::deque<BrickSurface> kept_;
+    std::uint32_t forgotten_ = 0;  // of all that were kept
+    std::vector<Point3f> in_cells_, on_faces_;
 };
 
 }  // namespace tribo::field
