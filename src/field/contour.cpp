@@ -28,7 +28,10 @@ struct BrickTriangles {
 class BrickPolygons {
   public:
     BrickPolygons(const SurfaceTable& table, const BrickSurface& surface)
-        : table_(table), s_(surface), lattice_(table.field().lattice(surface.coord)) {}
+        : table_(table),
+          s_(surface),
+          lattice_(table.field().lattice(surface.coord)),
+          behind_(table.behind(surface.coord)) {}
 
     BrickTriangles find() {
         for (std::size_t n = 0; n < s_.edges.size(); ++n) {
@@ -52,7 +55,7 @@ class BrickPolygons {
             int at[3] = {a, b, c};
             at[u] -= along_u;
             at[v] -= along_v;
-            return SurfaceTable::cell(s_.coord, at[0], at[1], at[2]);
+            return Cell::from(at[0], at[1], at[2]);
         };
         const std::array<Cell, 4> cells{cell(0, 0), cell(1, 0), cell(1, 1), cell(0, 1)};
         // The faces between a cell and the next: lower face of which cell, along which axis, and which of its
@@ -64,10 +67,10 @@ class BrickPolygons {
         ring_.clear();
         bool on_faces = false;
         for (std::size_t n = 0; n < 4; ++n) {
-            const std::uint32_t vertex = table_.vertex(cells[n], 4 * axis + kCellEdge[n], e.ordinal);
+            const std::uint32_t vertex = behind_.vertex(cells[n], 4 * axis + kCellEdge[n], e.ordinal);
             if (vertex == kNoVertex) return;
             if (ring_.empty() || ring_.back() != vertex) ring_.push_back(vertex);
-            const std::uint32_t face = table_.on_face(cells[kAbove[n]], normals[n], kEdges[n], e.ordinal);
+            const std::uint32_t face = behind_.on_face(cells[kAbove[n]], normals[n], kEdges[n], e.ordinal);
             if (face == kNoVertex) continue;
             on_faces = true;
             ring_.push_back(face);
@@ -115,6 +118,7 @@ class BrickPolygons {
     const SurfaceTable& table_;
     const BrickSurface& s_;
     Lattice lattice_;
+    SurfacesBehind behind_;
     std::vector<std::uint32_t> ring_;
     BrickTriangles out_;
 };

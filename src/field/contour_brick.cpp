@@ -2,6 +2,7 @@
 #include "field/contour_brick.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -13,6 +14,9 @@ namespace {
 
 // Crossings on the lower faces of a flat brick as a rule: a plane along two axes.
 constexpr std::size_t kFlatEdges = 2 * kLatticeEdge - 1;
+
+// Of a row.
+constexpr unsigned kAllCells = (1U << kBrickCells) - 1;
 
 constexpr bool is_on_lower_face(int node) {
     return node < kStep[2] || node % kStep[2] < kStep[1] || node % kStep[1] == 0;
@@ -42,7 +46,9 @@ class BrickContour {
         s.cell.assign(kCells, BrickSurface::kNone);
         for (int c = 0; c < kBrickCells; ++c) {
             for (int b = 0; b < kBrickCells; ++b) {
-                for (int a = 0; a < kBrickCells; ++a) place_vertices(s, a, b, c);
+                // Only where an edge is crossed twice, a cell with all corners on one side has a surface.
+                unsigned left = nodes_.has_thin() ? kAllCells : nodes_.mixed_cells(b, c);
+                for (; left != 0; left &= left - 1) place_vertices(s, std::countr_zero(left), b, c);
             }
         }
         return s;
@@ -51,26 +57,20 @@ class BrickContour {
   private:
     void keep_edges(BrickSurface& s) const {
         s.edges.reserve(s.flat ? kFlatEdges : nodes_.list().size());
-        for (int axis = 0; axis < 3; ++axis) {
-            for (int node = 0; node < kLatticeNodes; ++node) {
-                const EdgeCrossings e = nodes_.crossings(axis, node);
-                if (e.count == 0) continue;
-                // Inside a flat brick nobody asks for them.
-                if (s.flat && !is_on_lower_face(node)) continue;
-                const double off = margin_;
-                const auto at = [&](int n) {
-                    return nodes_.crossing(static_cast<std::size_t>(e.first + n)).along;
-                };
-                const auto keep = [&](int n, double along) {
-                    s.edges.push_back({static_cast<std::uint16_t>(kLatticeNodes * axis + node),
-                                       static_cast<std::uint8_t>(n), nodes_.inside(node),
-                                       static_cast<float>(along)});
-                };
-                const double first = std::clamp(at(0), off, 1 - e.count * off);
-                keep(0, first);
-                if (e.count < 2) continue;
-                keep(1, std::clamp(at(1), first + off, 1 - off));
-            }
+        const std::vector<Crossing>& list = nodes_.list();
+        const double off = margin_;
+        for (std::size_t n = 0; n < list.size(); ++n) {
+            const std::uint16_t edge = list[n].edge;
+            const int node = edge % kLatticeNodes;
+            // Inside a flat brick nobody asks for them.
+            if (s.flat && !is_on_lower_face(node)) continue;
+            const auto keep = [&](std::uint8_t ordinal, double along) {
+                s.edges.push_back({edge, ordinal, nodes_.inside(node), static_cast<float>(along)});
+            };
+            const int count = nodes_.crossings(edge / kLatticeNodes, node).count;
+            const double first = std::clamp(list[n].along, off, 1 - count * off);
+            keep(0, first);
+            if (count == 2) keep(1, std::clamp(list[++n].along, first + off, 1 - off));
         }
     }
 

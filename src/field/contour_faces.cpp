@@ -9,7 +9,10 @@ namespace {
 class FaceVertices {
   public:
     FaceVertices(const SurfaceTable& table, const BrickSurface& surface)
-        : table_(table), s_(surface), lattice_(table.field().lattice(surface.coord)) {}
+        : table_(table),
+          s_(surface),
+          lattice_(table.field().lattice(surface.coord)),
+          behind_(table.behind(surface.coord)) {}
 
     std::vector<SurfaceTable::FaceVertex> find() {
         if (s_.flat && flat_below()) return {};
@@ -24,9 +27,8 @@ class FaceVertices {
                     const int at[3] = {a, b, c};
                     for (int axis = 0; axis < 3; ++axis) {
                         if (s_.flat && at[axis] > 0) continue;
-                        look_at(
-                            SurfaceTable::cell(s_.coord, a - (axis == 0), b - (axis == 1), c - (axis == 2)),
-                            {s_.coord, a, b, c}, axis);
+                        look_at(Cell::from(a - (axis == 0), b - (axis == 1), c - (axis == 2)), {0, a, b, c},
+                                axis);
                     }
                 }
             }
@@ -37,25 +39,19 @@ class FaceVertices {
   private:
     // Whether the bricks below along each axis are flat too or have no surface.
     bool flat_below() const {
-        const BrickCoord b = s_.coord;
-        for (const BrickCoord at :
-             {BrickCoord{b.i - 1, b.j, b.k}, BrickCoord{b.i, b.j - 1, b.k}, BrickCoord{b.i, b.j, b.k - 1}}) {
-            if (!table_.surface(at).is_flat()) return false;
-        }
-        return true;
+        return behind_.of[1].is_flat() && behind_.of[2].is_flat() && behind_.of[4].is_flat();
     }
 
     void look_at(const Cell& below, const Cell& above, int axis) {
-        const KnownSurface lower = surface_of(below.brick);
+        const KnownSurface &lower = behind_.surface(below), &own = behind_.of[0];
         if (lower.is_empty() || (lower.is_flat() && s_.flat)) return;
-        const int cell = cell_index(above.a, above.b, above.c);
+        const int cell = above.index();
         const int node = node_index(above.a, above.b, above.c);
         const auto face = static_cast<std::uint16_t>(3 * cell + axis);
         const auto crowded =
             std::lower_bound(s_.crowded.begin(), s_.crowded.end(), face,
                              [](const BrickSurface::CrowdedFace& f, std::uint16_t n) { return f.face < n; });
-        const KnownSurface own{s_.first_vertex, &s_};
-        const bool several = own.is_several(cell) || lower.is_several(cell_index(below.a, below.b, below.c));
+        const bool several = own.is_several(cell) || lower.is_several(below.index());
         if (crowded != s_.crowded.end() && crowded->face == face) {
             if (crowded->segments.count == 1 && !several) return;
             for (int k = 0; k < crowded->segments.count; ++k)
@@ -90,7 +86,7 @@ class FaceVertices {
 
     static std::uint32_t any_vertex(const KnownSurface& s, const Cell& at) {
         if (s.is_flat()) return s.first_vertex;
-        const std::uint16_t v = s.details->cell[static_cast<std::size_t>(cell_index(at.a, at.b, at.c))];
+        const std::uint16_t v = s.details->cell[static_cast<std::size_t>(at.index())];
         return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
     }
 
@@ -112,13 +108,10 @@ class FaceVertices {
                           BrickSurface::key(face, s.to.edge, s.to.ordinal)});
     }
 
-    KnownSurface surface_of(BrickCoord b) const {
-        return b == s_.coord ? KnownSurface{s_.first_vertex, &s_} : table_.surface(b);
-    }
-
     const SurfaceTable& table_;
     const BrickSurface& s_;
     Lattice lattice_;
+    SurfacesBehind behind_;
     std::vector<SurfaceTable::FaceVertex> found_;
 };
 

@@ -2,6 +2,7 @@
 #include "field/contour_nodes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -96,6 +97,7 @@ BrickNodes::BrickNodes(const CarvedField& field, BrickCoord coord)
         field.blank().sample(lattice_, value_.data());
     }
     agree_on_border();
+    look_at_rows();
 }
 
 void BrickNodes::find_around() {
@@ -129,19 +131,37 @@ void BrickNodes::agree_on_border() {
     }
 }
 
+void BrickNodes::look_at_rows() {
+    const auto cell = static_cast<float>(field_.cell_mm());
+    const auto half = static_cast<float>(0.5 * field_.cell_mm());
+    const float* value = value_.data();
+    for (std::size_t row = 0; row < kRows; ++row) {
+        unsigned inside = 0, near = 0, very_near = 0;
+        for (unsigned a = 0; a < kLatticeEdge; ++a) {
+            const float d = *value++, far = std::abs(d);
+            inside |= static_cast<unsigned>(d < 0) << a;
+            near |= static_cast<unsigned>(far < cell) << a;
+            very_near |= static_cast<unsigned>(far <= half) << a;
+        }
+        inside_[row] = static_cast<std::uint8_t>(inside);
+        near_[row] = static_cast<std::uint8_t>(near);
+        very_near_[row] = static_cast<std::uint8_t>(very_near);
+    }
+}
+
 bool BrickNodes::has_surface() const {
     // Between nodes that are half a cell from the surface and further no wall or slit is hidden.
-    const auto clear = static_cast<float>(0.5 * field_.cell_mm());
-    bool in = true, out = true;
-    for (const float d : value_) {
-        in &= d < -clear;
-        out &= d > clear;
+    unsigned in = 0xff, out = 0xff;
+    for (std::size_t row = 0; row < kRows; ++row) {
+        in &= inside_[row] & ~unsigned{very_near_[row]};
+        out &= ~unsigned{inside_[row]} & ~unsigned{very_near_[row]};
     }
-    return !in && !out;
+    return in != 0xff && out != 0xff;
 }
 
 // The first of the bricks that share all the nodes of the box between two corners that has nodes of its own.
 BrickRef BrickNodes::ref_between(int from, int to) const {
+    if (untouched_around_) return kUntouched;
     int low[3], high[3];
     for (int axis = 0; axis < 3; ++axis) {
         const int a = coordinate(from, axis), b = coordinate(to, axis);
@@ -159,26 +179,35 @@ BrickRef BrickNodes::ref_between(int from, int to) const {
 }
 
 void BrickNodes::find_crossings() {
-    const auto cell = static_cast<float>(field_.cell_mm());
+    constexpr unsigned kLower = (1U << kBrickCells) - 1;
     for (int axis = 0; axis < 3; ++axis) {
-        auto& edges = edges_[static_cast<std::size_t>(axis)];
-        edges.fill({});
-        const int step = kStep[axis];
-        for (int node = 0; node + step < kLatticeNodes; ++node) {
-            const float d0 = value_[static_cast<std::size_t>(node)];
-            const float d1 = value_[static_cast<std::size_t>(node + step)];
-            const bool across = (d0 < 0) != (d1 < 0);
-            if (!across && std::abs(d0) + std::abs(d1) >= cell) continue;
-            if (coordinate(node, axis) == kBrickCells) continue;
-            if (!across) {
-                find_thin(axis, node);
-                continue;
-            }
-            edges[static_cast<std::size_t>(node)] = {static_cast<std::uint16_t>(list_.size()), 1};
-            list_.push_back(find_crossing(ref_between(node, node + step), axis, node, 0, 1,
-                                          static_cast<double>(d0), static_cast<double>(d1)));
+        edges_[static_cast<std::size_t>(axis)].fill({});
+        // The row with the upper ends of a row's edges.
+        const auto up = static_cast<std::size_t>(kStep[axis] / kLatticeEdge);
+        for (std::size_t row = 0; row < kRows; ++row) {
+            const int first = static_cast<int>(row) * kLatticeEdge;
+            if (axis != 0 && coordinate(first, axis) == kBrickCells) continue;
+            const auto upper = [&](const std::array<std::uint8_t, kRows>& rows) {
+                return axis == 0 ? unsigned{rows[row]} >> 1 : unsigned{rows[row + up]};
+            };
+            unsigned left = (inside_[row] ^ upper(inside_)) | (near_[row] & upper(near_));
+            if (axis == 0) left &= kLower;
+            for (; left != 0; left &= left - 1) look_at_edge(axis, first + std::countr_zero(left));
         }
     }
+}
+
+void BrickNodes::look_at_edge(int axis, int node) {
+    const float d0 = value_[static_cast<std::size_t>(node)];
+    const float d1 = value_[static_cast<std::size_t>(node + kStep[axis])];
+    if ((d0 < 0) == (d1 < 0)) {
+        if (std::abs(d0) + std::abs(d1) < static_cast<float>(field_.cell_mm())) find_thin(axis, node);
+        return;
+    }
+    edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)] = {
+        static_cast<std::uint16_t>(list_.size()), 1};
+    list_.push_back(find_crossing(ref_between(node, node + kStep[axis]), axis, node, 0, 1,
+                                  static_cast<double>(d0), static_cast<double>(d1)));
 }
 
 // Regula falsi (Illinois) along an edge whose ends lie on either side; starts from the values there, which
@@ -190,6 +219,7 @@ Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, 
     const Vec3 from = node_mm(node);
     Crossing x;
     x.point = from;
+    x.edge = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
     CarvedField::Exact e{0, 0};
     int side = 0;
     for (int n = 0; n < kMost; ++n) {

@@ -22,7 +22,8 @@ inline Vec3 node_mm(const Lattice& lattice, int node) {
 struct Crossing {
     Vec3 point, normal;  // mm; unit, out of the material
     ShapeId shape = 0;
-    double along = 0;  // from the lower node of the edge, in cells
+    std::uint16_t edge = 0;  // lattice nodes x axis + lower node
+    double along = 0;        // from the lower node of the edge, in cells
 };
 
 // The crossings of one edge, as a part of a list. An edge whose ends lie on the same side has two where a
@@ -52,11 +53,19 @@ class BrickNodes {
     BrickNodes(const CarvedField& field, BrickCoord coord);
 
     bool inside(int node) const { return value_[static_cast<std::size_t>(node)] < 0; }
+    // Cells of a row along x, bit a for the cell at (a, b, c), whose corners lie on both sides.
+    unsigned mixed_cells(int b, int c) const {
+        const auto row = static_cast<std::size_t>(b + kLatticeEdge * c);
+        const unsigned r0 = inside_[row], r1 = inside_[row + 1], r2 = inside_[row + kLatticeEdge],
+                       r3 = inside_[row + kLatticeEdge + 1];
+        const unsigned any = r0 | r1 | r2 | r3, all = r0 & r1 & r2 & r3;
+        return (any | any >> 1) & ~(all & all >> 1) & ((1U << kBrickCells) - 1);
+    }
     // Whether anything of the surface may be in the brick or on its border.
     bool has_surface() const;
 
-    // All crossings of the edges of this brick, those on its border included. A pure function of the field:
-    // bricks that share an edge find the same. To be called once, before what follows.
+    // All crossings of the edges of this brick, those on its border included, by edge. A pure function of the
+    // field: bricks that share an edge find the same. To be called once, before what follows.
     void find_crossings();
     EdgeCrossings crossings(int axis, int node) const {
         return edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)];
@@ -80,6 +89,8 @@ class BrickNodes {
     }
     void find_around();
     void agree_on_border();
+    void look_at_rows();
+    void look_at_edge(int axis, int node);
     BrickRef ref_between(int from, int to) const;
     Crossing find_crossing(BrickRef ref, int axis, int node, double t0, double t1, double d0,
                            double d1) const;
@@ -95,6 +106,10 @@ class BrickNodes {
     bool untouched_around_ = true, has_thin_ = false;
     std::array<BrickRef, 27> around_;
     std::array<float, kLatticeNodes> value_;
+    // Of the nodes of each row along x, bit a for the one at a: inside, and less than a cell and less than
+    // half a cell from the surface.
+    static constexpr std::size_t kRows = kLatticeEdge * kLatticeEdge;
+    std::array<std::uint8_t, kRows> inside_, near_, very_near_;
     std::array<std::array<EdgeCrossings, kLatticeNodes>, 3> edges_;
     std::vector<Crossing> list_;
 };

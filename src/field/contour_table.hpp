@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -25,15 +26,58 @@ struct KnownSurface {
 
     bool is_empty() const { return first_vertex == kNoVertex; }
     bool is_flat() const { return !details || details->flat; }
-    // Of a brick with details.
     bool is_several(int cell) const {
         return !is_flat() && details->cell[static_cast<std::size_t>(cell)] == BrickSurface::kSeveral;
     }
 };
 
+// A cell of a brick or of one back from it.
 struct Cell {
-    BrickCoord brick;
-    int a, b, c;
+    int back;     // in which coordinates its brick is one back: bits of i, j and k
+    int a, b, c;  // in its brick
+
+    // By its coordinates in the brick itself, -1..6.
+    static Cell from(int a, int b, int c) {
+        const int back = (a < 0 ? 1 : 0) + (b < 0 ? 2 : 0) + (c < 0 ? 4 : 0);
+        return {back, a < 0 ? a + kBrickCells : a, b < 0 ? b + kBrickCells : b, c < 0 ? c + kBrickCells : c};
+    }
+    int index() const { return cell_index(a, b, c); }
+};
+
+// A brick and those one back from it.
+struct SurfacesBehind {
+    std::array<KnownSurface, 8> of;  // as Cell::back
+
+    const KnownSurface& surface(const Cell& at) const { return of[static_cast<std::size_t>(at.back)]; }
+    // The vertex of a cell at a crossing of one of its edges; kNoVertex where the surface does not pass.
+    std::uint32_t vertex(const Cell& at, int edge, int ordinal) const {
+        const KnownSurface& s = surface(at);
+        if (s.is_flat()) return s.first_vertex;
+        const auto cell = static_cast<std::uint16_t>(at.index());
+        std::uint16_t v = s.details->cell[cell];
+        if (v == BrickSurface::kSeveral) {
+            v = pieces(*s.details, cell)
+                    .vertex[static_cast<std::size_t>(edge)][static_cast<std::size_t>(ordinal)];
+        }
+        return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
+    }
+    // The vertex on the lower face of a cell along an axis, or kNoVertex.
+    std::uint32_t on_face(const Cell& at, int axis, int edge, int ordinal) const {
+        const BrickSurface* s = surface(at).details;
+        if (!s || s->on_faces.empty()) return kNoVertex;
+        const std::uint16_t key = BrickSurface::key(3 * at.index() + axis, edge, ordinal);
+        const auto found =
+            std::lower_bound(s->on_faces.begin(), s->on_faces.end(), key,
+                             [](const BrickSurface::OnFace& f, std::uint16_t k) { return f.key < k; });
+        return found != s->on_faces.end() && found->key == key ? found->vertex : kNoVertex;
+    }
+
+  private:
+    static const BrickSurface::SeveralPieces& pieces(const BrickSurface& s, std::uint16_t cell) {
+        return *std::lower_bound(
+            s.several.begin(), s.several.end(), cell,
+            [](const BrickSurface::SeveralPieces& p, std::uint16_t c) { return p.cell < c; });
+    }
 };
 
 // Bricks come in batches, in order of their coordinates: along i, then j, then k. Triangles and vertices of
@@ -62,47 +106,13 @@ class SurfaceTable {
     double margin() const { return margin_; }
     const CarvedField& field() const { return field_; }
 
-    // Coordinates of a cell counted from brick `b`, -1..6 along each axis.
-    static Cell cell(BrickCoord b, int a, int bb, int c) {
-        if (a < 0) --b.i, a += kBrickCells;
-        if (bb < 0) --b.j, bb += kBrickCells;
-        if (c < 0) --b.k, c += kBrickCells;
-        return {b, a, bb, c};
-    }
-    // Of the batch, or one back.
-    KnownSurface surface(BrickCoord b) const {
-        if (b.i < first_.i || b.j < first_.j || b.k < first_.k) return {};
-        const Slot& slot = slots_[place(b)];
-        if (slot.details == kNoDetails) return {slot.first_vertex, nullptr};
-        return {slot.first_vertex, slot.details >= kInBatch ? &batch_[slot.details - kInBatch]
-                                                            : &kept_[slot.details - forgotten_]};
-    }
-    // The vertex of a cell at a crossing of one of its edges; kNoVertex where the surface does not pass.
-    std::uint32_t vertex(const Cell& at, int edge, int ordinal) const {
-        const KnownSurface s = surface(at.brick);
-        if (s.is_flat()) return s.first_vertex;
-        const auto cell = static_cast<std::uint16_t>(cell_index(at.a, at.b, at.c));
-        std::uint16_t v = s.details->cell[cell];
-        if (v == BrickSurface::kSeveral) {
-            v = pieces(*s.details, cell)
-                    .vertex[static_cast<std::size_t>(edge)][static_cast<std::size_t>(ordinal)];
-        }
-        return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
-    }
-    // The vertex on the lower face of a cell along an axis, or kNoVertex.
-    std::uint32_t on_face(const Cell& at, int axis, int edge, int ordinal) const {
-        const BrickSurface* s = surface(at.brick).details;
-        if (!s || s->on_faces.empty()) return kNoVertex;
-        const std::uint16_t key = BrickSurface::key(3 * cell_index(at.a, at.b, at.c) + axis, edge, ordinal);
-        const auto found =
-            std::lower_bound(s->on_faces.begin(), s->on_faces.end(), key,
-                             [](const BrickSurface::OnFace& f, std::uint16_t k) { return f.key < k; });
-        return found != s->on_faces.end() && found->key == key ? found->vertex : kNoVertex;
-    }
-    static const BrickSurface::SeveralPieces& pieces(const BrickSurface& s, std::uint16_t cell) {
-        return *std::lower_bound(
-            s.several.begin(), s.several.end(), cell,
-            [](const BrickSurface::SeveralPieces& p, std::uint16_t c) { return p.cell < c; });
+    // Of a brick of the batch.
+    SurfacesBehind behind(BrickCoord b) const {
+        SurfacesBehind found;
+        for (int n = 0; n < 8; ++n)
+            found.of[static_cast<std::size_t>(n)] =
+                surface({b.i - (n & 1), b.j - (n >> 1 & 1), b.k - (n >> 2)});
+        return found;
     }
     Vec3 position(std::uint32_t vertex) const {
         return to_double(vertex < kOnFace ? in_cells_[vertex] : on_faces_[vertex - kOnFace]);
@@ -113,6 +123,14 @@ class SurfaceTable {
     std::vector<Point3f>& on_faces() { return on_faces_; }
 
   private:
+    KnownSurface surface(BrickCoord b) const {
+        if (b.i < first_.i || b.j < first_.j || b.k < first_.k) return {};
+        const Slot& slot = slots_[place(b)];
+        if (slot.details == kNoDetails) return {slot.first_vertex, nullptr};
+        return {slot.first_vertex, slot.details >= kInBatch ? &batch_[slot.details - kInBatch]
+                                                            : &kept_[slot.details - forgotten_]};
+    }
+
     static constexpr std::uint32_t kInBatch = 0x80000000, kNoDetails = kNoVertex;
     struct Slot {
         std::uint32_t first_vertex = kNoVertex;
