@@ -17,7 +17,7 @@ namespace tribo::field {
 namespace {
 
 // Bricks in hand at once, about: enough for all threads, few enough that what is known of them stays small.
-constexpr std::size_t kBatch = 16384;
+constexpr std::size_t kBatch = 4096;
 
 struct BrickTriangles {
     std::vector<Triangle> triangles;

@@ -7,7 +7,7 @@ namespace tribo::field {
 namespace {
 
 // Slots of the table, unless two layers need more, and the layers that it has at most.
-constexpr int kSlots = 1 << 20, kMostLayers = 17;
+constexpr int kSlots = 1 << 18, kMostLayers = 17;
 
 int layers_of(int size_i, int size_j) {
     const auto area = std::max<std::int64_t>(1, std::int64_t{size_i} * size_j);

@@ -21,8 +21,11 @@ constexpr double kMostCells = 5e8;
 // Bytes of a move with its timing and what goes with it, and of its sweep, with what the heap adds.
 constexpr double kMoveBytes = sizeof(motion::Move) + 2 * sizeof(motion::MoveTiming) + 64;
 constexpr double kSweepBytes = 320, kCurvedSweepBytes = 1400;
-// Bytes of meshing, measured: for a brick of a flat face and one that was cut, and its vertices.
-constexpr double kFlatBrickBytes = 300, kCutBrickBytes = 3800, kCutBrickVertices = 25;
+// Vertices of a brick that was cut, about; one of a flat face has one.
+constexpr double kCutBrickVertices = 25;
+// Bytes of meshing, measured: for a vertex with its two triangles, as arrays grow; for what is known of the
+// bricks in hand; for each brick of two layers.
+constexpr double kVertexBytes = 50, kInHandBytes = 1e7, kLayerBrickBytes = 16;
 
 // The surface of the tool from a point: how far (negative inside), and in which direction, by the axis and
 // away from it.
@@ -192,8 +195,8 @@ double MemoryEstimate::vertices(double cell_mm) const {
 }
 
 double MemoryEstimate::mesh_bytes(double cell_mm) const {
-    const double cut = cut_bricks(cell_mm);
-    return kFlatBrickBytes * (vertices(cell_mm) - kCutBrickVertices * cut) + kCutBrickBytes * cut;
+    const Vec3 s = blank_.size() / (field::kBrickCells * cell_mm);
+    return kVertexBytes * vertices(cell_mm) + kInHandBytes + kLayerBrickBytes * s.x * s.y;
 }
 
 }  // namespace tribo::session

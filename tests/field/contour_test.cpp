@@ -128,6 +128,22 @@ TEST(Contour, keeps_a_wall_that_is_thinner_than_a_cell) {
     }
 }
 
+// More bricks in a layer than are looked at together, and layers without any between two solids: what is
+// known of the bricks behind is neither lost nor taken from elsewhere.
+TEST(Contour, of_wide_layers_and_of_solids_far_above_each_other) {
+    for (const double gap : {0.5, 130.0}) {
+        const double top = 2 + gap;
+        CarvedField f(std::make_unique<BoxShape>(Box3{{0, 0, 0}, {300, 260, top + 3}}), 0.5);
+        f.carve(std::make_unique<BoxShape>(Box3{{-5, -5, 2}, {305, 265, top}}));
+        f.carve(std::make_unique<BoxShape>(Box3{{100, 120, -5}, {200, 140, top + 10}}));
+        f.carve(std::make_unique<BoxShape>(Box3{{-5, 100, 0.7}, {305, 103, top + 2}}));
+        const TriangleMesh mesh = contour(f);
+        EXPECT_TRUE(is_closed(mesh));
+        const double plate = 300 * 260 - 100 * 20;
+        EXPECT_NEAR(volume_mm3(mesh), plate * 5 - 300 * 3 * (2 - 0.7 + 2), 0.1) << gap;
+    }
+}
+
 TEST(Contour, of_nothing_is_empty) {
     auto f = block(0.5);
     f.carve(std::make_unique<BoxShape>(Box3{{-5, -5, -20}, {50, 50, 5}}));
