@@ -316,7 +316,7 @@ class CurvedSweep final : public field::Shape {
     }
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sweep_kernels().curved(tool_, line_, start_, lattice, near_mm, out);
+        sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, out);
     }
 
   private:

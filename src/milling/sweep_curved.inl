@@ -24,6 +24,36 @@ TRIBO_LANES PointBounds<T> bounds_of(const Profile<T>& p, const TravelBounds& b,
         broadcast<T>(b.speed) + broadcast<T>(b.turn) * reach, broadcast<T>(0), p.R, reach};
 }
 
+// The tool at the eight instants as one point sees it; the names are instant()'s.
+struct Views {
+    F8 rho_squared, half_rate, z, dz, way_squared;
+
+    TRIBO_LANES Views(const CurvedInstants& c, const float (&point)[3]) {
+        const F8 zero = splat(0.0f);
+        F8 d[3], axis[3], turned = zero, along = zero, squared = zero;
+        rho_squared = half_rate = z = zero;
+        for (int k = 0; k < 3; ++k) {
+            d[k] = splat(point[k]) - load(c.tip[k]);
+            axis[k] = load(c.axis[k]);
+            z += d[k] * axis[k];
+            turned += d[k] * load(c.axis_rate[k]);
+            along += axis[k] * load(c.tip_rate[k]);
+        }
+        for (int k = 0; k < 3; ++k) {
+            const F8 radial = d[k] - z * axis[k], way = load(c.tip_rate[k]) + z * load(c.axis_rate[k]);
+            rho_squared += radial * radial;
+            half_rate -= radial * way;
+            squared += way * way;
+        }
+        dz = turned - along;
+        way_squared = squared - along * along;
+    }
+    template <CutterKind kind>
+    TRIBO_LANES Instant<F8> instants(const Profile<F8>& p) const {
+        return instant<kind>(p, rho_squared, half_rate, z, dz, way_squared);
+    }
+};
+
 // Fills Floors for one point: eight instants at once.
 template <CutterKind kind>
 TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
@@ -32,27 +62,13 @@ TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, co
     // What single precision may be off, per mm from the tip.
     constexpr float kRounding = 1e-6f;
     const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
-    F8 d[3], axis[3], z = splat(0.0f), dz = splat(0.0f), along = splat(0.0f);
-    for (int k = 0; k < 3; ++k) {
-        d[k] = splat(point[k]) - load(c.tip[k]);
-        axis[k] = load(c.axis[k]);
-        z += d[k] * axis[k];
-        dz += d[k] * load(c.axis_rate[k]);
-        along += axis[k] * load(c.tip_rate[k]);
-    }
-    F8 rho_squared = splat(0.0f), half_rate = splat(0.0f), way_squared = splat(0.0f);
-    for (int k = 0; k < 3; ++k) {
-        const F8 radial = d[k] - z * axis[k], way = load(c.tip_rate[k]) + z * load(c.axis_rate[k]);
-        rho_squared += radial * radial;
-        half_rate -= radial * way;
-        way_squared += way * way;
-    }
+    const Views v(c, point);
     const PointBounds<F8> bounds =
         bounds_of<F8>(p, travel, splat(point[0]), splat(point[1]), splat(point[2]));
     const F8 reach = bounds.reach;
     const F8 rounding = splat(kRounding) * reach * (splat(1.0f) + width * bounds.speed / p.R);
     Stretch<F8> s;
-    s.a = instant<kind>(p, rho_squared, half_rate, z, dz - along, way_squared - along * along);
+    s.a = v.instants<kind>(p);
     s.b = {next(s.a.distance), next(s.a.slope), next(s.a.drho),
            next(s.a.dz),       next(s.a.gap),   next(s.a.way_squared)};
     s.lo = splat(0.0f);
@@ -64,8 +80,64 @@ TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, co
     store(out.dz, s.a.dz);
     store(out.gap, s.a.gap);
     store(out.way_squared, s.a.way_squared);
-    out.lowest = z[0];
-    for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = z[k] < out.lowest ? z[k] : out.lowest;
+    out.lowest = v.z[0];
+    for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = v.z[k] < out.lowest ? v.z[k] : out.lowest;
+}
+
+// How fast the distance of any point within `radius` of one changes at the eight instants, bounds on both
+// sides.
+struct SlopeBounds {
+    F8 least, most;
+};
+
+// Two points see the tool from directions that differ by at most 2 radius / (rho + rho'), and move past it at
+// velocities that differ by at most turn * radius. Where side and bottom of a tool may both count, the slope
+// is that of one of them or, on a corner, one of a mix whose shares add up to at least 1.
+template <CutterKind kind>
+TRIBO_LANES SlopeBounds slopes_around(const Profile<F8>& p, const Views& v, F8 radius, F8 turn) {
+    const F8 two = splat(2.0f), never = broadcast<F8>(kNever), tiny = broadcast<F8>(1e-30);
+    const auto turned = [&](F8 rho) {
+        return min(two * radius / max(rho + max(rho - radius, splat(0.0f)), tiny), two);
+    };
+    const F8 spread = turn * radius;
+    if constexpr (kind == CutterKind::ball) {
+        const Instant<F8> i = v.instants<kind>(p);
+        const F8 off = turned(i.distance + p.R) * sqrt(v.way_squared + v.dz * v.dz) + spread;
+        return {i.slope - off, i.slope + off};
+    }
+    const F8 rho = sqrt(v.rho_squared), drho = v.half_rate / max(rho, tiny), gap = rho - p.R + v.z;
+    const F8 off = turned(rho) * sqrt(max(v.way_squared, splat(0.0f))) + spread;
+    // The gap changes by at most sqrt(2) per mm.
+    const F8 sure = splat(1.4143f) * radius;
+    auto side = gap > -sure, bottom = gap < sure;
+    if constexpr (kind == CutterKind::bull) {  // in front of the corner both count
+        side = either(side, rho > p.core - radius);
+        bottom = either(bottom, v.z < p.r + radius);
+    }
+    const F8 fall = -v.dz;
+    return {min(select(side, drho - off, never), select(bottom, fall - spread, never)),
+            max(select(side, drho + off, -never), select(bottom, fall + spread, -never))};
+}
+
+// The end of the travel that is the nearest instant of all points within `radius` of `point`, its flat top
+// being too far to count: 0 or 1; -1 where there is none for sure.
+template <CutterKind kind>
+TRIBO_LANES int nearest_end(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
+                            const float (&point)[3], float radius) {
+    const Views v(c, point);
+    PointBounds<F8> bounds = bounds_of<F8>(p, travel, splat(point[0]), splat(point[1]), splat(point[2]));
+    const F8 turn = broadcast<F8>(travel.turn);
+    bounds.bend += broadcast<F8>(travel.turn_rate + travel.turn * travel.turn) * splat(radius);
+    // g(t) >= g(0) + g'(0) t - bend t^2 / 2, likewise from 1. The margin is far above what rounding makes of
+    // any look that a search takes, so that one would find the end too, to the last bit.
+    const F8 margin = splat(5e-3f) + splat(1e-3f) * bounds.speed;
+    const F8 enough = splat(0.5f) * bounds.bend + margin;
+    const SlopeBounds slope = slopes_around<kind>(p, v, splat(radius), turn);
+    constexpr int kLast = CurvedInstants::kCount - 1;
+    const float most = p.L[0] - p.R[0] - radius;  // the height from which on the top may count
+    if (slope.least[0] > enough[0] && v.z[0] < most) return 0;
+    if (slope.most[kLast] < -enough[kLast] && v.z[kLast] < most) return 1;
+    return -1;
 }
 
 template <CutterKind kind>
@@ -145,7 +217,24 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     }
 }
 
-// The coordinates of points in the tool's frame, x and y across the axis, as polynomials of t in Newton's
+// The coordinates of points in the tool's frame, x and y across the axis, at one instant: how they grow with
+// the point's, and what they are for the point (0, 0, 0).
+struct SeenAxes {
+    struct Row {
+        Vec3 axis;
+        double constant;
+    };
+    Row rows[3];
+
+    SeenAxes(const CurvedLine& line, double t) {
+        const Vec3 across = any_perpendicular(line.axis0), tip = tip_at(line, t), z = axis_at(line, t);
+        const Vec3 x = normalized(across - dot(across, z) * z);
+        const Vec3 axes[3] = {x, cross(z, x), z};
+        for (int k = 0; k < 3; ++k) rows[k] = {axes[k], -dot(tip, axes[k])};
+    }
+};
+
+// The same as polynomials of t in Newton's
 // form through Chebyshev's points. With w the turn of the axis, v the length of the tip path and d the
 // distance of a point, all over one piece, they are off by about 7e-7 w^5 (6 v + w d): 0.01 um at 30 degrees,
 // 40 mm from the tip, 20 mm of path.
@@ -170,17 +259,11 @@ struct SeenFrame {
     explicit SeenFrame(const CurvedLine& line)
         : stretches(line.stretches),
           spin(static_cast<float>(2.5 * line.bounds.turn * std::min(line.bounds.turn, 1.0))) {
-        struct Row {
-            Vec3 axis;
-            double constant;
-        };
+        using Row = SeenAxes::Row;
         Row table[kDegree + 1][3];
-        const Vec3 across = any_perpendicular(line.axis0);
         for (int i = 0; i <= kDegree; ++i) {
-            const Vec3 tip = tip_at(line, kPoints[i]), z = axis_at(line, kPoints[i]);
-            const Vec3 x = normalized(across - dot(across, z) * z);
-            const Vec3 axes[3] = {x, cross(z, x), z};
-            for (int k = 0; k < 3; ++k) table[i][k] = {axes[k], -dot(tip, axes[k])};
+            const SeenAxes axes(line, kPoints[i]);
+            std::copy_n(axes.rows, 3, table[i]);
         }
         // Divided differences.
         for (int order = 1; order <= kDegree; ++order) {
@@ -201,15 +284,18 @@ struct SeenFrame {
         };
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i <= kDegree; ++i) put(3 * i + k, table[i][k]);
-            for (int n = 0; n <= stretches; ++n) {
-                const double t = static_cast<double>(n) / stretches;
+        }
+        for (int n = 0; n <= stretches; ++n) {
+            const double t = static_cast<double>(n) / stretches;
+            const SeenAxes axes(line, t);
+            for (int k = 0; k < 3; ++k) {
                 Row value = table[kDegree][k], rate{{}, 0};
                 for (int i = kDegree - 1; i >= 0; --i) {
                     const double h = t - kPoints[i];
                     rate = {h * rate.axis + value.axis, h * rate.constant + value.constant};
                     value = {h * value.axis + table[i][k].axis, h * value.constant + table[i][k].constant};
                 }
-                put(kNodes + 6 * n + k, value);
+                put(kNodes + 6 * n + k, axes.rows[k]);
                 put(kNodes + 6 * n + 3 + k, rate);
             }
         }

@@ -29,8 +29,8 @@ struct SweepKernels {
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
     // Likewise.
-    void (*curved)(const ToolProfile&, const CurvedLine&, Vec3 reference, const field::Lattice&,
-                   double near_mm, float* out);
+    void (*curved)(const ToolProfile&, const CurvedLine&, const CurvedInstants&, Vec3 reference,
+                   const field::Lattice&, double near_mm, float* out);
     // `point` relative to the tip at the start.
     void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
 };

@@ -20,6 +20,7 @@ using field::kLatticeEdge;
 struct Offsets {
     F8 x;
     float y[kLatticeEdge], z[kLatticeEdge];
+    float centre[3], radius;  // of a ball around all nodes
 
     Offsets(const field::Lattice& lattice, Vec3 reference) {
         float along_x[kLatticeEdge];
@@ -30,6 +31,10 @@ struct Offsets {
             z[n] = static_cast<float>(d.z);
         }
         x = load(along_x);
+        const double half = 0.5 * (kLatticeEdge - 1) * lattice.cell_mm;
+        const Vec3 middle = lattice.node(0, 0, 0) - reference + Vec3{half, half, half};
+        for (int k = 0; k < 3; ++k) centre[k] = static_cast<float>(middle[k]);
+        radius = static_cast<float>(1.7321 * half);
     }
 };
 
@@ -132,10 +137,39 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
     }
 }
 
+// The tool where it stands at one instant; the same bits as SeenFrame's nodes.
 template <CutterKind kind>
-void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& at, const FarRows& far,
-               float* out) {
+TRIBO_LANES void standing(const Profile<F8>& p, const CurvedLine& line, double t, const Offsets& at,
+                          float* out) {
+    const SeenAxes axes(line, t);
+    F8 along_x[3];
+    float constant[3], by_y[3], by_z[3];
+    for (int k = 0; k < 3; ++k) {
+        constant[k] = static_cast<float>(axes.rows[k].constant);
+        along_x[k] = at.x * splat(static_cast<float>(axes.rows[k].axis.x));
+        by_y[k] = static_cast<float>(axes.rows[k].axis.y);
+        by_z[k] = static_cast<float>(axes.rows[k].axis.z);
+    }
+    const F8 zero = splat(0.0f);
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        float layer[3];
+        for (int k = 0; k < 3; ++k) layer[k] = constant[k] + at.z[c] * by_z[k];
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            F8 seen[3];
+            for (int k = 0; k < 3; ++k) seen[k] = splat(layer[k] + at.y[b] * by_y[k]) + along_x[k];
+            store(
+                out,
+                instant<kind>(p, seen[0] * seen[0] + seen[1] * seen[1], zero, seen[2], zero, zero).distance);
+        }
+    }
+}
+
+template <CutterKind kind>
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants,
+               const Offsets& at, const FarRows& far, float* out) {
     const Profile<F8> p(tool);
+    const int end = nearest_end<kind>(p, instants, line.bounds, at.centre, at.radius);
+    if (end >= 0) return standing<kind>(p, line, end, at, out);
     const SeenFrame frame(line);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
@@ -148,17 +182,17 @@ void curved_of(const ToolProfile& tool, const CurvedLine& line, const Offsets& a
     }
 }
 
-void curved(const ToolProfile& tool, const CurvedLine& line, Vec3 reference, const field::Lattice& lattice,
-            double near_mm, float* out) {
+void curved(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants, Vec3 reference,
+            const field::Lattice& lattice, double near_mm, float* out) {
     const Offsets at(lattice, reference);
     const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
         case CutterKind::flat:
-            return curved_of<CutterKind::flat>(tool, line, at, far, out);
+            return curved_of<CutterKind::flat>(tool, line, instants, at, far, out);
         case CutterKind::ball:
-            return curved_of<CutterKind::ball>(tool, line, at, far, out);
+            return curved_of<CutterKind::ball>(tool, line, instants, at, far, out);
         case CutterKind::bull:
-            return curved_of<CutterKind::bull>(tool, line, at, far, out);
+            return curved_of<CutterKind::bull>(tool, line, instants, at, far, out);
     }
 }
 

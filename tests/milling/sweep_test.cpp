@@ -217,6 +217,37 @@ RC_GTEST_PROP(Sweep, lattice_near_the_surface_agrees_there_and_keeps_the_side_el
     }
 }
 
+// Small bricks beside the tool, where one end of a short travel is often nearest to all nodes, and only a
+// part of a long one counts.
+RC_GTEST_PROP(Sweep, small_lattices_of_curved_sweeps_agree_and_share_the_bits_of_shared_nodes, ()) {
+    const Cutter c = any_cutter();
+    const Move m = any_curved(number(0.03, 1));
+    const auto sweep = make_sweep(c, m);
+    for (int round = 0; round < 6; ++round) {
+        const auto at = surface_point(*sweep, c, m);
+        if (!at) continue;
+        const double cell = std::exp(number(std::log(0.003), std::log(0.4))), near = 1.8 * cell;
+        const field::Lattice a{*at - 3 * cell * Vec3{1, 1, 1} + 3 * cell * vector(1), cell, 0, 0, 0};
+        float own[field::kLatticeNodes], other[field::kLatticeNodes];
+        sweep->sample_near(a, near, own);
+        const double size = 1 + length(a.node(0, 0, 0) - m.start.tip_mm);
+        for (int n = 0; n < field::kLatticeNodes; n += 5) {
+            const double d = sweep->distance_mm(a.node(n % 8, n / 8 % 8, n / 64));
+            if (std::abs(d) < near) RC_ASSERT(std::abs(own[n] - d) < 5e-5 + 3e-6 * size);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            field::Lattice b = a;
+            (axis == 0 ? b.i0 : axis == 1 ? b.j0 : b.k0) = 7;
+            sweep->sample_near(b, near, other);
+            const int step = axis == 0 ? 1 : axis == 1 ? 8 : 64;
+            for (int n = 0; n < field::kLatticeNodes; ++n) {
+                if (n / step % 8 != 0 || std::abs(other[n]) > 0.99 * near) continue;
+                RC_ASSERT(own[n + 7 * step] == other[n]);
+            }
+        }
+    }
+}
+
 RC_GTEST_PROP(Sweep, lattices_share_the_bits_of_shared_nodes, ()) {
     const Cutter c = any_cutter();
     const Move m = any_move();
@@ -249,8 +280,8 @@ RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) 
     sweep_kernels_v3()->arc(tool, arc, frame, from, lattice, b);
     RC_ASSERT(same());
     const CurvedLine curve{vector(2), 0.1 * vector(1), z, 0.1 * vector(1), 0.01 * vector(1)};
-    sweep_kernels_sse2()->curved(tool, curve, from, lattice, 1e30, a);
-    sweep_kernels_v3()->curved(tool, curve, from, lattice, 1e30, b);
+    sweep_kernels_sse2()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, a);
+    sweep_kernels_v3()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, b);
     RC_ASSERT(same());
 }
 
