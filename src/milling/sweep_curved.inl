@@ -119,25 +119,39 @@ TRIBO_LANES SlopeBounds slopes_around(const Profile<F8>& p, const Views& v, F8 r
             max(select(side, drho + off, -never), select(bottom, fall + spread, -never))};
 }
 
-// The end of the travel that is the nearest instant of all points within `radius` of `point`, its flat top
-// being too far to count: 0 or 1; -1 where there is none for sure.
+// A part of the travel, in t.
+struct Part {
+    float from = 0, to = 1;
+};
+
+// The part of the travel, from one of the eight instants to another, that holds the nearest instant of every
+// point within `radius` of `point`; all of it where the tool's flat top may count.
 template <CutterKind kind>
-TRIBO_LANES int nearest_end(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
-                            const float (&point)[3], float radius) {
-    const Views v(c, point);
-    PointBounds<F8> bounds = bounds_of<F8>(p, travel, splat(point[0]), splat(point[1]), splat(point[2]));
-    const F8 turn = broadcast<F8>(travel.turn);
-    bounds.bend += broadcast<F8>(travel.turn_rate + travel.turn * travel.turn) * splat(radius);
-    // g(t) >= g(0) + g'(0) t - bend t^2 / 2, likewise from 1. The margin is far above what rounding makes of
-    // any look that a search takes, so that one would find the end too, to the last bit.
-    const F8 margin = splat(5e-3f) + splat(1e-3f) * bounds.speed;
-    const F8 enough = splat(0.5f) * bounds.bend + margin;
-    const SlopeBounds slope = slopes_around<kind>(p, v, splat(radius), turn);
+TRIBO_LANES Part nearest_part(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
+                              const float (&point)[3], float radius) {
     constexpr int kLast = CurvedInstants::kCount - 1;
-    const float most = p.L[0] - p.R[0] - radius;  // the height from which on the top may count
-    if (slope.least[0] > enough[0] && v.z[0] < most) return 0;
-    if (slope.most[kLast] < -enough[kLast] && v.z[kLast] < most) return 1;
-    return -1;
+    const F8 when = F8{0, 1, 2, 3, 4, 5, 6, 7} / broadcast<F8>(kLast);
+    const Views v(c, point);
+    const PointBounds<F8> bounds =
+        bounds_of<F8>(p, travel, splat(point[0]), splat(point[1]), splat(point[2]));
+    const F8 turn = broadcast<F8>(travel.turn), around = splat(radius);
+    const F8 bend = bounds.bend + broadcast<F8>(travel.turn_rate + travel.turn * travel.turn) * around;
+    const F8 speed = bounds.speed + turn * around;
+    // The distance is never less than -R.
+    if (any(v.z + around + splat(0.5f / kLast) * speed > p.L - p.R)) return {};
+    // g' falls by at most bend per t: once it is below -bend t, g falls all the way from 0 to there, and more
+    // steeply than the bound of a search between two of these instants; likewise from 1. The margin is far
+    // above what rounding makes of any look of that search: it would find the same, to the last bit.
+    const F8 margin = splat(5e-3f) + splat(1e-3f) * speed;
+    const SlopeBounds slope = slopes_around<kind>(p, v, around, turn);
+    const auto falls = slope.most + bend * when < -margin;
+    const auto rises = slope.least - bend * (splat(1.0f) - when) > margin;
+    Part part;
+    for (int k = 0; k <= kLast; ++k) {
+        if (falls[k] != 0) part.from = when[k];
+        if (rises[kLast - k] != 0) part.to = when[kLast - k];
+    }
+    return part;
 }
 
 template <CutterKind kind>
@@ -240,7 +254,8 @@ struct SeenAxes {
 // 40 mm from the tip, 20 mm of path.
 struct SeenFrame {
     static constexpr int kDegree = 5, kCoefficients = 3 * (kDegree + 1), kMostStretches = 8;
-    // The coefficients, then from kNodes on x, y, z and their derivatives at every node.
+    // The coefficients, then from kNodes on x, y, z and their derivatives at every node from the first to the
+    // last.
     static constexpr int kNodes = 24, kEntries = 80;
     static_assert(kNodes >= kCoefficients && kEntries >= kNodes + 6 * (kMostStretches + 1));
     static_assert(kNodes % kLatticeEdge == 0 && kEntries % kLatticeEdge == 0);
@@ -251,13 +266,15 @@ struct SeenFrame {
 
     // What each entry is for the point (0, 0, 0), and how it grows with the point's coordinates.
     float constant[kEntries] = {}, by_x[kEntries] = {}, by_y[kEntries] = {}, by_z[kEntries] = {};
-    int stretches;
+    int stretches, first, last;  // nodes stand at n / stretches
     // A bound of twice the speed at which the frame spins about the axis, radians per t: across it the frame
     // stands still only at t = 0.
     float spin;
 
-    explicit SeenFrame(const CurvedLine& line)
+    SeenFrame(const CurvedLine& line, const Part& part)
         : stretches(line.stretches),
+          first(static_cast<int>(std::floor(part.from * static_cast<float>(stretches)))),
+          last(static_cast<int>(std::ceil(part.to * static_cast<float>(stretches)))),
           spin(static_cast<float>(2.5 * line.bounds.turn * std::min(line.bounds.turn, 1.0))) {
         using Row = SeenAxes::Row;
         Row table[kDegree + 1][3];
@@ -285,7 +302,7 @@ struct SeenFrame {
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i <= kDegree; ++i) put(3 * i + k, table[i][k]);
         }
-        for (int n = 0; n <= stretches; ++n) {
+        for (int n = first; n <= last; ++n) {
             const double t = static_cast<double>(n) / stretches;
             const SeenAxes axes(line, t);
             for (int k = 0; k < 3; ++k) {
@@ -295,11 +312,12 @@ struct SeenFrame {
                     rate = {h * rate.axis + value.axis, h * rate.constant + value.constant};
                     value = {h * value.axis + table[i][k].axis, h * value.constant + table[i][k].constant};
                 }
-                put(kNodes + 6 * n + k, axes.rows[k]);
-                put(kNodes + 6 * n + 3 + k, rate);
+                put(node(n) + k, axes.rows[k]);
+                put(node(n) + 3 + k, rate);
             }
         }
     }
+    int node(int n) const { return kNodes + 6 * (n - first); }
 };
 
 // One row of nodes: entries at y and z, still growing with x. Few rows need the coefficients.
@@ -310,7 +328,7 @@ struct SeenRow {
 
     TRIBO_LANES SeenRow(const SeenFrame& f, F8 px, float py, float pz)
         : frame(f), x(px), y(splat(py)), z(splat(pz)) {
-        fill(SeenFrame::kNodes, SeenFrame::kNodes + 6 * (f.stretches + 1));
+        fill(SeenFrame::kNodes, f.node(f.last + 1));
     }
     TRIBO_LANES void fill(int first, int end) {
         for (int i = first; i < end; i += kLatticeEdge) {
@@ -352,13 +370,15 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<
         return seen(value, rate);
     };
     const auto node = [&](int n) {
-        const int first = SeenFrame::kNodes + 6 * n;
+        const int first = row.frame.node(n);
         const F8 value[3] = {row.entry(first), row.entry(first + 1), row.entry(first + 2)};
         const F8 rate[3] = {row.entry(first + 3), row.entry(first + 4), row.entry(first + 5)};
         lowest = min(lowest, value[2]);
         return seen(value, rate);
     };
-    const F8 distance = least_over_unit < kind == CutterKind::flat,
-             F8 > (row.frame.stretches, bounds, near, node, at).distance;
+    const F8 distance =
+        least_over < kind ==
+        CutterKind::flat >
+            (row.frame.stretches, row.frame.first, row.frame.last, bounds, near, node, at).distance;
     return max(distance, lowest - p.L);
 }

@@ -157,7 +157,7 @@ TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, 
                                          l.across * l.across);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return least_over_unit<false, T>(1, PointBounds<T>{zero, zero, zero, p.R, zero}, near, node, at);
+    return least_over<false, T>(1, 0, 1, PointBounds<T>{zero, zero, zero, p.R, zero}, near, node, at);
 }
 
 // Along and across the axis at once: where the tool comes nearest, its flat top apart; of a bull-nose cutter

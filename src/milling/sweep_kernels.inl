@@ -168,9 +168,9 @@ template <CutterKind kind>
 void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants,
                const Offsets& at, const FarRows& far, float* out) {
     const Profile<F8> p(tool);
-    const int end = nearest_end<kind>(p, instants, line.bounds, at.centre, at.radius);
-    if (end >= 0) return standing<kind>(p, line, end, at, out);
-    const SeenFrame frame(line);
+    const Part part = nearest_part<kind>(p, instants, line.bounds, at.centre, at.radius);
+    if (part.from == part.to) return standing<kind>(p, line, part.to, at, out);
+    const SeenFrame frame(line, part);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
             if (far.fills(b, c, out)) continue;

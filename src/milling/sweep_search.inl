@@ -203,21 +203,23 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
     }
 }
 
-// The least over the whole travel, looked through in `count` equal stretches, the deepest first. node(k) is
-// at(k / count), perhaps at less cost. Farther than `near` from the tool: a bound of the distance on that
-// side.
+// The least over the travel from first / count to last / count, looked through in stretches of 1 / count, the
+// deepest first. node(k) is at(k / count), perhaps at less cost. Farther than `near` from the tool: a bound
+// of the distance on that side.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near, const N& node, const F& at) {
-    const T zero = broadcast<T>(0), never = broadcast<T>(kNever);
-    Least<T> least{never, zero};
+TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBounds<T>& p, T near,
+                                const N& node, const F& at) {
+    const T never = broadcast<T>(kNever);
+    const auto time = [&](int k) { return broadcast<T>(static_cast<double>(k) / count); };
+    Least<T> least{never, time(first)};
     Stretch<T> s{}, deepest{};
     T floor = never, second = never;  // of the deepest stretch, of the next
     const auto begin = [&] {
-        s.lo = zero;
-        s.a = node(0);
+        s.lo = time(first);
+        s.a = node(first);
     };
     const auto reach = [&](int k) {
-        s.hi = broadcast<T>(static_cast<double>(k) / count);
+        s.hi = time(k);
         s.b = node(k);
     };
     const auto go_on = [&] {
@@ -226,7 +228,7 @@ TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near,
     };
     begin();
     take(least, s.a.distance, s.lo);
-    for (int k = 1; k <= count; ++k, go_on()) {
+    for (int k = first + 1; k <= last; ++k, go_on()) {
         reach(k);
         take(least, s.b.distance, s.hi);
         const T under = floor_of<kEdge>(s, p);
@@ -238,13 +240,13 @@ TRIBO_LANES Least<T> least_over_unit(int count, const PointBounds<T>& p, T near,
     const T bound = max(near, floor - broadcast<T>(kProven<T> - kSettled<T>));
     const T searched = deepest.lo;
     s = deepest;
-    for (int k = 0; k <= count; ++k) {
-        if (k > 0) {
+    for (int k = first; k <= last; ++k) {
+        if (k > first) {
             reach(k);
             floor = select(s.lo != searched, floor_of<kEdge>(s, p), never);
         }
         if (any(floor < goal_of(least, near))) search<kEdge>(s, floor, p, near, least, at);
-        if (k == 0) {
+        if (k == first) {
             if (!any(second < goal_of(least, near))) break;
             begin();
         } else {
