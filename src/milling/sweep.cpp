@@ -346,15 +346,16 @@ class CurvedSweep final : public field::Shape {
     CurvedInstants instants_;
 };
 
-// One stretch must be short enough that each part of the tool comes nearest at most once over it.
+// One stretch must be short enough that each part of the tool comes nearest at most once over it. More are
+// cheap: a brick looks at those few that may hold its nearest instants, and short ones take fewer looks.
 int stretches_needed(const CurvedLine& c) {
     const Vec3 leaving = c.tip1 + 2 * c.tip2;
     const double speed = std::max(length(c.tip1), length(leaving));
     const double turn = std::max(length(c.axis1), length(c.axis1 + 2 * c.axis2));
     const double bend = speed > 0 ? 2 * length(c.tip2) / speed : 0;
-    constexpr double kFirst = 0.04;  // rad; doubles with the number of stretches
+    constexpr double kFirst = 0.04;  // rad
     const double bow = std::max(turn, 0.5 * bend);
-    return bow < kFirst ? 1 : bow < 4 * kFirst ? 2 : bow < 8 * kFirst ? 4 : SeenFrame::kMostStretches;
+    return bow < kFirst ? 1 : bow < 2 * kFirst ? 4 : SeenFrame::kMostStretches;
 }
 
 // The control points of the Bezier form bound a polynomial.
