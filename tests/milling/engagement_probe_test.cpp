@@ -141,7 +141,7 @@ TEST(EngagementProbe, works_in_any_orientation) {
     f.carve(std::make_unique<field::BoxShape>(box({-5, -5, -5}, {20, 15, 40})));
     EngagementProbe probe(flat(10));
     Engagement e;
-    const CutPose pose{{20, 7, 15}, tool_frame({0, 1, 0}, {1, 0, 0}, {1, 0, 0}), 1, 0};
+    const CutPose pose{{20, 7, 15}, tool_frame({0, 1, 0}, {1, 0, 0}, {1, 0, 0}), {1, 0}};
     probe.measure(f, pose, e);
     ASSERT_EQ(e.bands.size(), 1u);
     EXPECT_NEAR(e.bands[0].z1_mm, 3, 0.01);
