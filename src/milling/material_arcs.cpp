@@ -15,7 +15,7 @@ constexpr double kSkin = 2e-5;  // mm
 // A step is as long as this share of the clear way, at least this share of a cell, and this many at most over
 // half a turn.
 constexpr double kWayShare = 0.8, kLeastCells = 0.25;
-constexpr double kMostSteps = 56;
+constexpr double kMostSteps = 48;
 // A clear way is looked for up to here, in radii: further steps gain nothing.
 constexpr double kEnoughRadii = 1;
 
