@@ -220,14 +220,15 @@ MaterialArc EngagementProbe::closing_arc(const Level& level, const Level& inner,
     if (!(width < wider - kLevelRad)) return arc;
     const double fall = (wider * wider - width * width) / std::abs(level.s() - inner.s());  // per mm
     const double half = 0.5 * (level.s1 - level.s0);
-    // Wider than that it ends at a step, somewhere between.
+    // Wider than that it ends at a step, somewhere between. What lies beyond the stretch is counted as far as
+    // the stretch is long: the arc stands for no more.
     const double closed = width * width / fall;
-    const double reach = closed < std::abs(end - level.s()) ? closed : half;
+    const double reach = closed < std::abs(end - level.s()) ? std::min(closed, 3 * half) : half;
     const auto cubed = [&](double way) {  // of the width at that way towards the end
         const double square = std::max(width * width - fall * way, 0.0);
         return square * std::sqrt(square);
     };
-    const double mean = (cubed(-half) - cubed(reach)) / (1.5 * fall * 2 * half);
+    const double mean = std::min((cubed(-half) - cubed(reach)) / (1.5 * fall * 2 * half), wider);
     if (starts_with_window(level, arc) && !ends_with_window(level, arc))
         return {arc.from_rad, arc.from_rad + mean};
     if (ends_with_window(level, arc) && !starts_with_window(level, arc))
