@@ -14,10 +14,11 @@ namespace {
 
 // Widest step between samples, rad: the parabola through three of them misses a second harmonic by 1e-4.
 constexpr double kStepRad = 1.0 / 24;
-// A stretch shorter than this bends by less than 1e-4 of the force between its ends.
+// A stretch shorter than this, in which nothing enters or leaves, bends by less than 1e-4 of the force
+// between its ends.
 constexpr double kShortRad = 0.015;
-// Fewest steps while a rounded piece at the tip enters or leaves, and which piece counts as such.
-constexpr int kRootSteps = 4;
+// Fewest steps while a rounded piece enters or leaves, and which piece counts as one at the tip.
+constexpr int kPartialSteps = 6;
 constexpr double kTipShare = 0.2;
 // Borders closer than this are one.
 constexpr double kSameRad = 1e-9;
@@ -144,15 +145,20 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
             root = root || edge->z0_mm < kTipShare * edge->z1_mm;
         }
     }
-    const int least = root ? kRootSteps : length < kShortRad ? 1 : 2;
+    const bool left_hand = tool.lag_per_mm() < 0;
+    const int least = !partial_.empty() ? kPartialSteps : length < kShortRad ? 1 : 2;
     const int steps = std::max(least, static_cast<int>(std::ceil((root ? 2 : 1) * length / kStepRad)));
     double sine, cosine, sin_step, cos_step;
     math::sincos(from, sine, cosine);
     math::sincos(length / steps, sin_step, cos_step);
     for (int i = 0; i <= steps; ++i) {
-        // A piece at the tip enters and leaves with the root of the angle: even steps of that root.
-        const double part = static_cast<double>(i) / steps,
-                     theta = from + length * (root ? part * part : part);
+        // A piece at the tip enters and leaves with the root of the angle, of a left-hand helix at the end:
+        // even steps of that root.
+        const double part = static_cast<double>(i) / steps, rest = 1 - part,
+                     share = !root       ? part
+                             : left_hand ? 1 - rest * rest
+                                         : part * part;
+        const double theta = from + length * share;
         if (root && i > 0) math::sincos(theta, sine, cosine);
         // Helical edges leave no jump at a border: what ended the last stretch starts this one.
         if (i > 0 || from == 0 || jumps_) {

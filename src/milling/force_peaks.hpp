@@ -24,8 +24,7 @@ struct ForcePeaks {
 // Keeps its scratch space: real-time safe once it has seen as many pieces. One thread per object.
 class PeakFinder {
   public:
-    // Extremes good to 0.1 % of the largest force, on flat cutters to 0.02 %; on rounded ones that turn as
-    // they dive to 0.6 %.
+    // Extremes good to 0.1 % of the largest force, on flat cutters to 0.02 %.
     ForcePeaks find(const EngagedEdges& edges);
 
   private:
