@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "milling/edge_force.hpp"
 
+#include <cmath>
+
 #include "base/math.hpp"
 
 namespace tribo::milling {
@@ -30,6 +32,16 @@ void sinc_and_cos(double x, double& sinc, double& cosine) {
 }
 
 }  // namespace
+
+TurnWindow window_above(const TurnLaw& law, double least) {
+    const double slope = math::hypot(law.sine, law.cosine), base = law.constant - least;
+    if (!(slope + base > 0)) return {};
+    if (base >= slope) return {0, math::kTwoPi};
+    const double border = math::asin(-base / slope);
+    const double from = border - math::atan2(law.cosine, law.sine);
+    const double start = from - math::kTwoPi * std::floor(from / math::kTwoPi);
+    return {start, start + math::kPi - 2 * border};
+}
 
 TurnLaw normal_travel(const ToolTravel& travel, const ProfilePoint& at) {
     // The normal is (sin kappa sin phi, sin kappa cos phi, -cos kappa).

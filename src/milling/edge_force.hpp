@@ -42,6 +42,15 @@ struct TurnLaw {
     double sine = 0, cosine = 0, constant = 0;
 };
 
+// Rotations from < to, `from` in the first turn; from == to: none.
+struct TurnWindow {
+    double from_rad = 0, to_rad = 0;
+
+    bool empty() const { return !(to_rad > from_rad); }
+};
+// Where the law is above `least`.
+TurnWindow window_above(const TurnLaw& law, double least);
+
 // How far the place moves along the outward normal, mm: the chip thickness where it is above 0.
 TurnLaw normal_travel(const ToolTravel& travel, const ProfilePoint& at);
 

@@ -4,40 +4,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/math.hpp"
 
 namespace tribo::milling {
 namespace {
 
-// Where the stretches begin whose middles have the first circles of a part: near its ends, where what is
-// engaged often changes, they are short.
-constexpr std::array kFirstStretches{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
+// An engaged stretch has its first circles in the middle of parts that begin at these shares of it: near its
+// ends, where what is engaged often changes, they are short. On the cylinder fewer are alike.
+constexpr std::array kRoundedParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
+constexpr std::array kStraightParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
 // Circles of one part at most.
 constexpr std::size_t kMostLevels = 56;
 // Splitting goes on until no circle may change the chips' area by more than this share, and what is smaller
 // than this is not looked for, R^2.
 constexpr double kAreaShare = 0.004, kLeastArea = 1e-4;
-// How much of what is not seen between two circles without material may be material.
-constexpr double kHidden = 0.05;
-// Travel across the normal of less than this share is rounding.
-constexpr double kOutward = 1e-7;
 // Arcs that differ by less are one band on the cylinder, rad.
 constexpr double kAlikeRad = 2e-3;
-
-// Rotations at which `law` is above 0; from == to where nowhere.
-struct Window {
-    double from = 0, to = 0;
-};
-Window outward(const TurnLaw& law, double least) {
-    const double slope = math::hypot(law.sine, law.cosine), base = law.constant - least;
-    if (!(slope + base > 0)) return {};
-    if (base >= slope) return {0, math::kTwoPi};
-    const double border = math::asin(-base / slope);
-    const double from = border - math::atan2(law.cosine, law.sine);
-    const double start = from - math::kTwoPi * std::floor(from / math::kTwoPi);
-    return {start, start + math::kPi - 2 * border};
-}
 
 // Integral of the law over the rotation.
 double integral(const TurnLaw& law, double from, double to) {
@@ -55,12 +39,13 @@ double fastest(const TurnLaw& law) {
 
 EngagementProbe::EngagementProbe(const Cutter& cutter)
     : profile_(cutter),
+      scout_(cutter),
       radius_mm_(cutter.radius_mm()),
       core_mm_(0.5 * cutter.core_mm),
       length_mm_(cutter.length_mm) {
     levels_.reserve(kMostLevels + 2);
     arcs_.reserve(4 * kMostLevels);
-    clear_.reserve(256);
+    stretches_.reserve(64);
 }
 
 bool EngagementProbe::clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low,
@@ -90,36 +75,13 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
     level.s1 = s1;
     level.at = profile_.at(level.s());
     level.first = arcs_.size();
-    const ToolTravel& t = pose.travel;
-    const double way =
-        t.across_mm + std::abs(t.down_mm) + length_mm_ * (std::abs(t.turn_x_rad) + std::abs(t.turn_y_rad));
-    const TurnLaw law = normal_travel(t, level.at);
-    const Window window = outward(law, kOutward * way);
-    level.window_from = window.from;
-    level.window_to = window.to;
-    level.speed = std::max(0.0, fastest(law));
-    if (!(window.to > window.from)) {
-        level.gap_mm = math::kTwoPi * radius_mm_;
-        level.speed = 0;
-        return level;
-    }
+    level.window = moving_outward(pose, level.at, length_mm_);
+    if (level.window.empty()) return level;
+    const TurnLaw law = normal_travel(pose.travel, level.at);
+    level.speed = fastest(law);
     const double r = level.at.radius_mm;
-    const AxisCircle circle{pose.tip_mm + level.at.height_mm * pose.frame.z, r * pose.frame.x,
-                            r * pose.frame.y, r};
-    material_arcs(stock, circle, window.from, window.to, arcs_, clear_);
-    level.seen_mm = s1 - s0;
-    level.gap_mm = math::kTwoPi * radius_mm_;
-    for (const ClearPiece& piece : clear_) {
-        level.gap_mm = std::min(level.gap_mm, piece.clear_mm);
-        double sine, cosine;
-        math::sincos(piece.middle_rad, sine, cosine);
-        const double flow = r * piece.size_rad * (law.sine * sine + law.cosine * cosine + law.constant);
-        double within = 0.5 * level.seen_mm;
-        for (double& sum : level.hidden) {
-            if (piece.clear_mm < within) sum += flow;
-            within /= 3;
-        }
-    }
+    const AxisCircle circle{pose.on_axis(level.at.height_mm), r * pose.frame.x, r * pose.frame.y, r};
+    material_arcs(stock, circle, level.window.from_rad, level.window.to_rad, arcs_);
     level.count = arcs_.size() - level.first;
     for (std::size_t n = level.first; n < arcs_.size(); ++n) {
         level.width_rad += arcs_[n].to_rad - arcs_[n].from_rad;
@@ -129,16 +91,25 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
 }
 
 void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose) {
-    for (std::size_t n = 0; n + 1 < kFirstStretches.size(); ++n) {
-        levels_.push_back(
-            look(s0 + (s1 - s0) * kFirstStretches[n], s0 + (s1 - s0) * kFirstStretches[n + 1], stock, pose));
+    stretches_.clear();
+    scout_.look(stock, pose, s0, s1, stretches_);
+    const bool straight = s0 >= profile_.corner_end();
+    const std::span<const double> parts =
+        straight ? std::span<const double>(kStraightParts) : std::span<const double>(kRoundedParts);
+    for (const MeridianStretch& stretch : stretches_) {
+        if (!stretch.engaged) {
+            Level& level = levels_.emplace_back();
+            level.s0 = stretch.s0_mm;
+            level.s1 = stretch.s1_mm;
+            level.first = arcs_.size();
+            continue;
+        }
+        const double size = stretch.s1_mm - stretch.s0_mm;
+        for (std::size_t n = 0; n + 1 < parts.size(); ++n) {
+            levels_.push_back(
+                look(stretch.s0_mm + size * parts[n], stretch.s0_mm + size * parts[n + 1], stock, pose));
+        }
     }
-}
-
-// What a level without material may not see of what is half as far as `apart_mm`.
-double EngagementProbe::hidden(const Level& level, double apart_mm) const {
-    const double third = level.seen_mm / 3;
-    return level.hidden[apart_mm > 1.01 * third ? 0 : apart_mm > 1.01 * third / 3 ? 1 : 2];
 }
 
 // What the area that the chips sweep may be off by between two circles.
@@ -147,9 +118,9 @@ double EngagementProbe::error_between(const Level& a, const Level& b) const {
     constexpr double kBend = 0.06, kBegin = 0.3, kEnd = 0.3;
     const double apart = b.s() - a.s(), radius = std::max(a.at.radius_mm, b.at.radius_mm);
     const double speed = std::max(a.speed, b.speed);
-    if (a.count == 0 && b.count == 0) return kHidden * apart * std::max(hidden(a, apart), hidden(b, apart));
+    if (a.count == 0 && b.count == 0) return 0;
     const double change = std::abs(a.flow - b.flow);
-    if (a.count == 0 || b.count == 0) return kEnd * (apart - std::max(a.gap_mm, b.gap_mm)) * change;
+    if (a.count == 0 || b.count == 0) return kEnd * apart * change;
     if (a.count != b.count) {
         constexpr double kAnotherArc = 0.1;  // rad
         return kBegin * apart * (change + kAnotherArc * radius * speed);
@@ -171,12 +142,6 @@ double EngagementProbe::judge() {
         Level& larger = a.s1 - a.s0 >= b.s1 - b.s0 ? a : b;
         larger.error = std::max(larger.error, error);
     }
-    // The ends of the part, which have a neighbour on one side only.
-    for (Level* end : {&levels_.front(), &levels_.back()}) {
-        if (end->count == 0)
-            end->error =
-                std::max(end->error, kHidden * (end->s1 - end->s0) * hidden(*end, end->s1 - end->s0));
-    }
     return area;
 }
 
@@ -184,7 +149,7 @@ void EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose
     double speed = 0;
     for (const Level& level : levels_) speed = std::max(speed, level.speed);
     const double least = kLeastArea * radius_mm_ * radius_mm_ * speed;
-    while (levels_.size() < kMostLevels) {
+    while (!levels_.empty() && levels_.size() < kMostLevels) {
         const double most = std::max(kAreaShare * judge(), least);
         const auto worst = std::max_element(levels_.begin(), levels_.end(),
                                             [](const Level& a, const Level& b) { return a.error < b.error; });
@@ -202,110 +167,151 @@ void EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose
 // Nearer to the window's end an arc ends there, rad.
 constexpr double kSide = 0.01;
 bool EngagementProbe::starts_with_window(const Level& level, const MaterialArc& arc) const {
-    return arc.from_rad - level.window_from < kSide;
+    return arc.from_rad - level.window.from_rad < kSide;
 }
 bool EngagementProbe::ends_with_window(const Level& level, const MaterialArc& arc) const {
-    return level.window_to - arc.to_rad < kSide;
+    return level.window.to_rad - arc.to_rad < kSide;
 }
 
-// The last arc of a contact that gets narrower towards `end`, which is how far it may reach. Where two smooth
-// surfaces part, the square of the width falls evenly.
-MaterialArc EngagementProbe::closing_arc(const Level& level, const Level& inner, double end,
-                                         std::size_t number) const {
-    MaterialArc arc = arcs_[level.first + number];
-    const MaterialArc& before = arcs_[inner.first + number];
+// How a border runs over a level's stretch: its mean, and its slope per mm of meridian.
+struct EngagementProbe::BorderRun {
+    double mean, slope;
+};
+
+// By the same border on the levels below and above. The bend of the three corrects the mean; the slope is
+// the harmonic mean of both sides, none where one side rises and the other falls.
+EngagementProbe::BorderRun EngagementProbe::run_of(double low, double middle, double high, double from_below,
+                                                   double to_above, double size) {
+    const auto step = [](double from, double to) {  // between rotations that may lie whole turns apart
+        return to - from - math::kTwoPi * std::floor((to - from) / math::kTwoPi + 0.5);
+    };
+    const double before = step(low, middle) / from_below, after = step(middle, high) / to_above;
+    const double mean = middle + size * size / (12 * (from_below + to_above)) * (after - before);
+    return {mean, before * after > 0 ? 2 * before * after / (before + after) : 0};
+}
+
+// The last arc of a contact that gets narrower from `inner` on and ends no farther than at `end`. Where two
+// smooth surfaces part, the square of the width falls evenly.
+void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, double end, std::size_t number,
+                                      const CutPose& pose, Engagement& out) const {
+    const MaterialArc &arc = arcs_[level.first + number], &before = arcs_[inner.first + number];
     const double width = arc.to_rad - arc.from_rad, wider = before.to_rad - before.from_rad;
     // A fall of less than that is as good as none.
     constexpr double kLevelRad = 1e-4;
-    if (!(width < wider - kLevelRad)) return arc;
+    if (!(width < wider - kLevelRad)) {
+        add_band(level, arc, level.s0, level.s1, arc, pose, out);
+        return;
+    }
     const double fall = (wider * wider - width * width) / std::abs(level.s() - inner.s());  // per mm
-    const double half = 0.5 * (level.s1 - level.s0);
-    // Wider than that it ends at a step, somewhere between. What lies beyond the stretch is counted as far as
-    // the stretch is long: the arc stands for no more.
+    const double half = 0.5 * (level.s1 - level.s0), way = end > level.s() ? 1 : -1;
+    // Wider than that it ends at a step, somewhere between.
     const double closed = width * width / fall;
-    const double reach = closed < std::abs(end - level.s()) ? std::min(closed, 3 * half) : half;
-    const auto cubed = [&](double way) {  // of the width at that way towards the end
-        const double square = std::max(width * width - fall * way, 0.0);
+    const double reach = closed < std::abs(end - level.s()) ? closed : half;
+    const bool at_start = starts_with_window(level, arc), at_end = ends_with_window(level, arc);
+    const auto cubed = [&](double x) {  // of the width, x towards the end
+        const double square = std::max(width * width - fall * x, 0.0);
         return square * std::sqrt(square);
     };
-    const double mean = std::min((cubed(-half) - cubed(reach)) / (1.5 * fall * 2 * half), wider);
-    if (starts_with_window(level, arc) && !ends_with_window(level, arc))
-        return {arc.from_rad, arc.from_rad + mean};
-    if (ends_with_window(level, arc) && !starts_with_window(level, arc))
-        return {arc.to_rad - mean, arc.to_rad};
-    const double middle = 0.5 * (arc.from_rad + arc.to_rad);
-    return {middle - 0.5 * mean, middle + 0.5 * mean};
+    constexpr int kPieces = 3;
+    for (int piece = 0; piece < kPieces; ++piece) {
+        const int n = way > 0 ? piece : kPieces - 1 - piece;  // in the order of the meridian
+        const double x0 = -half + (reach + half) * n / kPieces,
+                     x1 = -half + (reach + half) * (n + 1) / kPieces;
+        const double mean = std::min((cubed(x0) - cubed(x1)) / (1.5 * fall * (x1 - x0)), wider);
+        const double share = at_start == at_end ? 0.5 : at_start ? 0 : 1;  // of what is lost, at the start
+        const double from = arc.from_rad + share * (width - mean);
+        const double a = level.s() + way * x0, b = level.s() + way * x1;
+        add_band(level, arc, std::min(a, b), std::max(a, b), {from, from + mean}, pose, out);
+    }
 }
 
-MaterialArc EngagementProbe::mean_arc(std::size_t index, std::size_t number) const {
+void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPose& pose,
+                              Engagement& out) const {
     const Level& level = levels_[index];
     const MaterialArc& arc = arcs_[level.first + number];
     const Level* below = index > 0 ? &levels_[index - 1] : nullptr;
     const Level* above = index + 1 < levels_.size() ? &levels_[index + 1] : nullptr;
     const auto alike = [&](const Level* other) { return other && other->count == level.count; };
     const auto none = [](const Level* other) { return !other || other->count == 0; };
-    if (alike(below) && none(above)) return closing_arc(level, *below, above ? above->s() : level.s1, number);
-    if (alike(above) && none(below)) return closing_arc(level, *above, below ? below->s() : level.s0, number);
-    if (!alike(below) || !alike(above)) return arc;
+    if (alike(below) && none(above)) {
+        add_closing_arc(level, *below, above ? above->s() : level.s1, number, pose, out);
+        return;
+    }
+    if (alike(above) && none(below)) {
+        add_closing_arc(level, *above, below ? below->s() : level.s0, number, pose, out);
+        return;
+    }
+    if (!alike(below) || !alike(above)) {
+        add_band(level, arc, level.s0, level.s1, arc, pose, out);
+        return;
+    }
     const MaterialArc &a = arcs_[below->first + number], &b = arcs_[above->first + number];
     const double from_below = level.s() - below->s(), to_above = above->s() - level.s();
-    const double size = level.s1 - level.s0, share = size * size / (12 * (from_below + to_above));
-    // Between rotations that may lie whole turns apart.
-    const auto step = [](double from, double to) {
-        return to - from - math::kTwoPi * std::floor((to - from) / math::kTwoPi + 0.5);
-    };
-    const auto mean = [&](double low, double middle, double high) {
-        return middle + share * (step(middle, high) / to_above - step(low, middle) / from_below);
-    };
-    return {mean(a.from_rad, arc.from_rad, b.from_rad), mean(a.to_rad, arc.to_rad, b.to_rad)};
+    const double size = level.s1 - level.s0;
+    const BorderRun from = run_of(a.from_rad, arc.from_rad, b.from_rad, from_below, to_above, size);
+    const BorderRun to = run_of(a.to_rad, arc.to_rad, b.to_rad, from_below, to_above, size);
+    // A border that runs askew does so in steps of this size.
+    constexpr double kStepRad = 0.05;
+    constexpr double kMostSteps = 4;
+    const double skew = size * std::max(std::abs(from.slope), std::abs(to.slope));
+    const int steps = static_cast<int>(std::clamp(std::ceil(skew / kStepRad), 1.0, kMostSteps));
+    for (int n = 0; n < steps; ++n) {
+        const double s0 = level.s0 + size * n / steps, s1 = level.s0 + size * (n + 1) / steps;
+        const double x = 0.5 * (s0 + s1) - level.s();
+        add_band(level, arc, s0, s1, {from.mean + from.slope * x, to.mean + to.slope * x}, pose, out);
+    }
 }
 
-// Adds what the levels found. Where an arc ends with the window it goes on as far as the window does
-// somewhere on the level's stretch: the force knows where each edge moves outward.
+// A band from s0 to s1 of what the level saw as `seen`. Where that ends with the window, the band goes on as
+// far as the window does somewhere on it: the force knows where each edge moves outward.
+void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, double s0, double s1,
+                               MaterialArc arc, const CutPose& pose, Engagement& out) const {
+    if (!(s1 > s0)) return;
+    TurnWindow wide = level.window;
+    for (const double s : {s0, s1}) {
+        const TurnWindow w = window_above(normal_travel(pose.travel, profile_.at(s)), 0);
+        if (w.empty()) continue;
+        const double turn = math::kTwoPi * std::floor((w.from_rad - wide.from_rad) / math::kTwoPi + 0.5);
+        wide.from_rad = std::min(wide.from_rad, w.from_rad - turn);
+        wide.to_rad = std::max(wide.to_rad, w.to_rad - turn);
+    }
+    wide.to_rad = std::min(wide.to_rad, wide.from_rad + math::kTwoPi);
+    if (starts_with_window(level, seen)) arc.from_rad = wide.from_rad;
+    if (ends_with_window(level, seen)) arc.to_rad = wide.to_rad;
+    for (const double turn : {-math::kTwoPi, 0.0, math::kTwoPi}) {
+        const double from = std::max(arc.from_rad + turn, 0.0);
+        const double to = std::min(arc.to_rad + turn, math::kTwoPi);
+        if (!(to > from)) continue;
+        if (level.s() < profile_.bottom_end()) {
+            out.bottom.push_back({s0, s1, from, to});
+            continue;
+        }
+        const double z0 = profile_.at(s0).height_mm, z1 = profile_.at(s1).height_mm;
+        if (!joined_below(out.bands, s0, {z0, z1, from, to})) out.bands.push_back({z0, z1, from, to});
+    }
+}
+
+// On the cylinder a band whose borders are those of one right below it is a part of that.
+bool EngagementProbe::joined_below(std::vector<EngagementBand>& bands, double s0,
+                                   const EngagementBand& band) const {
+    if (s0 < profile_.corner_end()) return false;
+    for (std::size_t n = bands.size(); n-- > 0;) {
+        EngagementBand& below = bands[n];
+        if (below.z1_mm != band.z0_mm || std::abs(below.entry_rad - band.entry_rad) >= kAlikeRad ||
+            std::abs(below.exit_rad - band.exit_rad) >= kAlikeRad)
+            continue;
+        const double share = (band.z1_mm - band.z0_mm) / (band.z1_mm - below.z0_mm);
+        below.entry_rad += share * (band.entry_rad - below.entry_rad);
+        below.exit_rad += share * (band.exit_rad - below.exit_rad);
+        below.z1_mm = band.z1_mm;
+        return true;
+    }
+    return false;
+}
+
 void EngagementProbe::add_bands(const CutPose& pose, Engagement& out) const {
-    const std::size_t before = out.bands.size();
     for (std::size_t index = 0; index < levels_.size(); ++index) {
-        const Level& level = levels_[index];
-        if (level.count == 0) continue;
-        Window wide{level.window_from, level.window_to};
-        for (const double s : {level.s0, level.s1}) {
-            const Window w = outward(normal_travel(pose.travel, profile_.at(s)), 0);
-            if (!(w.to > w.from)) continue;
-            const double turn = math::kTwoPi * std::floor((w.from - wide.from) / math::kTwoPi + 0.5);
-            wide.from = std::min(wide.from, w.from - turn);
-            wide.to = std::max(wide.to, w.to - turn);
-        }
-        if (wide.to - wide.from > math::kTwoPi) wide = {wide.from, wide.from + math::kTwoPi};
-        for (std::size_t n = 0; n < level.count; ++n) {
-            const MaterialArc &seen = arcs_[level.first + n], mean = mean_arc(index, n);
-            const MaterialArc arc{starts_with_window(level, seen) ? wide.from : mean.from_rad,
-                                  ends_with_window(level, seen) ? wide.to : mean.to_rad};
-            const auto add = [&](double from, double to) {
-                from = std::max(from, 0.0);
-                to = std::min(to, math::kTwoPi);
-                if (!(to > from)) return;
-                if (level.s() < profile_.bottom_end()) {
-                    out.bottom.push_back({level.s0, level.s1, from, to});
-                    return;
-                }
-                const double z0 = profile_.at(level.s0).height_mm, z1 = profile_.at(level.s1).height_mm;
-                for (std::size_t m = out.bands.size(); m > before; --m) {
-                    EngagementBand& below = out.bands[m - 1];
-                    if (below.z1_mm == z0 && level.s0 >= profile_.corner_end() &&
-                        std::abs(below.entry_rad - from) < kAlikeRad &&
-                        std::abs(below.exit_rad - to) < kAlikeRad) {
-                        const double share = (z1 - z0) / (z1 - below.z0_mm);
-                        below.entry_rad += share * (from - below.entry_rad);
-                        below.exit_rad += share * (to - below.exit_rad);
-                        below.z1_mm = z1;
-                        return;
-                    }
-                }
-                out.bands.push_back({z0, z1, from, to});
-            };
-            for (const double turn : {-math::kTwoPi, 0.0, math::kTwoPi})
-                add(arc.from_rad + turn, arc.to_rad + turn);
-        }
+        for (std::size_t n = 0; n < levels_[index].count; ++n) add_arc(index, n, pose, out);
     }
 }
 
@@ -341,11 +347,11 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
         for (int n = 0; n < 3; ++n) {
             const ProfilePoint at = profile.at(0.5 * (s0 + s1) + 0.5 * (s1 - s0) * kPlace[n]);
             const TurnLaw law = normal_travel(travel, at);
-            const Window window = outward(law, 0);
+            const TurnWindow window = window_above(law, 0);
             const double weight = kWeight[n] * (s1 - s0) * at.radius_mm;
             for (int turn = -1; turn <= 1; ++turn) {
-                const double from = std::max(entry, window.from + turn * math::kTwoPi);
-                const double to = std::min(exit, window.to + turn * math::kTwoPi);
+                const double from = std::max(entry, window.from_rad + turn * math::kTwoPi);
+                const double to = std::min(exit, window.to_rad + turn * math::kTwoPi);
                 if (!(to > from)) continue;
                 volume += weight * integral(law, from, to);
             }

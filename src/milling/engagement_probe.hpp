@@ -5,28 +5,23 @@
 #include <vector>
 
 #include "field/carved_view.hpp"
+#include "milling/contact_scout.hpp"
+#include "milling/cut_pose.hpp"
 #include "milling/cutter_profile.hpp"
 #include "milling/engagement.hpp"
 #include "milling/material_arcs.hpp"
-#include "milling/tool_frame.hpp"
 
 namespace tribo::milling {
-
-// Where the tool stands, and how it travels there (over a row, say: only the ratios count here).
-struct CutPose {
-    Vec3 tip_mm;
-    ToolFrame frame;
-    ToolTravel travel;
-};
 
 class EngagementProbe {
   public:
     explicit EngagementProbe(const Cutter& cutter);
 
-    // Circles about the axis are looked through for material where the envelope moves outward: few where they
-    // are alike, more where they differ, until the chips' area is known to about 0.5 % (on a cut as small as
-    // 1e-3 R^2, to a tenth). The stock must not hold the cut that is being measured yet. Not for several
-    // threads at once (it keeps scratch space); no allocation once warm.
+    // Where the scout finds contact, circles about the axis are looked through for material where the
+    // envelope moves outward: few where they are alike, more where they differ, until the chips' area is
+    // known to about 0.5 % (on a cut as small as 1e-3 R^2, to a tenth). The stock must not hold the cut that
+    // is being measured yet. Not for several threads at once (it keeps scratch space); no allocation once
+    // warm.
     void measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
 
   private:
@@ -34,15 +29,12 @@ class EngagementProbe {
     struct Level {
         double s0 = 0, s1 = 0;  // along the meridian, mm
         ProfilePoint at;
-        double window_from = 0, window_to = 0;  // where the envelope moves outward
-        double speed = 0;                       // of the fastest point of the circle, outward
-        std::size_t first = 0, count = 0;       // of arcs_
-        double width_rad = 0;                   // of those arcs
-        double flow = 0;                        // area that they sweep outward, per mm of meridian
-        // Of the places without material, how much those sweep outward, per mm of meridian, from which some
-        // may be within a half, a sixth, an eighteenth of this many mm; and how far none is from all of them.
-        double seen_mm = 0, hidden[3] = {}, gap_mm = 0;
-        double error = 0;  // what splitting it may change, of the chips' area
+        TurnWindow window;                 // where the envelope moves outward
+        double speed = 0;                  // of the fastest point of the circle, outward
+        std::size_t first = 0, count = 0;  // of arcs_
+        double width_rad = 0;              // of those arcs
+        double flow = 0;                   // area that they sweep outward, per mm of meridian
+        double error = 0;                  // what splitting it may change, of the chips' area
 
         double s() const { return 0.5 * (s0 + s1); }
     };
@@ -53,21 +45,26 @@ class EngagementProbe {
     // Fills Level::error; gives the chips' area as it is known now.
     double judge();
     double error_between(const Level& a, const Level& b) const;
-    double hidden(const Level& level, double apart_mm) const;
     void refine(const field::CarvedView& stock, const CutPose& pose);
-    // The arc's mean over the level's stretch, by the bend of its borders between the neighbours, or as the
-    // contact closes there.
-    MaterialArc mean_arc(std::size_t level, std::size_t arc) const;
-    MaterialArc closing_arc(const Level& level, const Level& inner, double end, std::size_t arc) const;
+    struct BorderRun;
+    static BorderRun run_of(double low, double middle, double high, double from_below, double to_above,
+                            double size);
+    void add_arc(std::size_t level, std::size_t arc, const CutPose& pose, Engagement& out) const;
+    void add_closing_arc(const Level& level, const Level& inner, double end, std::size_t arc,
+                         const CutPose& pose, Engagement& out) const;
+    void add_band(const Level& level, const MaterialArc& seen, double s0, double s1, MaterialArc arc,
+                  const CutPose& pose, Engagement& out) const;
+    bool joined_below(std::vector<EngagementBand>& bands, double s0, const EngagementBand& band) const;
     bool starts_with_window(const Level& level, const MaterialArc& arc) const;
     bool ends_with_window(const Level& level, const MaterialArc& arc) const;
     void add_bands(const CutPose& pose, Engagement& out) const;
 
     CutterProfile profile_;
+    ContactScout scout_;
     double radius_mm_, core_mm_, length_mm_;
     std::vector<Level> levels_;  // by s, of one part of the profile: the bottom, or the lateral edge
     std::vector<MaterialArc> arcs_;
-    std::vector<ClearPiece> clear_;  // scratch
+    std::vector<MeridianStretch> stretches_;  // scratch
 };
 
 // Volume that the engaged surface sweeps on that travel, mm3: what the chips take out of the stock.

@@ -347,10 +347,8 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
     while (live->playing()) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
     EXPECT_EQ(viewer.jobs, 1);
     ASSERT_EQ(viewer.row_forces.size(), forces.size());
-    // Live, other sweeps are still to be carved while a row is looked at: the circles on which the engagement
-    // is measured then stand elsewhere.
     for (std::size_t n = 0; n < forces.size(); ++n)
-        ASSERT_NEAR(viewer.row_forces[n], forces[n], 5e-3 * forces[n] + 1e-4) << n;
+        ASSERT_NEAR(viewer.row_forces[n], forces[n], 1e-5 * forces[n] + 1e-4) << n;
     Viewer latecomer;
     memory.replay(latecomer.sink());
     EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
