@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "milling/material_arcs.hpp"
 
@@ -49,6 +50,7 @@ void ContactScout::set_windows(const CutPose& pose) {
         }
         const TurnWindow w = moving_outward(pose, profile_.at(middle(static_cast<int>(row))), length_mm_);
         if (w.empty()) continue;
+        front_ = 0.5 * (w.from_rad + w.to_rad) / kColumnRad;
         const int first = static_cast<int>(std::floor(w.from_rad / kColumnRad - 0.5)) + 1;
         const int last = static_cast<int>(std::ceil(w.to_rad / kColumnRad - 0.5)) - 1;
         for (int column = first; column <= last; ++column)
@@ -97,6 +99,12 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
     } else {
         low.column1 = high.column0 = (p.column0 + p.column1) / 2;
     }
+    // First where the envelope moves outward fastest, as there most often is material, and a row counts once.
+    const auto off = [&](const Patch& part) {
+        const double turn = (0.5 * (part.column0 + part.column1) - front_) / kColumns;
+        return std::abs(turn - std::floor(turn + 0.5));
+    };
+    if (off(high) < off(low)) std::swap(low, high);
     search(stock, pose, low);
     search(stock, pose, high);
 }

@@ -49,6 +49,7 @@ class ContactScout {
     std::vector<double> borders_;         // of the rows, one more than these
     std::vector<std::uint64_t> windows_;  // by row: the columns that move outward
     std::vector<char> engaged_;           // by row
+    double front_ = 0;                    // column in the middle of the last window
 };
 
 }  // namespace tribo::milling

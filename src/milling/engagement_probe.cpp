@@ -12,13 +12,14 @@ namespace tribo::milling {
 namespace {
 
 // An engaged stretch has its first circles in the middle of parts that begin at these shares of it: near its
-// ends, where what is engaged often changes, they are short. On the cylinder fewer are alike.
-constexpr std::array kRoundedParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
-constexpr std::array kStraightParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
+// ends, where what is engaged often changes, they are short. On bottom and cylinder, where more
+// are alike, they are fewer.
+constexpr std::array kCornerParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
+constexpr std::array kStraightParts{0.0, 0.1, 0.9, 1.0};
 // Circles of one part at most.
 constexpr std::size_t kMostLevels = 56;
-// Splitting goes on until no circle may change the chips' area by more than this share, and what is smaller
-// than this is not looked for, R^2.
+// Splitting goes on until no circle may change the chips' area by more than this share of all that is known,
+// and what is smaller than this is not looked for, R^2.
 constexpr double kAreaShare = 0.004, kLeastArea = 1e-4;
 // Arcs that differ by less are one band on the cylinder, rad.
 constexpr double kAlikeRad = 2e-3;
@@ -72,8 +73,9 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
                                              const CutPose& pose) {
     Level level;
     level.s0 = s0;
+    level.s = 0.5 * (s0 + s1);
     level.s1 = s1;
-    level.at = profile_.at(level.s());
+    level.at = profile_.at(level.s);
     level.first = arcs_.size();
     level.window = moving_outward(pose, level.at, length_mm_);
     if (level.window.empty()) return level;
@@ -93,14 +95,15 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
 void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose) {
     stretches_.clear();
     scout_.look(stock, pose, s0, s1, stretches_);
-    const bool straight = s0 >= profile_.corner_end();
+    const bool corner = s0 >= profile_.bottom_end() && s0 < profile_.corner_end();
     const std::span<const double> parts =
-        straight ? std::span<const double>(kStraightParts) : std::span<const double>(kRoundedParts);
+        corner ? std::span<const double>(kCornerParts) : std::span<const double>(kStraightParts);
     for (const MeridianStretch& stretch : stretches_) {
         if (!stretch.engaged) {
             Level& level = levels_.emplace_back();
             level.s0 = stretch.s0_mm;
             level.s1 = stretch.s1_mm;
+            level.s = 0.5 * (level.s0 + level.s1);
             level.first = arcs_.size();
             continue;
         }
@@ -110,15 +113,60 @@ void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock
                 look(stretch.s0_mm + size * parts[n], stretch.s0_mm + size * parts[n + 1], stock, pose));
         }
     }
+    for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
+        Level &a = levels_[n], &b = levels_[n + 1];
+        if (a.count > 0 && b.count == 0) find_step(a, b, stock, pose);
+        if (a.count == 0 && b.count > 0) find_step(b, a, stock, pose);
+    }
+}
+
+// Looks along three meridians of what was seen for where it ends before the next circle, which saw nothing:
+// where that is at one height, as at the top of a blank, no circles are needed to find it.
+void EngagementProbe::find_step(Level& seen, Level& empty, const field::CarvedView& stock,
+                                const CutPose& pose) const {
+    // Of the way between the two circles.
+    constexpr int kHalvings = 9;
+    constexpr double kAlike = 0.01;
+    const auto end = arcs_.begin() + static_cast<std::ptrdiff_t>(seen.first + seen.count);
+    const MaterialArc& arc = *std::max_element(end - static_cast<std::ptrdiff_t>(seen.count), end,
+                                               [](const MaterialArc& a, const MaterialArc& b) {
+                                                   return a.to_rad - a.from_rad < b.to_rad - b.from_rad;
+                                               });
+    const double way = empty.s - seen.s;
+    double nearest = 1, farthest = 0;
+    for (const double share : {0.5, 0.2, 0.8}) {
+        double sine, cosine;
+        math::sincos(arc.from_rad + share * (arc.to_rad - arc.from_rad), sine, cosine);
+        const Vec3 out = sine * pose.frame.x + cosine * pose.frame.y;
+        double in = 0, beyond = 1;
+        for (int n = 0; n < kHalvings; ++n) {
+            const double middle = 0.5 * (in + beyond);
+            const ProfilePoint at = profile_.at(seen.s + middle * way);
+            const bool material = stock.is_material(pose.on_axis(at.height_mm) + at.radius_mm * out, kSkin);
+            (material ? in : beyond) = middle;
+        }
+        nearest = std::min(nearest, 0.5 * (in + beyond));
+        farthest = std::max(farthest, 0.5 * (in + beyond));
+        if (farthest - nearest > kAlike) return;
+    }
+    const double at = seen.s + 0.5 * (nearest + farthest) * way;
+    if (way > 0) {
+        seen.s1 = empty.s0 = at;
+        seen.step_above = empty.step_below = true;
+    } else {
+        seen.s0 = empty.s1 = at;
+        seen.step_below = empty.step_above = true;
+    }
+    empty.s = 0.5 * (empty.s0 + empty.s1);
 }
 
 // What the area that the chips sweep may be off by between two circles.
 double EngagementProbe::error_between(const Level& a, const Level& b) const {
     // Of the difference between the two, where the same arcs go on, where one begins and where one ends.
     constexpr double kBend = 0.06, kBegin = 0.3, kEnd = 0.3;
-    const double apart = b.s() - a.s(), radius = std::max(a.at.radius_mm, b.at.radius_mm);
+    const double apart = b.s - a.s, radius = std::max(a.at.radius_mm, b.at.radius_mm);
     const double speed = std::max(a.speed, b.speed);
-    if (a.count == 0 && b.count == 0) return 0;
+    if ((a.count == 0 && b.count == 0) || a.step_above || b.step_below) return 0;
     const double change = std::abs(a.flow - b.flow);
     if (a.count == 0 || b.count == 0) return kEnd * apart * change;
     if (a.count != b.count) {
@@ -145,23 +193,33 @@ double EngagementProbe::judge() {
     return area;
 }
 
-void EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose) {
+double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& pose, double known_area) {
     double speed = 0;
     for (const Level& level : levels_) speed = std::max(speed, level.speed);
     const double least = kLeastArea * radius_mm_ * radius_mm_ * speed;
+    double area = judge();
     while (!levels_.empty() && levels_.size() < kMostLevels) {
-        const double most = std::max(kAreaShare * judge(), least);
+        const double most = std::max(kAreaShare * (known_area + area), least);
         const auto worst = std::max_element(levels_.begin(), levels_.end(),
                                             [](const Level& a, const Level& b) { return a.error < b.error; });
-        if (worst == levels_.end() || worst->error <= most) return;
+        if (worst == levels_.end() || worst->error <= most) break;
         // In thirds: the one in the middle keeps its circle.
-        const double s0 = worst->s0, s1 = worst->s1, third = (s1 - s0) / 3;
-        worst->s0 = s0 + third;
-        worst->s1 = s1 - third;
+        const Level whole = *worst;
+        const double third = (whole.s1 - whole.s0) / 3, s0 = whole.s0 + third, s1 = whole.s1 - third;
         const auto at = worst - levels_.begin();
-        levels_.insert(levels_.begin() + at, look(s0, s0 + third, stock, pose));
-        levels_.insert(levels_.begin() + at + 2, look(s1 - third, s1, stock, pose));
+        if (whole.s > s0 && whole.s < s1) {
+            worst->s0 = s0;
+            worst->s1 = s1;
+            worst->step_below = worst->step_above = false;
+        } else {
+            *worst = look(s0, s1, stock, pose);
+        }
+        levels_.insert(levels_.begin() + at, look(whole.s0, s0, stock, pose))->step_below = whole.step_below;
+        levels_.insert(levels_.begin() + at + 2, look(s1, whole.s1, stock, pose))->step_above =
+            whole.step_above;
+        area = judge();
     }
+    return area;
 }
 
 // Nearer to the window's end an arc ends there, rad.
@@ -202,11 +260,13 @@ void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, do
         add_band(level, arc, level.s0, level.s1, arc, pose, out);
         return;
     }
-    const double fall = (wider * wider - width * width) / std::abs(level.s() - inner.s());  // per mm
-    const double half = 0.5 * (level.s1 - level.s0), way = end > level.s() ? 1 : -1;
+    const double fall = (wider * wider - width * width) / std::abs(level.s - inner.s);  // per mm
+    const double way = end > level.s ? 1 : -1;
+    const double half = way > 0 ? level.s1 - level.s : level.s - level.s0;
+    const double begin = way > 0 ? level.s0 - level.s : level.s - level.s1;
     // Wider than that it ends at a step, somewhere between.
     const double closed = width * width / fall;
-    const double reach = closed < std::abs(end - level.s()) ? closed : half;
+    const double reach = closed < std::abs(end - level.s) ? closed : half;
     const bool at_start = starts_with_window(level, arc), at_end = ends_with_window(level, arc);
     const auto cubed = [&](double x) {  // of the width, x towards the end
         const double square = std::max(width * width - fall * x, 0.0);
@@ -215,12 +275,12 @@ void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, do
     constexpr int kPieces = 3;
     for (int piece = 0; piece < kPieces; ++piece) {
         const int n = way > 0 ? piece : kPieces - 1 - piece;  // in the order of the meridian
-        const double x0 = -half + (reach + half) * n / kPieces,
-                     x1 = -half + (reach + half) * (n + 1) / kPieces;
+        const double x0 = begin + (reach - begin) * n / kPieces;
+        const double x1 = begin + (reach - begin) * (n + 1) / kPieces;
         const double mean = std::min((cubed(x0) - cubed(x1)) / (1.5 * fall * (x1 - x0)), wider);
         const double share = at_start == at_end ? 0.5 : at_start ? 0 : 1;  // of what is lost, at the start
         const double from = arc.from_rad + share * (width - mean);
-        const double a = level.s() + way * x0, b = level.s() + way * x1;
+        const double a = level.s + way * x0, b = level.s + way * x1;
         add_band(level, arc, std::min(a, b), std::max(a, b), {from, from + mean}, pose, out);
     }
 }
@@ -233,12 +293,12 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
     const Level* above = index + 1 < levels_.size() ? &levels_[index + 1] : nullptr;
     const auto alike = [&](const Level* other) { return other && other->count == level.count; };
     const auto none = [](const Level* other) { return !other || other->count == 0; };
-    if (alike(below) && none(above)) {
-        add_closing_arc(level, *below, above ? above->s() : level.s1, number, pose, out);
+    if (alike(below) && none(above) && !level.step_above) {
+        add_closing_arc(level, *below, above ? above->s : level.s1, number, pose, out);
         return;
     }
-    if (alike(above) && none(below)) {
-        add_closing_arc(level, *above, below ? below->s() : level.s0, number, pose, out);
+    if (alike(above) && none(below) && !level.step_below) {
+        add_closing_arc(level, *above, below ? below->s : level.s0, number, pose, out);
         return;
     }
     if (!alike(below) || !alike(above)) {
@@ -246,7 +306,7 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
         return;
     }
     const MaterialArc &a = arcs_[below->first + number], &b = arcs_[above->first + number];
-    const double from_below = level.s() - below->s(), to_above = above->s() - level.s();
+    const double from_below = level.s - below->s, to_above = above->s - level.s;
     const double size = level.s1 - level.s0;
     const BorderRun from = run_of(a.from_rad, arc.from_rad, b.from_rad, from_below, to_above, size);
     const BorderRun to = run_of(a.to_rad, arc.to_rad, b.to_rad, from_below, to_above, size);
@@ -257,7 +317,7 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
     const int steps = static_cast<int>(std::clamp(std::ceil(skew / kStepRad), 1.0, kMostSteps));
     for (int n = 0; n < steps; ++n) {
         const double s0 = level.s0 + size * n / steps, s1 = level.s0 + size * (n + 1) / steps;
-        const double x = 0.5 * (s0 + s1) - level.s();
+        const double x = 0.5 * (s0 + s1) - level.s;
         add_band(level, arc, s0, s1, {from.mean + from.slope * x, to.mean + to.slope * x}, pose, out);
     }
 }
@@ -282,7 +342,7 @@ void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, doub
         const double from = std::max(arc.from_rad + turn, 0.0);
         const double to = std::min(arc.to_rad + turn, math::kTwoPi);
         if (!(to > from)) continue;
-        if (level.s() < profile_.bottom_end()) {
+        if (level.s < profile_.bottom_end()) {
             out.bottom.push_back({s0, s1, from, to});
             continue;
         }
@@ -319,21 +379,20 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
     out.clear();
     double low, high;
     if (!clip_heights(stock, pose, low, high)) return;
-    const double bottom = profile_.bottom_end(), corner = profile_.corner_end();
-    if (low <= 0 && bottom > core_mm_ && (pose.travel.down_mm > 0 || pose.travel.turns())) {
-        levels_.clear();
-        arcs_.clear();
-        start(core_mm_, bottom, stock, pose);
-        refine(stock, pose);
-        add_bands(pose, out);
-    }
+    const double bottom = profile_.bottom_end();
     const double s0 = profile_.at_height(low), s1 = profile_.at_height(high);
-    const double middle = std::clamp(corner, s0, s1);
+    const double middle = std::clamp(profile_.corner_end(), s0, s1);
     levels_.clear();
     arcs_.clear();
     if (middle > s0) start(s0, middle, stock, pose);
     if (s1 > middle) start(middle, s1, stock, pose);
-    refine(stock, pose);
+    const double lateral = refine(stock, pose, 0);
+    add_bands(pose, out);
+    if (low > 0 || bottom <= core_mm_ || (pose.travel.down_mm <= 0 && !pose.travel.turns())) return;
+    levels_.clear();
+    arcs_.clear();
+    start(core_mm_, bottom, stock, pose);
+    refine(stock, pose, lateral);
     add_bands(pose, out);
 }
 

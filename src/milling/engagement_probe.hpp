@@ -27,7 +27,9 @@ class EngagementProbe {
   private:
     // A circle, what is engaged on it, and the stretch of the meridian that it stands for.
     struct Level {
-        double s0 = 0, s1 = 0;  // along the meridian, mm
+        double s0 = 0, s = 0, s1 = 0;  // along the meridian, mm: where it begins, its circle, its end
+        // Contact ends all at once at s0, at s1.
+        bool step_below = false, step_above = false;
         ProfilePoint at;
         TurnWindow window;                 // where the envelope moves outward
         double speed = 0;                  // of the fastest point of the circle, outward
@@ -35,17 +37,17 @@ class EngagementProbe {
         double width_rad = 0;              // of those arcs
         double flow = 0;                   // area that they sweep outward, per mm of meridian
         double error = 0;                  // what splitting it may change, of the chips' area
-
-        double s() const { return 0.5 * (s0 + s1); }
     };
     // Heights at which the envelope can meet the blank at all; false: none.
     bool clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low, double& high) const;
     void start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
+    void find_step(Level& seen, Level& empty, const field::CarvedView& stock, const CutPose& pose) const;
     Level look(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
     // Fills Level::error; gives the chips' area as it is known now.
     double judge();
     double error_between(const Level& a, const Level& b) const;
-    void refine(const field::CarvedView& stock, const CutPose& pose);
+    // Gives the chips' area on these levels, beside what is known of other parts.
+    double refine(const field::CarvedView& stock, const CutPose& pose, double known_area);
     struct BorderRun;
     static BorderRun run_of(double low, double middle, double high, double from_below, double to_above,
                             double size);

@@ -19,6 +19,8 @@ constexpr double kClearance = 0.05;  // mm
 constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
 // Rows are shared out in so many parts, each with probes of its own.
 constexpr std::size_t kShares = 16;
+// Rows between which contact begins or ends are divided into so many.
+constexpr int kSplit = 4;
 // Around a sweep, for what rounding makes of a point on its border.
 constexpr double kMargin = 1e-3;  // mm
 
@@ -162,6 +164,58 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
     }
 }
 
+// A row is judged by its middle. Where one cuts and the next does not, contact began or ended between their
+// middles: both are divided and looked at again, the earlier one only within the same step, so that nothing
+// depends on how many steps are run at once.
+void Machining::split_where_contact_begins(Machined& out) {
+    const auto cuts = [&](std::size_t n) { return !out.rows[n].engagement.empty(); };
+    std::vector<char> divided(out.row_count, 0);
+    bool any = false;
+    std::size_t row = 0;
+    for (std::size_t step = 0; step < sweeps_.size(); ++step) {
+        const Sweep& sweep = sweeps_[step];
+        const Vec3 start = sweep.step.move->start.tip_mm;
+        // Another tool, or one that jumps, comes out of the air like one that comes fast.
+        const bool goes_on = sweep.step.cutter == end_.cutter && distance(start, end_.tip_mm) < kMargin;
+        bool in_cut = end_.in_cut && goes_on && !sweep.is_rapid();
+        for (const std::size_t first = row; row < out.row_count && out.rows[row].step == step; ++row) {
+            if (cuts(row) != in_cut) {
+                divided[row] = any = true;
+                if (row > first) divided[row - 1] = true;
+            }
+            in_cut = cuts(row);
+        }
+        end_ = {in_cut, sweep.step.cutter, sweep.step.move->end.tip_mm};
+    }
+    if (!any) return;
+    split_.clear();
+    std::vector<std::size_t> fresh;
+    for (std::size_t n = 0; n < out.row_count; ++n) {
+        CutRow& whole = out.rows[n];
+        if (!divided[n]) {
+            split_.push_back(std::move(whole));
+            continue;
+        }
+        const motion::Move& move = *sweeps_[whole.step].step.move;
+        Vec3 x = whole.pose.frame.x;
+        for (int k = 0; k < kSplit; ++k) {
+            fresh.push_back(split_.size());
+            CutRow& part = split_.emplace_back();
+            part.step = whole.step;
+            part.from = whole.from + (whole.to - whole.from) * k / kSplit;
+            part.to = whole.from + (whole.to - whole.from) * (k + 1) / kSplit;
+            part.length_mm = motion::path_length_mm(move, part.to) - motion::path_length_mm(move, part.from);
+            part.pose = pose_between(move, part.from, part.to, x);
+        }
+    }
+    out.rows.swap(split_);
+    out.row_count = out.rows.size();
+    parallel_(kShares, [&](std::size_t n) {
+        for (std::size_t at = fresh.size() * n / kShares; at < fresh.size() * (n + 1) / kShares; ++at)
+            measure_rows(fresh[at], fresh[at] + 1, probes_[n], out);
+    });
+}
+
 void Machining::find_contact(Sweep& sweep) const {
     if (!stock_.blank().bounds_mm().overlaps(sweep.bounds_mm)) return;
     const motion::Move& move = *sweep.step.move;
@@ -254,6 +308,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         if (sweep.is_rapid()) find_contact(sweep);
         if (options_.collisions) find_collisions(n - kShares, sweep);
     });
+    split_where_contact_begins(out);
     removed_.resize(shapes_.size());
     stock_.carve(shapes_, removed_);
 

@@ -51,9 +51,9 @@ struct Machined {
 };
 
 struct MachiningOptions {
-    double row_mm = 0.5;          // longest row, of the tip's path and half way up the cutter
-    double row_diameters = 0.25;  // and of the cutter's diameter
-    double rapid_row_mm = 2;      // how far apart a rapid that touched stock is searched for the place
+    double row_mm = 0.5;         // longest row, of the tip's path and half way up the cutter
+    double row_diameters = 0.5;  // and of the cutter's diameter
+    double rapid_row_mm = 2;     // how far apart a rapid that touched stock is searched for the place
     bool collisions = true;
 };
 
@@ -78,6 +78,7 @@ class Machining {
     void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
                       Machined& out) const;
     field::CarvedView before(const Sweep& sweep) const;
+    void split_where_contact_begins(Machined& out);
     void find_contact(Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
     void reconcile(Machined& out) const;
@@ -90,10 +91,17 @@ class Machining {
     std::vector<std::vector<EngagementProbe>> probes_;  // by share of the work, then by cutter
     std::vector<std::vector<Cylinder>> bodies_;
     Vec3 last_x_{1, 0, 0};  // stock +x until the tool has moved across its axis
+    // At the end of what was run before.
+    struct End {
+        bool in_cut = false;
+        std::size_t cutter = 0;
+        Vec3 tip_mm;
+    } end_;
     // Of the run that is going on.
     std::vector<Sweep> sweeps_;
     std::vector<std::unique_ptr<const field::Shape>> shapes_;
     std::vector<double> removed_;  // by shape
+    std::vector<CutRow> split_;
 };
 
 }  // namespace tribo::milling

@@ -33,8 +33,14 @@ class Scan {
     Scan(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
          std::vector<MaterialArc>& arcs)
         : stock_(stock), circle_(circle), from_(from), to_(to), arcs_(arcs), before_(arcs.size()) {
-        first_ = static_cast<int>(std::floor(from / kPlaceRad)) + 1;
-        const int last = static_cast<int>(std::ceil(to / kPlaceRad)) - 1;
+        // On a small circle as few places as stand half a cell apart.
+        constexpr double kApartCells = 0.5;
+        constexpr int kMostStride = 8;
+        const double apart = kApartCells * stock.field().cell_mm();
+        while (stride_ < kMostStride && 2 * stride_ * kPlaceRad * circle.radius_mm <= apart) stride_ *= 2;
+        const double step = stride_ * kPlaceRad;
+        first_ = static_cast<int>(std::floor(from / step)) + 1;
+        const int last = static_cast<int>(std::ceil(to / step)) - 1;
         count_ = std::max(0, last - first_ + 1);
     }
 
@@ -57,7 +63,7 @@ class Scan {
         return stock_.clear_way_mm(p, enough) + kSkin;
     }
     Place place(int number) const {
-        const int n = first_ + number - 1;
+        const int n = (first_ + number - 1) * stride_;
         return {number, n * kPlaceRad, way(circle_.at_place(n))};
     }
 
@@ -94,8 +100,8 @@ class Scan {
     // the surface the clear way tells the side, where the exact distance of a brick may not; near it both
     // are the same.
     double border(const Place& outside, const Place& inside) const {
-        constexpr int kHalvings = 4, kSteps = 30;
-        constexpr double kAngle = 1e-9, kDepth = 1e-11;  // rad, mm
+        constexpr int kHalvings = 3, kSteps = 30;
+        constexpr double kAngle = 1e-7, kDepth = 1e-9;  // rad, mm
         double out_at = outside.rotation, in_at = inside.rotation, out = outside.way, in = inside.way;
         double angle = in_at;
         int last = 0;
@@ -124,7 +130,8 @@ class Scan {
     double from_, to_;
     std::vector<MaterialArc>& arcs_;
     std::size_t before_;
-    int first_ = 0, count_ = 0;  // of the places between the ends
+    int stride_ = 1;             // of places
+    int first_ = 0, count_ = 0;  // in strides, of the places between the ends
     double entry_ = 0;
 };
 

@@ -35,7 +35,7 @@ struct MaterialArc {
 
 // Appends the arcs of `circle` between the rotations `from` and `to` that lie in material, in order. The
 // circle is known at kTurnPlaces and at both ends, and wherever nothing can hide: a rib thinner than the way
-// between two places may be missed. Borders are found to about 1e-9 rad. What comes out depends on the
+// between two places may be missed. Borders are found to about 1e-7 rad. What comes out depends on the
 // material alone, not on how the stock keeps it. No allocation while `arcs` has room.
 void material_arcs(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
                    std::vector<MaterialArc>& arcs);

@@ -61,9 +61,8 @@ TEST(RenderedSound, has_the_tooths_tone_from_a_cuts_first_chip_to_its_last) {
     };
     std::vector<Cut> cuts;
     for (std::size_t n = 0; n < t.size(); ++n) {
-        const double length = 0.5 / (rows.at("feed_mm_per_min")[n] / 60);
         if (cuts.empty() || t[n] > cuts.back().to + 1e-3) cuts.push_back({t[n], 0});
-        cuts.back().to = t[n] + length;
+        cuts.back().to = t[n] + rows.at("duration_s")[n];
     }
     ASSERT_EQ(cuts.size(), 2u);
 
