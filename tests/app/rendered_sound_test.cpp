@@ -11,11 +11,11 @@
 namespace tribo::test {
 namespace {
 
-// Two slots by a cutter of two flutes at 6000 rpm, so 200 teeth a second: a slow one and, 0.4 s after it, a
-// fast one; rows last half a second and a twentieth.
+// Two cuts along a fin so narrow that all of it is met at once, by a cutter of two flutes at 6000 rpm, so 200
+// teeth a second: a slow one and, 0.4 s after it, a fast one; rows last half a second and a twentieth.
 constexpr const char* kJob = R"(
 [stock]
-box_mm = [[0, 0, -10], [30, 20, 0]]
+box_mm = [[0, 9.5, -10], [30, 10.5, 0]]
 [cutter]
 kind = "flat"
 diameter_mm = 6
@@ -32,7 +32,7 @@ bits = 32
 mode = "sphere"
 )";
 constexpr const char* kProgram =
-    "G21 G90 M3\nG0 X-5 Y10 Z-2\nG1 X3 F60\nG0 Z5\nX-5\nZ-2 Y4\nG1 X3 F600\nM30\n";
+    "G21 G90 M3\nG0 X-5 Y10 Z-3\nG1 X3 F60\nG0 Z5\nX-5\nZ-6\nG1 X3 F600\nM30\n";
 constexpr int kRate = 48000;
 
 // Amplitude of a frequency in one channel over [from, to) seconds, whole turns of the spindle long.
