@@ -115,6 +115,7 @@ void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock
     }
     for (std::size_t n = 0; n + 1 < levels_.size(); ++n) {
         Level &a = levels_[n], &b = levels_[n + 1];
+        if (a.step_above || b.step_below) continue;
         if (a.count > 0 && b.count == 0) find_step(a, b, stock, pose);
         if (a.count == 0 && b.count > 0) find_step(b, a, stock, pose);
     }
@@ -375,25 +376,42 @@ void EngagementProbe::add_bands(const CutPose& pose, Engagement& out) const {
     }
 }
 
-void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
-    out.clear();
+template <class Look>
+void EngagementProbe::each_part(const field::CarvedView& stock, const CutPose& pose, Look look) const {
     double low, high;
     if (!clip_heights(stock, pose, low, high)) return;
-    const double bottom = profile_.bottom_end();
     const double s0 = profile_.at_height(low), s1 = profile_.at_height(high);
-    const double middle = std::clamp(profile_.corner_end(), s0, s1);
+    const double corner = std::clamp(profile_.corner_end(), s0, s1), bottom = profile_.bottom_end();
+    if (corner > s0) look(s0, corner);
+    if (s1 > corner) look(corner, s1);
+    if (low <= 0 && bottom > core_mm_ && (pose.travel.down_mm > 0 || pose.travel.turns()))
+        look(core_mm_, bottom);
+}
+
+void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
+    out.clear();
     levels_.clear();
     arcs_.clear();
-    if (middle > s0) start(s0, middle, stock, pose);
-    if (s1 > middle) start(middle, s1, stock, pose);
-    const double lateral = refine(stock, pose, 0);
-    add_bands(pose, out);
-    if (low > 0 || bottom <= core_mm_ || (pose.travel.down_mm <= 0 && !pose.travel.turns())) return;
-    levels_.clear();
-    arcs_.clear();
-    start(core_mm_, bottom, stock, pose);
-    refine(stock, pose, lateral);
-    add_bands(pose, out);
+    double lateral = 0;
+    const auto finish = [&] {
+        lateral = refine(stock, pose, lateral);
+        add_bands(pose, out);
+        levels_.clear();
+        arcs_.clear();
+    };
+    each_part(stock, pose, [&](double s0, double s1) {
+        // The bottom alone, as what it counts for is known by then.
+        if (s0 < profile_.bottom_end()) finish();
+        start(s0, s1, stock, pose);
+    });
+    finish();
+}
+
+bool EngagementProbe::touches(const field::CarvedView& stock, const CutPose& pose) {
+    stretches_.clear();
+    each_part(stock, pose, [&](double s0, double s1) { scout_.look(stock, pose, s0, s1, stretches_); });
+    return std::any_of(stretches_.begin(), stretches_.end(),
+                       [](const MeridianStretch& stretch) { return stretch.engaged; });
 }
 
 double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTravel& travel) {

@@ -23,6 +23,8 @@ class EngagementProbe {
     // is being measured yet. Not for several threads at once (it keeps scratch space); no allocation once
     // warm.
     void measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
+    // Whether the scout finds any contact there.
+    bool touches(const field::CarvedView& stock, const CutPose& pose);
 
   private:
     // A circle, what is engaged on it, and the stretch of the meridian that it stands for.
@@ -38,6 +40,9 @@ class EngagementProbe {
         double flow = 0;                   // area that they sweep outward, per mm of meridian
         double error = 0;                  // what splitting it may change, of the chips' area
     };
+    // Calls `look(s0, s1)` for each part of the meridian that may cut: corner, cylinder, bottom.
+    template <class Look>
+    void each_part(const field::CarvedView& stock, const CutPose& pose, Look look) const;
     // Heights at which the envelope can meet the blank at all; false: none.
     bool clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low, double& high) const;
     void start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);

@@ -19,8 +19,8 @@ constexpr double kClearance = 0.05;  // mm
 constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
 // Rows are shared out in so many parts, each with probes of its own.
 constexpr std::size_t kShares = 16;
-// Rows between which contact begins or ends are divided into so many.
-constexpr int kSplit = 4;
+// What cuts of a row in which contact begins or ends is divided into so many rows.
+constexpr int kTurnParts = 4;
 // Around a sweep, for what rounding makes of a point on its border.
 constexpr double kMargin = 1e-3;  // mm
 
@@ -164,55 +164,96 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
     }
 }
 
-// A row is judged by its middle. Where one cuts and the next does not, contact began or ended between their
-// middles: both are divided and looked at again, the earlier one only within the same step, so that nothing
-// depends on how many steps are run at once.
-void Machining::split_where_contact_begins(Machined& out) {
-    const auto cuts = [&](std::size_t n) { return !out.rows[n].engagement.empty(); };
-    std::vector<char> divided(out.row_count, 0);
-    bool any = false;
+bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
+    constexpr double kAround = 1e-4;  // of the move: for the direction of travel
+    const Sweep& sweep = sweeps_[turn.step];
+    Vec3 x = turn.x;
+    const CutPose pose =
+        pose_between(*sweep.step.move, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
+    return probes[sweep.step.cutter].touches(before(sweep), pose);
+}
+
+// A row is judged by its middle. Where one cuts and the next does not, contact turned between their middles.
+// Of two steps only the later one is divided, so that nothing depends on how many are run at once; the end of
+// a step is one more middle if it cuts, as that of a plunge may.
+void Machining::find_turns(const Machined& out) {
+    turns_.clear();
     std::size_t row = 0;
     for (std::size_t step = 0; step < sweeps_.size(); ++step) {
         const Sweep& sweep = sweeps_[step];
-        const Vec3 start = sweep.step.move->start.tip_mm;
+        const motion::Move& move = *sweep.step.move;
         // Another tool, or one that jumps, comes out of the air like one that comes fast.
-        const bool goes_on = sweep.step.cutter == end_.cutter && distance(start, end_.tip_mm) < kMargin;
-        bool in_cut = end_.in_cut && goes_on && !sweep.is_rapid();
-        for (const std::size_t first = row; row < out.row_count && out.rows[row].step == step; ++row) {
-            if (cuts(row) != in_cut) {
-                divided[row] = any = true;
-                if (row > first) divided[row - 1] = true;
-            }
-            in_cut = cuts(row);
+        const bool goes_on =
+            sweep.step.cutter == end_.cutter && distance(move.start.tip_mm, end_.tip_mm) < kMargin;
+        Turn last{step, {}, 0, 0, end_.in_cut && goes_on && !sweep.is_rapid()};
+        const std::size_t first = row;
+        for (; row < out.row_count && out.rows[row].step == step; ++row) {
+            const CutRow& r = out.rows[row];
+            Turn next{step, r.pose.frame.x, last.after, 0.5 * (r.from + r.to), !r.engagement.empty()};
+            if (next.into != last.into) turns_.push_back(next);
+            last = next;
         }
-        end_ = {in_cut, sweep.step.cutter, sweep.step.move->end.tip_mm};
+        if (row > first && !last.into && touches(last, 1, probes_.front())) {
+            last = {step, last.x, last.after, 1, true};
+            turns_.push_back(last);
+        }
+        end_ = {last.into, sweep.step.cutter, move.end.tip_mm};
     }
-    if (!any) return;
-    split_.clear();
-    std::vector<std::size_t> fresh;
+    parallel_(kShares, [&](std::size_t n) {
+        constexpr int kHalvings = 6;
+        for (std::size_t at = turns_.size() * n / kShares; at < turns_.size() * (n + 1) / kShares; ++at) {
+            Turn& turn = turns_[at];
+            for (int k = 0; k < kHalvings; ++k) {
+                const double middle = 0.5 * (turn.before + turn.after);
+                (touches(turn, middle, probes_[n]) == turn.into ? turn.after : turn.before) = middle;
+            }
+        }
+    });
+}
+
+// Divides the rows in which contact turns there, and what cuts of them in parts.
+void Machining::divide_rows_at_turns(Machined& out) {
+    find_turns(out);
+    if (turns_.empty()) return;
+    divided_.clear();
+    fresh_.clear();
+    auto turn = turns_.begin();
     for (std::size_t n = 0; n < out.row_count; ++n) {
         CutRow& whole = out.rows[n];
-        if (!divided[n]) {
-            split_.push_back(std::move(whole));
-            continue;
-        }
         const motion::Move& move = *sweeps_[whole.step].step.move;
         Vec3 x = whole.pose.frame.x;
-        for (int k = 0; k < kSplit; ++k) {
-            fresh.push_back(split_.size());
-            CutRow& part = split_.emplace_back();
-            part.step = whole.step;
-            part.from = whole.from + (whole.to - whole.from) * k / kSplit;
-            part.to = whole.from + (whole.to - whole.from) * (k + 1) / kSplit;
-            part.length_mm = motion::path_length_mm(move, part.to) - motion::path_length_mm(move, part.from);
-            part.pose = pose_between(move, part.from, part.to, x);
+        const auto add = [&](double from, double to, bool cuts) {
+            const int parts = cuts ? kTurnParts : 1;
+            for (int k = 0; k < parts && to > from; ++k) {
+                fresh_.push_back(divided_.size());
+                CutRow& part = divided_.emplace_back();
+                part.step = whole.step;
+                part.from = from + (to - from) * k / parts;
+                part.to = from + (to - from) * (k + 1) / parts;
+                part.length_mm =
+                    motion::path_length_mm(move, part.to) - motion::path_length_mm(move, part.from);
+                part.pose = pose_between(move, part.from, part.to, x);
+            }
+        };
+        double from = whole.from;
+        bool is_divided = false, cuts = false;
+        for (; turn != turns_.end() && turn->step == whole.step && turn->after <= whole.to; ++turn) {
+            add(from, turn->after, !turn->into);
+            from = turn->after;
+            is_divided = true;
+            cuts = turn->into;
+        }
+        if (is_divided) {
+            add(from, whole.to, cuts);
+        } else {
+            divided_.push_back(std::move(whole));
         }
     }
-    out.rows.swap(split_);
+    out.rows.swap(divided_);
     out.row_count = out.rows.size();
     parallel_(kShares, [&](std::size_t n) {
-        for (std::size_t at = fresh.size() * n / kShares; at < fresh.size() * (n + 1) / kShares; ++at)
-            measure_rows(fresh[at], fresh[at] + 1, probes_[n], out);
+        for (std::size_t at = fresh_.size() * n / kShares; at < fresh_.size() * (n + 1) / kShares; ++at)
+            measure_rows(fresh_[at], fresh_[at] + 1, probes_[n], out);
     });
 }
 
@@ -308,7 +349,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         if (sweep.is_rapid()) find_contact(sweep);
         if (options_.collisions) find_collisions(n - kShares, sweep);
     });
-    split_where_contact_begins(out);
+    divide_rows_at_turns(out);
     removed_.resize(shapes_.size());
     stock_.carve(shapes_, removed_);
 

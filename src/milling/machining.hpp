@@ -78,7 +78,17 @@ class Machining {
     void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
                       Machined& out) const;
     field::CarvedView before(const Sweep& sweep) const;
-    void split_where_contact_begins(Machined& out);
+    // A place on a step's move where contact begins (`into`) or ends, between two fractions of the move; `x`
+    // stands in for the direction of travel.
+    struct Turn {
+        std::size_t step = 0;
+        Vec3 x;
+        double before = 0, after = 0;
+        bool into = false;
+    };
+    bool touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const;
+    void find_turns(const Machined& out);
+    void divide_rows_at_turns(Machined& out);
     void find_contact(Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
     void reconcile(Machined& out) const;
@@ -101,7 +111,9 @@ class Machining {
     std::vector<Sweep> sweeps_;
     std::vector<std::unique_ptr<const field::Shape>> shapes_;
     std::vector<double> removed_;  // by shape
-    std::vector<CutRow> split_;
+    std::vector<Turn> turns_;
+    std::vector<CutRow> divided_;
+    std::vector<std::size_t> fresh_;  // of the divided rows, those to be measured
 };
 
 }  // namespace tribo::milling
