@@ -15,11 +15,12 @@ namespace {
 // teeth a second: a slow one and, 0.4 s after it, a fast one; rows last half a second and a twentieth.
 constexpr const char* kJob = R"(
 [stock]
-box_mm = [[0, 9.75, -18], [30, 10.25, 0]]
+box_mm = [[0, 9.75, -14], [30, 10.25, 0]]
 [cutter]
 kind = "flat"
 diameter_mm = 6
 flutes = 2
+helix_deg = 10
 length_mm = 20
 [material]
 name = "al7075-t6"
@@ -31,7 +32,7 @@ gcode = "slots.nc"
 bits = 32
 mode = "sphere"
 )";
-constexpr const char* kProgram = "G21 G90 M3\nG0 X-5 Y10 Z-8\nG1 X3 F60\nG0 Z5\nX-5\nZ-16\nG1 X3 F600\nM30\n";
+constexpr const char* kProgram = "G21 G90 M3\nG0 X-5 Y10 Z-6\nG1 X3 F60\nG0 Z5\nX-5\nZ-12\nG1 X3 F600\nM30\n";
 constexpr int kRate = 48000;
 
 // Amplitude of a frequency in one channel over [from, to) seconds, whole turns of the spindle long.
