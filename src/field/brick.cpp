@@ -46,8 +46,9 @@ float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 
 }  // namespace
 
-// Between the two sides of a wall the material is what both leave: 1 - (1 - a) - (1 - b) of a cell. Elsewhere
-// the larger distance decides, as in the kernels.
+// Between the two sides of a wall the material is what both leave: 1 - (1 - a) - (1 - b) of a cell, but no
+// more than was left before, so that the same cut again takes nothing. Elsewhere the larger distance decides,
+// as in the kernels.
 void ThinWalls::find(const Brick& brick, const float* shape, float cell) {
     nodes_.clear();
     std::array<std::uint8_t, kLatticeNodes / 8> near_both;
@@ -59,7 +60,8 @@ void ThinWalls::find(const Brick& brick, const float* shape, float cell) {
         const bool was_thin = old != brick.thin.end() && old->node == n;
         if (!is_near && !was_thin) return;
         const float missing = was_thin ? (old++)->missing_cells : 0;
-        const float before = filled(brick.distance_mm[node], cell) - missing, left = filled(-shape[n], cell);
+        const float whole = filled(brick.distance_mm[node], cell), before = whole - missing;
+        const float left = filled(-shape[n], cell);
         bool wall = false;
         if (is_near) {
             const std::array<float, 3> own = growth(brick.distance_mm.data(), n), other = growth(shape, n);
@@ -67,7 +69,7 @@ void ThinWalls::find(const Brick& brick, const float* shape, float cell) {
             wall = turn < 0 && turn * turn > kOpposite * kOpposite * dot(own, own) * dot(other, other);
         }
         if (!wall && !was_thin) return;
-        const float after = wall ? std::max(0.0f, before + left - 1) : std::min(before, left);
+        const float after = std::min(before, wall ? std::max(0.0f, whole + left - 1) : left);
         nodes_.push_back({static_cast<std::uint16_t>(n), after, missing});
     };
     if (!any) {

@@ -66,7 +66,6 @@ class ThinWalls {
     // Once it is: notes in the brick what its thin nodes miss now, and gives how much more of it (in cells)
     // was removed than its distances say.
     double update(Brick& brick, float cell_mm) const;
-    bool none() const { return nodes_.empty(); }
 
   private:
     struct Node {

@@ -184,7 +184,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         const CarveResult result =
             brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
                                   static_cast<float>(near_), static_cast<float>(cell_));
-        if (!result.changed && walls.none()) continue;
+        if (!result.changed) continue;
         u.drop = false;
         if (result.least_mm > FieldQuery::kClearCells * cell_) {
             removed_by_cut_[n] = brick.volume_mm3;

@@ -87,9 +87,20 @@ TEST(CarvedField, removes_the_exact_volume_beside_a_wall_thinner_than_a_cell) {
                 const double rounding = 0.15 * cell * cell * (2 * 40 + 4 * 6.3 + 24);
                 const double beside = slot(y - 6, y) + slot(y + width, y + width + 6);
                 EXPECT_NEAR(beside, 40 * 6.3 * 12, rounding) << cell << " " << width << " " << y;
+                EXPECT_LT(slot(y - 6, y) + slot(y + width, y + width + 6), 1e-6) << "cut again";
                 EXPECT_NEAR(beside + slot(y - 1, y + 1), 40 * 6.3 * (12 + width), rounding);
             }
         }
+    }
+}
+
+// Dives beside a face, deeper and deeper: where the ball stands a hair off it, what is cut again is nothing.
+TEST(CarvedField, removes_nothing_where_it_was_cut_before) {
+    auto f = block(0.25, {30, 16, 6});
+    for (int n = 0; n < 60; ++n) {
+        const Vec3 above{2.0 + 2 * (n % 14), 0.5 + 2.9 * (n % 6), 5}, below{above.x, above.y, 2 - 0.05 * n};
+        f.carve(std::make_unique<BallPass>(above, below, 3));
+        EXPECT_LT(f.carve(std::make_unique<BallPass>(below, above, 3)), 1e-6) << n;
     }
 }
 
