@@ -64,7 +64,7 @@ FieldQuery::NearNode FieldQuery::nearest_node(BrickCoord b, Vec3 p) const {
             q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
 }
 
-FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p) const {
+FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
     if (ref == kUntouched) return {blank().distance_mm(p), 0};
     if (ref == kAir) return {kClearCells * cell_mm, 0};
     const Brick& brick = (*pool)[ref];
@@ -77,7 +77,7 @@ FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p) const {
     // show that they do not.
     const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
     if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
-    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+    for (std::size_t n = 0; n < brick.shapes.size() && !(any_air && best.distance_mm > 0); ++n) {
         if (n != likely) measure(brick.shapes[n]);
     }
     return best;
@@ -152,7 +152,7 @@ double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
     constexpr double kSureCells = 0.3;
     if (at_node - off > kSureCells * cell_mm) return at_node - off;
     if (at_node + off < -kSureCells * cell_mm) return at_node + off;
-    return exact(ref, p).distance_mm;
+    return exact(ref, p, true).distance_mm;
 }
 
 double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {

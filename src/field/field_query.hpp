@@ -51,12 +51,13 @@ struct FieldQuery {
     NearNode nearest_node(BrickCoord b, Vec3 point_mm) const;
 
     // Where the exact surface stands, when `point_mm` is in brick `ref`: the distance and the shape that
-    // gives it.
+    // gives it. With `any_air` the first shape that leaves no material there is enough: its distance is then
+    // a lower bound.
     struct Exact {
         double distance_mm;
         ShapeId shape;
     };
-    Exact exact(BrickRef ref, Vec3 point_mm) const;
+    Exact exact(BrickRef ref, Vec3 point_mm, bool any_air = false) const;
 
     // As of contact::DistanceField.
     double distance_mm(Vec3 point_mm) const;

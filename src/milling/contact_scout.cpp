@@ -13,7 +13,7 @@ namespace {
 // So many even rows at most, none shorter than this share of a cell; the first and the last are halved so
 // often.
 constexpr int kRows = 32;
-constexpr double kLeastCells = 0.5;
+constexpr double kLeastCells = 1;
 constexpr int kHalvings = 5;
 constexpr double kColumnRad = math::kTwoPi / 64;
 

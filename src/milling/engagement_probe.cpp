@@ -273,7 +273,7 @@ void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, do
         const double square = std::max(width * width - fall * x, 0.0);
         return square * std::sqrt(square);
     };
-    constexpr int kPieces = 3;
+    constexpr int kPieces = 2;
     for (int piece = 0; piece < kPieces; ++piece) {
         const int n = way > 0 ? piece : kPieces - 1 - piece;  // in the order of the meridian
         const double x0 = begin + (reach - begin) * n / kPieces;
@@ -312,8 +312,8 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
     const BorderRun from = run_of(a.from_rad, arc.from_rad, b.from_rad, from_below, to_above, size);
     const BorderRun to = run_of(a.to_rad, arc.to_rad, b.to_rad, from_below, to_above, size);
     // A border that runs askew does so in steps of this size.
-    constexpr double kStepRad = 0.05;
-    constexpr double kMostSteps = 4;
+    constexpr double kStepRad = 0.15;
+    constexpr double kMostSteps = 3;
     const double skew = size * std::max(std::abs(from.slope), std::abs(to.slope));
     const int steps = static_cast<int>(std::clamp(std::ceil(skew / kStepRad), 1.0, kMostSteps));
     for (int n = 0; n < steps; ++n) {

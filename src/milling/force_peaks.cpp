@@ -17,8 +17,10 @@ constexpr double kStepRad = 1.0 / 24;
 // A stretch shorter than this, in which nothing enters or leaves, bends by less than 1e-4 of the force
 // between its ends.
 constexpr double kShortRad = 0.015;
-// Fewest steps while a rounded piece enters or leaves, and which piece counts as one at the tip.
-constexpr int kPartialSteps = 6;
+// Fewest steps over the whole of a rounded piece's entering or leaving, over any part of it where the piece
+// is one at the tip, and which piece counts as such.
+constexpr double kPartialSteps = 6;
+constexpr int kRootSteps = 4;
 constexpr double kTipShare = 0.2;
 // Borders closer than this are one.
 constexpr double kSameRad = 1e-9;
@@ -136,6 +138,7 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
     // Teeth that are entering or leaving; those wholly within are in the series.
     partial_.clear();
     bool root = false;
+    double shortest = math::kTwoPi;  // of the rotations over which one enters or leaves
     for (const EngagedEdge* edge : sampled_) {
         const ToothRange teeth = teeth_within(*edge, middle, period);
         for (int n = teeth.first; n <= teeth.last; ++n) {
@@ -143,10 +146,13 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
             if (tip > edge->entry_rad + edge->lag1_rad && tip < edge->exit_rad + edge->lag0_rad) continue;
             partial_.push_back({edge, ahead});
             root = root || edge->z0_mm < kTipShare * edge->z1_mm;
+            shortest = std::min(shortest, edge->lag1_rad - edge->lag0_rad);
         }
     }
     const bool left_hand = tool.lag_per_mm() < 0;
-    const int least = !partial_.empty() ? kPartialSteps : length < kShortRad ? 1 : 2;
+    const int part = static_cast<int>(std::ceil(std::min(kPartialSteps * length / shortest, kPartialSteps)));
+    const int usual = length < kShortRad ? 1 : 2;
+    const int least = partial_.empty() ? usual : std::max(root ? kRootSteps : usual, part);
     const int steps = std::max(least, static_cast<int>(std::ceil((root ? 2 : 1) * length / kStepRad)));
     double sine, cosine, sin_step, cos_step;
     math::sincos(from, sine, cosine);

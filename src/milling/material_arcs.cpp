@@ -33,8 +33,8 @@ class Scan {
     Scan(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
          std::vector<MaterialArc>& arcs)
         : stock_(stock), circle_(circle), from_(from), to_(to), arcs_(arcs), before_(arcs.size()) {
-        // On a small circle as few places as stand half a cell apart.
-        constexpr double kApartCells = 0.5;
+        // On a small circle as few places as stand a cell apart.
+        constexpr double kApartCells = 1;
         constexpr int kMostStride = 8;
         const double apart = kApartCells * stock.field().cell_mm();
         while (stride_ < kMostStride && 2 * stride_ * kPlaceRad * circle.radius_mm <= apart) stride_ *= 2;

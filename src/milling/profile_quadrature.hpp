@@ -16,6 +16,8 @@ struct GaussRule {
 };
 
 // Abramowitz and Stegun, table 25.4.
+inline constexpr GaussRule kGauss2{
+    2, {-0.57735026918962576451, 0.57735026918962576451, 0, 0, 0, 0}, {1, 1, 0, 0, 0, 0}};
 inline constexpr GaussRule kGauss3{
     3,
     {-0.77459666924148337704, 0, 0.77459666924148337704, 0, 0, 0},
@@ -53,11 +55,13 @@ void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, dou
 }
 
 // Widest step of sin(kappa / 2) and widest turn of what multiplies the load over which three points are good
-// to 1e-7 of the force.
+// to 1e-7 of the force, and two to 1e-6.
 inline constexpr double kThreePointProfile = 0.2, kThreePointRad = 0.5;
+inline constexpr double kTwoPointProfile = 0.05, kTwoPointRad = 0.2;
 
 inline const GaussRule& profile_rule(const EngagedEdges& tool, double z0_mm, double z1_mm, double turn_rad) {
     const double span = std::sqrt(z1_mm / (2 * tool.corner_mm())) - std::sqrt(z0_mm / (2 * tool.corner_mm()));
+    if (span < kTwoPointProfile && turn_rad < kTwoPointRad) return kGauss2;
     return span < kThreePointProfile && turn_rad < kThreePointRad ? kGauss3 : kGauss6;
 }
 
