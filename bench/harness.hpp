@@ -69,6 +69,7 @@ void measure_contact(Report& report);
 void measure_rows(Report& report);
 void measure_carving(Report& report, int repeats);
 void measure_many_moves(Report& report, int repeats);
+void measure_milling(Report& report, int repeats);
 void measure_sessions(Report& report, int repeats);
 void measure_noise(Report& report, int repeats);
 void measure_sound(Report& report);

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
         {"rows", [&] { measure_rows(report); }},
         {"carving", [&] { measure_carving(report, repeats); }},
         {"moves", [&] { measure_many_moves(report, repeats); }},
+        {"milling", [&] { measure_milling(report, repeats); }},
         {"sessions", [&] { measure_sessions(report, repeats); }},
         {"noise", [&] { measure_noise(report, repeats); }},
         {"sound", [&] { measure_sound(report); }},

@@ -29,13 +29,14 @@ RowCost row_cost(const Box3& block_mm, const milling::Cutter& cutter, const std:
         const motion::Move& move = moves[n];
         if (n >= first) {
             const Vec3 way = normalized(move.end.tip_mm - move.start.tip_mm, {1, 0, 0});
-            const milling::CutPose pose{lerp(move.start.tip_mm, move.end.tip_mm, 0.5),
-                                        milling::tool_frame({0, 0, 1}, way, {1, 0, 0}),
-                                        std::sqrt(std::max(0.0, 1 - way.z * way.z)), -way.z};
+            const milling::CutPose pose{
+                lerp(move.start.tip_mm, move.end.tip_mm, 0.5),
+                milling::tool_frame({0, 0, 1}, way, {1, 0, 0}),
+                {.across_mm = std::sqrt(std::max(0.0, 1 - way.z * way.z)), .down_mm = -way.z}};
             const double start = wall_s();
             probe.measure(*stock, pose, engagement);
             const double probed = wall_s();
-            model.engage(engagement, {0.05 * pose.across, 0.05 * pose.down});
+            model.engage(engagement, 0.05 * pose.travel);
             model.spectrum(16, spectrum);
             keep(model.peaks());
             const double end = wall_s();
