@@ -200,7 +200,7 @@ void Machining::find_turns(const Machined& out) {
         end_ = {last.into, sweep.step.cutter, move.end.tip_mm};
     }
     parallel_(kShares, [&](std::size_t n) {
-        constexpr int kHalvings = 6;
+        constexpr int kHalvings = 9;
         for (std::size_t at = turns_.size() * n / kShares; at < turns_.size() * (n + 1) / kShares; ++at) {
             Turn& turn = turns_[at];
             for (int k = 0; k < kHalvings; ++k) {

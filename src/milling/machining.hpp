@@ -51,9 +51,9 @@ struct Machined {
 };
 
 struct MachiningOptions {
-    double row_mm = 0.5;         // longest row, of the tip's path and half way up the cutter
-    double row_diameters = 0.5;  // and of the cutter's diameter
-    double rapid_row_mm = 2;     // how far apart a rapid that touched stock is searched for the place
+    double row_mm = 0.5;          // longest row, of the tip's path and half way up the cutter
+    double row_diameters = 0.35;  // and of the cutter's diameter
+    double rapid_row_mm = 2;      // how far apart a rapid that touched stock is searched for the place
     bool collisions = true;
 };
 
