@@ -60,7 +60,7 @@ class MillSession::Run {
         limit_s_ = std::min(to_s, end_s_);
         while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
-            evaluate();
+            evaluate(static_cast<bool>(sinks.row));
             for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], sinks);
             if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
                 return false;
@@ -172,14 +172,15 @@ class MillSession::Run {
         }
     }
 
-    void evaluate() {
+    // Nobody hears a spectrum where nobody is told of rows.
+    void evaluate(bool spectra) {
         parallel_(kShares, [&](std::size_t share) {
             const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
             for (std::size_t n = from; n < to; ++n) {
                 Row& row = rows_[n];
                 milling::ForceModel& model = models_[share][row.cutter];
                 model.engage(row.cut.engagement, row.feed);
-                model.spectrum(setup_.harmonics, row.spectrum);
+                if (spectra) model.spectrum(setup_.harmonics, row.spectrum);
                 row.peaks = model.peaks();
                 row.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
             }
