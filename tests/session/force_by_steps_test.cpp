@@ -152,6 +152,9 @@ std::vector<Case> cases() {
     slot("flat, left-hand, leads -8", flat(3, -30), -8, 0, -2);
     slot("bull, leads 10 tilts -10", bull(3, 30, 2), 10, -10, -2);
     slot("ball, tilts 30", ball(2, 30), 0, 30, -2);
+    slot("ball, left-hand, leads 15 tilts 5", ball(2, -30), 15, 5, -2);
+    slot("ball of 3 flutes, leads 25", ball(3, 30), 25, 0, -2);
+    slot("flat, tilts 20", flat(2, 30), 0, 20, -1);
     // Half of the cutter beside the block.
     c.push_back({"flat plunge half in, leads 10",
                  flat(2, 30),
@@ -173,6 +176,7 @@ std::vector<Case> cases() {
     pivot("flat pivot, tip stands", flat(2, 30), -4, leaning(0, 0), leaning(20, 0));
     pivot("ball pivot", ball(2, 30), -5, leaning(0, -10), leaning(15, 10));
     pivot("bull pivot sideways", bull(2, -30, 2), -5, leaning(5, 0), leaning(5, 25));
+    pivot("flat pivot, back and aside", flat(2, 30), -4, leaning(0, 0), leaning(-20, 5));
     // The axis turns while the tip creeps.
     const auto fan = [&](const char* name, Cutter cutter, Vec3 from, Vec3 to, double z, Vec3 creep) {
         c.push_back({name,
@@ -182,6 +186,7 @@ std::vector<Case> cases() {
                      4.03,
                      9});
     };
+    fan("flat fan, straight flutes", flat(4, 0), leaning(0, 0), leaning(15, 0), -4, {1, 0, 0});
     fan("flat fan", flat(2, 30), leaning(0, 0), leaning(15, 0), -4, {1, 0, 0});
     fan("bull fan, sinks", bull(3, 30, 1.5), leaning(0, 5), leaning(20, -5), -3, {2, 0, -0.5});
     fan("ball fan", ball(2, -30), leaning(10, 0), leaning(-10, 10), -6, {1, 1, 0});
