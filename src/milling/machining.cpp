@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "field/shape_overlap.hpp"
+#include "milling/joined_moves.hpp"
 #include "milling/sweep.hpp"
 #include "motion/path.hpp"
 
@@ -33,18 +34,6 @@ motion::Move raised(motion::Move move, double height) {
     if (move.quadratic) move.quadratic->tip_control_mm += height * move.quadratic->axis_control;
     if (move.arc) move.arc->centre_mm += height * move.start.axis;
     return move;
-}
-
-// The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
-CutPose pose_between(const motion::Move& move, double from, double to, Vec3& last_x) {
-    const motion::ToolPose mid = motion::pose_at(move, 0.5 * (from + to));
-    const motion::ToolPose first = motion::pose_at(move, from), last = motion::pose_at(move, to);
-    const Vec3 travel = last.tip_mm - first.tip_mm, turn = last.axis - first.axis;
-    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), {}};
-    last_x = pose.frame.x;
-    pose.travel = {std::max(0.0, dot(travel, pose.frame.x)), -dot(travel, pose.frame.z),
-                   dot(turn, pose.frame.x), dot(turn, pose.frame.y)};
-    return pose;
 }
 
 // Where a path bends more sharply than the cutter is wide, earlier parts of the move itself cut ahead of it.
@@ -84,6 +73,7 @@ struct Machining::Sweep {
     const field::Shape* shape = nullptr;  // null for a dwell
     Box3 bounds_mm;
     std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut where this one comes
+    double from = 0, to = 1;                   // of the pass that it belongs to
     double contact = 0;                        // of a rapid: where it first meets stock
     std::vector<Collision> collisions;
 
@@ -120,24 +110,70 @@ Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
 
 Machining::~Machining() = default;
 
-void Machining::add_rows(std::size_t number, Machined& out) {
-    const motion::Move& move = *sweeps_[number].step.move;
-    const Cutter& cutter = cutters_[sweeps_[number].step.cutter];
-    const double longest = std::min(options_.row_mm, options_.row_diameters * cutter.diameter_mm);
-    const double way =
-        std::max(motion::path_length_mm(move), 0.5 * cutter.length_mm * motion::axis_turn_rad(move));
-    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(way / longest - 1e-9)));
+std::size_t Machining::pass_end(std::size_t first) const {
+    std::size_t end = first + 1;
+    while (end < sweeps_.size() && sweeps_[end].step.joins) ++end;
+    return end;
+}
+
+motion::ToolPose Machining::pose_at(std::size_t pass, double at) const {
+    std::size_t n = pass;
+    while (at > sweeps_[n].to && n + 1 < sweeps_.size()) ++n;
+    const Sweep& sweep = sweeps_[n];
+    return motion::pose_at(*sweep.step.move, (at - sweep.from) / (sweep.to - sweep.from));
+}
+
+double Machining::length_mm(std::size_t pass, double to) const {
+    double sum = 0;
+    for (std::size_t n = pass;; ++n) {
+        const Sweep& sweep = sweeps_[n];
+        if (to <= sweep.to) {
+            return sum +
+                   motion::path_length_mm(*sweep.step.move, (to - sweep.from) / (sweep.to - sweep.from));
+        }
+        sum += motion::path_length_mm(*sweep.step.move);
+    }
+}
+
+// The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
+CutPose Machining::pose_between(std::size_t pass, double from, double to, Vec3& last_x) const {
+    const motion::ToolPose mid = pose_at(pass, 0.5 * (from + to));
+    const motion::ToolPose first = pose_at(pass, from), last = pose_at(pass, to);
+    const Vec3 travel = last.tip_mm - first.tip_mm, turn = last.axis - first.axis;
+    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), {}};
+    last_x = pose.frame.x;
+    pose.travel = {std::max(0.0, dot(travel, pose.frame.x)), -dot(travel, pose.frame.z),
+                   dot(turn, pose.frame.x), dot(turn, pose.frame.y)};
+    return pose;
+}
+
+void Machining::add_pass(std::size_t first, Machined& out) {
+    const std::size_t end = pass_end(first);
+    const Cutter& cutter = cutters_[sweeps_[first].step.cutter];
+    double way = 0, path = 0;
+    for (std::size_t n = first; n < end; ++n) {
+        way += row_way_mm(*sweeps_[n].step.move, cutter);
+        path += motion::path_length_mm(*sweeps_[n].step.move);
+    }
+    double from = 0, travelled = 0;
+    for (std::size_t n = first; n < end; ++n) {
+        travelled += motion::path_length_mm(*sweeps_[n].step.move);
+        sweeps_[n].from = from;
+        sweeps_[n].to = from = n + 1 < end ? travelled / path : 1;
+    }
+    const auto count =
+        static_cast<std::size_t>(std::max(1.0, std::ceil(way / longest_row_mm(cutter) - 1e-9)));
     if (out.rows.size() < out.row_count + count) out.rows.resize(out.row_count + count);
-    double travelled = 0;
+    travelled = 0;
     for (std::size_t n = 0; n < count; ++n) {
         CutRow& row = out.rows[out.row_count++];
-        row.step = number;
+        row.step = first;
         row.from = static_cast<double>(n) / static_cast<double>(count);
         row.to = static_cast<double>(n + 1) / static_cast<double>(count);
-        const double so_far = motion::path_length_mm(move, row.to);
+        const double so_far = length_mm(first, row.to);
         row.length_mm = so_far - travelled;
         travelled = so_far;
-        row.pose = pose_between(move, row.from, row.to, last_x_);
+        row.pose = pose_between(first, row.from, row.to, last_x_);
     }
 }
 
@@ -152,7 +188,7 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
         const Sweep& sweep = sweeps_[row.step];
         const Cutter& cutter = cutters_[sweep.step.cutter];
         EngagementProbe& probe = probes[sweep.step.cutter];
-        if (row.from > 0 && meets_itself(*sweep.step.move, cutter)) {
+        if (row.from > 0 && sweep.to == 1 && meets_itself(*sweep.step.move, cutter)) {
             const auto gone = make_sweep(cutter, motion::first_part(*sweep.step.move, row.from));
             std::vector<field::PendingShape> earlier = sweep.earlier;
             earlier.push_back({gone.get(), gone->bounds_mm().inflated(kMargin)});
@@ -165,26 +201,25 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
 }
 
 bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
-    constexpr double kAround = 1e-4;  // of the move: for the direction of travel
+    constexpr double kAround = 1e-4;  // of the pass: for the direction of travel
     const Sweep& sweep = sweeps_[turn.step];
     Vec3 x = turn.x;
-    const CutPose pose =
-        pose_between(*sweep.step.move, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
+    const CutPose pose = pose_between(turn.step, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
     return probes[sweep.step.cutter].touches(before(sweep), pose);
 }
 
 // A row is judged by its middle. Where one cuts and the next does not, contact turned between their middles.
-// Of two steps only the later one is divided, so that nothing depends on how many are run at once; the end of
-// a step is one more middle if it cuts, as that of a plunge may.
+// Of two passes only the later one is divided, so that nothing depends on how many are run at once; the end
+// of a pass is one more middle if it cuts, as that of a plunge may.
 void Machining::find_turns(const Machined& out) {
     turns_.clear();
     std::size_t row = 0;
-    for (std::size_t step = 0; step < sweeps_.size(); ++step) {
+    for (std::size_t step = 0, next_step; step < sweeps_.size(); step = next_step) {
+        next_step = pass_end(step);
         const Sweep& sweep = sweeps_[step];
-        const motion::Move& move = *sweep.step.move;
         // Another tool, or one that jumps, comes out of the air like one that comes fast.
-        const bool goes_on =
-            sweep.step.cutter == end_.cutter && distance(move.start.tip_mm, end_.tip_mm) < kMargin;
+        const bool goes_on = sweep.step.cutter == end_.cutter &&
+                             distance(sweep.step.move->start.tip_mm, end_.tip_mm) < kMargin;
         Turn last{step, {}, 0, 0, end_.in_cut && goes_on && !sweep.is_rapid()};
         const std::size_t first = row;
         for (; row < out.row_count && out.rows[row].step == step; ++row) {
@@ -197,7 +232,7 @@ void Machining::find_turns(const Machined& out) {
             last = {step, last.x, last.after, 1, true};
             turns_.push_back(last);
         }
-        end_ = {last.into, sweep.step.cutter, move.end.tip_mm};
+        end_ = {last.into, sweep.step.cutter, sweeps_[next_step - 1].step.move->end.tip_mm};
     }
     parallel_(kShares, [&](std::size_t n) {
         constexpr int kHalvings = 9;
@@ -220,7 +255,6 @@ void Machining::divide_rows_at_turns(Machined& out) {
     auto turn = turns_.begin();
     for (std::size_t n = 0; n < out.row_count; ++n) {
         CutRow& whole = out.rows[n];
-        const motion::Move& move = *sweeps_[whole.step].step.move;
         Vec3 x = whole.pose.frame.x;
         const auto add = [&](double from, double to, bool cuts) {
             const int parts = cuts ? kTurnParts : 1;
@@ -230,9 +264,8 @@ void Machining::divide_rows_at_turns(Machined& out) {
                 part.step = whole.step;
                 part.from = from + (to - from) * k / parts;
                 part.to = from + (to - from) * (k + 1) / parts;
-                part.length_mm =
-                    motion::path_length_mm(move, part.to) - motion::path_length_mm(move, part.from);
-                part.pose = pose_between(move, part.from, part.to, x);
+                part.length_mm = length_mm(part.step, part.to) - length_mm(part.step, part.from);
+                part.pose = pose_between(part.step, part.from, part.to, x);
             }
         };
         double from = whole.from;
@@ -257,7 +290,7 @@ void Machining::divide_rows_at_turns(Machined& out) {
     });
 }
 
-void Machining::find_contact(Sweep& sweep) const {
+void Machining::find_contact(std::size_t number, Sweep& sweep) const {
     if (!stock_.blank().bounds_mm().overlaps(sweep.bounds_mm)) return;
     const motion::Move& move = *sweep.step.move;
     const double length = motion::path_length_mm(move);
@@ -268,7 +301,7 @@ void Machining::find_contact(Sweep& sweep) const {
     for (std::size_t n = 0; n < count; ++n) {
         const double from = static_cast<double>(n) / static_cast<double>(count);
         const double to = static_cast<double>(n + 1) / static_cast<double>(count);
-        probe.measure(before(sweep), pose_between(move, from, to, x), engagement);
+        probe.measure(before(sweep), pose_between(number, from, to, x), engagement);
         if (engagement.empty()) continue;
         sweep.contact = from;
         return;
@@ -318,7 +351,9 @@ bool Machining::add_sweep(const Step& step) {
     auto shape = make_sweep(cutters_[step.cutter], *step.move);
     sweep.shape = shape.get();
     sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
+    // What joins is measured with the first step of its pass.
     for (const Sweep& other : sweeps_) {
+        if (step.joins) break;
         if (!other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
         if (sweep.earlier.size() == kMostPending) return false;
         sweep.earlier.push_back({other.shape, other.bounds_mm});
@@ -333,9 +368,13 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     shapes_.clear();
     out.row_count = 0;
     out.collisions.clear();
+    std::size_t pass = 0;
     for (const Step& step : steps) {
-        if (sweeps_.size() == kMostSteps || out.row_count >= kMostRows || !add_sweep(step)) break;
-        if (step.move->kind == motion::MoveKind::feed) add_rows(sweeps_.size() - 1, out);
+        if (!step.joins && (sweeps_.size() >= kMostSteps || out.row_count >= kMostRows)) break;
+        if (!add_sweep(step)) break;
+        if (!step.joins) pass = sweeps_.size() - 1;
+        const bool ends = &step == &steps.back() || !(&step + 1)->joins;
+        if (ends && step.move->kind == motion::MoveKind::feed) add_pass(pass, out);
     }
     // Rows in shares, then what concerns whole steps.
     const std::size_t count = sweeps_.size();
@@ -346,7 +385,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         }
         Sweep& sweep = sweeps_[n - kShares];
         if (!sweep.shape) return;
-        if (sweep.is_rapid()) find_contact(sweep);
+        if (sweep.is_rapid()) find_contact(n - kShares, sweep);
         if (options_.collisions) find_collisions(n - kShares, sweep);
     });
     divide_rows_at_turns(out);
@@ -369,9 +408,9 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     return count;
 }
 
-// Chips are reconciled with what the stock lost in their step. The grid knows the volume to some cells only:
-// kRoughCells more stand on both sides, so that the factor of a short step tends to 1. Up to kSlack the
-// difference is left to the grid's rounding. Each step is reconciled alone, so that nothing depends on how
+// Chips are reconciled with what the stock lost in their pass. The grid knows the volume to some cells only:
+// kRoughCells more stand on both sides, so that the factor of a short pass tends to 1. Up to kSlack the
+// difference is left to the grid's rounding. Each pass is reconciled alone, so that nothing depends on how
 // many are run at once.
 void Machining::reconcile(Machined& out) const {
     constexpr double kRoughCells = 100;
@@ -382,9 +421,10 @@ void Machining::reconcile(Machined& out) const {
     for (std::size_t first = 0; first < out.row_count;) {
         const std::size_t step = out.rows[first].step;
         std::size_t last = first;
-        double chips = 0;
+        double chips = 0, lost = 0;
+        for (std::size_t n = step; n < pass_end(step); ++n) lost += out.removed_mm3[n];
         for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
-        const double ratio = std::clamp((out.removed_mm3[step] + rough) / (chips + rough), kLeast, kMost);
+        const double ratio = std::clamp((lost + rough) / (chips + rough), kLeast, kMost);
         const double off = std::max(std::abs(ratio - 1) - kSlack, 0.0);
         for (; first < last; ++first) {
             CutRow& row = out.rows[first];

@@ -18,12 +18,13 @@ namespace tribo::milling {
 struct Step {
     const motion::Move* move;
     std::size_t cutter;
+    bool joins = false;  // makes one pass with the step before it (JoinedMoves)
 };
 
-// A stretch of one move short enough for one engagement.
+// A stretch of a pass short enough for one engagement. A pass is one step with those that join it.
 struct CutRow {
-    std::size_t step = 0;
-    double from = 0, to = 0;  // fractions of the elementary move
+    std::size_t step = 0;     // the first one of the pass
+    double from = 0, to = 0;  // fractions of the elementary move; of the path where others join it
     double length_mm = 0;     // of the tip path
     CutPose pose;             // in the middle; its travel is that of the whole row
     Engagement engagement;    // in the middle
@@ -51,9 +52,7 @@ struct Machined {
 };
 
 struct MachiningOptions {
-    double row_mm = 0.5;          // longest row, of the tip's path and half way up the cutter
-    double row_diameters = 0.35;  // and of the cutter's diameter
-    double rapid_row_mm = 2;      // how far apart a rapid that touched stock is searched for the place
+    double rapid_row_mm = 2;  // how far apart a rapid that touched stock is searched for the place
     bool collisions = true;
 };
 
@@ -65,8 +64,9 @@ class Machining {
               ParallelFor parallel = serial_for);
     ~Machining();
 
-    // Runs the first of the steps: as many, at least one, as are worth looking at together, on all threads.
-    // Gives their number. What comes out depends on the steps alone, not on the threads.
+    // Runs the first of the steps: as many, at least one pass, as are worth looking at together, on all
+    // threads. Gives their number. What comes out depends on the steps alone, not on the threads. The first
+    // step joins no other, and all that join the last one are there.
     std::size_t run(std::span<const Step> steps, Machined& out);
 
   private:
@@ -74,14 +74,20 @@ class Machining {
     struct Sweep;
     // False where too many earlier sweeps of this run stand in the step's way.
     bool add_sweep(const Step& step);
-    void add_rows(std::size_t number, Machined& out);
+    // Ends the pass that begins with that sweep and goes on to the last one.
+    void add_pass(std::size_t first, Machined& out);
+    std::size_t pass_end(std::size_t first) const;
+    // On the pass that begins with that sweep.
+    motion::ToolPose pose_at(std::size_t pass, double at) const;
+    double length_mm(std::size_t pass, double to) const;
+    CutPose pose_between(std::size_t pass, double from, double to, Vec3& last_x) const;
     void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
                       Machined& out) const;
     field::CarvedView before(const Sweep& sweep) const;
-    // A place on a step's move where contact begins (`into`) or ends, between two fractions of the move; `x`
-    // stands in for the direction of travel.
+    // A place on a pass where contact begins (`into`) or ends, between two fractions of it; `x` stands in for
+    // the direction of travel.
     struct Turn {
-        std::size_t step = 0;
+        std::size_t step = 0;  // the first one of the pass
         Vec3 x;
         double before = 0, after = 0;
         bool into = false;
@@ -89,7 +95,7 @@ class Machining {
     bool touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const;
     void find_turns(const Machined& out);
     void divide_rows_at_turns(Machined& out);
-    void find_contact(Sweep& sweep) const;
+    void find_contact(std::size_t number, Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
     void reconcile(Machined& out) const;
 

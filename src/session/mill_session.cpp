@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "milling/joined_moves.hpp"
 #include "motion/path.hpp"
 
 namespace tribo::session {
@@ -53,6 +54,13 @@ class MillSession::Run {
         removed_earlier_mm3_ = stock_.removed_mm3();
         end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
+        milling::JoinedMoves joined;
+        joins_.reserve(setup_.moves.size());
+        for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
+            const motion::MoveTiming& timing = schedule_.moves[n];
+            joins_.push_back(joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
+                                        setup_.rpm_of_move[n], timing.end_s - timing.start_s));
+        }
     }
 
     bool run_to(double to_s, const MillSinks& sinks) {
@@ -92,9 +100,10 @@ class MillSession::Run {
     void cut() {
         steps_.clear();
         std::size_t n = next_move_;
-        for (; n < setup_.moves.size() && steps_.size() < kOfferedMoves; ++n) {
+        for (; n < setup_.moves.size(); ++n) {
             const motion::MoveTiming& timing = schedule_.moves[n];
-            if (n > next_move_ && timing.start_s >= limit_s_) break;
+            const bool enough = steps_.size() >= kOfferedMoves || timing.start_s >= limit_s_;
+            if (n > next_move_ && (joins_[n] ? timing.start_s >= end_s_ : enough)) break;
             const motion::Move* move = &setup_.moves[n];
             if (timing.end_s > end_s_) {
                 const double length = motion::path_length_mm(*move);
@@ -103,7 +112,7 @@ class MillSession::Run {
                     motion::first_part(*move, motion::parameter_at_length(*move, last_share_ * length));
                 move = &last_move_;
             }
-            steps_.push_back({move, setup_.cutter_of_move[n]});
+            steps_.push_back({move, setup_.cutter_of_move[n], joins_[n] != 0});
         }
         const std::size_t count = machining_.run(steps_, machined_);
         for (const milling::Collision& c : machined_.collisions) {
@@ -114,32 +123,39 @@ class MillSession::Run {
         }
         row_count_ = 0;
         std::size_t row = 0;
-        for (std::size_t step = 0; step < count; ++step) {
+        for (std::size_t step = 0, last; step < count; step = last) {
+            for (last = step + 1; last < count && steps_[last].joins;) ++last;
             const std::size_t first = row;
             while (row < machined_.row_count && machined_.rows[row].step == step) ++row;
-            finish_move(next_move_ + step, steps_[step], machined_.removed_mm3[step], first, row);
+            finish_pass(step, last, first, row);
         }
         next_move_ += count;
     }
 
-    // The rows of one move, first to last - 1 of those machined, in time.
-    void finish_move(std::size_t index, const milling::Step& step, double removed, std::size_t first,
-                     std::size_t last) {
-        const motion::MoveTiming& timing = schedule_.moves[index];
-        const double start = timing.start_s, end = std::min(timing.end_s, end_s_);
-        const double share = step.move == &last_move_ ? last_share_ : 1;
-        const double rpm = setup_.rpm_of_move[index], length = motion::path_length_mm(*step.move);
-        if (step.move->kind == motion::MoveKind::feed) {
-            totals_.path_mm += length;
-            totals_.fed_mm3 += removed;
+    // The steps of one pass, and its rows of those machined, in time.
+    void finish_pass(std::size_t step, std::size_t last_step, std::size_t first, std::size_t last) {
+        const std::size_t move = next_move_ + step;
+        const double start = schedule_.moves[move].start_s;
+        const double end = std::min(schedule_.moves[next_move_ + last_step - 1].end_s, end_s_);
+        const double rpm = setup_.rpm_of_move[move];
+        for (std::size_t n = step; n < last_step; ++n) {
+            if (steps_[n].move->kind != motion::MoveKind::feed) continue;
+            totals_.path_mm += motion::path_length_mm(*steps_[n].move);
+            totals_.fed_mm3 += machined_.removed_mm3[n];
         }
-        double travelled = 0, row_start = start;
+        std::size_t at = step;  // where the rows have come to
+        double begun_mm = 0, travelled = 0, row_start = start;
         for (std::size_t n = first; n < last; ++n) {
             milling::CutRow& cut = machined_.rows[n];
             travelled += cut.length_mm;
-            const double row_end = length > 0 ? timing.time_at_s(share * std::min(1.0, travelled / length))
-                                              : start + (end - start) * cut.to;
-            if (!cut.engagement.empty()) add_row(index, step.cutter, cut, row_start, row_end, rpm, start);
+            for (; at + 1 < last_step; ++at) {
+                const double length = motion::path_length_mm(*steps_[at].move);
+                if (travelled <= begun_mm + length) break;
+                begun_mm += length;
+            }
+            const double row_end = time_on_s(at, travelled - begun_mm, cut.to);
+            if (!cut.engagement.empty())
+                add_row(move, steps_[step].cutter, cut, row_start, row_end, rpm, start);
             row_start = row_end;
         }
         angle_rad_ += rpm / 60 * math::kTwoPi * (end - start);
@@ -147,6 +163,15 @@ class MillSession::Run {
         angle_rad_ -= math::kTwoPi * turns;
         turns_ += turns;
         now_s_ = end;
+    }
+
+    // When the tip has gone so far on the step; on one without a way, when that share of it is done.
+    double time_on_s(std::size_t step, double way_mm, double share) const {
+        const milling::Step& s = steps_[step];
+        const motion::MoveTiming& timing = schedule_.moves[next_move_ + step];
+        const double length = motion::path_length_mm(*s.move), end = std::min(timing.end_s, end_s_);
+        if (!(length > 0)) return timing.start_s + (end - timing.start_s) * share;
+        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) * std::min(1.0, way_mm / length));
     }
 
     void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,
@@ -261,6 +286,7 @@ class MillSession::Run {
     motion::Move last_move_;          // cut short by the end of time
     double last_share_ = 1;           // of its path
     std::vector<double> cutting_at_;  // seconds by cutter
+    std::vector<char> joins_;         // by move: shares a row with the one before
     std::size_t next_move_ = 0;
     double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
 };
