@@ -76,6 +76,16 @@ void PeakFinder::add_border(const EngagedEdge& edge, double angle, double period
     borders_.push_back({(along - std::floor(along)) * period, kNoChange});
 }
 
+// Whenever the tip of a tooth is between the two rotations.
+void PeakFinder::add_partial(const EngagedEdge& edge, double from_tip, double to_tip, double period) {
+    const int first = static_cast<int>(std::ceil((from_tip - edge.phase_rad - period) / period));
+    const int last = static_cast<int>(std::floor((to_tip - edge.phase_rad) / period));
+    for (int tooth = first; tooth <= last; ++tooth) {
+        const double ahead = edge.phase_rad + tooth * period;
+        partial_.push_back({&edge, ahead, from_tip - ahead, to_tip - ahead});
+    }
+}
+
 void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
     const double period = tool.period_rad(), entry = edge.entry_rad, exit = edge.exit_rad;
     const double lag0 = edge.lag0_rad, lag1 = edge.lag1_rad;
@@ -99,15 +109,17 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
         return;
     }
     if (edge.round) {
-        sampled_.push_back(&edge);
-        add_border(edge, entry + lag0, period);
-        add_border(edge, exit + lag1, period);
-        const double from = entry + lag1, to = exit + lag0;
+        const double first = entry + lag0, last = exit + lag1, from = entry + lag1, to = exit + lag0;
+        add_border(edge, first, period);
+        add_border(edge, last, period);
         if (from < to) {
+            add_partial(edge, first, from, period);
+            add_partial(edge, to, last, period);
             sum_profile();
             add_change(edge, from, to, whole, 0, 1, period);
             add_change(edge, to, to, whole, 0, -1, period);
         } else {
+            add_partial(edge, first, last, period);
             add_border(edge, from, period);
             add_border(edge, to, period);
         }
@@ -134,25 +146,22 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
 
 // Between two borders.
 void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes& extremes) {
-    const double length = to - from, period = tool.period_rad(), middle = 0.5 * (from + to);
+    const double length = to - from, middle = 0.5 * (from + to);
     // Teeth that are entering or leaving; those wholly within are in the series.
-    partial_.clear();
+    here_.clear();
     bool root = false;
     double shortest = math::kTwoPi;  // of the rotations over which one enters or leaves
-    for (const EngagedEdge* edge : sampled_) {
-        const ToothRange teeth = teeth_within(*edge, middle, period);
-        for (int n = teeth.first; n <= teeth.last; ++n) {
-            const double ahead = edge->phase_rad + n * period, tip = middle + ahead;
-            if (tip > edge->entry_rad + edge->lag1_rad && tip < edge->exit_rad + edge->lag0_rad) continue;
-            partial_.push_back({edge, ahead});
-            root = root || edge->z0_mm < kTipShare * edge->z1_mm;
-            shortest = std::min(shortest, edge->lag1_rad - edge->lag0_rad);
-        }
+    for (const PartialTooth& tooth : partial_) {
+        if (middle < tooth.from || middle > tooth.to) continue;
+        here_.push_back(&tooth);
+        const EngagedEdge& edge = *tooth.edge;
+        root = root || edge.z0_mm < kTipShare * edge.z1_mm;
+        shortest = std::min(shortest, edge.lag1_rad - edge.lag0_rad);
     }
     const bool left_hand = tool.lag_per_mm() < 0;
     const int part = static_cast<int>(std::ceil(std::min(kPartialSteps * length / shortest, kPartialSteps)));
     const int usual = length < kShortRad ? 1 : 2;
-    const int least = partial_.empty() ? usual : std::max(root ? kRootSteps : usual, part);
+    const int least = here_.empty() ? usual : std::max(root ? kRootSteps : usual, part);
     const int steps = std::max(least, static_cast<int>(std::ceil((root ? 2 : 1) * length / kStepRad)));
     double sine, cosine, sin_step, cos_step;
     math::sincos(from, sine, cosine);
@@ -169,8 +178,7 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
         // Helical edges leave no jump at a border: what ended the last stretch starts this one.
         if (i > 0 || from == 0 || jumps_) {
             last_ = series_.at(theta, sine, cosine);
-            for (const PartialTooth& p : partial_)
-                last_ += Lanes(piece_force(tool, *p.edge, theta + p.ahead));
+            for (const PartialTooth* p : here_) last_ += Lanes(piece_force(tool, *p->edge, theta + p->ahead));
         }
         extremes.add(last_, i);
         const double turned = cosine * cos_step - sine * sin_step;
@@ -184,7 +192,7 @@ ForcePeaks PeakFinder::find(const EngagedEdges& tool) {
     jumps_ = false;
     changes_.clear();
     borders_.clear();
-    sampled_.clear();
+    partial_.clear();
     for (const EngagedEdge& edge : tool.edges()) add_edge(tool, edge);
     std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
         return a.angle != b.angle ? a.angle < b.angle : a.change < b.change;

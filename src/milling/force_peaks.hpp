@@ -32,15 +32,18 @@ class PeakFinder {
         double angle;  // rad, within the period
         int change;    // into changes_, or none for a border that changes only what is sampled
     };
+    // A tooth while a rounded piece of it enters or leaves, which is no series.
     struct PartialTooth {
         const EngagedEdge* edge;
-        double ahead;  // rad, of its tip ahead of theta
+        double ahead;     // rad, of its tip ahead of theta
+        double from, to;  // theta
     };
     class Extremes;
     void add_edge(const EngagedEdges& tool, const EngagedEdge& edge);
     void add_change(const EngagedEdge& edge, double angle, double last_angle, const TurnSeries& f, double lag,
                     double scale, double period);
     void add_border(const EngagedEdge& edge, double angle, double period);
+    void add_partial(const EngagedEdge& edge, double from_tip, double to_tip, double period);
     void scan(const EngagedEdges& tool, double from, double to, Extremes& extremes);
 
     TurnSeries series_;
@@ -48,8 +51,8 @@ class PeakFinder {
     bool jumps_ = false;  // straight edges enter and leave all at once
     std::vector<TurnSeries> changes_;
     std::vector<Border> borders_;
-    std::vector<const EngagedEdge*> sampled_;  // rounded pieces, whose entering and leaving is no series
-    std::vector<PartialTooth> partial_;
+    std::vector<PartialTooth> partial_;      // of the whole period
+    std::vector<const PartialTooth*> here_;  // of the stretch that is scanned
 };
 
 }  // namespace tribo::milling
