@@ -10,9 +10,10 @@ namespace tribo::milling {
 namespace {
 
 constexpr double kLongestRow = 0.5;  // mm
-constexpr double kLongestOfDiameter = 0.35;
-// Moves of one row at most.
+constexpr double kLongestOfDiameter = 0.5;
+// Moves and rows of one pass at most: the stock is seen between passes only.
 constexpr int kMostJoined = 16;
+constexpr double kMostRows = 4;
 // The tip's way, and with it that of the flutes' upper end, may differ from the first one by this share.
 constexpr double kOffWay = 0.05;
 constexpr double kOffFeed = 0.02;
@@ -27,6 +28,10 @@ double longest_row_mm(const Cutter& cutter) {
 
 double row_way_mm(const motion::Move& move, const Cutter& cutter) {
     return std::max(motion::path_length_mm(move), 0.5 * cutter.length_mm * motion::axis_turn_rad(move));
+}
+
+double rows_of(double way_mm, const Cutter& cutter) {
+    return std::max(1.0, std::ceil(way_mm / longest_row_mm(cutter) - 1e-9));
 }
 
 bool JoinedMoves::goes_on(const Way& way) const {
@@ -45,9 +50,10 @@ bool JoinedMoves::add(const motion::Move& move, const Cutter& cutter, double spi
     };
     const Way begin = way(move.start, middle), rest = way(middle, move.end);
     const double feed = path / duration_s, own_way = row_way_mm(move, cutter);
+    const double rows = rows_of(way_mm_ + own_way, cutter);
     const bool joins = open_ && count_ < kMostJoined && &cutter == cutter_ && spindle_rpm == spindle_rpm_ &&
                        std::abs(feed - feed_mm_per_s_) <= kOffFeed * feed_mm_per_s_ &&
-                       way_mm_ + own_way <= longest_row_mm(cutter) * (1 + 1e-9) &&
+                       rows <= kMostRows && rows < rows_of(way_mm_, cutter) + rows_of(own_way, cutter) &&
                        distance(move.start.tip_mm, end_.tip_mm) < kJoint &&
                        distance(move.start.axis, end_.axis) < kJoint && goes_on(begin) && goes_on(rest);
     if (!joins) {

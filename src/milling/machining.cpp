@@ -161,8 +161,7 @@ void Machining::add_pass(std::size_t first, Machined& out) {
         sweeps_[n].from = from;
         sweeps_[n].to = from = n + 1 < end ? travelled / path : 1;
     }
-    const auto count =
-        static_cast<std::size_t>(std::max(1.0, std::ceil(way / longest_row_mm(cutter) - 1e-9)));
+    const auto count = static_cast<std::size_t>(rows_of(way, cutter));
     if (out.rows.size() < out.row_count + count) out.rows.resize(out.row_count + count);
     travelled = 0;
     for (std::size_t n = 0; n < count; ++n) {

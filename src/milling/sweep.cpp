@@ -125,10 +125,14 @@ class StraightSweep final : public field::Shape {
         const Vec3 q = frame_.into(point - start_);
         const Profile<double> p(tool_);
         const Line<double> l(line_);
-        // No tool comes nearer than the cylinder around its path, nor than the lowest plane of its tip.
+        // No tool comes nearer than the cylinder around its path, nor than the lowest plane of its tip, nor a
+        // ball below its centres than the nearest of these.
         const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
-        if (std::min(line_.rise, 0.0) - q.z >= bound) return bound;
-        if (reach > 0 && off * off + q.y * q.y >= reach * reach) return bound;
+        const double lowest = std::min(line_.rise, 0.0);
+        if (lowest - q.z >= bound) return bound;
+        const double below =
+            tool_.kind == CutterKind::ball ? std::max(lowest + tool_.radius_mm - q.z, 0.0) : 0;
+        if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
         return by_kind(tool_.kind, [&]<CutterKind kind>() {
             return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
                                    : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);

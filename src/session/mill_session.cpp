@@ -147,15 +147,16 @@ class MillSession::Run {
         double begun_mm = 0, travelled = 0, row_start = start;
         for (std::size_t n = first; n < last; ++n) {
             milling::CutRow& cut = machined_.rows[n];
+            const std::size_t begins_at = at;
             travelled += cut.length_mm;
             for (; at + 1 < last_step; ++at) {
                 const double length = motion::path_length_mm(*steps_[at].move);
-                if (travelled <= begun_mm + length) break;
+                if (travelled < begun_mm + length * (1 - 1e-9)) break;
                 begun_mm += length;
             }
             const double row_end = time_on_s(at, travelled - begun_mm, cut.to);
             if (!cut.engagement.empty())
-                add_row(move, steps_[step].cutter, cut, row_start, row_end, rpm, start);
+                add_row(next_move_ + begins_at, steps_[step].cutter, cut, row_start, row_end, rpm, start);
             row_start = row_end;
         }
         angle_rad_ += rpm / 60 * math::kTwoPi * (end - start);
@@ -171,7 +172,7 @@ class MillSession::Run {
         const motion::MoveTiming& timing = schedule_.moves[next_move_ + step];
         const double length = motion::path_length_mm(*s.move), end = std::min(timing.end_s, end_s_);
         if (!(length > 0)) return timing.start_s + (end - timing.start_s) * share;
-        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) * std::min(1.0, way_mm / length));
+        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) * std::clamp(way_mm / length, 0.0, 1.0));
     }
 
     void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,

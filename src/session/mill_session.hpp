@@ -102,7 +102,7 @@ class MillSession {
 
     // Mills on to the end. False: stopped by `progress`; the stock is then somewhere in between.
     bool run(const MillSinks& sinks);
-    // Mills on through the moves that begin before `t_s`, and those that share a row with the last of them:
+    // Mills on through the moves that begin before `t_s`, and those that share rows with the last of them:
     // what follows the session as it goes on.
     bool run_to(double t_s, const MillSinks& sinks);
     // Up to here it has milled.

@@ -32,11 +32,17 @@ TEST(JoinedMoves, fill_rows_of_half_a_millimetre_and_begin_anew) {
     for (int n = 0; n < 20; ++n) {
         EXPECT_EQ(add(joined, straight({0.1 * n, 0, 0}, {0.1 * n + 0.1, 0, 0}), cutter), n % 5 != 0) << n;
     }
-    // Half a millimetre is a third of this one's diameter.
-    cutter.diameter_mm = 1;
+    // A row is half of this one's diameter at most.
+    cutter.diameter_mm = 0.6;
     milling::JoinedMoves small;
     for (int n = 0; n < 9; ++n) {
         EXPECT_EQ(add(small, straight({0.1 * n, 0, 0}, {0.1 * n + 0.1, 0, 0}), cutter), n % 3 != 0) << n;
+    }
+    // Three moves of 0.53 mm take four rows, each of them alone would take two.
+    cutter.diameter_mm = 6;
+    milling::JoinedMoves uneven;
+    for (int n = 0; n < 9; ++n) {
+        EXPECT_EQ(add(uneven, straight({0.53 * n, 0, 0}, {0.53 * (n + 1), 0, 0}), cutter), n % 3 != 0) << n;
     }
 }
 
