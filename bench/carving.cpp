@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What it costs to take cuts out of the stock, beside what memory alone would allow and beside OpenVDB.
 #include <cstdio>
-#include <cstring>
 
 #include "cuts.hpp"
 #include "harness.hpp"
@@ -37,18 +36,6 @@ Carving carve(const Cuts& cuts) {
     return {median(us), bytes / length, stock->removed_mm3()};
 }
 
-// Microseconds for reading and writing a megabyte that is in no cache.
-double us_per_mb() {
-    constexpr std::size_t kBytes = 64 << 20;
-    std::vector<char> from(kBytes, 1), to(kBytes, 2);
-    return median_of(5, [&] {
-        const double start = thread_s();
-        std::memcpy(to.data(), from.data(), kBytes);
-        keep(to);
-        return 1e6 * (thread_s() - start) / (2e-6 * kBytes);
-    });
-}
-
 // Megabytes per mm of this cut that any model must write (a float for each new surface sample), and that a
 // tri-dexel model reads and writes in steps of 0.5 mm: (D + 2a) / d^2 and (D + a + D a / step) / d^2.
 constexpr double kSamplesMb = (12 + 2 * 5) / (kCellMm * kCellMm) * 4e-6;
@@ -64,7 +51,7 @@ std::string move_text(double mm) {
 
 void measure_carving(Report& report, int repeats) {
     report.section("Cutting, one core");
-    const double us = us_per_mb();
+    const double us = 1e6 * memory_s_per_mb();
     report.add({"bandwidth limit: new surface samples of this cut", kSamplesMb * us, "us/mm"});
     report.add({"bandwidth limit: tri-dexels of this cut", kTriDexelMb * us, "us/mm"});
     if (!has_openvdb()) report.note("OpenVDB is not installed (libopenvdb-dev): its columns are left out");

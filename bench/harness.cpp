@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 
 namespace tribo::bench {
@@ -24,6 +25,17 @@ double thread_s() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double memory_s_per_mb() {
+    constexpr std::size_t kBytes = 64 << 20;
+    std::vector<char> from(kBytes, 1), to(kBytes, 2);
+    return median_of(5, [&] {
+        const double start = thread_s();
+        std::memcpy(to.data(), from.data(), kBytes);
+        keep(to);
+        return (thread_s() - start) / (2e-6 * kBytes);
+    });
 }
 
 double median(std::vector<double> values) {

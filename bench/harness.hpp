@@ -14,6 +14,9 @@ namespace tribo::bench {
 double wall_s();
 double thread_s();
 
+// Seconds of the processor for reading or writing a megabyte that is in no cache.
+double memory_s_per_mb();
+
 // Makes the compiler believe that `value` is used.
 template <class T>
 void keep(const T& value) {

@@ -136,6 +136,8 @@ void measure_processes(Report& report, int repeats) {
         report.add(seconds);
         report.add({name + ", processor time", median(processor), "s"});
         report.add(memory);
+        report.add({name + ", processor time over the bandwidth limit",
+                    median(processor) / (median(peak) * memory_s_per_mb()), "times"});
     }
 }
 

@@ -96,22 +96,25 @@ double ThinWalls::update(Brick& brick, float cell) const {
     return removed;
 }
 
+// Without branches: which shape gives the distance where is hard to foretell.
 void prune_shapes(Brick& brick, float near_mm) {
-    std::vector<std::uint16_t> renamed(brick.shapes.size(), Brick::kUnlisted);
+    const std::size_t count = brick.shapes.size();
+    // Two more places: for what is unlisted, and for what nobody asks.
+    std::vector<std::uint16_t> renamed(count + 2, Brick::kUnlisted);
+    const auto listed = [&](std::uint16_t w) { return std::min<std::size_t>(w, count); };
     for (std::size_t n = 0; n < kLatticeNodes; ++n) {
-        const std::uint16_t w = brick.winner[n];
-        if (w != Brick::kUnlisted && std::abs(brick.distance_mm[n]) < near_mm) renamed[w] = 0;
+        const std::size_t w = listed(brick.winner[n]);
+        renamed[std::abs(brick.distance_mm[n]) < near_mm ? w : count + 1] = 0;
     }
+    renamed[count] = Brick::kUnlisted;
     std::uint16_t kept = 0;
-    for (std::size_t s = 0; s < renamed.size(); ++s) {
+    for (std::size_t s = 0; s < count; ++s) {
         if (renamed[s] == Brick::kUnlisted) continue;
         renamed[s] = kept;
         brick.shapes[kept++] = brick.shapes[s];
     }
     brick.shapes.resize(kept);
-    for (std::uint16_t& w : brick.winner) {
-        if (w != Brick::kUnlisted) w = renamed[w];
-    }
+    for (std::uint16_t& w : brick.winner) w = renamed[listed(w)];
 }
 
 }  // namespace tribo::field

@@ -52,8 +52,8 @@ bool JoinedMoves::add(const motion::Move& move, const Cutter& cutter, double spi
     const double feed = path / duration_s, own_way = row_way_mm(move, cutter);
     const double rows = rows_of(way_mm_ + own_way, cutter);
     const bool joins = open_ && count_ < kMostJoined && &cutter == cutter_ && spindle_rpm == spindle_rpm_ &&
-                       std::abs(feed - feed_mm_per_s_) <= kOffFeed * feed_mm_per_s_ &&
-                       rows <= kMostRows && rows < rows_of(way_mm_, cutter) + rows_of(own_way, cutter) &&
+                       std::abs(feed - feed_mm_per_s_) <= kOffFeed * feed_mm_per_s_ && rows <= kMostRows &&
+                       rows < rows_of(way_mm_, cutter) + rows_of(own_way, cutter) &&
                        distance(move.start.tip_mm, end_.tip_mm) < kJoint &&
                        distance(move.start.axis, end_.axis) < kJoint && goes_on(begin) && goes_on(rest);
     if (!joins) {

@@ -172,7 +172,8 @@ class MillSession::Run {
         const motion::MoveTiming& timing = schedule_.moves[next_move_ + step];
         const double length = motion::path_length_mm(*s.move), end = std::min(timing.end_s, end_s_);
         if (!(length > 0)) return timing.start_s + (end - timing.start_s) * share;
-        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) * std::clamp(way_mm / length, 0.0, 1.0));
+        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) *
+                                std::clamp(way_mm / length, 0.0, 1.0));
     }
 
     void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,
