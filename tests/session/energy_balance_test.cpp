@@ -22,10 +22,6 @@ struct Outcome {
     bool silent_where_nothing_goes = true;
 };
 
-bool turns(CutMotion motion) {
-    return motion == CutMotion::turning_slot || motion == CutMotion::pivot || motion == CutMotion::fan;
-}
-
 Outcome mill(MillSetup setup) {
     MillSession session(std::move(setup), serial_for);
     Outcome out;

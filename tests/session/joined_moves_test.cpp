@@ -133,11 +133,14 @@ TEST(JoinedMoves, are_the_same_rows_however_often_the_run_stops) {
         const Milled once = mill(chopped(cut.setup, random_cut(seed).setup), 1e9);
         const Milled often = mill(chopped(cut.setup, random_cut(seed).setup), once.totals.duration_s / 97);
         ASSERT_EQ(often.rows.size(), once.rows.size()) << seed << ": " << cut.words;
+        // A sweep that turns is known to its own tolerance before it is carved: a circle more may be looked
+        // at.
+        const double share = turns(cut.motion) ? 5e-3 : 1e-3;
         for (std::size_t n = 0; n < once.rows.size(); ++n) {
             const milling::ForceRow &a = once.rows[n], &b = often.rows[n];
             EXPECT_EQ(a.line, b.line);
             EXPECT_NEAR(a.t_s, b.t_s, 1e-9);
-            EXPECT_NEAR(length(a.mean_n - b.mean_n), 0, 1e-3 * (1 + length(a.mean_n)))
+            EXPECT_NEAR(length(a.mean_n - b.mean_n), 0, share * (1 + length(a.mean_n)))
                 << seed << " " << n << ": " << cut.words;
         }
     }

@@ -63,6 +63,10 @@ std::ostream& operator<<(std::ostream& out, Vec3 v) {
 
 }  // namespace
 
+bool turns(CutMotion motion) {
+    return motion == CutMotion::turning_slot || motion == CutMotion::pivot || motion == CutMotion::fan;
+}
+
 RandomCut random_cut(std::uint64_t seed) {
     Draw draw(seed);
     RandomCut cut;

@@ -11,6 +11,8 @@
 namespace tribo::session {
 
 enum class CutMotion { slot, ramp, plunge, turning_slot, pivot, fan, arc, bore };
+// Whether the tool's axis turns.
+bool turns(CutMotion motion);
 enum class CutStock { box, plate, stepped };
 
 struct RandomCut {
