@@ -2,6 +2,7 @@
 #include "contact/distance_field.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "contact/half_spaces.hpp"
 
@@ -11,8 +12,9 @@ namespace {
 constexpr int kMostRounds = 16;
 // A point this close to the surface is on it, mm.
 constexpr double kOnSurface = 1e-6;
-// ... and has come to rest where the next step is shorter than this, mm: the distance is off by its square.
-constexpr double kStill = 1e-4;
+// ... and has come to rest where the next step changes the distance by less than this, mm: by half the step's
+// square over the distance. Normals of swept edges are known to a thousandth only.
+constexpr double kStill = 5e-6;
 // Normals of one smooth piece, from one step of the search to the next, agree at least this well.
 constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance, and are too great from this share of a sphere's on.
@@ -23,6 +25,41 @@ struct Foot {
     Vec3 at;
     bool found = false, smooth = false;
 };
+
+// Where the planes do not agree (normals of swept edges jump): along the surface as long as that leads
+// nearer.
+Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
+    constexpr int kMostSteps = 24, kMostLandings = 6;
+    constexpr double kShortest = 1e-3;  // share of a step
+    const auto land = [&](Vec3 q, SurfaceSample& s) -> std::optional<Vec3> {
+        for (int n = 0; n < kMostLandings; ++n) {
+            s = field.sample(q);
+            if (std::abs(s.distance_mm) <= kOnSurface) return q;
+            q -= s.distance_mm * s.normal;
+        }
+        return std::nullopt;
+    };
+    SurfaceSample s, seen;
+    const auto first = land(start_mm, s);
+    if (!first) return {field.sample(point_mm), start_mm, false, false};
+    Vec3 q = *first;
+    double share = 1;
+    for (int n = 0; n < kMostSteps && share > kShortest; ++n) {
+        const Vec3 way = point_mm - q, along = way - dot(way, s.normal) * s.normal;
+        if (squared_length(along) <= 2 * kStill * length(way)) break;
+        const auto next = land(q + share * along, seen);
+        if (next && squared_length(point_mm - *next) < squared_length(way) - kOnSurface * kOnSurface) {
+            q = *next;
+            s = seen;
+            share = std::min(1.0, 2 * share);
+        } else {
+            share *= 0.5;
+        }
+    }
+    const double way = distance(point_mm, q);
+    if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, false};
+    return {s, q, true, false};
+}
 
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     HalfSpaces sides;
@@ -39,7 +76,8 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
         const Vec3 next = sides.nearest(point_mm);
         // On the surface, and nowhere nearer as all sides stand there.
-        if (there && std::abs(s.distance_mm) <= kOnSurface && distance(next, q) <= kStill) {
+        if (there && std::abs(s.distance_mm) <= kOnSurface &&
+            squared_length(next - q) <= 2 * kStill * distance(point_mm, q) + kOnSurface * kOnSurface) {
             const double way = length(point_mm - q);
             int held_by = 0;
             for (int i = 0; i < sides.count; ++i)
@@ -52,7 +90,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         there = step <= longest_mm;
         q = there ? next : q + (longest_mm / step) * (next - q);
     }
-    return {field.sample(point_mm), q, false, false};
+    return descend(field, point_mm, q);
 }
 
 // Where the surface at a foot bends towards the point more than a sphere about the point does: the direction

@@ -11,10 +11,9 @@ namespace {
 // Distances at nodes are floats: off by less than this share of a cell.
 constexpr double kRounding = 1e-3;
 // Nearer by less than this is not nearer, mm.
-constexpr double kOnSurface = 1e-5;
+constexpr double kOnSurface = 2e-5;
 // A surface point that one brick's shapes make is one if the field is this close to zero there, in cells:
 // where two bricks meet their lists may differ by a shape whose share is thinner than a cell.
-constexpr double kAgree = 0.02;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
@@ -312,7 +311,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
             if (b == here) return s;
             continue;
         }
-        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kAgree * cell_mm) return s;
+        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kOnSurface) return s;
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
@@ -326,7 +325,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
                 contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
             const Vec3 foot = p - found.distance_mm * found.normal;
             const contact::SurfaceSample at_foot = sample(foot);
-            if (std::abs(at_foot.distance_mm) <= kAgree * cell_mm) {
+            if (std::abs(at_foot.distance_mm) <= kOnSurface) {
                 if (found.distance_mm < best.distance_mm) best = found;
                 return foot;
             }
@@ -340,11 +339,12 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         }
         return std::nullopt;
     };
-    if (bricks.contains(there) && bricks.get(there) != kAir) {
-        (void)search(bricks.get(there), hint_mm);
-    }
+    // In a corner of the material both sides are near: from below, and from where it was nearest last.
+    if (lower.distance_mm > 0 && bricks.contains(here) && bricks.get(here) != kAir)
+        (void)search(bricks.get(here), p - lower.distance_mm * lower.normal);
+    if (bricks.contains(there) && bricks.get(there) != kAir) (void)search(bricks.get(there), hint_mm);
     // Nothing is nearer than `lower`.
-    if (best.distance_mm - lower.distance_mm <= kAgree * cell_mm) return best;
+    if (best.distance_mm - lower.distance_mm <= kOnSurface) return best;
     bool doubt = false;
     // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
     Candidates bricks_near(*this, here, p, best.distance_mm - kOnSurface);
@@ -376,8 +376,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         if (searches > kMostSearches) break;
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
-    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kAgree * cell_mm)
-        return best;
+    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) return best;
     // Not shown to be the nearest: what is known of the distance.
     if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
     if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)

@@ -8,38 +8,36 @@
 namespace tribo::haptics {
 namespace {
 
-// A proxy within this of the surface is on it, mm.
+// A proxy within this of the surface is on it, mm. No shorter step is worth taking.
 constexpr double kSkin = 1e-6;
 // The proxy has settled when its way along the surface is below this share of the penetration: the share of
 // the force's direction that is still wrong.
 constexpr double kSettled = 2e-3;
-// At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
-constexpr double kPeek = 1e-5, kGrazing = 0.1;
 // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
 constexpr double kOneSide = 0.95;
 // A surface that faces away like this is the other side of a wall, or of a slot.
 constexpr double kOtherSide = -0.5;
-// A step that ends this share of its length above the surface has gone over an edge.
-constexpr double kOverEdge = 0.5;
-// Longer than this share of what is left, a step is a leap.
-constexpr double kFarther = 1.25;
-// ... which must gain this share of the rest, squared.
-constexpr double kGain = 0.5;
-constexpr double kShorter = 0.25, kShortest = 0.1;
-// In flight, contact is made where the free ball is smaller than this share of the way to go.
-constexpr double kNear = 0.02;
-// ... and smaller than this share of a ball's radius.
-constexpr double kNearBall = 0.1;
+// A step that ends this share of its length above the surface has gone over an edge, that far below it into
+// what tells nothing of the surface between.
+constexpr double kOff = 0.5;
+// A step gains at least this share of what its length promises.
+constexpr double kGain = 0.1;
+// A refused step is followed by one of this share, a taken one allows one longer by its inverse.
+constexpr double kShorter = 0.25;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
-constexpr int kMostSlides = 8;
-// A landing this much (of the step's length) above or below the trial is looked at again.
+// In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
+// radius.
+constexpr double kNear = 0.02, kNearBall = 0.1;
+// At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
+constexpr double kPeek = 1e-5, kGrazing = 0.1;
+// A landing this much (of the step's length) off the trial is looked at again, so often.
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
-constexpr int kMostTries = 8;
-constexpr int kMostLinks = 24;  // of a chain of balls, at once
-constexpr int kMostClimbs = 24;
+constexpr int kMostLinks = 24;  // of a chain of balls
+// Queries that a step may need before it can be taken back.
+constexpr int kStepQueries = 6;
 
 contact::HalfSpace side_of(Vec3 normal) {
     return {-normal, 0, 0};
@@ -83,77 +81,82 @@ Contact FieldContact::update(Vec3 probe) noexcept {
 }
 
 Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
-    first_query_ = gap_.queries();
+    queries_ = 0;
     if (!is_finite(probe)) return {};
-    last_proxy_ = at_.proxy;
     if (phase_ == Phase::begin) {
-        last_proxy_ = at_.proxy = probe;
+        at_.proxy = probe;
         sticking_ = true;
         phase_ = Phase::climb;
     }
-    switch (phase_) {
-        case Phase::begin:
-        case Phase::climb:
-            climb(probe);
-            break;
-        case Phase::free:
-            fly(probe);
-            break;
-        case Phase::touching:
-            if (turned) (void)land(at_);
-            if (!stuck_ || !freed(probe)) slide(probe);
-            break;
+    last_proxy_ = at_.proxy;
+    settled_ = braced_ = false;
+    stride_mm_ = std::max(stride_mm_, kLowest);
+    if (turned && phase_ == Phase::touching) (void)push_out();
+    for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
+        switch (phase_) {
+            case Phase::begin:
+            case Phase::climb:
+                next = climb();
+                break;
+            case Phase::free:
+                next = fly(probe);
+                break;
+            case Phase::touching:
+                next = slide(probe);
+                break;
+        }
     }
+    if (phase_ == Phase::touching && !settled_) (void)push_out();
+    sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     return answer(probe);
 }
 
 // Out of the material along its normals, until there is air.
-void FieldContact::climb(Vec3 probe) {
-    for (int n = 0; n < kMostClimbs && budget(4); ++n) {
-        const ProbeGap::Gap g = gap_.measure(*field_, at_.proxy);
-        if (g.gap_mm > kSkin) {
-            last_proxy_ = at_.proxy;
-            anchor_ = {at_.proxy, g.gap_mm};
-            fly(probe);
-            return;
-        }
-        // A little more than the distance, so that the proxy comes to stand in air.
-        at_.proxy += (2 * kSkin - g.gap_mm) * g.normal;
+FieldContact::Next FieldContact::climb() {
+    const ProbeGap::Gap g = measure(at_.proxy);
+    if (g.gap_mm > kSkin) {
+        last_proxy_ = at_.proxy;
+        anchor_ = {at_.proxy, g.gap_mm};
+        phase_ = Phase::free;
+        return Next::more;
     }
-    at_.settled = false;
+    // A little more than the distance, so that the proxy comes to stand in air.
+    at_.proxy += (2 * kSkin - g.gap_mm) * g.normal;
+    return Next::more;
 }
 
 // From the anchor straight to the probe, through balls that hold no material.
-void FieldContact::fly(Vec3 probe) {
-    phase_ = Phase::free;
+FieldContact::Next FieldContact::fly(Vec3 probe) {
     // Further away a ball's nearest place is not measured.
     const double near = gap_.radius_mm() > 0 ? kNearBall * gap_.radius_mm() : 1e30;
     Anchor a = anchor_;
     for (;;) {
         const double way = distance(probe, a.at);
-        if (way <= a.radius) {
-            anchor_ = {probe, a.radius - way};
+        if (way <= a.radius + kSkin) {
+            anchor_ = a;
             at_.proxy = probe;
-            at_.settled = true;
-            return;
+            settled_ = true;
+            return Next::nothing;
         }
         if (a.radius < std::max(kSkin, std::min(kNear * way, near))) break;
         anchor_ = a;
-        if (!budget(1)) {
-            at_.proxy = a.at;
-            at_.settled = false;
-            return;
-        }
+        at_.proxy = a.at;
+        if (!budget(kStepQueries)) return Next::nothing;
         a.at += (a.radius / way) * (probe - a.at);
-        a.radius = gap_.clearance_mm(*field_, a.at, distance(probe, a.at));
+        a.radius = clearance_mm(a.at, distance(probe, a.at));
     }
-    // At the surface; the last ball, or what is left of it, reaches there.
-    ProbeGap::Gap g = gap_.measure(*field_, a.at);
-    Vec3 seen_at = a.at;
+    touch_down(probe, a);
+    return Next::more;
+}
+
+// At the surface next to a ball, or what is left of one, that reaches there.
+void FieldContact::touch_down(Vec3 probe, Anchor from) {
+    ProbeGap::Gap g = measure(from.at);
+    Vec3 seen_at = from.at;
     // At a convex edge it is the face that the probe goes along, not the one that ends there.
     const Vec3 ahead = normalized(probe - last_proxy_, -g.normal),
-               next_to = a.at + (g.gap_mm + kPeek) * ahead;
-    const ProbeGap::Gap beyond = gap_.measure(*field_, next_to);
+               next_to = from.at + (g.gap_mm + kPeek) * ahead;
+    const ProbeGap::Gap beyond = measure(next_to);
     if (beyond.gap_mm >= -2 * kSkin && std::abs(dot(beyond.normal, ahead)) < kGrazing) {
         g = beyond;
         seen_at = next_to;
@@ -163,307 +166,312 @@ void FieldContact::fly(Vec3 probe) {
     at_.normal = g.normal;
     at_.ball = g.ball;
     at_.sides.put(side_of(g.normal), kOneSide);
-    anchor_ = {a.at, std::max(a.radius, 0.0)};
+    if (from.radius > anchor_.radius) anchor_ = from;
     phase_ = Phase::touching;
-    stuck_ = false;
     sticking_ = true;
     ease_ = 1;
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
-    anchor_here();
-    if (budget(kMostSlides)) slide(probe);
+    stride_mm_ = 1e30;
+    (void)tie(at_);
 }
 
-// The part of a way that the surface at the proxy allows.
-Vec3 FieldContact::along(const Slide& s, Vec3 way) const {
-    return s.sides.nearest(way);
-}
-
-// The sides at the proxy, and one more through `point`, where they stand.
-contact::HalfSpaces FieldContact::corner_of(const Slide& s, Vec3 point, Vec3 normal) {
-    contact::HalfSpaces corner = s.sides;
-    for (int i = 0; i < corner.count; ++i) {
-        contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
-        h.offset = dot(h.normal, s.proxy);
-    }
-    corner.put({-normal, -dot(normal, point), 0}, kOneSide);
-    return corner;
-}
-
-FieldContact::Slide FieldContact::slide_from_proxy(Vec3 probe, double longest_step) {
-    Slide s = at_;
-    s.settled = s.lost = false;
-    const Vec3 from = s.proxy;
-    Vec3 last_rest, last_step;
-    double last_length = 0, leap = 0;
-    // Of the step that should settle it: less after one that came no nearer to the probe. Cusps and bumps
-    // that are small to the probe's depth turn the way back at each.
-    double share = 1;
-    bool moved = false;
-    for (int n = 0; n < kMostSlides && budget(6); ++n) {
-        const Vec3 way = probe - s.proxy;
-        s.rest = along(s, way);
-        s.press_mm = distance(way, s.rest);
-        const double rest = length(s.rest);
-        const double hold = (moved ? options_.friction_kinetic : this->hold()) * s.press_mm;
-        if (rest <= hold + kSettled * s.press_mm + kSkin) {
-            s.settled = true;
-            if (moved && s.sides.count == 1 && leap <= kLeap * s.press_mm + kSkin) return s;
-            // Held: is there still a surface? In a corner: do all its sides hold?
-            const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
-            s.ball = g.ball;
-            if (g.gap_mm > 2 * kSkin) s.lost = !moved;
-            if (g.gap_mm >= -2 * kSkin && !(moved && g.gap_mm > 2 * kSkin)) return s;
-            s.settled = false;
-            moved = true;
-            leap = std::abs(g.gap_mm);
-            const Vec3 landed = s.proxy - g.gap_mm * g.normal;
-            if (s.sides.count == 1 && dot(g.normal, s.normal) > kOneSide) {
-                s.proxy = landed;
-                s.sides = {};
-            } else {
-                s.proxy = corner_of(s, landed, g.normal).nearest(s.proxy);
-            }
-            s.sides.put(side_of(g.normal), kOneSide);
-            s.normal = g.normal;
-            continue;
-        }
-        if (s.press_mm <= 0) return s;  // the surface does not hold the probe
-        // The step that would settle it, were the surface to bend on as it did over the last step.
-        if (last_length > 0) {
-            const Vec3 change = s.rest - last_rest;
-            const double up = -dot(last_step, change), down = squared_length(change);
-            // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
-            ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
-        }
-        const double goal = std::max(0.0, 1 - options_.friction_kinetic * s.press_mm / rest);
-        const Vec3 step =
-            limited((s.sides.count == 1 ? share * ease_ * goal : share * goal) * s.rest, longest_step);
-        if (moved && distance(s.proxy + step, from) > longest_step) return s;
-        const Vec3 trial = s.proxy + step;
-        const ProbeGap::Gap g = gap_.measure(*field_, trial);
-        const double size = length(step);
-        if (s.sides.count == 1 && share > kShortest &&
-            (g.gap_mm < -kOverEdge * size || dot(g.normal, s.normal) < kOtherSide)) {
-            // Deep in material or through it, where nothing tells of the surface in between.
-            share *= kShorter;
-            last_length = 0;
-            continue;
-        }
-        if (g.gap_mm > kOverEdge * size + kSkin) {
-            if (size > kFarther * rest) {
-                // Not an edge under the probe, but one far beyond it.
-                share *= kShorter;
-                last_length = 0;
-                continue;
-            }
-            s.proxy = trial;
-            s.lost = true;
-            return s;
-        }
-        const Vec3 landed = trial - g.gap_mm * g.normal;
-        const bool bends = dot(g.normal, s.normal) > kOneSide;
-        ProbeGap::Gap last = g;
-        Vec3 next = landed;
-        contact::HalfSpaces sides;
-        if (s.sides.count == 1 && (bends || g.gap_mm >= -kSkin)) {
-            // After a leap in height what was nearest from the trial may not be so where it lands.
-            for (int k = 0; k < kMostLandings && std::abs(last.gap_mm) > kLeap * size + kSkin && budget(6);
-                 ++k) {
-                last = gap_.measure(*field_, next);
-                next -= last.gap_mm * last.normal;
-            }
-            sides.put(side_of(last.normal), kOneSide);
-        } else if (g.gap_mm < -kSkin) {
-            // Another side is in the way: the proxy stands where all of them meet.
-            next = corner_of(s, landed, g.normal).nearest(trial);
-            if (distance(next, trial) > size + kSkin) {
-                // Not between here and the trial: the far side of a wall.
-                share *= kShorter;
-                last_length = 0;
-                continue;
-            }
-            sides = s.sides;
-            sides.put(side_of(g.normal), kOneSide);
-        } else {
-            // Along a corner: the sides that the step has not left are still there.
-            for (int i = 0; i < s.sides.count; ++i) {
-                const contact::HalfSpace& h = s.sides.side[static_cast<std::size_t>(i)];
-                if (dot(h.normal, step) > -1e-3 * size) sides.put(h, kOneSide);
-            }
-            sides.put(side_of(g.normal), kOneSide);
-        }
-        // A step that goes beyond the probe may come down far on its other side.
-        const double most = size > kFarther * rest ? std::sqrt(squared_length(way) - kGain * rest * rest)
-                                                   : length(way) + kLeap * size;
-        if (size > kSkin && distance(probe, next) > most) {
-            share *= kShorter;
-            last_length = 0;
-            continue;
-        }
-        moved = true;
-        leap = std::abs(last.gap_mm);
-        s.sides = sides;
-        s.normal = last.normal;
-        s.ball = last.ball;
-        last_rest = s.rest;
-        last_step = next - s.proxy;
-        last_length = bends && s.sides.count == 1 ? length(last_step) : 0;
-        if (last_length == 0) ease_ = std::min(ease_, 1.0);
-        share = 1;
-        s.proxy = next;
-    }
-    // Cut short: on with the next tick, from a place that is in air.
-    if (land(s)) return s;
-    s = at_;
-    s.settled = s.lost = false;
+FieldContact::Split FieldContact::split(const Place& place, Vec3 probe) const {
+    const Vec3 way = probe - place.proxy;
+    Split s;
+    s.rest = place.sides.nearest(way);
+    s.press = way - s.rest;
+    s.rest_mm = length(s.rest);
+    s.press_mm = length(s.press);
     return s;
 }
 
-// Out to the surface from a place a little way in the material. Whether it got there.
-bool FieldContact::land(Slide& s) {
-    for (int n = 0; n < kMostLandings; ++n) {
-        const ProbeGap::Gap g = gap_.measure(*field_, s.proxy);
-        if (g.gap_mm >= -2 * kSkin) return true;
-        s.proxy -= g.gap_mm * g.normal;
-        s.normal = g.normal;
-        s.ball = g.ball;
-        s.sides = {};
-        s.sides.put(side_of(g.normal), kOneSide);
+// The step that would settle it, were the surface to bend on as it did over the last step (Barzilai and
+// Borwein 1988).
+Vec3 FieldContact::step_for(const Split& way, const Step& last) {
+    if (last.known) {
+        const Vec3 change = way.rest - last.rest;
+        const double up = -dot(last.way, change), down = squared_length(change);
+        // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
+        ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
     }
-    return false;
+    const double goal = std::max(0.0, 1 - options_.friction_kinetic * way.press_mm / way.rest_mm);
+    return limited(ease_ * goal * way.rest, stride_mm_);
+}
+
+// Puts a place onto the surface that was seen from it: down to a side that it stands on alone, into the
+// corner of all its sides otherwise. Whether its sides have stayed.
+bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
+    const Vec3 landed = place.proxy - seen.gap_mm * seen.normal;
+    const bool bends = place.sides.count <= 1 && dot(seen.normal, place.normal) > kOneSide;
+    if (bends) {
+        place.proxy = landed;
+        place.sides = {};
+    } else {
+        contact::HalfSpaces corner = place.sides;
+        for (int i = 0; i < corner.count; ++i) {
+            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+            h.offset = dot(h.normal, place.proxy);
+        }
+        corner.put({-seen.normal, -dot(seen.normal, landed), 0}, kOneSide);
+        place.proxy = corner.nearest(place.proxy);
+    }
+    place.sides.put(side_of(seen.normal), kOneSide);
+    place.normal = seen.normal;
+    place.ball = seen.ball;
+    place.leap_mm = std::abs(seen.gap_mm);
+    return bends;
+}
+
+// A step along the surface, and down onto it.
+FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to) {
+    const double size = length(step);
+    const Vec3 trial = from.proxy + step;
+    ProbeGap::Gap g = measure(trial);
+    const bool alone = from.sides.count == 1;
+    const double alike = dot(g.normal, from.normal);
+    if (alone && (alike < kOtherSide || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
+    to = from;
+    if (g.gap_mm > kOff * size + kSkin) {
+        to.proxy = trial;
+        return Landing::over_edge;
+    }
+    if (alone && (g.gap_mm >= -kSkin || alike > kOneSide)) {
+        to.proxy = trial;
+        to.sides = {};
+        to.normal = g.normal;
+        (void)correct(to, g);
+        // After a leap in height what was nearest from the trial may not be so where it lands.
+        for (int k = 0; k < kMostLandings && to.leap_mm > kLeap * size + kSkin && budget(kStepQueries); ++k) {
+            g = measure(to.proxy);
+            to.sides = {};
+            to.normal = g.normal;
+            (void)correct(to, g);
+        }
+        return Landing::on_surface;
+    }
+    if (g.gap_mm < -kSkin) {
+        // Another side is in the way: the proxy stands where all of them meet.
+        contact::HalfSpaces corner = from.sides;
+        for (int i = 0; i < corner.count; ++i) {
+            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+            h.offset = dot(h.normal, from.proxy);
+        }
+        corner.put({-g.normal, -dot(g.normal, trial - g.gap_mm * g.normal), 0}, kOneSide);
+        to.proxy = corner.nearest(trial);
+        // Not between here and the trial: the far side of a wall.
+        if (distance(to.proxy, trial) > size + kSkin) return Landing::none;
+    } else {
+        // Along a corner: the sides that the step has not left are still there.
+        to.proxy = trial - g.gap_mm * g.normal;
+        to.sides = {};
+        for (int i = 0; i < from.sides.count; ++i) {
+            const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
+            if (dot(h.normal, step) > -1e-3 * size) to.sides.put(h, kOneSide);
+        }
+    }
+    to.sides.put(side_of(g.normal), kOneSide);
+    to.normal = g.normal;
+    to.ball = g.ball;
+    to.leap_mm = std::abs(g.gap_mm);
+    return Landing::on_surface;
+}
+
+FieldContact::Next FieldContact::slide(Vec3 probe) {
+    renew_anchor();
+    Step last;
+    bool moved = false, looked = false;
+    while (budget(kStepQueries)) {
+        const Split way = split(at_, probe);
+        // Nothing holds the probe: through the air, from the anchor.
+        if (way.press_mm <= 0) {
+            phase_ = Phase::free;
+            return Next::more;
+        }
+        const double friction = moved ? options_.friction_kinetic : hold();
+        if (way.rest_mm <= (friction + kSettled) * way.press_mm + kSkin) {
+            if (moved && at_.sides.count == 1 && at_.leap_mm <= kLeap * way.press_mm + kSkin) {
+                settled_ = true;
+                return Next::nothing;
+            }
+            // Held: is there still a surface? In a corner: do all its sides hold?
+            const ProbeGap::Gap g = measure(at_.proxy);
+            at_.ball = g.ball;
+            if (g.gap_mm > 2 * kSkin && !moved) {
+                phase_ = Phase::free;
+                return Next::more;
+            }
+            if (std::abs(g.gap_mm) <= 2 * kSkin) {
+                settled_ = true;
+                return Next::nothing;
+            }
+            Place corrected = at_;
+            (void)correct(corrected, g);
+            moved = true;
+            if (!tie(corrected)) return Next::nothing;
+            at_ = corrected;
+            continue;
+        }
+        const Vec3 step = step_for(way, last);
+        const double size = length(step);
+        Place to;
+        const Landing landing = land(at_, step, to);
+        chained_mm_ = 0;
+        bool no_gain = false;
+        if (landing == Landing::over_edge && size <= 1.25 * way.rest_mm) {
+            if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) {
+                phase_ = Phase::free;
+                return Next::more;
+            }
+        } else if (landing == Landing::on_surface) {
+            if (to.sides.count > at_.sides.count && distance(to.proxy, at_.proxy) <= kSkin) {
+                // In a corner already: held by one side more.
+                at_.sides = to.sides;
+                at_.normal = to.normal;
+                last.known = false;
+                moved = true;
+                continue;
+            }
+            const double before = squared_length(probe - at_.proxy), now = squared_length(probe - to.proxy);
+            const double least = to.sides.count > at_.sides.count ? 0 : kGain * size * way.rest_mm;
+            no_gain = now > before - least;
+            if (!no_gain && tie(to)) {
+                const bool bends =
+                    at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) > kOneSide;
+                last = {way.rest, to.proxy - at_.proxy, bends};
+                if (!bends) ease_ = std::min(ease_, 1.0);
+                at_ = to;
+                moved = true;
+                stride_mm_ = std::max(stride_mm_, size / kShorter);
+                continue;
+            }
+        }
+        // Refused: no longer than a chain of free balls came, and a little into what stopped it.
+        stride_mm_ =
+            chained_mm_ > kSkin && chained_mm_ < 0.9 * size ? 1.02 * chained_mm_ + kLowest : kShorter * size;
+        stride_mm_ = std::min(stride_mm_, 0.9 * size);
+        last.known = false;
+        if (landing == Landing::none && !looked && push_out()) {
+            looked = true;
+            stride_mm_ = size;
+            if (phase_ != Phase::touching) return Next::more;
+        }
+        if (stride_mm_ < kSkin) {
+            // Where the shortest step gains nothing, the proxy is as near as it can come.
+            settled_ = braced_ = no_gain;
+            return Next::nothing;
+        }
+    }
+    return Next::nothing;
+}
+
+// Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
+// along the normals; where that does not do, to the air that it is tied to. Whether it stood there.
+bool FieldContact::push_out() {
+    for (int n = 0; n < kMostLandings; ++n) {
+        const ProbeGap::Gap g = measure(at_.proxy);
+        if (g.gap_mm >= -2 * kSkin) return n > 0;
+        at_.proxy -= g.gap_mm * g.normal;
+        at_.normal = g.normal;
+        at_.ball = g.ball;
+        at_.sides = {};
+        at_.sides.put(side_of(g.normal), kOneSide);
+    }
+    anchor_.radius = measure(anchor_.at).gap_mm;
+    phase_ = anchor_.radius > kSkin ? Phase::free : Phase::climb;
+    if (phase_ == Phase::free) at_.proxy = anchor_.at;
+    return true;
 }
 
 // Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
 bool FieldContact::chain(const Anchor& to) {
-    // What it takes is not left for a shorter way.
-    const long last = gap_.queries() + kMostLinks;
     Anchor a = anchor_;
-    for (;;) {
+    for (int links = 0;; ++links) {
         const double way = distance(to.at, a.at);
         if (way <= a.radius + to.radius) {
             anchor_ = to;
             return true;
         }
-        if (a.radius < kSkin || !budget(1) || gap_.queries() >= last) return false;
+        chained_mm_ = distance(a.at, anchor_.at);
+        if (a.radius < kSkin || links == kMostLinks || !budget(1)) return false;
         a.at += (a.radius / way) * (to.at - a.at);
-        a.radius = gap_.clearance_mm(*field_, a.at, distance(to.at, a.at));
+        a.radius = clearance_mm(a.at, distance(to.at, a.at));
     }
 }
 
-// Finds an anchor over the slide's end that the present anchor leads to.
-bool FieldContact::tie(const Slide& s) {
+// An anchor that a turn of the probe has taken the room from is looked at again, and given up for the ball
+// over the proxy where nothing is left of it: a probe that turns has no other way to it.
+void FieldContact::renew_anchor() {
+    if (anchor_.radius > kSkin) return;
+    anchor_.radius = clearance_mm(anchor_.at, kHighest);
+    const Vec3 up = up_from(at_);
+    for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
+        const Vec3 at = at_.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height)};
+        if (a.radius > (1 - kTouches) * height) anchor_ = a;
+    }
+}
+
+Vec3 FieldContact::up_from(const Place& place) {
     Vec3 up;
-    for (int n = 0; n < s.sides.count; ++n) up -= s.sides.side[static_cast<std::size_t>(n)].normal;
-    up = normalized(up, s.normal);
-    double height =
-        std::clamp(std::max(1.5 * distance(s.proxy, at_.proxy), 0.5 * height_), kLowest, kHighest);
-    for (int tries = 0; tries < 3 && budget(1); ++tries) {
-        const Vec3 at = s.proxy + height * up;
-        const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
-        bool down = a.radius >= (1 - kTouches) * height;
-        // Between walls the ball does not reach down to the proxy, but a row of smaller ones does.
-        Anchor low = a;
-        while (!down && low.radius > 0.1 * distance(low.at, s.proxy) && budget(2)) {
-            const double left = distance(low.at, s.proxy);
-            low.at += (low.radius / left) * (s.proxy - low.at);
-            low.radius = gap_.clearance_mm(*field_, low.at, left);
-            down = distance(low.at, s.proxy) <= low.radius + kTouches * height;
-        }
-        if (down && chain(a)) {
+    for (int n = 0; n < place.sides.count; ++n) up -= place.sides.side[static_cast<std::size_t>(n)].normal;
+    return normalized(up, place.normal);
+}
+
+// Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
+bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
+    for (;;) {
+        const double left = distance(ball.at, proxy);
+        if (left <= ball.radius + tolerance_mm) return true;
+        if (ball.radius <= 0.1 * left || !budget(1)) return false;
+        ball.at += (ball.radius / left) * (proxy - ball.at);
+        ball.radius = clearance_mm(ball.at, distance(ball.at, proxy));
+    }
+}
+
+// Finds an anchor that touches the proxy and that the present anchor leads to.
+bool FieldContact::tie(const Place& to) {
+    const Vec3 up = up_from(to);
+    const double step = distance(to.proxy, at_.proxy);
+    double height = std::clamp(std::max(1.5 * step, 0.5 * height_), kLowest, kHighest);
+    for (int tries = 0; tries < 3 && budget(2); ++tries) {
+        const Vec3 at = to.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height)};
+        if (reaches_down(a, to.proxy, kTouches * height)) {
             height_ = height;
-            return true;
+            return chain(a);
         }
-        // A long way is left to shorter steps.
-        if (!budget(kMostQueries / 2)) return false;
         height = std::max(kLowest, 0.25 * height);
     }
+    height_ = height;
     return false;
 }
 
-// An anchor whose ball touches the proxy: free, and where the proxy is.
-void FieldContact::anchor_here() {
-    Vec3 up;
-    for (int n = 0; n < at_.sides.count; ++n) up -= at_.sides.side[static_cast<std::size_t>(n)].normal;
-    up = normalized(up, at_.normal);
-    for (double height = height_; height > 0.1 * kLowest && budget(1); height *= 0.25) {
-        const Vec3 at = at_.proxy + height * up;
-        const Anchor a{at, gap_.clearance_mm(*field_, at, height)};
-        if (a.radius < (1 - kTouches) * height) continue;
-        anchor_ = a;
-        height_ = height;
-        return;
-    }
-}
-
-// Of a proxy for which the last tick found no way: if it has come to stand in material (a nearest place was
-// missed before), out again to the air that it is tied to.
-bool FieldContact::freed(Vec3 probe) {
-    if (gap_.measure(*field_, at_.proxy).gap_mm >= -2 * kSkin) return false;
-    const double room = gap_.measure(*field_, anchor_.at).gap_mm;
-    if (room > kSkin) {
-        anchor_.radius = room;
-        fly(probe);
-    } else {
-        phase_ = Phase::climb;
-        climb(probe);
-    }
-    return true;
-}
-
-void FieldContact::slide(Vec3 probe) {
-    double longest = 1e30;
-    bool settled = false;
-    for (int tries = 0; !settled && tries < kMostTries && budget(8); ++tries) {
-        const Slide s = slide_from_proxy(probe, longest);
-        if (s.lost) {
-            // Over an edge, or the material is gone: through the air from here.
-            const double room = gap_.clearance_mm(*field_, s.proxy, distance(probe, s.proxy));
-            if (chain({s.proxy, room})) {
-                at_.proxy = s.proxy;
-                fly(probe);
-                return;
-            }
-        } else if (s.press_mm <= 0 || (s.settled && s.press_mm <= kSkin)) {
-            fly(probe);
-            return;
-        } else if (s.proxy == at_.proxy || tie(s)) {
-            at_ = s;
-            settled = s.settled;
-            if (longest > 1e29) break;
-            longest *= 2;
-            continue;
-        }
-        // No way there was proved: in smaller steps, from where the proxy is.
-        if (longest > 1e29) anchor_here();
-        longest = longest > 1e29 ? std::max(anchor_.radius, kLowest) : 0.25 * longest;
-        if (longest < 0.01 * kLowest) break;
-    }
-    at_.settled = settled;
-    stuck_ = !settled && at_.proxy == last_proxy_;
-    if (at_.proxy == last_proxy_) {
-        sticking_ = true;
-    } else {
-        sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
-    }
-}
-
-Contact FieldContact::answer(Vec3 probe) const {
+Contact FieldContact::answer(Vec3 probe) {
     Contact c;
     c.proxy_mm = at_.proxy;
-    c.settled = at_.settled;
+    c.settled = settled_;
     c.normal = at_.normal;
     c.slip_mm_per_s = (at_.proxy - last_proxy_) / options_.tick_s;
-    if (phase_ != Phase::touching) return c;
-    const Vec3 way = probe - at_.proxy, rest = along(at_, way), press = way - rest;
-    c.penetration_mm = length(press);
-    if (!(c.penetration_mm > 0)) return c;
+    const Vec3 way = probe - at_.proxy;
+    if (phase_ != Phase::touching) {
+        // On its way through the air: nothing is felt of it unless the probe is in material.
+        if (settled_ || phase_ == Phase::climb || measure(probe).gap_mm >= 0) return c;
+        c.in_contact = true;
+        c.penetration_mm = length(way);
+        c.normal = -1 * normalized(way, -at_.normal);
+        c.force_n = -options_.stiffness_n_per_mm * way;
+        return c;
+    }
+    const Split s = split(at_, probe);
+    c.penetration_mm = s.press_mm;
+    if (!(s.press_mm > 0)) return c;
     c.in_contact = true;
     c.sliding = !sticking_;
-    if (at_.sides.count > 1) c.normal = -1 / c.penetration_mm * press;
-    // What friction does not hold is the way that the proxy has still to go.
-    const double drag = options_.friction_static * c.penetration_mm, left = length(rest);
-    const Vec3 held = left > drag ? (drag / left) * rest : rest;
-    c.force_n = -options_.stiffness_n_per_mm * (press + held);
+    if (at_.sides.count > 1) c.normal = -1 / s.press_mm * s.press;
+    // What friction does not hold is the way that a proxy which has settled does not go.
+    const double drag = options_.friction_static * s.press_mm;
+    const Vec3 held = settled_ && !braced_ && s.rest_mm > drag ? (drag / s.rest_mm) * s.rest : s.rest;
+    c.force_n = -options_.stiffness_n_per_mm * (s.press + held);
     c.lever_mm = gap_.offset_mm(at_.ball) - gap_.radius_mm() * at_.normal;
     return c;
 }

@@ -37,9 +37,15 @@ struct Contact {
     Vec3 lever_mm;
 };
 
-// The proxy never crosses the surface, however fast the probe goes and however thin a wall is: it is tied to
-// an anchor, the centre of a ball that is known to be free, and an anchor is only moved to a ball that
-// overlaps the one before (or a chain of such). What does not fit into a tick's budget goes on in the next.
+// The proxy never crosses the surface, however fast the probe goes and however thin a wall is. Four things
+// hold in every tick:
+//   1. The proxy is tied: it touches a ball that is known to be free (the anchor), and each anchor is joined
+//      to the one before by free balls.
+//   2. A step along the surface is taken only where it brings the proxy nearer to the probe and the place
+//   that
+//      it leads to can be tied.
+//   3. It progresses: a step that is refused is followed by a shorter one, in this tick or in the next.
+//   4. Until the proxy has settled the whole spring acts, from the last place that was tied.
 //
 // The proxy is where the distance to the probe is least, found by sliding along the surface with the step
 // that its curvature allows; in a corner it is held by all its sides. Depends on no mesh and no unit.
@@ -48,7 +54,7 @@ struct Contact {
 // kMostQueries queries of the field (times the balls of a shell).
 class FieldContact {
   public:
-    static constexpr int kMostQueries = 48;
+    static constexpr int kMostQueries = 96;
 
     // `field` must outlive the contact or be replaced.
     explicit FieldContact(const contact::DistanceField& field, const ContactOptions& options = {});
@@ -67,53 +73,78 @@ class FieldContact {
     void set_options(const ContactOptions& options);
     const ContactOptions& options() const { return options_; }
     // Of the last update.
-    int queries() const { return static_cast<int>(gap_.queries() - first_query_); }
+    int queries() const { return queries_; }
 
   private:
     enum class Phase { begin, climb, free, touching };
+    // What is left to do in this tick.
+    enum class Next { nothing, more };
     // A place known to be free, and how far around it.
     struct Anchor {
         Vec3 at;
         double radius = 0;
     };
-    struct Slide {
-        Vec3 proxy, normal;
-        contact::HalfSpaces sides;
-        std::size_t ball = 0;
-        Vec3 rest;            // of the way to the probe, along the surface
-        double press_mm = 0;  // of the way to the probe, into the surface
-        bool settled = false;
-        bool lost = false;  // no surface where one was
+    // On the surface.
+    struct Place {
+        Vec3 proxy, normal{0, 0, 1};
+        contact::HalfSpaces sides;  // that hold the proxy; offsets 0
+        std::size_t ball = 0;       // of the probe, that touches
+        double leap_mm = 0;         // by how much the last look had to correct it
+    };
+    // Of the way from the proxy to the probe: what leads along the surface and what into it.
+    struct Split {
+        Vec3 rest, press;
+        double rest_mm = 0, press_mm = 0;
+    };
+    // The last step on a smooth side, and what was left to go before it.
+    struct Step {
+        Vec3 rest, way;
+        bool known = false;
     };
 
     Contact tick(Vec3 probe, bool turned) noexcept;
-    void climb(Vec3 probe);
-    void fly(Vec3 probe);
-    void slide(Vec3 probe);
-    Slide slide_from_proxy(Vec3 probe, double longest_step);
-    bool land(Slide& s);
-    Vec3 along(const Slide& s, Vec3 way) const;
-    static contact::HalfSpaces corner_of(const Slide& s, Vec3 point, Vec3 normal);
-    bool tie(const Slide& s);
+    Next climb();
+    Next fly(Vec3 probe);
+    void touch_down(Vec3 probe, Anchor from);
+    Next slide(Vec3 probe);
+    Split split(const Place& place, Vec3 probe) const;
+    Vec3 step_for(const Split& way, const Step& last);
+    enum class Landing { on_surface, over_edge, none };
+    Landing land(const Place& from, Vec3 step, Place& to);
+    bool correct(Place& place, const ProbeGap::Gap& seen) const;
+    bool push_out();
+    void renew_anchor();
+    static Vec3 up_from(const Place& place);
+    bool tie(const Place& to);
     bool chain(const Anchor& to);
-    void anchor_here();
-    bool freed(Vec3 probe);
-    Contact answer(Vec3 probe) const;
-    bool budget(int queries) const { return gap_.queries() + queries <= first_query_ + kMostQueries; }
+    bool reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm);
+    Contact answer(Vec3 probe);
+    bool budget(int queries) const { return queries_ + queries <= kMostQueries; }
+    ProbeGap::Gap measure(Vec3 at) {
+        ++queries_;
+        return gap_.measure(*field_, at);
+    }
+    double clearance_mm(Vec3 at, double enough_mm) {
+        ++queries_;
+        return gap_.clearance_mm(*field_, at, enough_mm);
+    }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
 
     const contact::DistanceField* field_;
     ContactOptions options_;
     ProbeGap gap_;
-    long first_query_ = 0;
+    int queries_ = 0;
     Phase phase_ = Phase::begin;
+    bool settled_ = true;
+    bool braced_ = false;  // settled between sides too alike to be told apart, which hold the rest too
     bool sticking_ = true;
-    bool stuck_ = false;  // the last tick found no way on
     Anchor anchor_;
-    Slide at_;  // the contact
+    double chained_mm_ = 0;  // how far the last chain came
+    Place at_;               // the contact, tied
     Vec3 last_proxy_;
-    double ease_ = 1;      // step along the surface for a unit of rest: 1 on a plane, less in a hollow
-    double height_ = 0.1;  // of the anchor over the proxy, mm
+    double ease_ = 1;       // step along the surface for a unit of rest: 1 on a plane, less in a hollow
+    double height_ = 0.1;   // of the anchor over the proxy, mm
+    double stride_mm_ = 0;  // longest step that is tried
 };
 
 }  // namespace tribo::haptics

@@ -114,8 +114,9 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
         if (felt.in_contact) {
             ++found.contacts;
             const double rounding = 1e-12;
+            // All faces look up; until the proxy has come to rest the spring pulls to where it is.
             if (dot(felt.force_n, felt.proxy_mm - probe) < -rounding || dot(felt.force_n, felt.normal) < 0 ||
-                (!m.open && c.friction == 0 && felt.force_n.z < -rounding))
+                (!m.open && c.friction == 0 && felt.settled && felt.force_n.z < -rounding))
                 ++found.inward;
         } else if (felt.settled && m.depth_mm(probe) > tolerance) {
             ++found.lost;
