@@ -114,12 +114,12 @@ Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
 
 }  // namespace
 
-SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, Vec3 hint_mm) const {
+SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& hint) const {
     const SurfaceSample here = sample(point_mm);
     if (here.distance_mm <= 0 || here.distance_mm >= within_mm) return here;
     const SurfaceSample below = nearest_from(*this, point_mm, point_mm - here.distance_mm * here.normal);
     if (below.distance_mm <= here.distance_mm + kOnSurface) return below;
-    const SurfaceSample hinted = nearest_from(*this, point_mm, hint_mm);
+    const SurfaceSample hinted = nearest_from(*this, point_mm, hint.at_mm);
     return hinted.distance_mm < below.distance_mm ? hinted : below;
 }
 

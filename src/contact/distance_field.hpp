@@ -17,6 +17,14 @@ struct SurfaceSample {
     std::uint32_t piece = 0;  // which smooth part of the surface answered, where the field knows
 };
 
+// What is known of the surface near a point that moves a little from query to query.
+struct NearHint {
+    Vec3 at_mm;  // a guess at the nearest surface point
+    // From here all of the surface but that place was farther than this; 0: not known.
+    Vec3 proved_at_mm;
+    double others_mm = 0;
+};
+
 // Distances in mm, negative inside material. Implementations answer in bounded time without allocation or
 // locks, from any number of threads while nobody changes the field.
 class DistanceField {
@@ -42,10 +50,10 @@ class DistanceField {
     virtual double clearance_mm(Vec3 point_mm, double /*enough_mm*/) const { return distance_mm(point_mm); }
 
     // From a point in air the true distance to the material, cusps included, where that is below `within_mm`
-    // (else anything from there up), and the direction from the nearest surface point; `hint_mm` is a guess
-    // at that point. Here by search from the hint (nearest_from), for fields that measure well as far as a
-    // probe's radius.
-    virtual SurfaceSample nearest(Vec3 point_mm, double within_mm, Vec3 hint_mm) const;
+    // (else anything from there up), and the direction from the nearest surface point. The hint may be made
+    // better for the next query; what it says stays true where material is removed. Here by search from the
+    // hint (nearest_from), for fields that measure well as far as a probe's radius.
+    virtual SurfaceSample nearest(Vec3 point_mm, double within_mm, NearHint& hint) const;
 };
 
 // The surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting planes: the

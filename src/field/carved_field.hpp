@@ -48,8 +48,8 @@ class CarvedField final : public contact::DistanceField {
     double clearance_mm(Vec3 p, double enough_mm) const override {
         return tables_->query.clearance_mm(p, enough_mm);
     }
-    contact::SurfaceSample nearest(Vec3 p, double within_mm, Vec3 hint_mm) const override {
-        return tables_->query.nearest(p, within_mm, hint_mm);
+    contact::SurfaceSample nearest(Vec3 p, double within_mm, contact::NearHint& hint) const override {
+        return tables_->query.nearest(p, within_mm, hint);
     }
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.

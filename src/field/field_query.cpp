@@ -17,6 +17,8 @@ constexpr double kOnSurface = 2e-5;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// Nearest places this far apart are two, mm; and how much farther than the nearest others are looked for.
+constexpr double kSameFoot = 0.01, kMarginCells = 0.5;
 // Steps of a search along the surface, in cells.
 constexpr double kLongestCells = 2;
 
@@ -182,6 +184,28 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
 }
 
 // The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
+// The nearest surface point that was found, and how far the next other one is.
+class NearestPlace {
+  public:
+    explicit NearestPlace(double within_mm) : best_{within_mm, {0, 0, 1}, 0}, others_mm_(within_mm) {}
+
+    const contact::SurfaceSample& best() const { return best_; }
+    double others_mm() const { return others_mm_; }
+    void put(const contact::SurfaceSample& s, Vec3 at) {
+        const bool nearer = s.distance_mm < best_.distance_mm;
+        if (distance(at, at_mm_) > kSameFoot)
+            others_mm_ = std::min(others_mm_, nearer ? best_.distance_mm : s.distance_mm);
+        if (!nearer) return;
+        best_ = s;
+        at_mm_ = at;
+    }
+
+  private:
+    contact::SurfaceSample best_;
+    Vec3 at_mm_{1e300, 0, 0};
+    double others_mm_;
+};
+
 class FieldQuery::Candidates {
   public:
     Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
@@ -297,10 +321,10 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
     return any;
 }
 
-contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_mm) const {
+contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
     // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
     // a smooth piece does.
-    const BrickCoord here = brick_at(p), there = brick_at(hint_mm);
+    const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
     contact::SurfaceSample lower{0, {0, 0, 1}, 0};
     for (const BrickCoord b : {here, there}) {
         if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
@@ -316,17 +340,17 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         if (here == there) break;
     }
     // At a cusp: the nearest surface point of each brick that may hold one.
-    contact::SurfaceSample best{within_mm, {0, 0, 1}, 0};
+    NearestPlace found(within_mm);
+    const contact::SurfaceSample& best = found.best();
     Vec3 refuted{1e300, 0, 0};  // the last foot that was none
     const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
         for (int tries = 0; tries < 2; ++tries) {
             const NearBrick brick(*this, ref);
-            const contact::SurfaceSample found =
-                contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
-            const Vec3 foot = p - found.distance_mm * found.normal;
+            const contact::SurfaceSample s = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
+            const Vec3 foot = p - s.distance_mm * s.normal;
             const contact::SurfaceSample at_foot = sample(foot);
             if (std::abs(at_foot.distance_mm) <= kOnSurface) {
-                if (found.distance_mm < best.distance_mm) best = found;
+                found.put(s, foot);
                 return foot;
             }
             // What one brick's shapes leave may be air by another's: on from the surface that there is.
@@ -339,44 +363,66 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, Vec3 hint_m
         }
         return std::nullopt;
     };
-    // In a corner of the material both sides are near: from below, and from where it was nearest last.
-    if (lower.distance_mm > 0 && bricks.contains(here) && bricks.get(here) != kAir)
-        (void)search(bricks.get(here), p - lower.distance_mm * lower.normal);
-    if (bricks.contains(there) && bricks.get(there) != kAir) (void)search(bricks.get(there), hint_mm);
-    // Nothing is nearer than `lower`.
-    if (best.distance_mm - lower.distance_mm <= kOnSurface) return best;
+    const auto search_at = [&](Vec3 from) {
+        const BrickCoord b = brick_at(from);
+        if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
+    };
+    const auto shown_beyond = [&](double mm) { return best.distance_mm - mm <= kOnSurface; };
+    search_at(hint.at_mm);
+    if (shown_beyond(lower.distance_mm)) return best;
+    // In a corner of the material both sides are near.
+    if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
+    if (shown_beyond(lower.distance_mm)) return best;
+    // Where material only goes, what was farther away not long ago still is.
+    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
+    hint.others_mm = 0;
     bool doubt = false;
     // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
-    Candidates bricks_near(*this, here, p, best.distance_mm - kOnSurface);
+    const auto reach = [&] { return std::min(best.distance_mm + kMarginCells * cell_mm, within_mm); };
+    Candidates bricks_near(*this, here, p, reach());
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;
     int searches = 0;
+    bool all_looked = true;
+    Vec3 seen[2 * kMostSearches + 2];  // places from where and to where the searches went
+    std::size_t count = 0;
+    if (best.distance_mm < within_mm) seen[count++] = p - best.distance_mm * best.normal;
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
-    for (int looked = 0; bricks_near.take(best.distance_mm - kOnSurface, b, way); ++looked) {
-        const double bound = best.distance_mm - kOnSurface;
+    for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
         const BrickRef ref = bricks.get(b);
-        if (looked == kMostLooked) break;
-        if (is_clear(ref, p, bound)) continue;
+        if (looked == kMostLooked) {
+            all_looked = false;
+            break;
+        }
+        if (is_clear(ref, p, reach())) continue;
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
         // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
-        Vec3 start, seen[2 * kMostStarts];
-        for (int n = 0; n < kMostStarts && near_surface(b, p, best.distance_mm, {seen, seen + 2 * n}, start);
-             ++n) {
+        Vec3 start;
+        for (int n = 0; n < kMostStarts && near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
             if (++searches > kMostSearches) break;
             const std::optional<Vec3> foot = search(ref, start);
             if (!foot) {
                 doubt = true;
                 break;  // as would be the others of this brick
             }
-            seen[2 * n] = start;
-            seen[2 * n + 1] = *foot;
+            seen[count++] = start;
+            seen[count++] = *foot;
         }
-        if (searches > kMostSearches) break;
+        if (searches > kMostSearches) {
+            all_looked = false;
+            break;
+        }
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
-    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) return best;
+    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) {
+        if (all_looked && best.distance_mm < within_mm) {
+            hint.proved_at_mm = p;
+            hint.others_mm = std::min({found.others_mm(), reach(), proven});
+        }
+        return best;
+    }
     // Not shown to be the nearest: what is known of the distance.
     if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
     if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)

@@ -67,7 +67,7 @@ struct FieldQuery {
                 outward(id, point_mm), id};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
-    contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, Vec3 hint_mm) const;
+    contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
     // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
     // tells.
     bool is_material(Vec3 point_mm, double skin_mm) const;

@@ -35,8 +35,8 @@ class FieldReader final : public contact::DistanceField {
     double clearance_mm(Vec3 p, double enough_mm) const override {
         return reading_->query.clearance_mm(p, enough_mm);
     }
-    contact::SurfaceSample nearest(Vec3 p, double within_mm, Vec3 hint_mm) const override {
-        return reading_->query.nearest(p, within_mm, hint_mm);
+    contact::SurfaceSample nearest(Vec3 p, double within_mm, contact::NearHint& hint) const override {
+        return reading_->query.nearest(p, within_mm, hint);
     }
 
   private:

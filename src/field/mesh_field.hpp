@@ -29,7 +29,7 @@ class MeshField final : public contact::DistanceField {
     double distance_mm(Vec3 p) const override { return sample(p).distance_mm; }
     Vec3 normal(Vec3 p) const override { return sample(p).normal; }
     contact::SurfaceSample sample(Vec3 p) const override;
-    contact::SurfaceSample nearest(Vec3 p, double /*within_mm*/, Vec3 /*hint_mm*/) const override {
+    contact::SurfaceSample nearest(Vec3 p, double /*within_mm*/, contact::NearHint& /*hint*/) const override {
         return sample(p);
     }
 

@@ -20,8 +20,9 @@ constexpr double kOtherSide = -0.5;
 // A step that ends this share of its length above the surface has gone over an edge, that far below it into
 // what tells nothing of the surface between.
 constexpr double kOff = 0.5;
-// A step gains at least this share of what its length promises.
-constexpr double kGain = 0.1;
+// A step gains at least this share of what its length promises; one over an edge goes no farther than this
+// beyond the probe.
+constexpr double kGain = 0.1, kBeyond = 1.25;
 // A refused step is followed by one of this share, a taken one allows one longer by its inverse.
 constexpr double kShorter = 0.25;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
@@ -89,9 +90,11 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
         phase_ = Phase::climb;
     }
     last_proxy_ = at_.proxy;
-    settled_ = braced_ = false;
+    settled_ = braced_ = moved_ = looked_ = false;
+    last_step_.known = false;
     stride_mm_ = std::max(stride_mm_, kLowest);
     if (turned && phase_ == Phase::touching) (void)push_out();
+    if (phase_ == Phase::touching) renew_anchor();
     for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
         switch (phase_) {
             case Phase::begin:
@@ -138,25 +141,29 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
             settled_ = true;
             return Next::nothing;
         }
-        if (a.radius < std::max(kSkin, std::min(kNear * way, near))) break;
+        if (a.radius < std::max(kSkin, std::min(kNear * way, near))) {
+            // A surface along which or away from which the probe goes does not hold it.
+            const ProbeGap::Gap g = measure(a.at);
+            if (a.radius < kSkin || dot(probe - a.at, g.normal) < 0) {
+                touch_down(probe, a, g);
+                return Next::more;
+            }
+        }
         anchor_ = a;
         at_.proxy = a.at;
         if (!budget(kStepQueries)) return Next::nothing;
         a.at += (a.radius / way) * (probe - a.at);
         a.radius = clearance_mm(a.at, distance(probe, a.at));
     }
-    touch_down(probe, a);
-    return Next::more;
 }
 
-// At the surface next to a ball, or what is left of one, that reaches there.
-void FieldContact::touch_down(Vec3 probe, Anchor from) {
-    ProbeGap::Gap g = measure(from.at);
+// At the surface that was seen next to a ball, or what is left of one, that reaches there.
+void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
     Vec3 seen_at = from.at;
-    // At a convex edge it is the face that the probe goes along, not the one that ends there.
     const Vec3 ahead = normalized(probe - last_proxy_, -g.normal),
                next_to = from.at + (g.gap_mm + kPeek) * ahead;
     const ProbeGap::Gap beyond = measure(next_to);
+    // At a convex edge it is the face that the probe goes along, not the one that ends there.
     if (beyond.gap_mm >= -2 * kSkin && std::abs(dot(beyond.normal, ahead)) < kGrazing) {
         g = beyond;
         seen_at = next_to;
@@ -166,12 +173,20 @@ void FieldContact::touch_down(Vec3 probe, Anchor from) {
     at_.normal = g.normal;
     at_.ball = g.ball;
     at_.sides.put(side_of(g.normal), kOneSide);
+    // In a corner the side that was nearest may not be the one that holds.
+    if (dot(probe - at_.proxy, g.normal) >= 0 && beyond.gap_mm < 0 &&
+        dot(probe - next_to, beyond.normal) < 0) {
+        at_.proxy = next_to;
+        (void)correct(at_, beyond);
+    }
     if (from.radius > anchor_.radius) anchor_ = from;
     phase_ = Phase::touching;
     sticking_ = true;
     ease_ = 1;
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
     stride_mm_ = 1e30;
+    moved_ = false;
+    last_step_.known = false;
     (void)tie(at_);
 }
 
@@ -187,10 +202,10 @@ FieldContact::Split FieldContact::split(const Place& place, Vec3 probe) const {
 
 // The step that would settle it, were the surface to bend on as it did over the last step (Barzilai and
 // Borwein 1988).
-Vec3 FieldContact::step_for(const Split& way, const Step& last) {
-    if (last.known) {
-        const Vec3 change = way.rest - last.rest;
-        const double up = -dot(last.way, change), down = squared_length(change);
+Vec3 FieldContact::step_for(const Split& way) {
+    if (last_step_.known) {
+        const Vec3 change = way.rest - last_step_.rest;
+        const double up = -dot(last_step_.way, change), down = squared_length(change);
         // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
         ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
     }
@@ -276,91 +291,73 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
     return Landing::on_surface;
 }
 
+// One step along the surface, or the look that ends them.
 FieldContact::Next FieldContact::slide(Vec3 probe) {
-    renew_anchor();
-    Step last;
-    bool moved = false, looked = false;
-    while (budget(kStepQueries)) {
-        const Split way = split(at_, probe);
-        // Nothing holds the probe: through the air, from the anchor.
-        if (way.press_mm <= 0) {
-            phase_ = Phase::free;
+    const Split way = split(at_, probe);
+    if (way.press_mm <= 0) return take_off();  // nothing holds the probe
+    const double friction = moved_ ? options_.friction_kinetic : hold();
+    if (way.rest_mm <= (friction + kSettled) * way.press_mm + kSkin) return come_to_rest(way);
+    return take_step(probe, way);
+}
+
+FieldContact::Next FieldContact::take_off() {
+    phase_ = Phase::free;
+    return Next::more;
+}
+
+// Held: is there still a surface? In a corner: do all its sides hold?
+FieldContact::Next FieldContact::come_to_rest(const Split& way) {
+    settled_ = moved_ && at_.sides.count == 1 && at_.leap_mm <= kLeap * way.press_mm + kSkin;
+    if (settled_) return Next::nothing;
+    const ProbeGap::Gap g = measure(at_.proxy);
+    at_.ball = g.ball;
+    settled_ = std::abs(g.gap_mm) <= 2 * kSkin;
+    if (settled_) return Next::nothing;
+    if (g.gap_mm > 0 && !moved_) return take_off();
+    Place corrected = at_;
+    (void)correct(corrected, g);
+    moved_ = true;
+    if (!tie(corrected)) return Next::nothing;
+    at_ = corrected;
+    return Next::more;
+}
+
+FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
+    const Vec3 step = step_for(way);
+    const double size = length(step);
+    Place to;
+    const Landing landing = land(at_, step, to);
+    chained_mm_ = 0;
+    bool nearer = true;
+    if (landing == Landing::over_edge && size <= kBeyond * way.rest_mm) {
+        if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) return take_off();
+    } else if (landing == Landing::on_surface) {
+        const bool more_sides = to.sides.count > at_.sides.count;
+        const bool in_corner = more_sides && distance(to.proxy, at_.proxy) <= kSkin;
+        const double gain = squared_length(probe - at_.proxy) - squared_length(probe - to.proxy);
+        nearer = gain >= (more_sides ? 0 : kGain * size * way.rest_mm);
+        if (in_corner || (nearer && tie(to))) {
+            const bool bends =
+                at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) > kOneSide;
+            last_step_ = {way.rest, to.proxy - at_.proxy, bends};
+            if (!bends) ease_ = std::min(ease_, 1.0);
+            at_ = to;
+            moved_ = true;
+            stride_mm_ = std::max(stride_mm_, size / kShorter);
             return Next::more;
         }
-        const double friction = moved ? options_.friction_kinetic : hold();
-        if (way.rest_mm <= (friction + kSettled) * way.press_mm + kSkin) {
-            if (moved && at_.sides.count == 1 && at_.leap_mm <= kLeap * way.press_mm + kSkin) {
-                settled_ = true;
-                return Next::nothing;
-            }
-            // Held: is there still a surface? In a corner: do all its sides hold?
-            const ProbeGap::Gap g = measure(at_.proxy);
-            at_.ball = g.ball;
-            if (g.gap_mm > 2 * kSkin && !moved) {
-                phase_ = Phase::free;
-                return Next::more;
-            }
-            if (std::abs(g.gap_mm) <= 2 * kSkin) {
-                settled_ = true;
-                return Next::nothing;
-            }
-            Place corrected = at_;
-            (void)correct(corrected, g);
-            moved = true;
-            if (!tie(corrected)) return Next::nothing;
-            at_ = corrected;
-            continue;
-        }
-        const Vec3 step = step_for(way, last);
-        const double size = length(step);
-        Place to;
-        const Landing landing = land(at_, step, to);
-        chained_mm_ = 0;
-        bool no_gain = false;
-        if (landing == Landing::over_edge && size <= 1.25 * way.rest_mm) {
-            if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) {
-                phase_ = Phase::free;
-                return Next::more;
-            }
-        } else if (landing == Landing::on_surface) {
-            if (to.sides.count > at_.sides.count && distance(to.proxy, at_.proxy) <= kSkin) {
-                // In a corner already: held by one side more.
-                at_.sides = to.sides;
-                at_.normal = to.normal;
-                last.known = false;
-                moved = true;
-                continue;
-            }
-            const double before = squared_length(probe - at_.proxy), now = squared_length(probe - to.proxy);
-            const double least = to.sides.count > at_.sides.count ? 0 : kGain * size * way.rest_mm;
-            no_gain = now > before - least;
-            if (!no_gain && tie(to)) {
-                const bool bends =
-                    at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) > kOneSide;
-                last = {way.rest, to.proxy - at_.proxy, bends};
-                if (!bends) ease_ = std::min(ease_, 1.0);
-                at_ = to;
-                moved = true;
-                stride_mm_ = std::max(stride_mm_, size / kShorter);
-                continue;
-            }
-        }
-        // Refused: no longer than a chain of free balls came, and a little into what stopped it.
-        stride_mm_ =
-            chained_mm_ > kSkin && chained_mm_ < 0.9 * size ? 1.02 * chained_mm_ + kLowest : kShorter * size;
-        stride_mm_ = std::min(stride_mm_, 0.9 * size);
-        last.known = false;
-        if (landing == Landing::none && !looked && push_out()) {
-            looked = true;
-            stride_mm_ = size;
-            if (phase_ != Phase::touching) return Next::more;
-        }
-        if (stride_mm_ < kSkin) {
-            // Where the shortest step gains nothing, the proxy is as near as it can come.
-            settled_ = braced_ = no_gain;
-            return Next::nothing;
-        }
+    } else if (!looked_) {
+        // From a place in material every landing is one.
+        looked_ = true;
+        if (push_out()) return Next::more;
     }
+    // Refused: no longer than a chain of free balls came, and a little into what stopped it.
+    const double stopped = chained_mm_ > kSkin ? 1.02 * chained_mm_ + kLowest : kShorter * size;
+    stride_mm_ = std::min(stopped, 0.9 * size);
+    last_step_.known = false;
+    if (stride_mm_ >= kSkin) return Next::more;
+    // Where the shortest step comes no nearer, the proxy is as near as it can come.
+    settled_ = braced_ = !nearer;
     return Next::nothing;
 }
 

@@ -105,10 +105,13 @@ class FieldContact {
     Contact tick(Vec3 probe, bool turned) noexcept;
     Next climb();
     Next fly(Vec3 probe);
-    void touch_down(Vec3 probe, Anchor from);
+    void touch_down(Vec3 probe, Anchor from, ProbeGap::Gap seen);
     Next slide(Vec3 probe);
     Split split(const Place& place, Vec3 probe) const;
-    Vec3 step_for(const Split& way, const Step& last);
+    Next take_off();
+    Next come_to_rest(const Split& way);
+    Next take_step(Vec3 probe, const Split& way);
+    Vec3 step_for(const Split& way);
     enum class Landing { on_surface, over_edge, none };
     Landing land(const Place& from, Vec3 step, Place& to);
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
@@ -138,6 +141,8 @@ class FieldContact {
     bool settled_ = true;
     bool braced_ = false;  // settled between sides too alike to be told apart, which hold the rest too
     bool sticking_ = true;
+    bool moved_ = false, looked_ = false;  // in this tick: a step was taken, the place was looked at
+    Step last_step_;
     Anchor anchor_;
     double chained_mm_ = 0;  // how far the last chain came
     Place at_;               // the contact, tied

@@ -22,17 +22,22 @@ double ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
 }
 
 void ProbeGap::forget() {
-    for (Ball& ball : ball_) ball.seen_gap = -1e30;
+    for (Ball& ball : ball_) {
+        ball.seen_gap = -1e30;
+        ball.touch = ball.room = {};
+    }
 }
 
-ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, Vec3 at) {
+ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, Ball::Near& near,
+                                     Vec3 at) {
     ++queries_;
     contact::SurfaceSample s;
     if (radius_ > 0) {
         // Beyond this nothing is asked exactly: a lower bound serves.
         const double within = 2 * radius_;
-        s = field.nearest(at, within, at + ball.contact);
-        ball.contact = -s.distance_mm * s.normal;
+        near.hint.at_mm = at + near.foot;
+        s = field.nearest(at, within, near.hint);
+        near.foot = -s.distance_mm * s.normal;
     } else {
         s = field.sample(at);
     }
@@ -55,7 +60,7 @@ ProbeGap::Gap ProbeGap::measure(const contact::DistanceField& field, Vec3 positi
     Gap least;
     least.gap_mm = 1e30;
     nearest_first(position_mm, 1e30, [&](std::size_t n, double) {
-        const Gap gap = measure_ball(field, ball_[n], position_mm + ball_[n].offset);
+        const Gap gap = measure_ball(field, ball_[n], ball_[n].touch, position_mm + ball_[n].offset);
         if (gap.gap_mm < least.gap_mm) {
             least = gap;
             least.ball = n;
@@ -73,7 +78,8 @@ double ProbeGap::clearance_mm(const contact::DistanceField& field, Vec3 position
         const Vec3 at = position_mm + ball.offset;
         ++queries_;
         double clear = field.clearance_mm(at, enough_mm + radius_) - radius_;
-        if (clear < enough_mm && radius_ > 0) clear = std::max(clear, measure_ball(field, ball, at).gap_mm);
+        if (clear < enough_mm && radius_ > 0)
+            clear = std::max(clear, measure_ball(field, ball, ball.room, at).gap_mm);
         if (clear < least) {
             least = clear;
             last_ = n;

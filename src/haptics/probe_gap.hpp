@@ -48,10 +48,14 @@ class ProbeGap {
         Vec3 offset;
         Vec3 seen_at;             // where it was last asked
         double seen_gap = -1e30;  // a lower bound of its gap there
-        Vec3 contact;             // the surface point last nearest, from the ball's centre
+        // Of the surface next to it, while it is looked for contact and for room: these places are apart.
+        struct Near {
+            Vec3 foot;  // the surface point last nearest, from the ball's centre
+            contact::NearHint hint;
+        } touch, room;
         double bound(Vec3 at) const { return seen_gap - distance(at, seen_at); }
     };
-    Gap measure_ball(const contact::DistanceField& field, Ball& ball, Vec3 at);
+    Gap measure_ball(const contact::DistanceField& field, Ball& ball, Ball::Near& near, Vec3 at);
     template <class Ask>
     void nearest_first(Vec3 position_mm, double most, const Ask& ask);
 

@@ -27,7 +27,7 @@ class Grooves final : public contact::DistanceField {
     Vec3 normal(Vec3 p) const override { return -normalized(offset(p), {0, 0, -1}); }
     double radius_mm() const { return radius_; }
     // In closed form: the foot in the groove that the point is in, or the nearer of its cusps.
-    contact::SurfaceSample nearest(Vec3 p, double, Vec3) const override {
+    contact::SurfaceSample nearest(Vec3 p, double, contact::NearHint&) const override {
         const double middle = pitch_ * std::round(p.x / pitch_);
         const Vec3 d = offset(p);
         const double depth = length(d);

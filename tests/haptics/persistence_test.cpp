@@ -71,7 +71,8 @@ TEST(Persistence, no_groove_is_too_fine) {
                 for (const double speed : kSpeeds) {
                     for (const double rate : kRates) {
                         press(grooves, radius, speed, rate, cusp, [&](const Contact& c, Vec3 probe) {
-                            const double gap = radius > 0 ? grooves.nearest(c.proxy_mm, 1e9, {}).distance_mm
+                            contact::NearHint hint;
+                            const double gap = radius > 0 ? grooves.nearest(c.proxy_mm, 1e9, hint).distance_mm
                                                           : grooves.distance_mm(c.proxy_mm);
                             if (gap < radius - 1e-4) ++through;
                             if (c.force_n.z < 0 || dot(c.force_n, c.normal) < 0) ++inward;
