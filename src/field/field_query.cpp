@@ -17,6 +17,8 @@ constexpr double kOnSurface = 2e-5;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// Sides of the surface whose normals' product is less are two.
+constexpr double kOneWay = 0.5;
 // Nearest places this far apart are two, mm; and how much farther than the nearest others are looked for.
 constexpr double kSameFoot = 0.01, kMarginCells = 0.5;
 // Steps of a search along the surface, in cells.
@@ -278,15 +280,29 @@ class FieldQuery::Candidates {
     double seen_mm_ = 0;
 };
 
+// The direction in which the distance rises at a node, by the shape that gives it there.
+Vec3 FieldQuery::rise_at(const Brick& brick, int node, Vec3 at) const {
+    const std::uint16_t shape = brick.winner[static_cast<std::size_t>(node)];
+    return outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], at);
+}
+
 // The node of a brick at which the surface is close that is nearest to a point: so near that a point of the
 // surface less than `within_mm` away may be there, and further than two cells from each of `but`. Whether
 // there is one.
-bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Vec3> but,
-                              Vec3& place) const {
+bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
+                              Seen& place) const {
+    // What faces another way is the other side of a corner.
+    const auto is_seen = [&](const Seen& s) {
+        return std::any_of(but.begin(), but.end(), [&](const Seen& other) {
+            return squared_length(other.at - s.at) < 4 * cell_mm * cell_mm &&
+                   dot(other.normal, s.normal) > kOneWay;
+        });
+    };
     const BrickRef ref = bricks.get(where);
     if (ref == kUntouched) {
-        place = clamped(box(where), p);
-        return but.empty();
+        const Vec3 at = clamped(box(where), p);
+        place = {at, blank().gradient(at)};
+        return !is_seen(place);
     }
     const Brick& brick = (*pool)[ref];
     const Lattice nodes = lattice(where);
@@ -308,12 +324,11 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
                     static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
                 const double square = yz + (a - q.x) * (a - q.x);
                 if (d > close || d < -close || square >= least) continue;
-                const Vec3 node = nodes.node(a, b, c);
-                if (std::any_of(but.begin(), but.end(),
-                                [&](Vec3 f) { return squared_length(f - node) < 4 * cell_mm * cell_mm; }))
-                    continue;
+                const Vec3 node = nodes.node(a, b, c), rise = rise_at(brick, node_index(a, b, c), node);
+                const Seen here{node - d * rise, rise};
+                if (is_seen(here)) continue;
                 least = square;
-                place = node;
+                place = here;
                 any = true;
             }
         }
@@ -385,9 +400,9 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     double way = 0;
     int searches = 0;
     bool all_looked = true;
-    Vec3 seen[2 * kMostSearches + 2];  // places from where and to where the searches went
+    Seen seen[2 * kMostSearches + 2];  // places from where and to where the searches went
     std::size_t count = 0;
-    if (best.distance_mm < within_mm) seen[count++] = p - best.distance_mm * best.normal;
+    if (best.distance_mm < within_mm) seen[count++] = {p - best.distance_mm * best.normal, best.normal};
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
     for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
         const BrickRef ref = bricks.get(b);
@@ -399,16 +414,20 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
         // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
-        Vec3 start;
-        for (int n = 0; n < kMostStarts && near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
+        Seen start;
+        for (int n = 0; near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
+            if (n == kMostStarts) {
+                all_looked = false;
+                break;
+            }
             if (++searches > kMostSearches) break;
-            const std::optional<Vec3> foot = search(ref, start);
+            const std::optional<Vec3> foot = search(ref, start.at);
             if (!foot) {
                 doubt = true;
                 break;  // as would be the others of this brick
             }
             seen[count++] = start;
-            seen[count++] = *foot;
+            seen[count++] = {*foot, normalized(p - *foot, {0, 0, 1})};
         }
         if (searches > kMostSearches) {
             all_looked = false;
@@ -417,7 +436,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     }
     // A search without result where something was found may be of what other bricks' shapes took away.
     if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) {
-        if (all_looked && best.distance_mm < within_mm) {
+        if (all_looked && !doubt && best.distance_mm < within_mm) {
             hint.proved_at_mm = p;
             hint.others_mm = std::min({found.others_mm(), reach(), proven});
         }

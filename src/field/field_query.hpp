@@ -84,8 +84,13 @@ struct FieldQuery {
     double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
-    bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Vec3> but,
-                      Vec3& place_mm) const;
+    // A place on the surface, and which way it faces.
+    struct Seen {
+        Vec3 at, normal;
+    };
+    Vec3 rise_at(const Brick& brick, int node, Vec3 at_mm) const;
+    bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Seen> but,
+                      Seen& place) const;
 };
 
 // All that a field holds, at an address that does not change.

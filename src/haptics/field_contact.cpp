@@ -33,6 +33,8 @@ constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 constexpr double kNear = 0.02, kNearBall = 0.1;
 // At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
 constexpr double kPeek = 1e-5, kGrazing = 0.1;
+// A step along a corner has left a side, or passed it, by this share of its length.
+constexpr double kLeft = 1e-3;
 // A landing this much (of the step's length) off the trial is looked at again, so often.
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
@@ -276,12 +278,13 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         // Not between here and the trial: the far side of a wall.
         if (distance(to.proxy, trial) > size + kSkin) return Landing::none;
     } else {
-        // Along a corner: the sides that the step has not left are still there.
+        // Along a corner: a side that the step has left is not there, nor one behind which there is air.
         to.proxy = trial - g.gap_mm * g.normal;
         to.sides = {};
         for (int i = 0; i < from.sides.count; ++i) {
             const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
-            if (dot(h.normal, step) > -1e-3 * size) to.sides.put(h, kOneSide);
+            if (dot(h.normal, step) > -kLeft * size && dot(h.normal, to.proxy - from.proxy) < kLeft * size)
+                to.sides.put(h, kOneSide);
         }
     }
     to.sides.put(side_of(g.normal), kOneSide);
@@ -352,8 +355,8 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
         if (push_out()) return Next::more;
     }
     // Refused: no longer than a chain of free balls came, and a little into what stopped it.
-    const double stopped = chained_mm_ > kSkin ? 1.02 * chained_mm_ + kLowest : kShorter * size;
-    stride_mm_ = std::min(stopped, 0.9 * size);
+    const bool stopped = chained_mm_ > kSkin && chained_mm_ < 0.9 * size;
+    stride_mm_ = stopped ? std::min(1.02 * chained_mm_ + kLowest, 0.9 * size) : kShorter * size;
     last_step_.known = false;
     if (stride_mm_ >= kSkin) return Next::more;
     // Where the shortest step comes no nearer, the proxy is as near as it can come.

@@ -25,8 +25,9 @@ struct Slots {
     std::vector<std::unique_ptr<const field::Shape>> sweeps;  // of the slot in the middle
 };
 
-constexpr double kLength = 40;  // of a slot, about x = 0
-constexpr int kSlots = 6;       // on each side of the one in the middle
+constexpr double kLeaning = 0.2;  // a wall's way out from bottom to top, at most, mm
+constexpr double kLength = 40;    // of a slot, about x = 0
+constexpr int kSlots = 6;         // on each side of the one in the middle
 
 motion::Move slot_move(double y, double depth, double lean) {
     const auto axis = [](double angle) { return Vec3{0, std::sin(angle), std::cos(angle)}; };
@@ -129,7 +130,9 @@ class Cycle {
         go({at_.x + between(-1, 1), side * (0.5 * slots_.width_mm - radius_ + between(0.3, 0.7)), z},
            between(300, 2000));
         hold();
-        go({at_.x, at_.y, radius_ + between(0.2, 2)}, between(300, 2000));
+        // Friction holds a probe that has gone through a rib until it is out of the cone.
+        const double cone = friction_ * (std::abs(at_.y) - 0.5 * slots_.width_mm + radius_ + kLeaning);
+        go({at_.x, at_.y, radius_ + cone + between(0.2, 2)}, between(300, 2000));
         for (int n = 0; n < ticks(0.005); ++n) tick(at_);
         if (length(force_) > 0) ++found_.in_air;
         return found_;
