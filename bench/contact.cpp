@@ -242,7 +242,9 @@ void measure_contact(Report& report) {
     const Stroke rubbed = stroke(*small, 100, 0, 0.5, false);
     add_times(report, "contact tick, straight sweeps, point, friction 0.5", rubbed, 1, 5, 1.8, 33);
     const Stroke ball = stroke(*small, 100, 0.5, 0, false);
-    add_times(report, "contact tick, straight sweeps, 0.5 mm ball", ball, 5, 0, 6.0, 66);
+    add_times(report, "contact tick, straight sweeps, 0.5 mm ball", ball, 2, 10, 6.0, 66);
+    add_times(report, "contact tick, straight sweeps, 2 mm ball", stroke(*small, 100, 2, 0, false), 0, 0, 0,
+              0);
     const auto large = straight_grooves(200);
     const Stroke wide = stroke(*large, 200, 0, 0, true);
     report.add(
@@ -252,6 +254,10 @@ void measure_contact(Report& report) {
     const auto tilted = five_axis_grooves(100);
     const Stroke five = stroke(*tilted, 100, 0, 0, false);
     add_times(report, "contact tick, five-axis sweeps, point", five, 5, 0, 0, 0);
+    add_times(report, "contact tick, five-axis sweeps, 0.5 mm ball", stroke(*tilted, 100, 0.5, 0, false), 0,
+              0, 0, 0);
+    add_times(report, "contact tick, five-axis sweeps, 2 mm ball", stroke(*tilted, 100, 2, 0, false), 0, 0, 0,
+              0);
 }
 
 }  // namespace tribo::bench

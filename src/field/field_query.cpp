@@ -17,12 +17,27 @@ constexpr double kOnSurface = 2e-5;
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
-// Sides of the surface whose normals' product is less are two.
-constexpr double kOneWay = 0.5;
+// Sides of the surface whose normals' product is less are two. Distances that rise by this much of the way
+// are of one side.
+constexpr double kOneWay = 0.5, kOneSlope = 0.97;
 // Nearest places this far apart are two, mm; and how much farther than the nearest others are looked for.
-constexpr double kSameFoot = 0.01, kMarginCells = 0.5;
+constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
+// What a node stands for: surface so far around it, which bulges by no more than this; in cells.
+constexpr double kAround = 0.87, kBulge = 0.1;
 // Steps of a search along the surface, in cells.
 constexpr double kLongestCells = 2;
+
+// How the distances rise at a node, by their differences, in mm a cell.
+Vec3 slope_at(const Brick& brick, int a, int b, int c) {
+    const auto at = [&](int i, int j, int k) {
+        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
+    };
+    const auto up = [](int n) { return std::min(n + 1, kBrickCells); };
+    const auto down = [](int n) { return std::max(n - 1, 0); };
+    return {(at(up(a), b, c) - at(down(a), b, c)) / (up(a) - down(a)),
+            (at(a, up(b), c) - at(a, down(b), c)) / (up(b) - down(b)),
+            (at(a, b, up(c)) - at(a, b, down(c))) / (up(c) - down(c))};
+}
 
 Vec3 clamped(const Box3& box, Vec3 p) {
     return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
@@ -280,10 +295,28 @@ class FieldQuery::Candidates {
     double seen_mm_ = 0;
 };
 
-// The direction in which the distance rises at a node, by the shape that gives it there.
-Vec3 FieldQuery::rise_at(const Brick& brick, int node, Vec3 at) const {
-    const std::uint16_t shape = brick.winner[static_cast<std::size_t>(node)];
-    return outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], at);
+// The surface near a node, and which way it faces there: by the grid, and near corners by the shape that
+// gives the distance.
+FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c, Vec3 node) const {
+    const auto index = static_cast<std::size_t>(node_index(a, b, c));
+    const auto d = static_cast<double>(brick.distance_mm[index]);
+    Vec3 rise = slope_at(brick, a, b, c);
+    const double steep = length(rise);
+    if (steep > kOneSlope * cell_mm) {
+        rise = (1 / steep) * rise;
+    } else {
+        const std::uint16_t shape = brick.winner[index];
+        rise = outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], node);
+    }
+    return {node - d * rise, rise};
+}
+
+// Whether the surface about a place, half a cell around, stays further from a point than that.
+bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
+    const Vec3 way = p - place.at;
+    const double over = dot(way, place.normal), aside = length(way - over * place.normal);
+    const double side = std::max(0.0, aside - kAround * cell_mm), up = std::max(0.0, over - kBulge * cell_mm);
+    return side * side + up * up >= than_mm * than_mm;
 }
 
 // The node of a brick at which the surface is close that is nearest to a point: so near that a point of the
@@ -324,9 +357,10 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
                     static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
                 const double square = yz + (a - q.x) * (a - q.x);
                 if (d > close || d < -close || square >= least) continue;
-                const Vec3 node = nodes.node(a, b, c), rise = rise_at(brick, node_index(a, b, c), node);
-                const Seen here{node - d * rise, rise};
-                if (is_seen(here)) continue;
+                const double beyond = within_mm + std::abs(d) + kAround * cell_mm;
+                if (square * cell_mm * cell_mm >= beyond * beyond) continue;
+                const Seen here = surface_by(brick, a, b, c, nodes.node(a, b, c));
+                if (none_nearer(here, p, within_mm) || is_seen(here)) continue;
                 least = square;
                 place = here;
                 any = true;
@@ -385,11 +419,11 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     const auto shown_beyond = [&](double mm) { return best.distance_mm - mm <= kOnSurface; };
     search_at(hint.at_mm);
     if (shown_beyond(lower.distance_mm)) return best;
+    // Where material only goes, what was farther away not long ago still is.
+    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
     if (shown_beyond(lower.distance_mm)) return best;
-    // Where material only goes, what was farther away not long ago still is.
-    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
     hint.others_mm = 0;
     bool doubt = false;
     // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.

@@ -88,7 +88,8 @@ struct FieldQuery {
     struct Seen {
         Vec3 at, normal;
     };
-    Vec3 rise_at(const Brick& brick, int node, Vec3 at_mm) const;
+    Seen surface_by(const Brick& brick, int a, int b, int c, Vec3 node_mm) const;
+    bool none_nearer(const Seen& place, Vec3 point_mm, double than_mm) const;
     bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Seen> but,
                       Seen& place) const;
 };

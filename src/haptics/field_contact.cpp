@@ -428,8 +428,10 @@ bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
     }
 }
 
-// Finds an anchor that touches the proxy and that the present anchor leads to.
+// Finds an anchor that touches the proxy and that the present anchor leads to, where that does not still
+// touch.
 bool FieldContact::tie(const Place& to) {
+    if (distance(to.proxy, anchor_.at) <= (1 + kTouches) * anchor_.radius) return true;
     const Vec3 up = up_from(to);
     const double step = distance(to.proxy, at_.proxy);
     double height = std::clamp(std::max(1.5 * step, 0.5 * height_), kLowest, kHighest);
