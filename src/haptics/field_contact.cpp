@@ -31,8 +31,12 @@ constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 // In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
 // radius.
 constexpr double kNear = 0.02, kNearBall = 0.1;
+// A flight along a surface rises by this share of the way to go.
+constexpr double kLift = 0.1;
 // At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
 constexpr double kPeek = 1e-5, kGrazing = 0.1;
+// So far a corner is looked into behind its sides, mm.
+constexpr double kLook = 1e-3;
 // A step along a corner has left a side, or passed it, by this share of its length.
 constexpr double kLeft = 1e-3;
 // A landing this much (of the step's length) off the trial is looked at again, so often.
@@ -150,6 +154,7 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
                 touch_down(probe, a, g);
                 return Next::more;
             }
+            lift(a, g.normal, kLift * way);
         }
         anchor_ = a;
         at_.proxy = a.at;
@@ -157,6 +162,13 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
         a.at += (a.radius / way) * (probe - a.at);
         a.radius = clearance_mm(a.at, distance(probe, a.at));
     }
+}
+
+// Along a surface there is only room for small balls; a little above it the next ones are larger.
+void FieldContact::lift(Anchor& a, Vec3 up, double height) {
+    const Vec3 at = a.at + height * up;
+    const Anchor above{at, clearance_mm(at, height)};
+    if (above.radius > a.radius && height <= a.radius + above.radius) a = above;
 }
 
 // At the surface that was seen next to a ball, or what is left of one, that reaches there.
@@ -188,6 +200,7 @@ void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
     stride_mm_ = 1e30;
     moved_ = false;
+    looked_sides_ = 0;
     last_step_.known = false;
     (void)tie(at_);
 }
@@ -315,13 +328,32 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     const ProbeGap::Gap g = measure(at_.proxy);
     at_.ball = g.ball;
     settled_ = std::abs(g.gap_mm) <= 2 * kSkin;
-    if (settled_) return Next::nothing;
+    if (settled_) return look_behind_a_side();
     if (g.gap_mm > 0 && !moved_) return take_off();
     Place corrected = at_;
     (void)correct(corrected, g);
     moved_ = true;
     if (!tie(corrected)) return Next::nothing;
     at_ = corrected;
+    return Next::more;
+}
+
+// In a corner, one side after the other, a tick each: where a little way along the others there is no
+// material behind it, it was that of a step too low to hold, or was left.
+FieldContact::Next FieldContact::look_behind_a_side() {
+    contact::HalfSpaces& sides = at_.sides;
+    if (moved_) looked_sides_ = 0;
+    if (sides.count < 2 || looked_sides_ >= sides.count) return Next::nothing;
+    contact::HalfSpaces others;
+    for (int n = 0; n < sides.count; ++n) {
+        if (n != looked_sides_) others.put(sides.side[static_cast<std::size_t>(n)], kOneSide);
+    }
+    const Vec3 along = others.nearest(sides.side[static_cast<std::size_t>(looked_sides_)].normal);
+    ++looked_sides_;
+    if (measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * length(along)) return Next::nothing;
+    sides = others;
+    settled_ = false;
+    moved_ = true;
     return Next::more;
 }
 
@@ -384,6 +416,7 @@ bool FieldContact::push_out() {
 
 // Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
 bool FieldContact::chain(const Anchor& to) {
+    if (to.radius < kSkin) return false;
     Anchor a = anchor_;
     for (int links = 0;; ++links) {
         const double way = distance(to.at, a.at);

@@ -105,11 +105,13 @@ class FieldContact {
     Contact tick(Vec3 probe, bool turned) noexcept;
     Next climb();
     Next fly(Vec3 probe);
+    void lift(Anchor& ball, Vec3 up, double height_mm);
     void touch_down(Vec3 probe, Anchor from, ProbeGap::Gap seen);
     Next slide(Vec3 probe);
     Split split(const Place& place, Vec3 probe) const;
     Next take_off();
     Next come_to_rest(const Split& way);
+    Next look_behind_a_side();
     Next take_step(Vec3 probe, const Split& way);
     Vec3 step_for(const Split& way);
     enum class Landing { on_surface, over_edge, none };
@@ -143,6 +145,7 @@ class FieldContact {
     bool sticking_ = true;
     bool moved_ = false, looked_ = false;  // in this tick: a step was taken, the place was looked at
     Step last_step_;
+    int looked_sides_ = 0;  // of the corner in which the proxy has settled
     Anchor anchor_;
     double chained_mm_ = 0;  // how far the last chain came
     Place at_;               // the contact, tied
