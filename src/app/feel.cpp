@@ -22,6 +22,7 @@
 #include "field/mesh_field.hpp"
 #include "formats/feel_trace_csv.hpp"
 #include "formats/stroke_csv.hpp"
+#include "haptics/loop_delay.hpp"
 #include "haptics/simulated_hand.hpp"
 #include "io/feel_stats_json.hpp"
 #include "io/model_file.hpp"
@@ -57,13 +58,19 @@ io::FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
     return haptics::Stroke(std::move(stroke));
 }
 
+std::unique_ptr<haptics::Device> simulated_hand(const FeelCall& call, haptics::Stroke stroke) {
+    auto hand = std::make_unique<haptics::SimulatedHand>(std::move(stroke), 1 / call.rate_hz);
+    const auto ticks = static_cast<int>(std::round(1e-3 * call.delay_ms * call.rate_hz));
+    if (ticks == 0) return hand;
+    return std::make_unique<haptics::DelayedHand>(std::move(hand), ticks);
+}
+
 // An arm's own zero lies on the middle of the stock's top.
 Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, haptics::Stroke stroke,
                                                      const Box3& blank) {
     if (call.device == "playback")
         return std::make_unique<haptics::PlaybackHand>(std::move(stroke), 1 / call.rate_hz);
-    if (call.device == "simulated")
-        return std::make_unique<haptics::SimulatedHand>(std::move(stroke), 1 / call.rate_hz);
+    if (call.device == "simulated") return simulated_hand(call, std::move(stroke));
     const Vec3 middle = blank.centre();
     return devices::open_arm(call.device, {{middle.x, middle.y, blank.max.z}});
 }
@@ -71,22 +78,32 @@ Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, hapti
 double stiffness(const FeelCall& call, const formats::Job& job, const haptics::DeviceLimits& limits,
                  Warnings& warnings) {
     const double wanted = call.stiffness_n_per_mm.value_or(job.haptics.stiffness_n_per_mm.value_or(0.5));
-    if (wanted <= limits.max_stiffness_n_per_mm) return wanted;
-    char text[160];
-    std::snprintf(text, sizeof text, "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in",
-                  wanted, static_cast<int>(limits.name.size()), limits.name.data(),
-                  limits.max_stiffness_n_per_mm);
+    const double passive = haptics::passive_stiffness_n_per_mm(1 / call.rate_hz, 1e-3 * call.delay_ms);
+    const double most = std::min(limits.max_stiffness_n_per_mm, passive);
+    if (wanted <= most) return wanted;
+    char text[200];
+    if (passive < limits.max_stiffness_n_per_mm) {
+        std::snprintf(
+            text, sizeof text,
+            "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz: %.3g "
+            "stands in",
+            wanted, call.delay_ms, call.rate_hz, most);
+    } else {
+        std::snprintf(text, sizeof text,
+                      "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
+                      static_cast<int>(limits.name.size()), limits.name.data(), most);
+    }
     // Only what was asked for is worth a word.
     if (call.stiffness_n_per_mm || job.haptics.stiffness_n_per_mm) warnings.push_back({call.job, 0, text});
-    return limits.max_stiffness_n_per_mm;
+    return most;
 }
 
 // The servo over a whole stroke, and what is known of it afterwards.
 class Run {
   public:
     Run(haptics::Device& device, haptics::ForceSource& source, const haptics::SafetyLimits& limits,
-        double start_s, double end_s, double rate_hz)
-        : servo_(device, source, limits),
+        double start_s, double end_s, double rate_hz, double delay_s)
+        : servo_(device, source, limits, delay_s),
           start_s_(start_s),
           rate_hz_(rate_hz),
           count_(static_cast<std::size_t>(std::floor((end_s - start_s) * rate_hz + 1e-6)) + 1) {
@@ -288,7 +305,7 @@ int feel(const FeelCall& call) {
     stats.device = call.device;
     stats.mode = call.mode;
     Run run(**device, felt.source(), session::safety_limits(**device, call.rate_hz), start_s, end_s,
-            call.rate_hz);
+            call.rate_hz, 1e-3 * call.delay_ms);
     const bool by_clock = call.real_time || (*device)->has_motors();
     if (!(by_clock ? run.run_in_time(felt, stats) : run.count_through(felt, stats)))
         return interrupted_exit_code();

@@ -12,6 +12,7 @@ struct FeelCall {
     std::string mode = "inspect", device = "simulated", stats;
     double rate_hz = 1000;
     double probe_mm = 0;
+    double delay_ms = 0;
     std::optional<double> stiffness_n_per_mm, resolution_mm, until_s;
     bool real_time = false, texture = true, compressive = false;
     std::string profile, bake;

@@ -11,6 +11,7 @@
 #include "app/render_job.hpp"
 #include "app/threads.hpp"
 #include "devices/device_search.hpp"
+#include "haptics/loop_delay.hpp"
 #include "io/jnd_profile_toml.hpp"
 
 namespace tribo::app {
@@ -49,8 +50,10 @@ LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
     options.settings.material = loaded.material.name;
     const formats::JobHaptics& h = loaded.job.haptics;
     haptics::ContactOptions& contact = options.feel.contact;
+    options.feel.delay_s = 1e-3 * call.delay_ms;
     contact.stiffness_n_per_mm =
-        std::min(h.stiffness_n_per_mm.value_or(contact.stiffness_n_per_mm), limits.max_stiffness_n_per_mm);
+        std::min({h.stiffness_n_per_mm.value_or(contact.stiffness_n_per_mm), limits.max_stiffness_n_per_mm,
+                  haptics::passive_stiffness_n_per_mm(1 / options.feel.rate_hz, options.feel.delay_s)});
     contact.friction_kinetic = h.friction_kinetic.value_or(0);
     contact.friction_static = std::max(h.friction_static.value_or(0), contact.friction_kinetic);
     return options;

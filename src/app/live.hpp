@@ -20,6 +20,7 @@ struct LiveCall {
     std::optional<double> resolution_mm;   // absent: as render
     int threads = 0;                       // 0: all
     std::string audio = "browser";         // who sounds: browser, native or off
+    double delay_ms = 0;                   // of an arm, its driver and line, both ways together
     std::string device = "auto";           // the first arm that opens, else the simulated hand; or its word
 };
 

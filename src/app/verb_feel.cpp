@@ -7,6 +7,7 @@
 #include "app/options.hpp"
 #include "app/threads.hpp"
 #include "app/verbs.hpp"
+#include "haptics/loop_delay.hpp"
 
 namespace tribo::app {
 
@@ -36,6 +37,10 @@ void add_feel(CLI::App& program, int& exit_code) {
                      "Of the surface; the job's, else 0.5, at most the device's")
         ->check(finite_number(0, 1e3))
         ->type_name("N_PER_MM");
+    verb->add_option("--delay", call->delay_ms,
+                     "Of arm, driver and line, both ways together, 0 to 20; the simulated hand gets it")
+        ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))
+        ->type_name("MS");
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
         ->check(finite_number(0, 100))
         ->type_name("MM");

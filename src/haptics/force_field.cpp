@@ -39,6 +39,7 @@ FieldForce ForceField::render(const FieldMoment& m) noexcept {
     FieldForce out;
     const double share = options_.tick_s / options_.switch_s;
     const double cut = cut_.step(mode_ == FeelMode::cut && cutting_on_, share);
+    const double inspected = smooth(inspect_.way);
     const double inspect = inspect_.step(mode_ == FeelMode::inspect, share);
     if (!is_finite(m.finger.end_mm)) {
         begun_ = false;
@@ -52,6 +53,10 @@ FieldForce ForceField::render(const FieldMoment& m) noexcept {
     touch_ = contact_ != nullptr ? contact_->update(m.finger.end_mm) : Contact{};
     out.in_contact = touch_.in_contact && inspect > 0;
     out.surface_n = inspect * touch_.force_n;
+    if (contact_ != nullptr) {
+        out.lent_nmm = (inspect - inspected) * 0.5 * squared_length(touch_.force_n) /
+                       contact_->options().stiffness_n_per_mm;
+    }
     const double press_n = dot(touch_.force_n, touch_.normal);
 
     if (cut > 0) {

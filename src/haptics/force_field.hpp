@@ -60,6 +60,7 @@ struct FieldForce {
     Vec3 cutting_n;       // F_fem, faded and switched
     Vec3 surface_n;       // F_reaction with friction, switched
     Vec3 texture_n;       // F_tex and the vibration that rides on it
+    double lent_nmm = 0;  // energy that the surface gets in this tick as it is faded in, and loses as it goes
     double nearness = 0;  // of finger and cutter: 0 ... 1
     bool in_contact = false;
     Vec3 total_n() const { return cutting_n + surface_n + texture_n; }

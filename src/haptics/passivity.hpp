@@ -4,8 +4,11 @@
 // observer); the controller lets the force give back only that: where the hand leaves and the work of the
 // next tick would be more than is left, the force is less. It never adds a force, so a coarse encoder cannot
 // make it kick, as damping by a noisy speed does. Only what touches may be counted: a cutting force is the
-// machine's own work.
+// machine's own work. Where the loop has a delay (loop_delay.hpp), a motion is paid for by the force that the
+// hand felt in it, which was sent as much earlier.
 #pragma once
+
+#include <vector>
 
 #include "base/vec3.hpp"
 
@@ -16,11 +19,13 @@ class PassivityController {
   public:
     // The step of the device's positions, >= 0. Places are observed with as much play: where a position only
     // flickers between two steps nothing has moved.
-    explicit PassivityController(double resolution_mm = 0) : play_(0.5 * resolution_mm) {}
+    // `delay_ticks` >= 0: both ways together.
+    explicit PassivityController(double resolution_mm = 0, int delay_ticks = 0);
 
     // The force to send instead of `force_n` in this tick. `touching`: the surface pushes at all; energy that
-    // friction swallowed in one contact is no credit for the next.
-    Vec3 tick(Vec3 force_n, Vec3 position_mm, bool touching) noexcept;
+    // friction swallowed in one contact is no credit for the next. `lent_nmm`: what the surface has got from
+    // elsewhere in this tick, as where it is faded in under a hand that presses.
+    Vec3 tick(Vec3 force_n, Vec3 position_mm, bool touching, double lent_nmm = 0) noexcept;
 
     // What the hand has put in and not got back since the contact began, N mm.
     double energy_nmm() const { return energy_; }
@@ -30,7 +35,9 @@ class PassivityController {
   private:
     double play_;
     bool started_ = false;
-    Vec3 last_force_, place_;
+    Vec3 place_;
+    std::vector<Vec3> sent_;  // a ring of the forces whose motion has not been seen
+    std::size_t oldest_ = 0;
     double energy_ = 0, lowest_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "haptics/servo.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tribo::haptics {
@@ -11,8 +12,12 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Servo::Servo(Device& device, ForceSource& source, const SafetyLimits& limits)
-    : device_(device), source_(source), safety_(limits), passivity_(device.limits().resolution_mm) {}
+Servo::Servo(Device& device, ForceSource& source, const SafetyLimits& limits, double delay_s)
+    : device_(device),
+      source_(source),
+      safety_(limits),
+      passivity_(device.limits().resolution_mm, static_cast<int>(std::round(delay_s / limits.tick_s))),
+      ahead_(limits.tick_s, delay_s) {}
 
 ServoTick Servo::tick(double now_s) noexcept {
     const bool first = ticks_ == 0;
@@ -29,11 +34,13 @@ ServoTick Servo::tick(double now_s) noexcept {
     felt.simulation_s = now_s;
     Vec3 wanted{kNotANumber, kNotANumber, kNotANumber};  // the guard's business
     if (is_finite(hand_.position_mm) && is_finite(hand_.velocity_mm_per_s)) {
-        felt = source_.render(hand_, now_s, step_s);
+        HandReading ahead = hand_;
+        ahead.position_mm = ahead_.at(hand_.position_mm);
+        felt = source_.render(ahead, now_s, step_s);
         // A hand that does not yield cannot be pushed: there is nothing to keep passive.
-        wanted = felt.driven_n + (device_.yields()
-                                      ? passivity_.tick(felt.contact_n, hand_.position_mm, felt.touching)
-                                      : felt.contact_n);
+        wanted = felt.driven_n + (device_.yields() ? passivity_.tick(felt.contact_n, hand_.position_mm,
+                                                                     felt.touching, felt.lent_nmm)
+                                                   : felt.contact_n);
     }
     ServoTick tick;
     tick.now_s = now_s;

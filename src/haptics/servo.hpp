@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "haptics/device.hpp"
+#include "haptics/loop_delay.hpp"
 #include "haptics/passivity.hpp"
 #include "haptics/safety.hpp"
 
@@ -15,6 +16,7 @@ struct RenderedForce {
     Vec3 contact_n;           // of surfaces, friction and their texture: kept passive
     Vec3 driven_n;            // of the machine (the cutting force): work is its business
     bool touching = false;    // a surface pushes or the cut is felt
+    double lent_nmm = 0;      // energy that the surface got in this tick without the hand: it is faded in
     double simulation_s = 0;  // how new the state is that this was rendered from, servo's clock
 };
 
@@ -22,7 +24,8 @@ struct RenderedForce {
 class ForceSource {
   public:
     virtual ~ForceSource() = default;
-    // `now_s` on the servo's clock, `tick_s` since the last call.
+    // `now_s` on the servo's clock, `tick_s` since the last call; the hand is where it will be when it feels
+    // it.
     virtual RenderedForce render(const HandReading& hand, double now_s, double tick_s) noexcept = 0;
 };
 
@@ -37,7 +40,8 @@ struct ServoTick {
 // One thread; real-time safe. Device and source must outlive it.
 class Servo {
   public:
-    Servo(Device& device, ForceSource& source, const SafetyLimits& limits);
+    // `delay_s`: of arm, driver and line, both ways together, 0 to kMostDelayS.
+    Servo(Device& device, ForceSource& source, const SafetyLimits& limits, double delay_s = 0);
 
     // `now_s`: when this tick happens, on a clock that only runs forward (if it does not, that is a fault).
     ServoTick tick(double now_s) noexcept;
@@ -54,6 +58,7 @@ class Servo {
     ForceSource& source_;
     SafetyGuard safety_;
     PassivityController passivity_;
+    HandAhead ahead_;
     HandReading hand_;
     std::uint64_t ticks_ = 0;
     double device_s_ = 0, last_now_s_ = 0, max_force_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/simulated_hand.hpp"
 
+#include <algorithm>
+
 namespace tribo::haptics {
 namespace {
 
@@ -80,6 +82,30 @@ DeviceState PlaybackHand::read(HandReading& reading) noexcept {
     reading.velocity_mm_per_s = at.velocity_mm_per_s;
     reading.sequence = ++sequence_;
     return DeviceState::ready;
+}
+
+DelayedHand::DelayedHand(std::unique_ptr<Device> hand, int delay_ticks)
+    : hand_(std::move(hand)),
+      readings_(static_cast<std::size_t>(delay_ticks / 2) + 1),
+      forces_(static_cast<std::size_t>(delay_ticks - delay_ticks / 2) + 1) {}
+
+DeviceState DelayedHand::read(HandReading& reading) noexcept {
+    HandReading now = readings_[(reading_ + readings_.size() - 1) % readings_.size()];
+    const DeviceState state = hand_->read(now);
+    if (!begun_) std::fill(readings_.begin(), readings_.end(), now);
+    begun_ = true;
+    readings_[reading_] = now;
+    reading_ = (reading_ + 1) % readings_.size();
+    const std::uint64_t sequence = now.sequence;
+    reading = readings_[reading_];
+    reading.sequence = sequence;  // something comes in every tick, if old
+    return state;
+}
+
+DeviceState DelayedHand::write(Vec3 force_n) noexcept {
+    forces_[force_] = force_n;
+    force_ = (force_ + 1) % forces_.size();
+    return hand_->write(forces_[force_]);
 }
 
 }  // namespace tribo::haptics

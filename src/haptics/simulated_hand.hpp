@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Hands without an arm: two that yield to what they feel, along a stroke or led from outside, and one that
-// goes exactly where it was told.
+// goes exactly where it was told; and the delay of an arm, for any of them.
 #pragma once
+
+#include <memory>
+#include <vector>
 
 #include "base/hand_over.hpp"
 #include "haptics/device.hpp"
@@ -95,6 +98,26 @@ class PlaybackHand final : public Device {
     Stroke stroke_;
     double tick_s_, start_s_;
     std::uint64_t sequence_ = 0;
+};
+
+// A device as it is at the end of a slow line: readings and forces come some ticks late.
+class DelayedHand final : public Device {
+  public:
+    // Ticks both ways together, >= 0: half of them before a reading comes.
+    DelayedHand(std::unique_ptr<Device> hand, int delay_ticks);
+
+    const DeviceLimits& limits() const override { return hand_->limits(); }
+    bool has_motors() const override { return hand_->has_motors(); }
+    bool yields() const override { return hand_->yields(); }
+    DeviceState read(HandReading& reading) noexcept override;
+    DeviceState write(Vec3 force_n) noexcept override;
+
+  private:
+    std::unique_ptr<Device> hand_;
+    std::vector<HandReading> readings_;  // rings; the next to come is at the index
+    std::vector<Vec3> forces_;
+    std::size_t reading_ = 0, force_ = 0;
+    bool begun_ = false;
 };
 
 }  // namespace tribo::haptics

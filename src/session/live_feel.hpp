@@ -14,6 +14,7 @@ namespace tribo::session {
 struct LiveFeelOptions {
     haptics::ContactOptions contact;
     double rate_hz = 1000;
+    double delay_s = 0;    // of arm, driver and line, both ways together
     double finger_mm = 0;  // radius of the finger's cylinder near the cutter
 };
 

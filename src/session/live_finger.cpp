@@ -20,7 +20,8 @@ LiveFinger::LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::
     : rate_hz_(options.rate_hz),
       device_(arm_or_hand(std::move(arm), start_mm, options.rate_hz, led_)),
       feel_(options),
-      servo_(*device_, feel_, safety_limits(*device_, options.rate_hz)) {}
+      servo_(*device_, feel_, safety_limits(*device_, options.rate_hz),
+             led_ != nullptr ? 0 : options.delay_s) {}
 
 bool LiveFinger::tick(double now_s) noexcept {
     const haptics::ServoTick tick = servo_.tick(now_s);

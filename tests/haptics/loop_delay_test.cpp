@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Taps on a wall through a loop with delay: arm, line and encoder as they are, the servo as it is shipped.
+// What the hand gets back beyond what it put in is measured on the hand itself, and the wall stays a wall.
+#include "haptics/loop_delay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <gtest/gtest.h>
+
+#include "groove_field.hpp"
+#include "haptics/field_contact.hpp"
+#include "haptics/servo.hpp"
+#include "haptics/simulated_hand.hpp"
+
+namespace tribo::haptics {
+namespace {
+
+constexpr double kQuantumMm = 0.01;
+constexpr double kBoundNmm = 0.1;  // given to the hand in a press and release
+
+// What is known of the hand itself.
+struct Truth {
+    double energy_nmm = 0, lowest_nmm = 0;  // put in by the hand; gone below 0: given to it
+    double depth_mm = 0, force_n = 0;       // mean over the end of the hold
+    double low_mm = 1e9, high_mm = -1e9;    // of the place in that time
+    int held_ticks = 0;
+};
+
+// A hand with an encoder, and an account of what the motors do to it.
+class Arm final : public Device {
+  public:
+    Arm(Stroke stroke, double tick_s, const HandModel& model, Truth& truth)
+        : hand_(std::move(stroke), tick_s, model), truth_(truth) {}
+    const DeviceLimits& limits() const override { return limits_; }
+    bool has_motors() const override { return false; }
+    DeviceState read(HandReading& reading) noexcept override {
+        const DeviceState state = hand_.read(reading);
+        const Vec3 at = reading.position_mm;
+        if (begun_) truth_.energy_nmm -= dot(force_, at - at_);
+        truth_.lowest_nmm = std::min(truth_.lowest_nmm, truth_.energy_nmm);
+        begun_ = true;
+        at_ = at;
+        const auto rounded = [](double v) { return kQuantumMm * std::round(v / kQuantumMm); };
+        reading.position_mm = {rounded(at.x), rounded(at.y), rounded(at.z)};
+        return state;
+    }
+    DeviceState write(Vec3 force_n) noexcept override {
+        force_ = force_n;
+        if (hand_.now_s() > 0.55 && hand_.now_s() < 0.6) {
+            truth_.depth_mm += -at_.z;
+            truth_.force_n += force_n.z;
+            truth_.low_mm = std::min(truth_.low_mm, at_.z);
+            truth_.high_mm = std::max(truth_.high_mm, at_.z);
+            ++truth_.held_ticks;
+        }
+        return hand_.write(force_n);
+    }
+
+  private:
+    SimulatedHand hand_;
+    Truth& truth_;
+    DeviceLimits limits_{"arm", 50, 10, 0.02, kQuantumMm};
+    bool begun_ = false;
+    Vec3 at_, force_;
+};
+
+// A wall at z = 0.
+class Flat final : public ForceSource {
+  public:
+    Flat(double stiffness, double tick_s) : contact_(floor_, options(stiffness, tick_s)) {}
+    RenderedForce render(const HandReading& hand, double now_s, double) noexcept override {
+        const Contact c = contact_.update(hand.position_mm);
+        RenderedForce felt;
+        felt.contact_n = c.force_n;
+        felt.touching = c.in_contact;
+        felt.simulation_s = now_s;
+        return felt;
+    }
+
+  private:
+    static ContactOptions options(double stiffness, double tick_s) {
+        ContactOptions o;
+        o.stiffness_n_per_mm = stiffness;
+        o.tick_s = tick_s;
+        return o;
+    }
+    test::Floor floor_;
+    FieldContact contact_;
+};
+
+struct Loop {
+    double stiffness = 1, rate_hz = 1000, delay_s = 0;  // the delay both ways together
+    double told_s = 0;                                  // what the servo is told of it
+    double speed = 1;                                   // of the tap, 60 mm/s
+    HandModel model;
+};
+
+Truth tap(const Loop& loop) {
+    const double tick_s = 1 / loop.rate_hz, down_s = 0.05 / loop.speed;
+    Truth truth;
+    auto arm = std::make_unique<Arm>(
+        Stroke({{0, {0, 0, 2}}, {down_s, {0, 0, -1}}, {0.6, {0, 0, -1}}, {0.7, {0, 0, 3}}, {0.9, {0, 0, 3}}}),
+        tick_s, loop.model, truth);
+    DelayedHand hand(std::move(arm), static_cast<int>(std::round(loop.delay_s / tick_s)));
+    const double stiffness = std::min(loop.stiffness, passive_stiffness_n_per_mm(tick_s, loop.told_s));
+    Flat wall(stiffness, tick_s);
+    SafetyLimits limits;
+    limits.max_force_n = 50;
+    limits.slew_n_per_ms = 1e3;
+    limits.ramp_s = 0;
+    limits.tick_s = tick_s;
+    limits.max_speed_mm_per_s = 1e4;
+    Servo servo(hand, wall, limits, loop.told_s);
+    for (int n = 0; n < static_cast<int>(0.9 * loop.rate_hz); ++n) servo.tick(n * tick_s);
+    truth.depth_mm /= truth.held_ticks;
+    truth.force_n /= truth.held_ticks;
+    return truth;
+}
+
+TEST(LoopDelay, a_tap_gives_the_hand_nothing_and_the_wall_stays_a_wall) {
+    for (const double stiffness : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
+        for (const double rate : {1000.0, 4000.0}) {
+            for (const double each_way_ms : {0.0, 0.5, 1.0, 2.0, 3.0}) {
+                for (const double speed : {1.0, 5.0}) {
+                    Loop loop{stiffness, rate, 2e-3 * each_way_ms, 2e-3 * each_way_ms, speed, {}};
+                    const Truth t = tap(loop);
+                    char what[120];
+                    std::snprintf(what, sizeof what, "%g N/mm, %g Hz, %g ms each way, %g times 60 mm/s",
+                                  stiffness, rate, each_way_ms, speed);
+                    EXPECT_GE(t.lowest_nmm, -kBoundNmm) << what;
+                    const double goal = std::min(
+                        stiffness, passive_stiffness_n_per_mm(1 / rate, 2e-3 * each_way_ms, kHandDamping));
+                    EXPECT_GE(t.force_n / t.depth_mm, 0.9 * goal) << what;
+                    EXPECT_LE(t.force_n / t.depth_mm, 1.15 * goal) << what;
+                    EXPECT_LT(t.high_mm - t.low_mm, 0.05) << what;
+                }
+            }
+        }
+    }
+}
+
+// The same walls where nobody knows of the delay.
+TEST(LoopDelay, has_something_to_do) {
+    EXPECT_LT(tap({5, 1000, 6e-3, 0, 1, {}}).lowest_nmm, -20 * kBoundNmm);
+    EXPECT_LT(tap({1, 1000, 2e-3, 0, 1, {}}).lowest_nmm, -kBoundNmm / 2);
+}
+
+TEST(LoopDelay, other_hands_get_nothing_either) {
+    for (const double mass_kg : {0.15, 0.25, 0.5}) {
+        for (const double damping : {0.005, 0.02}) {
+            for (const double stiffness : {0.5, 2.0}) {
+                const HandModel hand{mass_kg, 0.3, damping};
+                const Truth t = tap({stiffness, 1000, 4e-3, 4e-3, 1, hand});
+                EXPECT_GE(t.lowest_nmm, -kBoundNmm)
+                    << mass_kg << " kg " << damping << " N s/mm " << stiffness;
+            }
+        }
+    }
+}
+
+TEST(LoopDelay, without_delay_the_hand_is_where_it_is) {
+    HandAhead ahead(1e-3, 0);
+    for (int n = 0; n < 10; ++n) EXPECT_EQ(ahead.at({1.0 * n, 0, 0}), (Vec3{1.0 * n, 0, 0}));
+}
+
+TEST(LoopDelay, a_steady_hand_is_ahead_by_one_and_a_half_times_the_delay_and_half_a_tick) {
+    HandAhead ahead(1e-3, 4e-3);
+    EXPECT_EQ(ahead.at({5, 0, 0}), (Vec3{5, 0, 0}));
+    for (int n = 1; n < 10; ++n) {
+        const double at = 5 + 0.1 * n;  // 0.1 mm a tick
+        EXPECT_NEAR(ahead.at({at, 0, 0}).x, at + 0.1 * 1.5 * 4.5, 1e-12) << n;
+    }
+}
+
+TEST(LoopDelay, damping_bears_less_the_later_the_force_comes) {
+    EXPECT_NEAR(passive_stiffness_n_per_mm(1e-3, 0, 0.02), 40, 1e-9);
+    EXPECT_NEAR(passive_stiffness_n_per_mm(1e-3, 6e-3, 0.02), 0.02 / 6.5e-3, 1e-12);
+}
+
+TEST(LoopDelay, a_delayed_hand_is_the_hand_of_some_ticks_ago) {
+    const Stroke stroke({{0, {0, 0, 0}}, {1, {100, 0, 0}}});
+    PlaybackHand now(stroke, 1e-3);
+    DelayedHand late(std::make_unique<PlaybackHand>(stroke, 1e-3), 7);
+    HandReading a, b;
+    for (int n = 0; n < 50; ++n) {
+        now.read(a);
+        late.read(b);
+        EXPECT_EQ(b.sequence, a.sequence);
+        EXPECT_NEAR(b.position_mm.x, 0.1 * std::max(0, n - 3), 1e-9);
+    }
+}
+
+// A surface that comes while the hand already presses pushes it out once, and does not rattle.
+TEST(LoopDelay, a_surface_that_fades_in_under_a_pressing_hand_does_not_chatter) {
+    PassivityController controller;
+    const double tick_s = 1e-3, stiffness = 1;
+    HandBody body({0, 0, -1}, tick_s, {});
+    double share = 0, last = 0;
+    int drops = 0;
+    for (int n = 0; n < 600; ++n) {
+        const double before = share;
+        share = std::min(1.0, n / 300.0);
+        const double depth = std::max(0.0, -body.position_mm().z);
+        const Vec3 wall{0, 0, share * stiffness * depth};
+        const Vec3 sent = controller.tick(wall, body.position_mm(), depth > 0,
+                                          (share - before) * 0.5 * stiffness * depth * depth);
+        if (sent.z < 0.8 * last) ++drops;
+        last = sent.z;
+        body.step({0, 0, -1}, {}, sent);
+    }
+    EXPECT_EQ(drops, 0);
+    // Spring against spring.
+    EXPECT_NEAR(-body.position_mm().z, 0.3 / 1.3, 0.02);
+}
+
+}  // namespace
+}  // namespace tribo::haptics
