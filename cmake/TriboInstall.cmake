@@ -21,7 +21,7 @@ set_target_properties(tribo_options PROPERTIES EXPORT_NAME options)
 # What an installation holds, without the tests.
 add_custom_target(product DEPENDS ${products})
 install(TARGETS ${libraries} EXPORT tribo)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tribo FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tribo FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 # The pages, where there was a Node.js to build them (scripts/web.sh): `tribo live` and `tribo site` look for them beside the program.
 install(DIRECTORY ${PROJECT_BINARY_DIR}/../web/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/tribo/web OPTIONAL)
 install(EXPORT tribo NAMESPACE tribo:: FILE tribo-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tribo)

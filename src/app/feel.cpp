@@ -18,6 +18,7 @@
 #include "app/progress.hpp"
 #include "app/render_job.hpp"
 #include "devices/device_search.hpp"
+#include "devices/force_plugin.hpp"
 #include "devices/servo_thread.hpp"
 #include "field/mesh_field.hpp"
 #include "formats/feel_trace_csv.hpp"
@@ -212,8 +213,12 @@ io::FileResult<void> read_model(const FeelCall& call, Part& part) {
         return std::unexpected(io::Failure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
     };
     if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
-    auto model = io::read_model_file({call.job, std::nullopt});
+    auto model = io::read_model_file({call.job, call.unit_mm});
     if (!model) return std::unexpected(model.error());
+    part.warnings = std::move(model->warnings);
+    for (Point3f& p : model->mesh.positions) {
+        for (float& v : p) v = static_cast<float>(call.scale * static_cast<double>(v));
+    }
     auto surface = field::MeshField::make(std::move(model->mesh));
     if (!surface) return refuse(surface.error().cause, surface.error().remedy);
     part.bounds_mm = (*surface)->bounds_mm();
@@ -224,11 +229,24 @@ io::FileResult<void> read_model(const FeelCall& call, Part& part) {
                       field::MeshField::kThicknessMm);
         part.warnings.push_back({call.job, 0, text});
     }
+    if (const double skin_mm = (*surface)->skin_mm(); skin_mm > 0) {
+        char text[200];
+        std::snprintf(
+            text, sizeof text,
+            "some triangles are turned over, so no side is the outside: the surface is felt from both "
+            "sides, as a skin of %.3g mm",
+            skin_mm);
+        part.warnings.push_back({call.job, 0, text});
+    }
     part.surface = std::move(*surface);
     return {};
 }
 
 io::FileResult<void> read_job(const FeelCall& call, Part& part) {
+    if (call.unit_mm || call.scale != 1) {
+        return std::unexpected(io::Failure({call.job, 0, 0, "a job says the unit of its models itself",
+                                            "set 'unit_mm' in the job, or give a model"}));
+    }
     RenderCall render;
     render.job = call.job;
     render.resolution_mm = call.resolution_mm;
@@ -283,6 +301,15 @@ int feel(const FeelCall& call) {
     auto stroke = read_stroke(call);
     if (!stroke) return report(stroke.error());
     const double start_s = stroke->start_s(), end_s = stroke->end_s();
+    if (call.friction_kinetic.value_or(0) > call.friction_static.value_or(1e9)) {
+        return report(Error{call.job, 0, 0, "--friction-kinetic is above --friction", "exchange them"});
+    }
+    std::unique_ptr<devices::ForcePlugin> plugin;
+    if (!call.source.empty()) {
+        auto opened = devices::ForcePlugin::open(call.source, call.rate_hz);
+        if (!opened) return report(opened.error());
+        plugin = std::move(*opened);
+    }
     Part part;
     if (auto read = is_model(call.job) ? read_model(call, part) : read_job(call, part); !read)
         return report(read.error());
@@ -300,12 +327,13 @@ int feel(const FeelCall& call) {
         return report(made.error());
     }
     if (interrupted()) return interrupted_exit_code();
+    if (plugin) plugin->set_inner(felt.source());
     io::FeelStats stats;
     stats.version = TRIBO_VERSION;
     stats.device = call.device;
     stats.mode = call.mode;
-    Run run(**device, felt.source(), session::safety_limits(**device, call.rate_hz), start_s, end_s,
-            call.rate_hz, 1e-3 * call.delay_ms);
+    Run run(**device, plugin ? *plugin : felt.source(), session::safety_limits(**device, call.rate_hz),
+            start_s, end_s, call.rate_hz, 1e-3 * call.delay_ms);
     const bool by_clock = call.real_time || (*device)->has_motors();
     if (!(by_clock ? run.run_in_time(felt, stats) : run.count_through(felt, stats)))
         return interrupted_exit_code();

@@ -13,7 +13,10 @@ struct FeelCall {
     double rate_hz = 1000;
     double probe_mm = 0;
     double delay_ms = 0;
-    std::optional<double> stiffness_n_per_mm, resolution_mm, until_s;
+    std::optional<double> stiffness_n_per_mm, friction_static, friction_kinetic, resolution_mm, until_s;
+    std::optional<double> unit_mm;  // of a model
+    double scale = 1;               // of a model
+    std::string source;             // a library with a force of one's own; empty: none
     bool real_time = false, texture = true, compressive = false;
     std::string profile, bake;
     int threads = 0;

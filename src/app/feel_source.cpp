@@ -74,8 +74,12 @@ haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) 
     haptics::ContactOptions contact;
     contact.stiffness_n_per_mm = surface_n_per_mm_;
     contact.probe_radius_mm = call_.probe_mm;
-    contact.friction_static = job_.haptics.friction_static.value_or(0);
-    contact.friction_kinetic = job_.haptics.friction_kinetic.value_or(contact.friction_static);
+    // A flag for one of the two is not mixed with the job's other one.
+    const bool called = call_.friction_static || call_.friction_kinetic;
+    const auto& friction_static = called ? call_.friction_static : job_.haptics.friction_static;
+    const auto& friction_kinetic = called ? call_.friction_kinetic : job_.haptics.friction_kinetic;
+    contact.friction_static = friction_static.value_or(0);
+    contact.friction_kinetic = friction_kinetic.value_or(contact.friction_static);
     contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
     contact.tick_s = 1 / call_.rate_hz;
     if (job_.haptics.probe == formats::ProbeKind::ray) probe = haptics::ProbeShape::ray();

@@ -37,6 +37,25 @@ void add_feel(CLI::App& program, int& exit_code) {
                      "Of the surface; the job's, else 0.5, at most the device's")
         ->check(finite_number(0, 1e3))
         ->type_name("N_PER_MM");
+    verb->add_option(
+            "--friction", call->friction_static,
+            "Static coefficient of friction; the job's, else none; the kinetic one too if that is absent")
+        ->check(CLI::Range(0.0, 10.0))
+        ->type_name("MU");
+    verb->add_option("--friction-kinetic", call->friction_kinetic,
+                     "Kinetic coefficient, at most the static one")
+        ->check(CLI::Range(0.0, 10.0))
+        ->type_name("MU");
+    verb->add_option("--unit-mm", call->unit_mm,
+                     "Of a model: millimetres per unit of the file, 1000 for metres, 25.4 for inches")
+        ->check(finite_number(0, 1e6))
+        ->type_name("MM");
+    verb->add_option("--scale", call->scale, "Of a model: so many times as large; 1 if absent")
+        ->check(finite_number(0, 1e6))
+        ->type_name("TIMES");
+    verb->add_option("--source", call->source,
+                     "A library with a force of your own (docs/feel.md), handed what Tribo would give")
+        ->type_name("PLUGIN.so");
     verb->add_option("--delay", call->delay_ms,
                      "Of arm, driver and line, both ways together, 0 to 20; the simulated hand gets it")
         ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))

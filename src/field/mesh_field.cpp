@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "field/mesh_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,18 +24,19 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
     if (!(area_mm2(mesh) > 0)) return fail("the model has no surface", "check that it holds triangles");
     const MeshNormals normals(mesh);
     if (normals.turned_edges() > 0) {
-        return fail("the model has triangles that are turned over: it has no one side to touch",
-                    "make its normals consistent in the program that made it");
+        const Box3 box = bounds(mesh);
+        const double skin = std::min(thickness_mm, kSkinOfDiagonal * distance(box.min, box.max));
+        return std::unique_ptr<MeshField>(new MeshField(std::move(mesh), 0, skin));
     }
     const bool closed = normals.border_edges() == 0;
     if (closed && volume_mm3(mesh) < 0) {
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     }
-    return std::unique_ptr<MeshField>(new MeshField(std::move(mesh), closed ? 0 : thickness_mm));
+    return std::unique_ptr<MeshField>(new MeshField(std::move(mesh), closed ? 0 : thickness_mm, 0));
 }
 
-MeshField::MeshField(TriangleMesh mesh, double thickness_mm)
-    : distance_(std::move(mesh)), thickness_(thickness_mm) {
+MeshField::MeshField(TriangleMesh mesh, double thickness_mm, double skin_mm)
+    : distance_(std::move(mesh)), thickness_(thickness_mm), skin_(skin_mm) {
     if (!is_sheet()) return;
     border_ = border_of(distance_.mesh(), distance_.normals());
     border_tree_.emplace(border_.edges);
@@ -61,6 +63,11 @@ contact::SurfaceSample MeshField::sample(Vec3 p) const {
     const MeshPoint at = distance_.closest(p);
     const Vec3 way = p - at.point_mm;
     const double s = at.distance_mm;
+    if (skin_ > 0) {
+        contact::SurfaceSample skin = towards(way, at.normal);
+        skin.distance_mm -= 0.5 * skin_;
+        return skin;
+    }
     if (at.on_border && is_sheet()) {
         // Beyond the border: its wall, from the front's edge to the back's.
         const double up = dot(way, at.normal);

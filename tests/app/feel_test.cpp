@@ -251,6 +251,25 @@ TEST_F(Feel, touches_a_surface_that_was_only_read) {
     EXPECT_EQ(feel_sheet("cut").code, 2);
 }
 
+TEST_F(Feel, says_what_a_delay_leaves_of_the_stiffness) {
+    const Outcome run = feel({"--delay", "6", "--stiffness", "5"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("at a delay of 6 ms and 1000 Hz: 3.08 stands in"), std::string::npos) << run.err;
+}
+
+// Four triangles about a corner, one turned over: a skin, in inches and twice as large.
+TEST_F(Feel, touches_a_model_whose_triangles_do_not_agree_on_a_side) {
+    put("soup.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n");
+    put("press.csv", "t_s,x_mm,y_mm,z_mm\n0,20,20,3\n0.3,20,20,-0.5\n0.5,20,20,-0.5\n");
+    const Outcome run = run_tribo({"feel", "soup.obj", "--stroke", "press.csv", "--out", "trace.csv",
+                                   "--device", "playback", "--unit-mm", "25.4", "--scale", "2"},
+                                  folder_.string());
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("as a skin of 0.144 mm"), std::string::npos) << run.err;
+    const std::vector<Row> rows = trace();
+    EXPECT_NEAR(rows.back().fz, 0.5 * (0.5 + 0.072), 2e-3);
+}
+
 TEST_F(Feel, says_which_devices_there_are) {
     const Outcome text = run_tribo({"devices"}, folder_.string());
     EXPECT_EQ(text.code, 0);
@@ -268,6 +287,12 @@ TEST_F(Feel, refuses_what_it_cannot_feel) {
     EXPECT_EQ(feel({"--rate", "5"}).code, 2);
     EXPECT_EQ(feel({"--mode", "lick"}).code, 2);
     EXPECT_EQ(feel({"--stiffness", "-1"}).code, 2);
+    EXPECT_EQ(feel({"--friction", "0.1", "--friction-kinetic", "0.2"}).code, 2);
+    EXPECT_EQ(feel({"--unit-mm", "25.4"}).code, 2);
+    EXPECT_EQ(feel({"--delay", "21"}).code, 2);
+    const Outcome none = feel({"--source", "none.so"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.err.find("none.so"), std::string::npos) << none.err;
     put("stroke.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n1,0,0,1\n");
     const Outcome run = feel({});
     EXPECT_EQ(run.code, 2);

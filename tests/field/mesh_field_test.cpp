@@ -4,6 +4,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "base/noise_hash.hpp"
+#include "field/mesh_tree.hpp"
+
 namespace tribo::field {
 namespace {
 
@@ -70,14 +73,38 @@ TEST(MeshField, takes_a_closed_mesh_as_a_solid_whichever_way_it_is_turned) {
     }
 }
 
-TEST(MeshField, refuses_what_has_no_side) {
+TEST(MeshField, refuses_what_has_no_surface) {
     EXPECT_FALSE(MeshField::make({}));
+}
+
+// Whichever way its triangles face, a skin is the unsigned distance to them less half of its thickness.
+TEST(MeshField, makes_a_skin_of_triangles_that_do_not_agree_on_a_side) {
+    CounterNoise noise(7);
+    std::uint64_t drawn = 0;
     TriangleMesh turned = sheet();
-    std::swap(turned.triangles[7][0], turned.triangles[7][1]);
-    const auto refused = MeshField::make(std::move(turned));
-    ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().cause.find("turned over"), std::string::npos);
-    EXPECT_FALSE(refused.error().remedy.empty());
+    const TriangleMesh straight = turned;
+    for (std::size_t n = 0; n < turned.triangles.size(); ++n) {
+        if (n == 7 || noise.uniform(drawn++) < 0.5) std::swap(turned.triangles[n][0], turned.triangles[n][1]);
+    }
+    const auto field = MeshField::make(std::move(turned));
+    ASSERT_TRUE(field);
+    EXPECT_FALSE((*field)->is_sheet());
+    const Box3 box = bounds(straight);
+    const double diagonal = distance(box.min, box.max), skin = (*field)->skin_mm();
+    EXPECT_NEAR(skin, std::min(1.0, 0.002 * diagonal), 1e-12);
+    const MeshTree tree(straight);
+    for (int n = 0; n < 2000; ++n) {
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * noise.uniform(drawn++);
+        };
+        const Vec3 p{between(box.min.x - 2, box.max.x + 2), between(box.min.y - 2, box.max.y + 2),
+                     between(box.min.z - 2, box.max.z + 2)};
+        const contact::SurfaceSample s = (*field)->sample(p);
+        const double away = distance(tree.nearest(p).at.point_mm, p);
+        EXPECT_NEAR(s.distance_mm, away - 0.5 * skin, 1e-9);
+        if (away < 1e-3) continue;
+        EXPECT_NEAR(distance(tree.nearest(p).at.point_mm + away * s.normal, p), 0, 1e-6);
+    }
 }
 
 }  // namespace
