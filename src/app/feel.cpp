@@ -61,25 +61,23 @@ io::FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
 
 std::unique_ptr<haptics::Device> simulated_hand(const FeelCall& call, haptics::Stroke stroke) {
     auto hand = std::make_unique<haptics::SimulatedHand>(std::move(stroke), 1 / call.rate_hz);
-    const auto ticks = static_cast<int>(std::round(1e-3 * call.delay_ms * call.rate_hz));
+    const auto ticks = static_cast<int>(std::round(call.arm.delay_s() * call.rate_hz));
     if (ticks == 0) return hand;
     return std::make_unique<haptics::DelayedHand>(std::move(hand), ticks);
 }
 
-// An arm's own zero lies on the middle of the stock's top.
 Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, haptics::Stroke stroke,
                                                      const Box3& blank) {
     if (call.device == "playback")
         return std::make_unique<haptics::PlaybackHand>(std::move(stroke), 1 / call.rate_hz);
     if (call.device == "simulated") return simulated_hand(call, std::move(stroke));
-    const Vec3 middle = blank.centre();
-    return devices::open_arm(call.device, {{middle.x, middle.y, blank.max.z}});
+    return devices::open_arm(call.device, mounting(call.arm, blank));
 }
 
 double stiffness(const FeelCall& call, const formats::Job& job, const haptics::DeviceLimits& limits,
                  Warnings& warnings) {
     const double wanted = call.stiffness_n_per_mm.value_or(job.haptics.stiffness_n_per_mm.value_or(0.5));
-    const double passive = haptics::passive_stiffness_n_per_mm(1 / call.rate_hz, 1e-3 * call.delay_ms);
+    const double passive = haptics::passive_stiffness_n_per_mm(1 / call.rate_hz, call.arm.delay_s());
     const double most = std::min(limits.max_stiffness_n_per_mm, passive);
     if (wanted <= most) return wanted;
     char text[200];
@@ -88,7 +86,7 @@ double stiffness(const FeelCall& call, const formats::Job& job, const haptics::D
             text, sizeof text,
             "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz: %.3g "
             "stands in",
-            wanted, call.delay_ms, call.rate_hz, most);
+            wanted, call.arm.delay_ms, call.rate_hz, most);
     } else {
         std::snprintf(text, sizeof text,
                       "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
@@ -165,6 +163,7 @@ class Run {
     }
 
     const std::vector<formats::FeelTraceRow>& trace() const { return trace_; }
+    bool device_there() const { return servo_.device_there(); }
 
   private:
     void keep(const haptics::ServoTick& tick) noexcept {
@@ -333,10 +332,12 @@ int feel(const FeelCall& call) {
     stats.device = call.device;
     stats.mode = call.mode;
     Run run(**device, plugin ? *plugin : felt.source(), session::safety_limits(**device, call.rate_hz),
-            start_s, end_s, call.rate_hz, 1e-3 * call.delay_ms);
+            start_s, end_s, call.rate_hz, call.arm.delay_s());
     const bool by_clock = call.real_time || (*device)->has_motors();
     if (!(by_clock ? run.run_in_time(felt, stats) : run.count_through(felt, stats)))
         return interrupted_exit_code();
+    const std::string trouble = (*device)->trouble();
+    if (!trouble.empty()) stats.notes.push_back(trouble);
     stats.table = felt.table_figures();
     if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
     if (!call.stats.empty()) {
@@ -345,7 +346,9 @@ int feel(const FeelCall& call) {
     }
     print(stats, run.trace(), call.out);
     felt.print();
-    return kDone;
+    if (run.device_there()) return kDone;
+    report(Error{"", 0, 0, trouble.empty() ? "the arm is gone" : trouble, ""});
+    return kRefused;
 }
 
 }  // namespace tribo::app

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "app/arm_call.hpp"
+
 namespace tribo::app {
 
 struct FeelCall {
@@ -12,7 +14,7 @@ struct FeelCall {
     std::string mode = "inspect", device = "simulated", stats;
     double rate_hz = 1000;
     double probe_mm = 0;
-    double delay_ms = 0;
+    ArmCall arm;
     std::optional<double> stiffness_n_per_mm, friction_static, friction_kinetic, resolution_mm, until_s;
     std::optional<double> unit_mm;  // of a model
     double scale = 1;               // of a model

@@ -20,8 +20,7 @@ namespace {
 // The arm that the call names; null: the simulated hand, and where "auto" found no arm, why.
 Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const Box3& blank) {
     if (call.device == "simulated") return nullptr;
-    const Vec3 middle = blank.centre();
-    auto arm = devices::open_arm(call.device, {{middle.x, middle.y, blank.max.z}});
+    auto arm = devices::open_arm(call.device, mounting(call.arm, blank));
     if (!arm && call.device == "auto") return nullptr;
     return arm;
 }
@@ -50,7 +49,7 @@ LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
     options.settings.material = loaded.material.name;
     const formats::JobHaptics& h = loaded.job.haptics;
     haptics::ContactOptions& contact = options.feel.contact;
-    options.feel.delay_s = 1e-3 * call.delay_ms;
+    options.feel.delay_s = call.arm.delay_s();
     contact.stiffness_n_per_mm =
         std::min({h.stiffness_n_per_mm.value_or(contact.stiffness_n_per_mm), limits.max_stiffness_n_per_mm,
                   haptics::passive_stiffness_n_per_mm(1 / options.feel.rate_hz, options.feel.delay_s)});

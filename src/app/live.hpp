@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "app/arm_call.hpp"
+
 namespace tribo::app {
 
 inline constexpr std::uint16_t kLivePort = 8317;
@@ -20,8 +22,8 @@ struct LiveCall {
     std::optional<double> resolution_mm;   // absent: as render
     int threads = 0;                       // 0: all
     std::string audio = "browser";         // who sounds: browser, native or off
-    double delay_ms = 0;                   // of an arm, its driver and line, both ways together
-    std::string device = "auto";           // the first arm that opens, else the simulated hand; or its word
+    ArmCall arm;
+    std::string device = "auto";  // the first arm that opens, else the simulated hand; or its word
 };
 
 // Serves until Ctrl-C; gives the exit code.

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "milling/materials.hpp"
 
@@ -147,6 +148,13 @@ void LiveShow::show_servo(net::Server& server, const session::FrameSink& frames)
     servo.cpu_us = figures_us(servo_->clock().cpu());
     session::write_servo_frame(mill_.clock_s(), servo, frame_);
     frames(frame_);
+    if (std::string trouble = finger_.trouble(); trouble != trouble_) {
+        trouble_ = std::move(trouble);
+        if (!trouble_.empty()) {
+            report(Warnings{{"", 0, trouble_}});
+            server.send_text_all(io::live_refusal({"", 0, 0, trouble_, ""}));
+        }
+    }
     if (servo_->running() || std::exchange(arm_gone_, true)) return;
     server.send_text_all(io::live_refusal({"", 0, 0, "the arm is gone", "plug it in and start again"}));
 }

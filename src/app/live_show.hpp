@@ -79,6 +79,7 @@ class LiveShow {
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;
     bool arm_gone_ = false;
+    std::string trouble_;  // of the arm, as it was last told
     std::vector<std::uint8_t> frame_;
 };
 

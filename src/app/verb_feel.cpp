@@ -7,7 +7,6 @@
 #include "app/options.hpp"
 #include "app/threads.hpp"
 #include "app/verbs.hpp"
-#include "haptics/loop_delay.hpp"
 
 namespace tribo::app {
 
@@ -56,10 +55,7 @@ void add_feel(CLI::App& program, int& exit_code) {
     verb->add_option("--source", call->source,
                      "A library with a force of your own (docs/feel.md), handed what Tribo would give")
         ->type_name("PLUGIN.so");
-    verb->add_option("--delay", call->delay_ms,
-                     "Of arm, driver and line, both ways together, 0 to 20; the simulated hand gets it")
-        ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))
-        ->type_name("MS");
+    add_arm_flags(*verb, call->arm);
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
         ->check(finite_number(0, 100))
         ->type_name("MM");

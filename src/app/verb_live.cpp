@@ -6,7 +6,6 @@
 #include "app/options.hpp"
 #include "app/threads.hpp"
 #include "app/verbs.hpp"
-#include "haptics/loop_delay.hpp"
 #include "net/addresses.hpp"
 
 namespace tribo::app {
@@ -43,9 +42,7 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_option("--device", call->device,
                      "auto, simulated, or the arm's name as `tribo devices` says it")
         ->capture_default_str();
-    verb->add_option("--delay", call->delay_ms, "Of an arm, its driver and line, both ways together, 0 to 20")
-        ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))
-        ->type_name("MS");
+    add_arm_flags(*verb, call->arm);
     verb->add_option("--audio", call->audio, "Who sounds: the page, this machine's loudspeaker, or nobody")
         ->check(CLI::IsMember({"browser", "native", "off"}))
         ->capture_default_str();

@@ -41,9 +41,11 @@ const char* makes(const std::string& name) {
 
 Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const Mounting& mounting,
                                                   int haply_ms) {
-    if (name == kOpenHaptics) {
+    if (name.starts_with(kOpenHaptics)) {
         OpenHapticsOptions options;
         options.mounting = mounting;
+        if (const std::size_t colon = name.find(':'); colon != std::string::npos)
+            options.device = name.substr(colon + 1);
         return open_openhaptics(options);
     }
     if (name == kForceDimension) {
@@ -72,7 +74,8 @@ Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const
         return fail("no haptic arm was found", "run 'tribo devices' to see why, or use --device simulated");
     }
     for (const std::string& each : arm_names()) {
-        if (each == name) return open_one(name, mounting, HaplyOptions{}.timeout_ms);
+        if (each == name || (each == kOpenHaptics && name.starts_with(each + ":")))
+            return open_one(name, mounting, HaplyOptions{}.timeout_ms);
     }
     return fail("there is no device '" + name + "'",
                 "try simulated, playback, openhaptics, forcedimension, haply or auto");

@@ -17,8 +17,10 @@ struct ForceDimensionOptions {
     Mounting mounting;
 };
 
-// The firmware's own watchdog is set to 5 ms, too. The errors say what to do: driver missing, wrong version,
-// unplugged, no rights.
+// Motors are switched on with the first command, behind the firmware's own watchdog of 5 ms. Where that
+// fires, they are switched on again up to three times, then the arm is gone; where a person or the arm's own
+// safety has switched them off, the arm refuses until they are on again. The errors say what to do: driver
+// missing, wrong version, unplugged, no rights, not calibrated.
 Result<std::unique_ptr<haptics::Device>> open_force_dimension(const ForceDimensionOptions& options);
 
 }  // namespace tribo::devices

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "base/hand_over.hpp"
 #include "devices/shared_library.hpp"
@@ -23,11 +25,14 @@ struct HDErrorInfo {
 };
 constexpr HHD HD_INVALID_HANDLE = 0xFFFFFFFF;
 constexpr HDenum HD_CURRENT_BUTTONS = 0x2000, HD_CURRENT_POSITION = 0x2050, HD_CURRENT_VELOCITY = 0x2051,
-                 HD_CURRENT_TRANSFORM = 0x2052, HD_DEVICE_MODEL_TYPE = 0x2501, HD_NOMINAL_MAX_FORCE = 0x2603,
-                 HD_CURRENT_FORCE = 0x2700, HD_FORCE_OUTPUT = 0x4000, HD_MAX_FORCE_CLAMPING = 0x4001,
-                 HD_FORCE_RAMPING = 0x4002;
-constexpr HDenum HD_CALIBRATION_NEEDS_UPDATE = 0x5001, HD_CALIBRATION_NEEDS_MANUAL_INPUT = 0x5002;
-constexpr HDenum HD_CALIBRATION_INKWELL = 4;
+                 HD_CURRENT_TRANSFORM = 0x2052, HD_DEVICE_MODEL_TYPE = 0x2501, HD_CALIBRATION_STYLE = 0x2555,
+                 HD_NOMINAL_MAX_FORCE = 0x2603, HD_CURRENT_FORCE = 0x2700, HD_FORCE_OUTPUT = 0x4000,
+                 HD_MAX_FORCE_CLAMPING = 0x4001, HD_FORCE_RAMPING = 0x4002;
+constexpr HDenum HD_CALIBRATION_OK = 0x5000, HD_CALIBRATION_NEEDS_UPDATE = 0x5001,
+                 HD_CALIBRATION_NEEDS_MANUAL_INPUT = 0x5002;
+constexpr int HD_CALIBRATION_ENCODER_RESET = 1, HD_CALIBRATION_AUTO = 2, HD_CALIBRATION_INKWELL = 4;
+// An arm that calibrates itself takes a moment to do so.
+constexpr std::chrono::milliseconds kCalibrationTime{2000}, kCalibrationLook{10};
 constexpr unsigned int HD_WARM_MOTORS = 0x200, HD_FORCE_ERROR = 0x204, HD_DEVICE_FAULT = 0x300,
                        HD_COMM_ERROR = 0x302;
 constexpr unsigned int HD_CALLBACK_DONE = 0, HD_CALLBACK_CONTINUE = 1;
@@ -106,6 +111,24 @@ class OpenHaptics final : public haptics::Device {
         api_.stop_scheduler();
         api_.unschedule(task_);
         api_.disable_device(handle_);
+    }
+
+    // The way that this arm knows, once its scheduler runs. Whether its places are right then.
+    bool calibrate() const {
+        int styles = 0;
+        api_.get_integerv(HD_CALIBRATION_STYLE, &styles);
+        HDenum style = HD_CALIBRATION_ENCODER_RESET;
+        if ((styles & HD_CALIBRATION_INKWELL) != 0) style = HD_CALIBRATION_INKWELL;
+        if ((styles & HD_CALIBRATION_AUTO) != 0) style = HD_CALIBRATION_AUTO;
+        const auto end = std::chrono::steady_clock::now() + kCalibrationTime;
+        for (HDenum state = api_.check_calibration(); state != HD_CALIBRATION_OK;
+             state = api_.check_calibration()) {
+            if (state == HD_CALIBRATION_NEEDS_MANUAL_INPUT || std::chrono::steady_clock::now() > end)
+                return false;
+            if (state == HD_CALIBRATION_NEEDS_UPDATE) api_.update_calibration(style);
+            std::this_thread::sleep_for(kCalibrationLook);
+        }
+        return true;
     }
 
     const haptics::DeviceLimits& limits() const override { return limits_; }
@@ -213,14 +236,12 @@ Result<std::unique_ptr<haptics::Device>> open_openhaptics(const OpenHapticsOptio
             "add a udev rule");
     }
     api.make_current(handle);
-    const HDenum calibration = api.check_calibration();
-    if (calibration == HD_CALIBRATION_NEEDS_MANUAL_INPUT) {
-        api.disable_device(handle);
+    auto arm = std::make_unique<OpenHaptics>(std::move(*library), api, handle, options);
+    if (!arm->calibrate()) {
         return fail("the arm is not calibrated",
                     "put the stylus into its inkwell, or run the vendor's diagnostic");
     }
-    if (calibration == HD_CALIBRATION_NEEDS_UPDATE) api.update_calibration(HD_CALIBRATION_INKWELL);
-    return std::make_unique<OpenHaptics>(std::move(*library), api, handle, options);
+    return arm;
 }
 
 }  // namespace tribo::devices

@@ -21,7 +21,8 @@ struct HandReading {
 enum class DeviceState : std::uint8_t {
     ready,
     silent,   // no new reading this time; the last one stands
-    refused,  // an error that may pass: warm motors, a force or speed limit of the device's own
+    refused,  // no force, but that may pass: motors switched off by a button, too warm, a limit of the
+              // device's own
     gone,     // unplugged or closed: nothing will come any more
 };
 
@@ -38,7 +39,8 @@ class Device {
     virtual bool has_motors() const { return true; }
     // Whether the hand gives way to a force. If not, no force gives it energy.
     virtual bool yields() const { return true; }
-    // What the last state that was not ready means, in words; not for the servo's thread.
+    // What the last state that was not ready means, and what of its safety the device lacks, in words; empty:
+    // all is well. Not for the servo's thread.
     virtual std::string trouble() const { return {}; }
 };
 

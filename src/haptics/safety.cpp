@@ -35,6 +35,8 @@ const char* name(Fault fault) {
             return "not finite";
         case Fault::too_fast:
             return "too fast";
+        case Fault::device_refused:
+            return "device refused";
     }
     return "none";
 }
@@ -45,6 +47,8 @@ Fault SafetyGuard::find_fault(const SafetyInput& in) const {
     if (started_ && !(step_s >= 0 && step_s <= limits_.clock_jump_s)) return Fault::clock_jump;
     if (!is_sane(in.wanted_n) || !is_sane(in.velocity_mm_per_s)) return Fault::not_finite;
     if (!(in.now_s - in.device_s <= limits_.device_silent_s)) return Fault::device_silent;
+    // What comes back on by itself comes back by the ramp.
+    if (in.device_refused) return Fault::device_refused;
     if (!(in.now_s - in.simulation_s <= limits_.simulation_stalled_s)) return Fault::simulation_stalled;
     // Once it is too fast it has to become half as fast.
     const double most =

@@ -7,8 +7,8 @@
 //   on a fault: half of the last force in that tick, zero in the next, then nothing but damping
 //
 // Faults: no new reading for 5 ms, no new state of the simulation for 250 ms, a tick that comes 50 ms late or
-// before the one it follows, a number that is not finite, a hand that is too fast. docs/servo.md says how
-// each is tested.
+// before the one it follows, a number that is not finite, a hand that is too fast, an arm that refuses.
+// docs/servo.md says how each is tested.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,9 @@ enum class Fault : std::uint8_t {
     clock_jump,
     not_finite,
     too_fast,
+    device_refused,
 };
-inline constexpr int kFaultKinds = 6;
+inline constexpr int kFaultKinds = 7;
 const char* name(Fault fault);
 
 struct SafetyLimits {
@@ -42,11 +43,12 @@ struct SafetyLimits {
 };
 
 struct SafetyInput {
-    double now_s = 0;         // of the servo's clock
-    double device_s = 0;      // when the device last said something new, same clock
-    double simulation_s = 0;  // when the simulation last handed over a state
-    Vec3 velocity_mm_per_s;   // of the hand
-    Vec3 wanted_n;            // on the hand
+    double now_s = 0;             // of the servo's clock
+    double device_s = 0;          // when the device last said something new, same clock
+    double simulation_s = 0;      // when the simulation last handed over a state
+    Vec3 velocity_mm_per_s;       // of the hand
+    Vec3 wanted_n;                // on the hand
+    bool device_refused = false;  // the arm has switched its motors off, or may
 };
 
 // One thread; real-time safe.

@@ -24,8 +24,9 @@ ServoTick Servo::tick(double now_s) noexcept {
     const std::uint64_t known = hand_.sequence;
     const DeviceState state = device_.read(hand_);
     if (state == DeviceState::gone) device_there_ = false;
+    refused_ = refused_ || state == DeviceState::refused;
     // A device that never spoke has been silent since before the start.
-    if (state == DeviceState::ready && hand_.sequence != known) device_s_ = now_s;
+    if (hand_.sequence != known) device_s_ = now_s;
     if (first && hand_.sequence == known) device_s_ = now_s - 2 * safety_.limits().device_silent_s;
 
     const double period = safety_.limits().tick_s;
@@ -45,10 +46,13 @@ ServoTick Servo::tick(double now_s) noexcept {
     ServoTick tick;
     tick.now_s = now_s;
     tick.position_mm = hand_.position_mm;
-    tick.force_n = safety_.tick({now_s, device_s_, felt.simulation_s, hand_.velocity_mm_per_s, wanted});
+    tick.force_n =
+        safety_.tick({now_s, device_s_, felt.simulation_s, hand_.velocity_mm_per_s, wanted, refused_});
     tick.fault = safety_.fault();
     tick.touching = felt.touching;
-    if (device_there_) device_.write(tick.force_n);
+    const DeviceState taken = device_there_ ? device_.write(tick.force_n) : DeviceState::gone;
+    if (taken == DeviceState::gone) device_there_ = false;
+    refused_ = taken == DeviceState::refused;
     max_force_ = std::max(max_force_, length(tick.force_n));
     last_now_s_ = now_s;
     ++ticks_;

@@ -62,7 +62,7 @@ class Servo {
     HandReading hand_;
     std::uint64_t ticks_ = 0;
     double device_s_ = 0, last_now_s_ = 0, max_force_ = 0;
-    bool device_there_ = true;
+    bool device_there_ = true, refused_ = false;
 };
 
 }  // namespace tribo::haptics

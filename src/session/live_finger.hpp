@@ -23,6 +23,8 @@ class LiveFinger {
     LiveFeel& feel() { return feel_; }
     bool has_arm() const { return led_ == nullptr; }
     const haptics::DeviceLimits& limits() const { return device_->limits(); }
+    // What is wrong with the arm, in words; empty: nothing.
+    std::string trouble() const { return device_->trouble(); }
     // Where a led hand should be, and whether there is one; an arm leads itself.
     void lead(Vec3 aim_mm, bool down);
     // No force from the next tick on, before the next scene says so too.

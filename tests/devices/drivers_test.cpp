@@ -26,7 +26,10 @@ class Driver {
         arm->buttons = arm->error = arm->calibration = arm->watchdog = arm->stall_ms = 0;
         arm->plugged = true;
         arm->version = 3;
-        arm->calibrated = arm->forces_on = arm->open = false;
+        arm->calibrated = arm->forces_on = arm->open = arm->expert = false;
+        arm->watchdog_fires = arm->force_off_cause = arm->style = 0;
+        arm->styles = 4;
+        arm->forget();
     }
     ~Driver() { ::dlclose(handle_); }
     FakeArm* arm = nullptr;
@@ -80,6 +83,26 @@ TEST(OpenHaptics, reads_the_hand_and_sets_forces_in_the_stocks_axes) {
     EXPECT_EQ(driver.arm->force[1], 0);
     device->reset();
     EXPECT_FALSE(driver.arm->open);
+}
+
+// As the vendor's calibration example has it: the scheduler runs, the arm says which styles it knows, and is
+// asked again.
+TEST(OpenHaptics, calls_the_driver_as_the_vendors_examples_do) {
+    for (const int styles : {1, 2, 4, 7}) {
+        Driver driver(FAKE_HD);
+        driver.arm->calibration = 1;
+        driver.arm->styles = styles;
+        OpenHapticsOptions options;
+        options.driver = FAKE_HD;
+        auto device = open_openhaptics(options);
+        ASSERT_TRUE(device.has_value()) << device.error().text();
+        EXPECT_EQ(driver.arm->style, styles == 7 ? 2 : styles);
+        device->reset();
+        EXPECT_EQ(driver.arm->calls(),
+                  "hdInitDevice hdMakeCurrentDevice hdGetString hdEnable hdScheduleAsynchronous "
+                  "hdStartScheduler hdCheckCalibration hdUpdateCalibration hdCheckCalibration "
+                  "hdStopScheduler hdUnschedule hdDisableDevice");
+    }
 }
 
 TEST(OpenHaptics, tells_silence_errors_and_unplugging_apart) {
@@ -142,7 +165,6 @@ TEST(ForceDimension, reads_metres_and_sets_newtons_in_the_stocks_axes) {
     auto device = open_force_dimension(options);
     ASSERT_TRUE(device.has_value()) << device.error().text();
     EXPECT_EQ((*device)->limits().max_force_n, 12);
-    EXPECT_EQ(driver.arm->watchdog, 40);
     haptics::HandReading reading;
     ASSERT_EQ((*device)->read(reading), DeviceState::ready);
     // Right is the arm's y, away from the user its -x.
@@ -165,8 +187,8 @@ TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
     ASSERT_TRUE(device.has_value());
     driver.arm->error = 1;  // TIMEGUARD: too early
     EXPECT_EQ((*device)->write({0, 0, 1}), DeviceState::ready);
-    driver.arm->error = 2;  // motor saturated
-    EXPECT_EQ((*device)->write({0, 0, 1}), DeviceState::refused);
+    driver.arm->error = 2;  // motor saturated: it gives what it can
+    EXPECT_EQ((*device)->write({0, 0, 1}), DeviceState::ready);
     driver.arm->error = -1;
     haptics::HandReading reading;
     EXPECT_EQ((*device)->read(reading), DeviceState::silent);
@@ -176,6 +198,91 @@ TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
     for (int n = 0; n < 30; ++n) (*device)->read(reading);
     EXPECT_EQ((*device)->read(reading), DeviceState::gone);
     EXPECT_NE((*device)->trouble().find("not connected"), std::string::npos);
+}
+
+// As the SDK's own examples have it: open, look, and forces on when the loop begins; the watchdog, which is
+// expert's, before them.
+TEST(ForceDimension, calls_the_driver_as_the_vendors_examples_do) {
+    Driver driver(FAKE_DRD);
+    ForceDimensionOptions options;
+    options.driver = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    EXPECT_FALSE(driver.arm->forces_on);
+    haptics::HandReading reading;
+    (*device)->read(reading);
+    (*device)->write({});
+    (*device)->read(reading);
+    (*device)->write({0, 0, 1});
+    EXPECT_EQ(driver.arm->watchdog, 40);
+    EXPECT_TRUE(driver.arm->forces_on);
+    EXPECT_EQ((*device)->trouble(), "");
+    device->reset();
+    const std::string read = "dhdGetPosition dhdGetLinearVelocity dhdGetOrientationFrame dhdGetButtonMask ";
+    EXPECT_EQ(driver.arm->calls(),
+              "dhdGetSDKVersion dhdOpen dhdGetStatus dhdGetSystemName dhdGetStatus " + read +
+                  "dhdEnableExpertMode dhdSetWatchdog dhdDisableExpertMode dhdEnableForce dhdSetForce " +
+                  read + "dhdSetForce dhdGetStatus dhdSetForce dhdStop dhdClose");
+    // 30 degrees about the arm's y, which is the stock's x: up from the user's side.
+    EXPECT_NEAR(distance(reading.stylus, {0, -0.8660254037844387, -0.5}), 0, 1e-12);
+}
+
+// Commands go on while the arm gives no force: that is heard, mended, and in the end said.
+TEST(ForceDimension, switches_on_again_what_its_watchdog_switched_off_and_gives_up_where_that_goes_on) {
+    Driver driver(FAKE_DRD);
+    ForceDimensionOptions options;
+    options.driver = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value());
+    const auto run = [&](int commands) {
+        int refused = 0;
+        for (int n = 0; n < commands; ++n) {
+            const DeviceState state = (*device)->write({0, 0, 1});
+            if (state == DeviceState::gone) return -1;
+            refused += state == DeviceState::refused ? 1 : 0;
+        }
+        return refused;
+    };
+    EXPECT_EQ(run(200), 0);
+    driver.arm->watchdog_fires = 1;
+    EXPECT_GT(run(200), 0);
+    EXPECT_TRUE(driver.arm->forces_on);
+    EXPECT_EQ(run(200), 0);
+    driver.arm->watchdog_fires = 1000;
+    EXPECT_EQ(run(1002), -1);
+    EXPECT_NE((*device)->trouble().find("by its watchdog"), std::string::npos) << (*device)->trouble();
+}
+
+TEST(ForceDimension, leaves_off_what_a_person_switched_off) {
+    Driver driver(FAKE_DRD);
+    ForceDimensionOptions options;
+    options.driver = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value());
+    (*device)->write({});
+    driver.arm->forces_on = false;
+    driver.arm->force_off_cause = 1;
+    DeviceState state = DeviceState::ready;
+    for (int n = 0; n < 1000; ++n) state = (*device)->write({0, 0, 1});
+    EXPECT_EQ(state, DeviceState::refused);
+    EXPECT_FALSE(driver.arm->forces_on);
+    EXPECT_NE((*device)->trouble().find("force button"), std::string::npos);
+    driver.arm->forces_on = true;
+    driver.arm->force_off_cause = 0;
+    for (int n = 0; n < 100; ++n) state = (*device)->write({0, 0, 1});
+    EXPECT_EQ(state, DeviceState::ready);
+    EXPECT_EQ((*device)->trouble(), "");
+}
+
+TEST(ForceDimension, refuses_an_arm_that_does_not_know_where_it_is) {
+    Driver driver(FAKE_DRD);
+    driver.arm->calibration = 1;
+    ForceDimensionOptions options;
+    options.driver = FAKE_DRD;
+    const auto device = open_force_dimension(options);
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("not calibrated"), std::string::npos);
+    EXPECT_FALSE(driver.arm->open);
 }
 
 TEST(ForceDimension, says_what_to_do_where_there_is_no_driver_no_arm_or_another_version) {

@@ -111,6 +111,7 @@ const Injection kInjections[] = {
      false},
     {"the hand is too fast", Fault::too_fast, [](SafetyInput& in) { in.velocity_mm_per_s = {0, 1600, 0}; },
      true},
+    {"the arm refuses", Fault::device_refused, [](SafetyInput& in) { in.device_refused = true; }, true},
     {"the simulation's time is not a number", Fault::simulation_stalled,
      [](SafetyInput& in) { in.simulation_s = kNan; }, true},
 };

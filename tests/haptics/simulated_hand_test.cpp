@@ -123,9 +123,9 @@ class FadingHand final : public Device {
     }
     DeviceState write(Vec3 force) noexcept override {
         sent = force;
-        return DeviceState::ready;
+        return drops ? DeviceState::gone : refuses ? DeviceState::refused : DeviceState::ready;
     }
-    bool silent = false, gone = false, broken = false;
+    bool silent = false, gone = false, broken = false, refuses = false, drops = false;
     Vec3 sent{9, 9, 9};
 
   private:
@@ -177,6 +177,39 @@ TEST(Servo, sends_nothing_to_a_device_that_is_gone) {
     for (int k = 0; k < 20; ++k) servo.tick(n++ * 1e-3);
     EXPECT_FALSE(servo.device_there());
     EXPECT_EQ(hand.sent, (Vec3{7, 7, 7}));
+}
+
+// An arm whose motors are off answers and gives no force: once they are on again it may not come at once.
+TEST(Servo, comes_back_by_the_ramp_where_a_device_has_refused) {
+    FadingHand hand;
+    Wall wall(1);
+    Servo servo(hand, wall, {});
+    int n = 0;
+    for (; n < 1000; ++n) servo.tick(n * 1e-3);
+    ASSERT_EQ(hand.sent.z, 1);
+    hand.refuses = true;
+    for (int k = 0; k < 4; ++k) servo.tick(n++ * 1e-3);
+    EXPECT_EQ(hand.sent, Vec3{});
+    EXPECT_EQ(servo.safety().fault(), Fault::device_refused);
+    hand.refuses = false;
+    double last = 0;
+    for (int k = 0; k < 1000; ++k) {
+        servo.tick(n++ * 1e-3);
+        EXPECT_LT(hand.sent.z, last + 0.01);
+        last = hand.sent.z;
+    }
+    EXPECT_EQ(hand.sent.z, 1);
+}
+
+TEST(Servo, hears_from_the_answer_to_a_force_that_a_device_is_gone) {
+    FadingHand hand;
+    Wall wall(1);
+    Servo servo(hand, wall, {});
+    int n = 0;
+    for (; n < 100; ++n) servo.tick(n * 1e-3);
+    hand.drops = true;
+    servo.tick(n++ * 1e-3);
+    EXPECT_FALSE(servo.device_there());
 }
 
 TEST(Servo, gives_a_device_that_never_spoke_no_force) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
+#include <string>
 
 namespace tribo::test {
 
@@ -19,7 +21,33 @@ struct FakeArm {
     std::atomic<bool> forces_on{false};
     std::atomic<int> watchdog{0};
     std::atomic<bool> open{false};
+    std::atomic<bool> expert{false};     // dhd: the watchdog may be set
+    std::atomic<int> watchdog_fires{0};  // dhd: so many of the next commands come too late
+    std::atomic<int> force_off_cause{0};
+    std::atomic<int> style{0};     // HD: of the last calibration
+    std::atomic<int> styles{4};    // HD: that the arm knows
     std::atomic<int> stall_ms{0};  // HD's scheduler sleeps so long between ticks; 0: 1 ms
+
+    // The calls in their order; one that is repeated at once is written once.
+    void called(const char* name) {
+        const std::lock_guard lock(mutex_);
+        if (last_ == name) return;
+        last_ = name;
+        calls_ += (calls_.empty() ? "" : " ") + last_;
+    }
+    std::string calls() {
+        const std::lock_guard lock(mutex_);
+        return calls_;
+    }
+    void forget() {
+        const std::lock_guard lock(mutex_);
+        calls_.clear();
+        last_.clear();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::string calls_, last_;
 };
 
 }  // namespace tribo::test

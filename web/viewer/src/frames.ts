@@ -178,7 +178,7 @@ const COLLISIONS = [
   "holder in fixture",
 ];
 
-const FAULTS = ["", "the device is silent", "the simulation stalled", "the clock jumped", "a force was no number", "too fast"];
+const FAULTS = ["", "the device is silent", "the simulation stalled", "the clock jumped", "a force was no number", "too fast", "the arm switched its motors off"];
 
 class Reader {
   at = 16;
