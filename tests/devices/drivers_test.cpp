@@ -222,7 +222,7 @@ TEST(ForceDimension, calls_the_driver_as_the_vendors_examples_do) {
     EXPECT_EQ(driver.arm->calls(),
               "dhdGetSDKVersion dhdOpen dhdGetStatus dhdGetSystemName dhdGetStatus " + read +
                   "dhdEnableExpertMode dhdSetWatchdog dhdDisableExpertMode dhdEnableForce dhdSetForce " +
-                  read + "dhdSetForce dhdGetStatus dhdSetForce dhdStop dhdClose");
+                  read + "dhdSetForce dhdStop dhdClose");
     // 30 degrees about the arm's y, which is the stock's x: up from the user's side.
     EXPECT_NEAR(distance(reading.stylus, {0, -0.8660254037844387, -0.5}), 0, 1e-12);
 }
