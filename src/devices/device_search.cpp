@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "devices/device_search.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 #include <unistd.h>
 
 #include "devices/force_dimension.hpp"
 #include "devices/haply.hpp"
 #include "devices/openhaptics.hpp"
+#include "devices/serial_arm.hpp"
 
 namespace tribo::devices {
 namespace {
@@ -16,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOpenHaptics = "openhaptics";
 constexpr const char* kForceDimension = "forcedimension";
 constexpr const char* kHaply = "haply";
+constexpr const char* kSerial = "serial";
 constexpr int kHaplySearchMs = 1000;
 
 // A Touch is a serial port or, newer, a raw HID device.
@@ -36,7 +39,19 @@ std::vector<std::string> touch_ports() {
 const char* makes(const std::string& name) {
     if (name == kOpenHaptics) return "3D Systems Touch, Touch X, Phantom";
     if (name == kForceDimension) return "Force Dimension omega, delta, sigma, lambda; Novint Falcon";
+    if (name == kSerial) return "HapKit and others with a firmware like examples/serial_arm";
     return "Haply Inverse3";
+}
+
+// serial:/dev/ttyACM0@115200
+SerialArmOptions serial_options(const std::string& name, const Mounting& mounting) {
+    SerialArmOptions options;
+    options.mounting = mounting;
+    const std::size_t colon = name.find(':'), at = name.rfind('@');
+    if (colon == std::string::npos) return options;
+    options.port = name.substr(colon + 1, at == std::string::npos ? at : at - colon - 1);
+    if (at != std::string::npos) options.baud = std::atoi(name.c_str() + at + 1);
+    return options;
 }
 
 Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const Mounting& mounting,
@@ -53,6 +68,7 @@ Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const
         options.mounting = mounting;
         return open_force_dimension(options);
     }
+    if (name.starts_with(kSerial)) return open_serial_arm(serial_options(name, mounting));
     HaplyOptions options;
     options.mounting = mounting;
     options.timeout_ms = haply_ms;
@@ -62,23 +78,26 @@ Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const
 }  // namespace
 
 const std::vector<std::string>& arm_names() {
-    static const std::vector<std::string> names{kOpenHaptics, kForceDimension, kHaply};
+    static const std::vector<std::string> names{kOpenHaptics, kForceDimension, kHaply, kSerial};
     return names;
 }
 
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting) {
     if (name == "auto") {
         for (const std::string& each : arm_names()) {
+            // What else may hang on a serial port is not asked.
+            if (each == kSerial) continue;
             if (auto device = open_one(each, mounting, kHaplySearchMs)) return device;
         }
         return fail("no haptic arm was found", "run 'tribo devices' to see why, or use --device simulated");
     }
     for (const std::string& each : arm_names()) {
-        if (each == name || (each == kOpenHaptics && name.starts_with(each + ":")))
+        const bool may_be_named = each == kOpenHaptics || each == kSerial;
+        if (each == name || (may_be_named && name.starts_with(each + ":")))
             return open_one(name, mounting, HaplyOptions{}.timeout_ms);
     }
     return fail("there is no device '" + name + "'",
-                "try simulated, playback, openhaptics, forcedimension, haply or auto");
+                "try simulated, playback, openhaptics, forcedimension, haply, serial:PORT or auto");
 }
 
 std::vector<ArmReport> search_arms() {

@@ -12,12 +12,12 @@
 
 namespace tribo::devices {
 
-// openhaptics, forcedimension, haply: the words that open_arm() takes.
+// openhaptics, forcedimension, haply, serial: the words that open_arm() takes.
 const std::vector<std::string>& arm_names();
 
 // Opens an arm by its word, for OpenHaptics also with the name that the vendor's set-up gave it
-// ("openhaptics:Left Device"); "auto": the first that opens. The error of an unknown word names the known
-// ones.
+// ("openhaptics:Left Device"), for a serial arm with its port ("serial:/dev/ttyACM0@115200"); "auto": the
+// first that opens. The error of an unknown word names the known ones.
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting);
 
 struct ArmReport {
