@@ -2,31 +2,16 @@
 // Nothing in a tick allocates or locks: counted by a replaced operator new and a replaced pthread_mutex_lock.
 // (Nothing throws either: every function of a tick is noexcept, so a throw would end this program.)
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <dlfcn.h>
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include "base/counted_allocations.hpp"
+#include "base/counted_locks.hpp"
 #include "contact/force_table.hpp"
 #include "haptics/field_contact.hpp"
 #include "haptics/force_field.hpp"
 #include "haptics/servo.hpp"
 #include "haptics/simulated_hand.hpp"
-
-namespace tribo::test {
-inline std::atomic<long> locks{0};
-}
-
-#ifndef TRIBO_NOT_COUNTED
-extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
-    using Lock = int (*)(pthread_mutex_t*);
-    static const Lock real = reinterpret_cast<Lock>(::dlsym(RTLD_NEXT, "pthread_mutex_lock"));
-    ++tribo::test::locks;
-    return real(mutex);
-}
-#endif
 
 namespace tribo::haptics {
 namespace {
