@@ -43,6 +43,9 @@ constexpr double kLeft = 1e-3;
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 constexpr int kMostLinks = 24;  // of a chain of balls
+// A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
+// the probe is in air.
+constexpr double kCreeping = 0.02, kStuckS = 3e-3;
 // Queries that a step may need before it can be taken back.
 constexpr int kStepQueries = 6;
 
@@ -116,8 +119,27 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
         }
     }
     if (phase_ == Phase::touching && !settled_) (void)push_out();
+    if (phase_ == Phase::touching && !settled_ &&
+        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe)) {
+        let_go_of_the_stuck(probe);
+    } else {
+        stuck_s_ = 0;
+    }
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     return answer(probe);
+}
+
+// A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
+// probe has long been in air, it begins anew from there.
+void FieldContact::let_go_of_the_stuck(Vec3 probe) {
+    const double room = measure(probe).gap_mm;
+    stuck_s_ = room > kSkin ? stuck_s_ + options_.tick_s : 0;
+    if (stuck_s_ < kStuckS) return;
+    anchor_ = {probe, room};
+    at_.proxy = last_proxy_ = probe;
+    phase_ = Phase::free;
+    settled_ = true;
+    stuck_s_ = 0;
 }
 
 // Out of the material along its normals, until there is air.

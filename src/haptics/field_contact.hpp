@@ -103,6 +103,7 @@ class FieldContact {
     };
 
     Contact tick(Vec3 probe, bool turned) noexcept;
+    void let_go_of_the_stuck(Vec3 probe);
     Next climb();
     Next fly(Vec3 probe);
     void lift(Anchor& ball, Vec3 up, double height_mm);
@@ -153,6 +154,7 @@ class FieldContact {
     double ease_ = 1;       // step along the surface for a unit of rest: 1 on a plane, less in a hollow
     double height_ = 0.1;   // of the anchor over the proxy, mm
     double stride_mm_ = 0;  // longest step that is tried
+    double stuck_s_ = 0;    // for so long it has not moved, though it should, and the probe was in air
 };
 
 }  // namespace tribo::haptics

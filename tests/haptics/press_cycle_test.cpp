@@ -3,6 +3,7 @@
 // lifted. The rib holds it as long as it presses, and nothing is felt soon after it has left.
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <span>
 
 #include "base/noise_hash.hpp"
 #include "field/box_shape.hpp"
@@ -99,13 +100,14 @@ struct Found {
     }
 };
 
-class Cycle {
+// A hand that draws its probe and its ways by chance, and what is wrong with what it feels.
+class Hand {
   public:
-    Cycle(const Slots& slots, std::uint64_t seed) : slots_(slots), noise_(seed), contact_(*slots.field) {
+    Hand(const Slots& slots, std::uint64_t seed, std::span<const double> radii_mm)
+        : slots_(slots), noise_(seed), contact_(*slots.field) {
         constexpr double kRates[] = {1000, 4000, 10000};
-        constexpr double kRadii[] = {0, 0.05, 0.1, 0.2, 0.5};
         rate_hz_ = kRates[choice(3)];
-        radius_ = std::min(kRadii[choice(5)], 0.4 * slots.width_mm);
+        radius_ = radii_mm[static_cast<std::size_t>(choice(static_cast<int>(radii_mm.size())))];
         friction_ = choice(2) == 0 ? 0 : 0.4;
         ContactOptions options;
         options.stiffness_n_per_mm = kStiffness;
@@ -116,35 +118,17 @@ class Cycle {
         contact_.set_options(options);
     }
 
-    Found run() {
-        const double y = between(-0.3, 0.3) * (0.5 * slots_.width_mm - radius_);
-        const double floor = -slots_.depth_mm + radius_;
-        const bool on_floor = choice(2) == 0;
-        const double z = on_floor ? floor - between(0, 0.5) : floor + between(0.2, 0.6) * slots_.depth_mm;
-        const double side = choice(2) == 0 ? -1 : 1;
-        at_ = last_ = {between(-8, 8), y, 3};
-        tick(at_);
-        go({at_.x, y, z}, between(50, 2000));
-        // Wall to wall: first into the other one.
-        if (choice(3) == 0) go({at_.x, -side * 0.5 * slots_.width_mm, z}, between(300, 2000));
-        go({at_.x + between(-1, 1), side * (0.5 * slots_.width_mm - radius_ + between(0.3, 0.7)), z},
-           between(300, 2000));
-        hold();
-        // Friction holds a probe that has gone through a rib until it is out of the cone.
-        const double cone = friction_ * (std::abs(at_.y) - 0.5 * slots_.width_mm + radius_ + kLeaning);
-        go({at_.x, at_.y, radius_ + cone + between(0.2, 2)}, between(300, 2000));
-        for (int n = 0; n < ticks(0.005); ++n) tick(at_);
-        if (length(force_) > 0) ++found_.in_air;
-        return found_;
-    }
-
-  private:
+  protected:
     double between(double low, double high) { return low + (high - low) * noise_.uniform(drawn_++); }
     int choice(int count) {
         return static_cast<int>(noise_.bits(drawn_++) % static_cast<std::uint64_t>(count));
     }
     int ticks(double seconds) const { return static_cast<int>(std::ceil(seconds * rate_hz_)); }
 
+    void begin(Vec3 at) {
+        at_ = last_ = at;
+        tick(at);
+    }
     Contact tick(Vec3 probe) {
         const Contact c = contact_.update(probe);
         ++found_.ticks;
@@ -163,20 +147,25 @@ class Cycle {
             tick(at_);
         }
     }
-    void hold() {
-        const Vec3 nearest = nearest_in_slot(slots_, at_, radius_);
-        const double way = distance(nearest, at_);
+    // 40 ms; in the second half of it the force is at least so much of the spring's, and where nothing rubs
+    // at most so much.
+    void hold(double least_mm, double most_mm) {
         bool held = true;
         const int count = ticks(0.04);
         for (int n = 0; n < count; ++n) {
             const Contact c = tick(at_);
             if (n < ticks(0.02)) continue;
             const double held_mm = length(c.force_n) / kStiffness;
-            // Friction may keep the proxy farther away, but the wall's own part is there.
-            held = held && held_mm > 0.95 * way && (friction_ > 0 || held_mm < 1.05 * way + 1e-3);
+            held = held && held_mm >= least_mm && (friction_ > 0 || held_mm <= most_mm);
         }
         ++found_.holds;
         if (!held) ++found_.lost;
+    }
+    // Up, and out of the cone of friction, which holds a probe that has gone through a rib so long.
+    void lift(double height, double aside_mm) {
+        go({at_.x, at_.y, radius_ + friction_ * aside_mm + height}, between(300, 2000));
+        for (int n = 0; n < ticks(0.005); ++n) tick(at_);
+        if (length(force_) > 0) ++found_.in_air;
     }
 
     const Slots& slots_;
@@ -188,7 +177,64 @@ class Cycle {
     Found found_;
 };
 
-void press(std::uint64_t cycles) {
+// Down into a slot, sideways into its wall, held, and up.
+class Press : public Hand {
+  public:
+    Press(const Slots& slots, std::uint64_t seed) : Hand(slots, seed, kRadii) {}
+    Found run() {
+        const double half = 0.5 * slots_.width_mm, y = between(-0.3, 0.3) * (half - radius_);
+        const double floor = -slots_.depth_mm + radius_;
+        const bool on_floor = choice(2) == 0;
+        const double z = on_floor ? floor - between(0, 0.5) : floor + between(0.2, 0.6) * slots_.depth_mm;
+        const double side = choice(2) == 0 ? -1 : 1;
+        begin({between(-8, 8), y, 3});
+        go({at_.x, y, z}, between(50, 2000));
+        // Wall to wall: first into the other one.
+        if (choice(3) == 0) go({at_.x, -side * half, z}, between(300, 2000));
+        go({at_.x + between(-1, 1), side * (half - radius_ + between(0.3, 0.7)), z}, between(300, 2000));
+        const double way = distance(nearest_in_slot(slots_, at_, radius_), at_);
+        hold(0.95 * way, 1.05 * way + 1e-3);
+        lift(between(0.2, 2), std::abs(at_.y) - half + radius_ + kLeaning);
+        return found_;
+    }
+
+  private:
+    static constexpr double kRadii[] = {0, 0.05, 0.1, 0.2, 0.5};
+};
+
+// Onto the ribs from above, across their edges as deep as it presses, held, and up; also balls that are as
+// wide as a slot or wider.
+class Ride : public Hand {
+  public:
+    Ride(const Slots& slots, std::uint64_t seed) : Hand(slots, seed, kRadii) {}
+    Found run() {
+        begin({between(-8, 8), between(-3, 3), radius_ + 2});
+        go({at_.x, at_.y, radius_ - between(0.1, 1.5)}, between(100, 2000));
+        for (int legs = 1 + choice(3); legs > 0; --legs) {
+            go({std::clamp(at_.x + between(-2, 2), -9.0, 9.0), std::clamp(at_.y + between(-4, 4), -4.0, 4.0),
+                radius_ - between(0.05, 1.5)},
+               between(300, 2000));
+        }
+        // A centre in material has to come out of it and be a radius away.
+        const double deep = depth_in_stock(at_);
+        hold(deep > 0 ? 0.95 * (deep + radius_) : 0, 1e30);
+        lift(between(0.3, 2), 10);
+        return found_;
+    }
+
+  private:
+    static constexpr double kRadii[] = {0, 0.1, 0.2, 0.5, 0.95, 1, 2};
+    double depth_in_stock(Vec3 p) const {
+        double air = -p.z;
+        for (int n = -kSlots; n <= kSlots; ++n)
+            air = std::min(air, depth_beside(slots_, p - Vec3{0, n * slots_.pitch_mm, 0}, 0));
+        return air;
+    }
+};
+
+// 0 of each but the kicks: what they are of the ticks.
+template <class Cycle>
+void expect_none(std::uint64_t cycles, double kicks_of_cycles) {
     for (const double lean : {0.0, 0.15}) {
         const Slots thin = slots(2.2, 2, 3, 0.2, lean);
         const Slots thick = slots(3, 2, 3, 0.4, lean);
@@ -203,18 +249,24 @@ void press(std::uint64_t cycles) {
         EXPECT_EQ(found.lost, 0) << lean;
         EXPECT_EQ(found.in_air, 0) << lean;
         EXPECT_EQ(found.inward, 0) << lean;
-        EXPECT_EQ(found.kicks, 0) << lean;
+        EXPECT_LE(static_cast<double>(found.kicks), kicks_of_cycles * static_cast<double>(cycles)) << lean;
         EXPECT_EQ(found.holds, static_cast<long>(cycles / 2));
     }
 }
 
 TEST(PressCycle, no_rib_is_lost_and_no_air_pushes) {
-    press(1000);
+    expect_none<Press>(1000, 0);
+}
+
+// A ball that is exactly as wide as a slot is held now by one edge of it, now by the other: 7 kicks in 4,000
+// cycles, of which 6 are of such balls.
+TEST(PressCycle, no_edge_catches_a_probe_that_rides_over_it) {
+    expect_none<Ride>(300, 0.005);
 }
 
 // For a long `make soak`.
 TEST(PressCycle, DISABLED_no_rib_is_lost_and_no_air_pushes_in_a_million) {
-    press(1'000'000);
+    expect_none<Press>(1'000'000, 0);
 }
 
 // A stock, a probe and a path that lost the rib for good: 0.2 mm ribs, one tick per 1.3 mm.
