@@ -511,12 +511,15 @@ Contact FieldContact::answer(Vec3 probe) {
     c.slip_mm_per_s = (at_.proxy - last_proxy_) / options_.tick_s;
     const Vec3 way = probe - at_.proxy;
     if (phase_ != Phase::touching) {
-        // On its way through the air: nothing is felt of it unless the probe is in material.
-        if (settled_ || phase_ == Phase::climb || measure(probe).gap_mm >= 0) return c;
+        // On its way through the air: nothing is felt of it unless the probe is in material. As deep as it is
+        // there it is pushed back, out of the surface or, where that is the far side of a wall, to the proxy.
+        if (settled_ || phase_ == Phase::climb) return c;
+        const ProbeGap::Gap g = measure(probe);
+        if (g.gap_mm >= 0) return c;
         c.in_contact = true;
-        c.penetration_mm = length(way);
-        c.normal = -1 * normalized(way, -at_.normal);
-        c.force_n = -options_.stiffness_n_per_mm * way;
+        c.penetration_mm = std::min(-g.gap_mm, length(way));
+        c.normal = dot(g.normal, way) < 0 ? g.normal : -1 * normalized(way, -at_.normal);
+        c.force_n = options_.stiffness_n_per_mm * c.penetration_mm * c.normal;
         return c;
     }
     const Split s = split(at_, probe);
