@@ -35,6 +35,23 @@ io::FileResult<Heard> head_of(const formats::JobSound& sound, int sample_rate_hz
     auto set = sound.hrtf.empty() ? io::builtin_hrirs()
                                   : io::read_hrirs(sound.hrtf, "/proc/self/exe", kReadSofaVerb);
     if (set) {
+        const std::string file = sound.hrtf.empty() ? job_file : sound.hrtf;
+        switch (sound::ear_order(*set)) {
+            case sound::EarOrder::right:
+                break;
+            case sound::EarOrder::exchanged:
+                sound::exchange_ears(*set);
+                warnings.push_back(
+                    {file, 0,
+                     "the head responses name the left ear right: a source at the side is earlier "
+                     "and louder in the other ear; they are exchanged"});
+                break;
+            case sound::EarOrder::unclear:
+                warnings.push_back(
+                    {file, 0,
+                     "the head responses do not tell left from right: neither ear is both earlier "
+                     "and louder on the side of the source; they are taken as the file names them"});
+        }
         auto head = sound::Head::measured(*set, rate);
         if (head) return std::move(*head);
         return std::unexpected(io::Failure(head.error()));

@@ -30,6 +30,7 @@ session::LiveListening listening(const formats::Job& job, const Box3& blank) {
     session::LiveListening l;
     l.listener_mm = job.sound.listener_mm.value_or(Vec3{blank.centre().x, blank.centre().y, blank.max.z});
     l.distance_factor = job.sound.distance_factor;
+    l.reference_distance_m = job.sound.reference_distance_m;
     l.gain_db = job.sound.gain_db;
     l.body =
         sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(job.material.name));

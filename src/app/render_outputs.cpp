@@ -66,6 +66,7 @@ io::FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
         options.track.gain_db = s.gain_db;
         options.track.listener_mm = listener(loaded_.job, blank);
         options.track.distance_factor = s.distance_factor;
+        options.track.reference_distance_m = s.reference_distance_m;
         options.track.as_published = call_.as_published;
         auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
         if (!file) return std::unexpected(file.error());

@@ -75,6 +75,7 @@ enum class SoundMode { hrtf, sphere, pan };
 
 struct JobSound {
     std::optional<Vec3> listener_mm;  // absent: the centre of the stock's top
+    double reference_distance_m = 1;  // nearer it gets no louder, 0.05 to 100
     double distance_factor = 1;       // > 0; the paper's: scales distances before they are heard
     double gain_db = 0;
     int bits = 16;  // 16, 24 or 32 per sample

@@ -25,6 +25,7 @@ constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv,
                                 "distance_factor"sv,
+                                "reference_distance_m"sv,
                                 "gain_db"sv,
                                 "bits"sv,
                                 "hrtf"sv,
@@ -166,6 +167,8 @@ formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
     formats::JobSound sound;
     sound.listener_mm = section.point("listener_mm");
     sound.distance_factor = section.number("distance_factor", kPositive).value_or(sound.distance_factor);
+    sound.reference_distance_m =
+        section.number("reference_distance_m", {0.05, 100}).value_or(sound.reference_distance_m);
     sound.gain_db = section.number("gain_db", {-kLargestGainDb, kLargestGainDb}).value_or(sound.gain_db);
     sound.bits = section.integer("bits", 16, 32).value_or(sound.bits);
     if (sound.bits != 16 && sound.bits != 24 && sound.bits != 32) {

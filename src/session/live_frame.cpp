@@ -200,6 +200,7 @@ void write_listening_frame(const LiveListening& l, std::vector<std::uint8_t>& ou
         f.f32(mode.hz);
         f.f32(mode.damping);
     }
+    f.f32(l.reference_distance_m);
 }
 
 void write_finger_frame(const LiveTouch& t, std::vector<std::uint8_t>& out) {

@@ -103,6 +103,7 @@ struct LiveListening {
     Vec3 listener_mm;
     double distance_factor = 1, gain_db = 0;
     sound::Body body{};
+    double reference_distance_m = 1;
 };
 
 struct LiveJob {

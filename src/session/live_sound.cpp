@@ -81,6 +81,7 @@ void LiveSound::take(std::span<const std::uint8_t> frame) {
                 mode.hz = r.f32();
                 mode.damping = r.f32();
             }
+            options.reference_distance_m = r.f32();
             if (!sound::check(options)) return;
             base_ = std::move(options);
             begin();

@@ -19,8 +19,8 @@ inline constexpr double kPascalPerMm3PerS = 2e-4;
 // reaches it has 105 dB SPL.
 inline constexpr double kFullScalePascal = 5;
 
-// Distance at which pressure equals pressure at 1 m; nearer it does not grow (the listener would stand inside
+// Nearer than this pressure does not grow, where nothing else is asked for (the listener would stand inside
 // the machine). In m.
-inline constexpr double kReferenceDistance = 1;
+inline constexpr double kReferenceDistance = 1, kLeastReferenceDistance = 0.05;
 
 }  // namespace tribo::sound

@@ -26,6 +26,12 @@ struct HrirSet {
 // Refuses a set that is no set: sizes that do not fit, numbers that are none, directions that are none.
 Result<void> check_hrirs(const HrirSet& set);
 
+// By which ear hears a source at its side earlier and louder, over all directions more than 20 degrees from
+// the median plane. `unclear`: the two do not agree, or ears are alike.
+enum class EarOrder : std::uint8_t { right, exchanged, unclear };
+EarOrder ear_order(const HrirSet& set);
+void exchange_ears(HrirSet& set);
+
 // A radius within which a source is inside the head: there its direction fades into "everywhere", as the
 // angle of a source that passes through the middle would leap. In m; the sphere's radius (Duda and Martens
 // 1998).
@@ -37,8 +43,9 @@ inline constexpr double kSoundSpeed = 343;  // m/s, dry air at 20 degrees
 class Head {
   public:
     // From measurements. A set's level is that of the free field from 200 to 400 Hz, on average over its
-    // directions and ears; below 200 Hz, where sets tell of their loudspeaker, the response goes on to the
-    // free field's at 0 Hz. Ears amplify: the shipped set by up to 25 dB near 3 kHz. Takes some 0.5 s.
+    // directions and ears; below 400 Hz, where sets tell of their loudspeaker and room, it has the magnitude
+    // of the sphere below, from 800 Hz on its own. Ears amplify: the shipped set by up to 25 dB near 3 kHz.
+    // Takes some 0.5 s.
     static Result<std::shared_ptr<const Head>> measured(const HrirSet& set, double sample_rate_hz);
     // A rigid sphere with ears 10 degrees behind its sides, in closed form (Duda and Martens 1998), and
     // behind it up to 8 dB less above 3 kHz, as outer ears do. Takes some 30 ms.

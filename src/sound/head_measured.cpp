@@ -21,8 +21,10 @@ constexpr std::size_t kNeighbours = 14;  // among which the triangle around a di
 // Where a set's level is taken: low enough that a head hardly disturbs the field (a rigid sphere by 0.1 dB on
 // average), high enough that loudspeakers still play.
 constexpr double kLevelFromHz = 200, kLevelToHz = 400;
-// Below this sets tell of their loudspeaker, not of the head.
-constexpr double kBassHz = 200;
+// Below the first sets tell of their loudspeaker and room, from the second on of the head that was measured.
+constexpr double kBassHz = 400, kBodyHz = 800;
+// Directions this far from the median plane tell left from right (sine of 20 degrees).
+constexpr double kAside = 0.342;
 // How often what the grid leaves of the measurements is put onto it again.
 constexpr int kRefinements = 12;
 
@@ -194,19 +196,53 @@ double gain_to_free_field(const HrirSet& set) {
     return sounding > 0 ? std::clamp(math::exp(-0.5 * logs / sounding), 1 / kMost, kMost) : 1;
 }
 
-// The free field's level at 0 Hz, reached along a line in the logarithm of the magnitude (Xie 2009 and others
-// extend measurements likewise).
-void extend_bass(std::vector<Complex>& spectrum, double bin_hz) {
-    const auto top = static_cast<std::size_t>(kBassHz / bin_hz) + 1;
-    const double size = std::sqrt(squared(spectrum[top]));
-    if (!(size > 0)) return;
-    const double log = math::log(size);
-    for (std::size_t k = 0; k < top; ++k) {
-        const double wanted = math::exp(log * static_cast<double>(k) / static_cast<double>(top));
-        const double is = std::sqrt(squared(spectrum[k]));
-        spectrum[k] = is > 0 ? Complex{spectrum[k].real() * (wanted / is), spectrum[k].imag() * (wanted / is)}
-                             : Complex{wanted, 0};
+// The magnitude of a filter.
+double magnitude(const HeadTaps& taps, double hz, double sample_rate_hz) {
+    double sine, cosine, re = 0, im = 0;
+    math::sincos(math::kTwoPi * hz / sample_rate_hz, sine, cosine);
+    for (std::size_t n = kHeadTaps; n-- > 0;) {
+        const double was = re;
+        re = was * cosine + im * sine + static_cast<double>(taps[n]);
+        im = im * cosine - was * sine;
     }
+    return std::sqrt(re * re + im * im);
+}
+
+// Multiplies by `wanted` over `is` below kBassHz, by nothing from kBodyHz on, along the logarithm in between.
+template <class Wanted, class Is>
+void correct_bass(std::vector<Complex>& spectrum, double bin_hz, const Wanted& wanted, const Is& is) {
+    for (std::size_t k = 0; static_cast<double>(k) * bin_hz < kBodyHz; ++k) {
+        const double hz = static_cast<double>(k) * bin_hz, has = is(k, hz);
+        if (!(has > 0)) {
+            spectrum[k] = {wanted(hz), 0};
+            continue;
+        }
+        const double share = std::clamp((kBodyHz - hz) / (kBodyHz - kBassHz), 0.0, 1.0);
+        const double by = math::exp(share * math::log(wanted(hz) / has));
+        spectrum[k] = {by * spectrum[k].real(), by * spectrum[k].imag()};
+    }
+}
+
+// How long after its response begins an ear hears, s: where it first has a fifth of its peak.
+double arrival_s(const HrirSet& set, std::size_t direction, std::size_t ear) {
+    const auto taps = static_cast<std::size_t>(set.taps);
+    const float* response = set.responses.data() + (2 * direction + ear) * taps;
+    float peak = 0;
+    for (std::size_t k = 0; k < taps; ++k) peak = std::max(peak, std::abs(response[k]));
+    std::size_t first = 0;
+    while (first < taps && std::abs(response[first]) < 0.2f * peak) ++first;
+    return set.extra_delays_s[2 * direction + ear] + static_cast<double>(first) / set.sample_rate_hz;
+}
+
+double power_of(const HrirSet& set, std::size_t direction, std::size_t ear) {
+    const auto taps = static_cast<std::size_t>(set.taps);
+    const float* response = set.responses.data() + (2 * direction + ear) * taps;
+    double power = 0;
+    for (std::size_t k = 0; k < taps; ++k) {
+        const auto v = static_cast<double>(response[k]);
+        power += v * v;
+    }
+    return power;
 }
 
 }  // namespace
@@ -245,11 +281,39 @@ Result<void> check_hrirs(const HrirSet& set) {
     return {};
 }
 
+EarOrder ear_order(const HrirSet& set) {
+    // A source on the right comes first and louder to the right ear.
+    double leads = 0, louder = 0;
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        const double right = set.directions[n].x;
+        if (std::abs(right) < kAside) continue;
+        const double side = right > 0 ? 1 : -1;
+        const double lead_s = side * (arrival_s(set, n, 0) - arrival_s(set, n, 1));
+        const double left = power_of(set, n, 0), other = power_of(set, n, 1);
+        leads += lead_s > 0 ? 1 : lead_s < 0 ? -1 : 0;
+        louder += side * (other - left) > 0 ? 1 : side * (other - left) < 0 ? -1 : 0;
+    }
+    if (leads > 0 && louder > 0) return EarOrder::right;
+    if (leads < 0 && louder < 0) return EarOrder::exchanged;
+    return EarOrder::unclear;
+}
+
+void exchange_ears(HrirSet& set) {
+    const auto taps = static_cast<std::ptrdiff_t>(set.taps);
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        const auto left = set.responses.begin() + static_cast<std::ptrdiff_t>(2 * n) * taps;
+        std::swap_ranges(left, left + taps, left + taps);
+        std::swap(set.extra_delays_s[2 * n], set.extra_delays_s[2 * n + 1]);
+    }
+}
+
 Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sample_rate_hz) {
     if (auto ok = check_hrirs(set); !ok) return std::unexpected(ok.error());
     MinimumPhase phase(sample_rate_hz);
     Resampled resampled(set, phase);
     const double gain = gain_to_free_field(set);
+    const std::shared_ptr<const Head> sphere = Head::sphere(sample_rate_hz);
+    EarResponses round_head;
     std::vector<EarResponses> by_direction;
     std::vector<Complex> spectra[2];
     for (std::size_t n = 0; n < set.directions.size(); ++n) {
@@ -259,9 +323,24 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
         resampled.at(left, left + taps, taps, spectra, peak);
         for (std::vector<Complex>& spectrum : spectra) {
             for (Complex& v : spectrum) v *= gain;
-            extend_bass(spectrum, phase.bin_hz());
         }
-        by_direction.push_back(phase.split(spectra[0], spectra[1]));
+        // Twice: the filters are shorter than the measurement, and what they leave of its bass is corrected
+        // too.
+        sphere->hear(2 * set.directions[n], round_head);
+        EarResponses made;
+        for (int pass = 0; pass < 2; ++pass) {
+            for (std::size_t ear = 0; ear < 2; ++ear) {
+                correct_bass(
+                    spectra[ear], phase.bin_hz(),
+                    [&](double hz) { return magnitude(round_head.taps[ear], hz, sample_rate_hz); },
+                    [&](std::size_t k, double hz) {
+                        return pass == 0 ? std::sqrt(squared(spectra[ear][k]))
+                                         : magnitude(made.taps[ear], hz, sample_rate_hz);
+                    });
+            }
+            made = phase.split(spectra[0], spectra[1]);
+        }
+        by_direction.push_back(made);
         for (std::size_t ear = 0; ear < 2; ++ear) {
             by_direction.back().delay_s[ear] +=
                 set.extra_delays_s[2 * n + ear] + static_cast<double>(peak[ear]) / set.sample_rate_hz;

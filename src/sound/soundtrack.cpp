@@ -76,11 +76,14 @@ Result<void> check(const SoundtrackOptions& options) {
     if (!(options.distance_factor > 0 && std::isfinite(options.distance_factor))) {
         return fail("distance_factor is not above 0", "try 1, or more to make a small part sound larger");
     }
+    if (!(options.reference_distance_m >= kLeastReferenceDistance && options.reference_distance_m <= 100)) {
+        return fail("reference_distance_m is outside 0.05 ... 100", "try 1, or 0.2 to be loud near the tool");
+    }
     return {};
 }
 
-double rolloff(double distance_mm, double distance_factor) {
-    return kReferenceDistance / std::max(kReferenceDistance, distance_factor * distance_mm / kMmPerM);
+double rolloff(double distance_mm, double distance_factor, double reference_m) {
+    return 1 / std::max(reference_m, distance_factor * distance_mm / kMmPerM);
 }
 
 Soundtrack::Soundtrack(const SoundtrackOptions& options) : Soundtrack(options, cutting_voices(options)) {}
@@ -112,8 +115,8 @@ bool Soundtrack::excite(const contact::ContactSample& next) {
     there.phase_rad += shift_s * next.phase_rate_rad_per_s;
     for (const auto& voice : voices_) voice->excite(there, arrival - quantum_);
 
-    const double loudness =
-        rolloff(distance(next.position_mm, options_.listener_mm), options_.distance_factor);
+    const double loudness = rolloff(distance(next.position_mm, options_.listener_mm),
+                                    options_.distance_factor, options_.reference_distance_m);
     if (!excited_) before_ = here_ = after_ = slow_ = rolloff_to_ = loudness;
     rolloff_from_ = arrival == quantum_ ? loudness : rolloff_now();
     rolloff_to_ = loudness;
@@ -184,6 +187,7 @@ void Soundtrack::make_quantum() {
 
 void Soundtrack::place(const Quantum& pressure_pa) {
     Listener listener;
+    listener.reference_m = options_.reference_distance_m;
     listener.position_m = listener_m_.advance();
     listener.forward = forward_.advance();
     listener.up = up_.advance();

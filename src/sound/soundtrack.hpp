@@ -28,9 +28,10 @@ inline constexpr int kLowestSampleRateHz = 32000;  // carries the chip noise up 
 inline constexpr int kHighestSampleRateHz = 192000;
 
 struct SoundtrackOptions {
-    int sample_rate_hz = 48000;  // kLowestSampleRateHz ... kHighestSampleRateHz
-    double gain_db = 0;          // -120 ... 60
-    Vec3 listener_mm;            // stock frame
+    int sample_rate_hz = 48000;                        // kLowestSampleRateHz ... kHighestSampleRateHz
+    double gain_db = 0;                                // -120 ... 60
+    Vec3 listener_mm;                                  // stock frame
+    double reference_distance_m = kReferenceDistance;  // nearer it gets no louder; kLeast... to 100
     double distance_factor = 1;  // > 0; distances count times this (the paper's; > 1 enlarges a small part)
     // How places are heard, of the same sample rate; null: both channels alike, distance is loudness.
     std::shared_ptr<const Head> head{};
@@ -47,8 +48,9 @@ struct SoundtrackOptions {
 // Refuses numbers out of range, naming the job file's key.
 Result<void> check(const SoundtrackOptions& options);
 
-// Pressure of a source `distance_mm` away as a share of the pressure at 1 m: 1 / r, and 1 within 1 m.
-double rolloff(double distance_mm, double distance_factor);
+// Pressure of a source `distance_mm` away as a share of the pressure at 1 m: 1 / r, no more than at the
+// reference distance.
+double rolloff(double distance_mm, double distance_factor, double reference_m = kReferenceDistance);
 
 // Renders frames 0, 1, 2, ... of a stereo track: interleaved, sample = limited(gain * pressure at the ear /
 // kFullScalePascal), never beyond -1 ... 1, never scaled to fit. Frame n is at n / sample_rate seconds of the

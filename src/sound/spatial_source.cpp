@@ -39,8 +39,8 @@ HeadAxes Listener::axes() const {
     return {x, y, cross(x, y)};
 }
 
-double rolloff_at(double distance_m) {
-    return kReferenceDistance / std::max(kReferenceDistance, distance_m);
+double rolloff_at(double distance_m, double reference_m) {
+    return 1 / std::max(reference_m, distance_m);
 }
 
 SpatialSource::SpatialSource(std::shared_ptr<const Head> head, const EarKernels& kernels)
@@ -114,7 +114,7 @@ SpatialSource::State SpatialSource::state(Vec3 place_m, const Listener& listener
         const double offset = std::clamp(heard.delay_s[ear], -kEarLeadSeconds / 2, kEarLeadSeconds);
         s.delay[ear] = travel + (offset + kEarLeadSeconds) * rate;
     }
-    s.gain = rolloff_at(metres);
+    s.gain = rolloff_at(metres, listener.reference_m);
     return s;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "sound/calibration.hpp"
 #include "sound/ear_kernels.hpp"
 #include "sound/head.hpp"
 #include "sound/voice.hpp"
@@ -30,6 +31,7 @@ struct Listener {
     Vec3 position_m;  // or mm, where a function says so
     Vec3 forward{0, 1, 0};
     Vec3 up{0, 0, 1};
+    double reference_m = kReferenceDistance;  // nearer a source gets no louder
 
     bool operator==(const Listener&) const = default;
     HeadAxes axes() const;
@@ -46,8 +48,9 @@ inline constexpr double kLongestTravelSeconds = 0.25;
 // and the interpolator looks ahead.
 inline constexpr double kEarLeadSeconds = 0.0008;
 
-// Pressure of a source at `distance_m` as a share of the pressure at 1 m: 1 / r, and 1 within 1 m.
-double rolloff_at(double distance_m);
+// Pressure of a source at `distance_m` as a share of the pressure at 1 m: 1 / r, no more than at the
+// reference distance.
+double rolloff_at(double distance_m, double reference_m = kReferenceDistance);
 
 // One moving fractional delay line, read once per ear: travel time, arrival offset and Doppler shift
 // together, per sample (the source's place is that at which the sound left it, so the ratio is (c + v_l) / (c

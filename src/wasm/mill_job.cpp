@@ -124,6 +124,7 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
     const Box3 box = inputs.blank->bounds_mm();
     listening.listener_mm = job->sound.listener_mm.value_or(Vec3{box.centre().x, box.centre().y, box.max.z});
     listening.distance_factor = job->sound.distance_factor;
+    listening.reference_distance_m = job->sound.reference_distance_m;
     listening.gain_db = job->sound.gain_db;
     listening.body =
         sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(job->material.name));

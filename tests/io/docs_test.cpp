@@ -35,21 +35,24 @@ std::vector<std::string> blocks(const std::string& text) {
 
 TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::vector<std::string> shown = blocks(page("job.md"));
-    ASSERT_EQ(shown.size(), 3u);
+    ASSERT_EQ(shown.size(), 4u);
     const auto job = parse_job(shown[0], "job.md");
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->cutters.size(), 2u);
     EXPECT_EQ(job->fixtures.size(), 1u);
     EXPECT_EQ(job->cutters[1].holder.size(), 2u);
-    const auto other = parse_job(
+    const std::string least =
         "[stock]\nbox_mm = [[0,0,0],[1,1,1]]\n[cutter]\nkind = \"ball\"\ndiameter_mm = 1\n[path]\napt = "
-        "\"a\"\n" +
-            shown[1],
-        "job.md");
+        "\"a\"\n[material]\nname = \"al6082-t6\"\n";
+    const auto other = parse_job(least.substr(0, least.find("[material]")) + shown[1], "job.md");
     ASSERT_TRUE(other) << other.error().text();
     EXPECT_TRUE(other->engagement.has_value());
     EXPECT_TRUE(other->material.coefficients.has_value());
-    const auto second = parse_job(shown[2], "job.md");
+    const auto felt = parse_job(least + shown[2], "job.md");
+    ASSERT_TRUE(felt) << felt.error().text();
+    EXPECT_EQ(felt->haptics.friction_static, 0.3);
+    EXPECT_EQ(felt->haptics.friction_kinetic, 0.2);
+    const auto second = parse_job(shown[3], "job.md");
     ASSERT_TRUE(second) << second.error().text();
     EXPECT_EQ(second->stock_from.value().path, "top.toml");
     EXPECT_EQ(second->setup.value().y, (Vec3{0, -1, 0}));

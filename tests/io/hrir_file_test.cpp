@@ -198,5 +198,80 @@ RC_GTEST_PROP(PackedHrirs, survive_whatever_a_child_writes, ()) {
     RC_ASSERT(!unpacked_hrirs(bytes));
 }
 
+// In the bass one head is like another: the measured one and the sphere, by direction and ear.
+TEST(MeasuredHead, has_the_bass_of_a_sphere) {
+    const auto sphere = sound::Head::sphere(kRate);
+    sound::EarResponses a, b;
+    for (int row = 0; row < sound::Head::kRows; ++row) {
+        for (int column = 0; column < sound::Head::kColumns; ++column) {
+            const Vec3 d = sound::Head::grid_direction(row, column);
+            head().hear(2 * d, a);
+            sphere->hear(2 * d, b);
+            for (const double hz : {30.0, 100.0, 200.0, 300.0, 400.0}) {
+                const Both of_set = made(a, hz), of_sphere = made(b, hz);
+                for (std::size_t ear = 0; ear < 2; ++ear) {
+                    EXPECT_NEAR(decibel(std::norm(of_set[ear]) / std::norm(of_sphere[ear])), 0, 1)
+                        << hz << " Hz at " << d.x << " " << d.y << " " << d.z;
+                }
+            }
+        }
+    }
+}
+
+// Whoever names the ears: a source beyond 20 degrees from the median plane is earlier and louder in the ear
+// on its side.
+TEST(MeasuredHead, hears_a_source_earlier_and_louder_on_its_side_however_the_set_names_its_ears) {
+    for (const bool exchanged : {false, true}) {
+        sound::HrirSet set = *shipped();
+        EXPECT_EQ(sound::ear_order(set), sound::EarOrder::right);
+        if (exchanged) {
+            sound::exchange_ears(set);
+            EXPECT_EQ(sound::ear_order(set), sound::EarOrder::exchanged);
+            sound::exchange_ears(set);
+        }
+        const auto made_of_it = sound::Head::measured(set, kRate);
+        ASSERT_TRUE(made_of_it);
+        const auto sphere = sound::Head::sphere(kRate);
+        for (const sound::Head* each : {made_of_it->get(), sphere.get()}) {
+            sound::EarResponses heard;
+            for (int row = 0; row < sound::Head::kRows; ++row) {
+                for (int column = 0; column < sound::Head::kColumns; ++column) {
+                    const Vec3 d = sound::Head::grid_direction(row, column);
+                    if (std::abs(d.x) < std::sin(20 * kPi / 180)) continue;
+                    each->hear(2 * d, heard);
+                    double power[2] = {0, 0};
+                    for (std::size_t ear = 0; ear < 2; ++ear)
+                        for (const float v : heard.taps[ear])
+                            power[ear] += static_cast<double>(v) * static_cast<double>(v);
+                    const std::size_t near = d.x > 0 ? 1 : 0;
+                    EXPECT_GT(power[near], power[1 - near]) << d.x << " " << d.y << " " << d.z;
+                    EXPECT_LT(heard.delay_s[near], heard.delay_s[1 - near])
+                        << d.x << " " << d.y << " " << d.z;
+                }
+            }
+        }
+    }
+}
+
+TEST(MeasuredHead, does_not_guess_where_its_ears_are_alike_or_contradict_each_other) {
+    sound::HrirSet set = *shipped();
+    const auto taps = static_cast<std::size_t>(set.taps);
+    sound::HrirSet alike = set;
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        for (std::size_t k = 0; k < taps; ++k)
+            alike.responses[(2 * n + 1) * taps + k] = alike.responses[2 * n * taps + k];
+        alike.extra_delays_s[2 * n + 1] = alike.extra_delays_s[2 * n];
+    }
+    EXPECT_EQ(sound::ear_order(alike), sound::EarOrder::unclear);
+    // Earlier in one ear, louder in the other.
+    sound::HrirSet torn = set;
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        const double later = 0.002 * (1 + set.directions[n].x);
+        torn.extra_delays_s[2 * n] += 0.004 - later;
+        torn.extra_delays_s[2 * n + 1] += later;
+    }
+    EXPECT_EQ(sound::ear_order(torn), sound::EarOrder::unclear);
+}
+
 }  // namespace
 }  // namespace tribo::io

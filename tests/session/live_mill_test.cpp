@@ -99,7 +99,7 @@ class Viewer {
                 break;
             case LiveFrame::listening:
                 listener = vec3();
-                at_ += 24;
+                at_ += 28;
                 break;
             default:
                 ADD_FAILURE() << "not the mill's";

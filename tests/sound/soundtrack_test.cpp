@@ -192,6 +192,9 @@ TEST(Soundtrack, gets_quieter_by_6_dB_per_doubling_of_the_distance_beyond_1_m) {
     EXPECT_EQ(rolloff(1000, 1), 1);
     EXPECT_EQ(rolloff(2000, 1), 0.5);
     EXPECT_EQ(rolloff(100, 40), 0.25);
+    EXPECT_EQ(rolloff(200, 1, 0.2), 5);
+    EXPECT_EQ(rolloff(10, 1, 0.2), 5);
+    EXPECT_EQ(rolloff(2000, 1, 0.2), 0.5);
     const contact::ForceSpectrum spectrum = falling_spectrum(2, 1);
     const auto level = [&](double distance_mm, double factor) {
         contact::ContactSample samples[] = {cut_at(0, &spectrum, 6000), cut_at(0.3, &spectrum, 6000)};
