@@ -170,12 +170,11 @@ std::string learning_report(const formats::Material& material, const noise::Lear
         std::vector<double> orders;
         for (std::size_t n = 0; n < learned.held_out_db.size(); ++n)
             orders.push_back(static_cast<double>(n + 1));
-        html +=
-            "<section><h2>Order</h2><figure style=\"max-width:560px\">" +
-            plot(orders, {{"held out", "--mean", &learned.held_out_db}}, 1,
-                 static_cast<double>(orders.size())) +
-            "<figcaption>Prediction error on sound that was not fitted, dB of its power, over the number of "
-            "poles.</figcaption></figure></section>\n";
+        html += "<section><h2>Order</h2><figure style=\"max-width:560px\">" +
+                plot(orders, {{"held out", "--mean", &learned.held_out_db}}, 1,
+                     static_cast<double>(orders.size())) +
+                "<figcaption>Distance from the spectrum of sound that was not fitted, dB, over the number of "
+                "poles.</figcaption></figure></section>\n";
     }
     for (const ReportedVoice& v : voices) html += section(v);
     return html + "</body></html>\n";

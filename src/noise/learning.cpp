@@ -9,6 +9,7 @@
 #include "base/math.hpp"
 #include "noise/fourier.hpp"
 #include "noise/levinson.hpp"
+#include "noise/sound_statistics.hpp"
 #include "noise/texture_learning.hpp"
 
 namespace tribo::noise {
@@ -63,17 +64,6 @@ Pieces alternate(const Pieces& pieces, std::size_t block, std::size_t which) {
     return half;
 }
 
-// a^T R a over r_0: prediction error of a predictor on sound of this autocorrelation, relative to its power.
-double prediction_error(std::span<const double> predictor, std::span<const double> r) {
-    double sum = 0;
-    const auto a = [&](std::size_t n) { return n == 0 ? 1.0 : predictor[n - 1]; };
-    for (std::size_t i = 0; i <= predictor.size(); ++i) {
-        sum += a(i) * a(i) * r[0];
-        for (std::size_t j = 0; j < i; ++j) sum += 2 * a(i) * a(j) * r[i - j];
-    }
-    return std::max(sum / r[0], 1e-12);
-}
-
 // Divides a power spectrum by the high-pass's and continues it flat below the corner.
 void restore_below(std::vector<double>& power, double rate_hz, double highpass_hz) {
     if (!(highpass_hz > 0)) return;
@@ -92,30 +82,35 @@ void restore_below(std::vector<double>& power, double rate_hz, double highpass_h
     for (std::size_t k = 0; k < first; ++k) power[k] = mean;
 }
 
-// Mean log prediction error on held-out sound at orders 1 ... most: two folds.
+// How far, in dB, the models of orders 1 ... most of one half of the sound are from the spectrum of the
+// other: mean of both ways round. By what would be heard, not by what is predicted: an impulsive sound is
+// predicted from a few samples, and its spectrum is not drawn by so few poles.
 std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, double highpass_hz, int most) {
     const auto block = static_cast<std::size_t>(kHeldOutBlockS * rate_hz);
-    const auto half = [&](std::size_t which) {
-        return windowed_autocorrelation(alternate(pieces, block, which), rate_hz, highpass_hz, most);
-    };
-    const std::vector<double> r[2] = {half(0), half(1)};
+    const std::vector<double> hz = spectrum_hz(rate_hz);
+    std::vector<double> r[2], heard_db[2];
+    for (std::size_t half = 0; half < 2; ++half) {
+        const Pieces own = alternate(pieces, block, half);
+        r[half] = windowed_autocorrelation(own, rate_hz, highpass_hz, most);
+        heard_db[half] = spectrum_db(own);
+    }
     std::vector<double> errors(static_cast<std::size_t>(most));
     if (!(r[0][0] > 0) || !(r[1][0] > 0)) return errors;
     for (std::size_t fold = 0; fold < 2; ++fold) {
         const std::vector<double> k = levinson(r[fold], kWhite);
         for (std::size_t p = 1; p <= errors.size(); ++p) {
-            const std::vector<double> a = predictor_of(std::span(k).first(p));
-            errors[p - 1] += 0.5 * math::log(prediction_error(a, r[1 - fold]));
+            const ArModel model{rate_hz, {k.begin(), k.begin() + static_cast<std::ptrdiff_t>(p)}};
+            errors[p - 1] += 0.5 * shape_distance_db(spectrum_db(model, hz), heard_db[1 - fold], hz);
         }
     }
     return errors;
 }
 
-// The smallest order that predicts held-out sound as well as the best one does.
+// The smallest order that comes as near to held-out sound as the best one does.
 int chosen_order(std::span<const double> errors) {
     const double best = *std::ranges::min_element(errors);
     std::size_t order = 1;
-    while (errors[order - 1] > best + kOrderTolerance) ++order;
+    while (errors[order - 1] > best + kOrderToleranceDb) ++order;
     return static_cast<int>(order);
 }
 
@@ -234,7 +229,7 @@ Result<Learned> learn(std::span<const Recording> recordings, const LearningOptio
             }
         }
         learned.order = chosen_order(errors);
-        for (const double e : errors) learned.held_out_db.push_back(10 / math::log(10) * e);
+        learned.held_out_db = errors;
     }
     learned.recordings.resize(recordings.size());
     for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -3,9 +3,9 @@
 //
 // Each recording: high-pass, silence out, autocorrelation under Hann windows of 4096 samples, Yule-Walker
 // equations by Levinson and Durbin (or Burg's method), RMS level. Recordings at one speed and force are
-// learned from together. One order serves all models of a material: the smallest whose prediction error on
-// held-out sound is within kOrderTolerance of the best. What a recording is beyond Gaussian noise becomes its
-// texture (texture_learning.hpp); of several at one speed and force that of the longest.
+// learned from together. One order serves all models of a material: the smallest whose distance from the
+// spectrum of held-out sound is within kOrderToleranceDb of the best. What a recording is beyond Gaussian
+// noise becomes its texture (texture_learning.hpp); of several at one speed and force that of the longest.
 // Paper: the touch paper, 3.1, with RMS in place of mean power. Allocates; any thread.
 #pragma once
 
@@ -30,7 +30,7 @@ struct LearningOptions {
 };
 
 inline constexpr int kMostLearnedOrder = 100;
-inline constexpr double kOrderTolerance = 0.002;  // nepers of prediction error: 0.017 dB
+inline constexpr double kOrderToleranceDb = 0.05;
 inline constexpr std::size_t kAutocorrelationFrame = 4096;
 
 // What was learned from one recording.
@@ -44,8 +44,8 @@ struct LearnedRecording {
 struct Learned {
     MaterialVoices voices;
     int order = 0;
-    // Held-out prediction error at each order 1, 2, ... in dB of the sound's power, mean over the models;
-    // empty where the order was given.
+    // Distance of the models of one half of the sound from the spectrum of the other (shape_distance_db), at
+    // each order 1, 2, ..., mean over the recordings; empty where the order was given.
     std::vector<double> held_out_db;
     std::vector<LearnedRecording> recordings;  // as they came
     Warnings warnings;

@@ -10,6 +10,15 @@
 #include "noise/fourier.hpp"
 
 namespace tribo::noise {
+namespace {
+
+constexpr std::size_t kSpectrumFrame = 1024;
+
+double db(double power) {
+    return 10 * math::log10(std::max(power, 1e-30));
+}
+
+}  // namespace
 
 double kurtosis(std::span<const double> sound) {
     double second = 0, fourth = 0;
@@ -74,6 +83,49 @@ std::vector<double> power_spectrum(std::span<const double> sound, std::size_t fr
     }
     for (double& p : power) p /= static_cast<double>(std::max<std::size_t>(count, 1));
     return power;
+}
+
+std::vector<double> spectrum_db(std::span<const double> sound) {
+    std::vector<double> power = power_spectrum(sound, kSpectrumFrame);
+    for (double& p : power) p = db(p);
+    return power;
+}
+
+std::vector<double> spectrum_db(std::span<const std::span<const double>> pieces) {
+    std::vector<double> sum(kSpectrumFrame / 2);
+    for (const std::span<const double> piece : pieces) {
+        if (piece.size() < kSpectrumFrame) continue;
+        const std::vector<double> power = power_spectrum(piece, kSpectrumFrame);
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += static_cast<double>(piece.size()) * power[k];
+    }
+    for (double& p : sum) p = db(p);
+    return sum;
+}
+
+std::vector<double> spectrum_hz(double sample_rate_hz) {
+    constexpr std::size_t kBands = kSpectrumFrame / 2;
+    std::vector<double> hz;
+    for (std::size_t k = 0; k < kBands; ++k)
+        hz.push_back(0.5 * sample_rate_hz * (static_cast<double>(k) + 0.5) / static_cast<double>(kBands));
+    return hz;
+}
+
+std::vector<double> spectrum_db(const ArModel& model, std::span<const double> hz, double level_db) {
+    std::vector<double> power;
+    for (const double f : hz) power.push_back(db(power_at(model, f)) + level_db);
+    return power;
+}
+
+double shape_distance_db(std::span<const double> a, std::span<const double> b, std::span<const double> hz) {
+    double sum = 0, square = 0, count = 0;
+    for (std::size_t n = 0; n < hz.size(); ++n) {
+        if (hz[n] < 200 || hz[n] > 20000) continue;
+        const double d = a[n] - b[n];
+        sum += d;
+        square += d * d;
+        ++count;
+    }
+    return count > 0 ? std::sqrt(std::max(square / count - sum / count * (sum / count), 0.0)) : 0;
 }
 
 }  // namespace tribo::noise

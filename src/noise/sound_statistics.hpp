@@ -26,4 +26,14 @@ double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz
 // steps of frequency from 0 to half the rate, as band means; its mean is the mean square.
 std::vector<double> power_spectrum(std::span<const double> sound, std::size_t frame = 1024);
 
+// The same of 1024 samples in dB, of one sound or of pieces, no frame across two of them; where its bands
+// are, and a model's there.
+std::vector<double> spectrum_db(std::span<const double> sound);
+std::vector<double> spectrum_db(std::span<const std::span<const double>> pieces);
+std::vector<double> spectrum_hz(double sample_rate_hz);
+std::vector<double> spectrum_db(const ArModel& model, std::span<const double> hz, double level_db = 0);
+// Root mean square of the difference of two spectra in dB from 200 Hz to 20 kHz, their mean difference taken
+// off: shape alone.
+double shape_distance_db(std::span<const double> a, std::span<const double> b, std::span<const double> hz);
+
 }  // namespace tribo::noise

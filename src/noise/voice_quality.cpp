@@ -17,18 +17,11 @@ constexpr int kPlainOrder = 50;
 constexpr double kPlayedS = 10;
 constexpr double kLevelS = 60;  // the level of a textured voice wanders: a long mean
 constexpr double kEnvelopeS = 0.002;
-constexpr std::size_t kSpectrumFrame = 1024;
 
 using Pieces = std::vector<std::span<const double>>;
 
 double db(double power) {
     return 10 * math::log10(std::max(power, 1e-30));
-}
-
-std::vector<double> joined(const Pieces& pieces) {
-    std::vector<double> all;
-    for (const auto piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
-    return all;
 }
 
 Pieces half_of(const std::vector<double>& sound, double rate, std::size_t which) {
@@ -39,32 +32,6 @@ Pieces half_of(const std::vector<double>& sound, double rate, std::size_t which)
         if (n % 2 == which) half.push_back(std::span(sound).subspan(at, block));
     }
     return half;
-}
-
-// Root mean square of the difference of two spectra in dB, their mean difference taken off.
-double distance_db(const std::vector<double>& a, const std::vector<double>& b,
-                   const std::vector<double>& hz) {
-    double sum = 0, square = 0, count = 0;
-    for (std::size_t n = 0; n < hz.size(); ++n) {
-        if (hz[n] < 200 || hz[n] > 20000) continue;
-        const double d = a[n] - b[n];
-        sum += d;
-        square += d * d;
-        ++count;
-    }
-    return count > 0 ? std::sqrt(std::max(square / count - sum / count * (sum / count), 0.0)) : 0;
-}
-
-std::vector<double> spectrum_db(const std::vector<double>& sound) {
-    std::vector<double> power = power_spectrum(sound, kSpectrumFrame);
-    for (double& p : power) p = db(p);
-    return power;
-}
-
-std::vector<double> model_spectrum_db(const ArModel& model, const std::vector<double>& hz, double level_db) {
-    std::vector<double> power;
-    for (const double f : hz) power.push_back(db(power_at(model, f)) + level_db);
-    return power;
 }
 
 std::vector<double> played(const VoiceModel& model, bool textured, double seconds, std::uint64_t seed) {
@@ -122,20 +89,17 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     const double rate = q.sample_rate_hz = recording.sample_rate_hz;
     const std::vector<double>& sound = recording.sound;
     q.original_db = spectrum_db(sound);
-    for (std::size_t k = 0; k < q.original_db.size(); ++k) {
-        q.hz.push_back(0.5 * rate * (static_cast<double>(k) + 0.5) /
-                       static_cast<double>(q.original_db.size()));
-    }
-    q.model_db = model_spectrum_db(model.spectrum, q.hz, model.level_db);
+    q.hz = spectrum_hz(rate);
+    q.model_db = spectrum_db(model.spectrum, q.hz, model.level_db);
 
     const auto order = static_cast<int>(model.spectrum.reflection.size());
     const Pieces first = half_of(sound, rate, 0), second = half_of(sound, rate, 1);
-    const std::vector<double> other = spectrum_db(joined(second));
-    q.halves_db = distance_db(spectrum_db(joined(first)), other, q.hz);
+    const std::vector<double> other = spectrum_db(second);
+    q.halves_db = shape_distance_db(spectrum_db(first), other, q.hz);
     const auto held_out = [&](int poles, double corner_hz, double white) {
         const std::vector<double> r = windowed_autocorrelation(first, rate, corner_hz, poles);
         if (!(r[0] > 0)) return 0.0;
-        return distance_db(model_spectrum_db({rate, levinson(r, white)}, q.hz, 0), other, q.hz);
+        return shape_distance_db(spectrum_db({rate, levinson(r, white)}, q.hz), other, q.hz);
     };
     q.held_out_db = held_out(order, highpass_hz, 1e-11);
     q.held_out_plain_db = held_out(kPlainOrder, 0, 0);
