@@ -130,11 +130,19 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
 }
 
 // A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
-// probe has long been in air, it begins anew from there.
+// probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
 void FieldContact::let_go_of_the_stuck(Vec3 probe) {
+    if (gap_.radius_mm() <= 0) return;
     const double room = measure(probe).gap_mm;
     stuck_s_ = room > kSkin ? stuck_s_ + options_.tick_s : 0;
     if (stuck_s_ < kStuckS) return;
+    Vec3 centre = at_.proxy;
+    for (int links = 0;; ++links) {
+        const double way = distance(probe, centre), free = clearance_mm(centre, way) + gap_.radius_mm();
+        if (way <= free) break;
+        if (free < kSkin || links == kMostLinks) return;
+        centre += (free / way) * (probe - centre);
+    }
     anchor_ = {probe, room};
     at_.proxy = last_proxy_ = probe;
     phase_ = Phase::free;

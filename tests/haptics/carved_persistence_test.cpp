@@ -190,6 +190,22 @@ TEST(CarvedPersistence, no_milled_surface_lets_a_probe_through) {
     hold_all(11, 120);
 }
 
+// A point that is dragged fast, in the air behind the plate that holds it.
+TEST(CarvedPersistence, a_probe_that_has_gone_behind_a_plate_is_not_let_go) {
+    for (const double slender : {0.025, 0.25}) {
+        const Milled m = grooves(0.2, slender);
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            for (const double heading : {0.0, 0.7}) {
+                for (const double friction : {0.0, 0.5}) {
+                    const Found f = stroke(m, {0, 300, 1000, heading, friction, seed}, 300);
+                    EXPECT_EQ(f.through, 0) << seed;
+                    EXPECT_EQ(f.inward, 0) << seed;
+                }
+            }
+        }
+    }
+}
+
 // A finger and a stylus lean and turn while they are drawn over milled grooves: no point of them comes to
 // stand in material, and where one would, the surface pushes back.
 TEST(CarvedPersistence, no_point_of_a_finger_or_stylus_goes_through) {
