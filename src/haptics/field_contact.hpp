@@ -41,11 +41,11 @@ struct Contact {
 // hold in every tick:
 //   1. The proxy is tied: it touches a ball that is known to be free (the anchor), and each anchor is joined
 //      to the one before by free balls.
-//   2. A step along the surface is taken only where it brings the proxy nearer to the probe and the place
-//   that
-//      it leads to can be tied.
+//   2. A step along the surface is taken only where it brings the proxy nearer to the probe and its place can
+//      be tied.
 //   3. It progresses: a step that is refused is followed by a shorter one, in this tick or in the next.
-//   4. Until the proxy has settled the whole spring acts, from the last place that was tied.
+//   4. Until the proxy has settled the whole spring acts, from the last place that was tied; in flight, what
+//      of it the probe's depth explains.
 //
 // The proxy is where the distance to the probe is least, found by sliding along the surface with the step
 // that its curvature allows; in a corner it is held by all its sides. Depends on no mesh and no unit.
