@@ -102,6 +102,7 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     settled_ = braced_ = moved_ = looked_ = false;
     last_step_.known = false;
     stride_mm_ = std::max(stride_mm_, kLowest);
+    if (phase_ == Phase::touching && stuck_s_ >= kStuckS) let_go_of_the_stuck(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
     if (phase_ == Phase::touching) renew_anchor();
     for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
@@ -119,12 +120,9 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
         }
     }
     if (phase_ == Phase::touching && !settled_) (void)push_out();
-    if (phase_ == Phase::touching && !settled_ &&
-        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe)) {
-        let_go_of_the_stuck(probe);
-    } else {
-        stuck_s_ = 0;
-    }
+    const bool stuck = phase_ == Phase::touching && !settled_ && gap_.radius_mm() > 0 &&
+                       distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
+    stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     return answer(probe);
 }
@@ -132,22 +130,19 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
 // A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
 // probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
 void FieldContact::let_go_of_the_stuck(Vec3 probe) {
-    if (gap_.radius_mm() <= 0) return;
+    stuck_s_ = 0;
     const double room = measure(probe).gap_mm;
-    stuck_s_ = room > kSkin ? stuck_s_ + options_.tick_s : 0;
-    if (stuck_s_ < kStuckS) return;
+    if (room <= kSkin) return;
     Vec3 centre = at_.proxy;
     for (int links = 0;; ++links) {
         const double way = distance(probe, centre), free = clearance_mm(centre, way) + gap_.radius_mm();
         if (way <= free) break;
-        if (free < kSkin || links == kMostLinks) return;
+        if (free < kSkin || links == kMostLinks || !budget(1)) return;
         centre += (free / way) * (probe - centre);
     }
     anchor_ = {probe, room};
     at_.proxy = last_proxy_ = probe;
     phase_ = Phase::free;
-    settled_ = true;
-    stuck_s_ = 0;
 }
 
 // Out of the material along its normals, until there is air.
