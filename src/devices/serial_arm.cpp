@@ -30,24 +30,13 @@ constexpr double kMnPerN = 1e3, kMostMn = 32767;
 // The speed is taken over so many ticks of the arm.
 constexpr std::size_t kSpeedTicks = 8;
 
-speed_t speed_of(int baud) {
-    switch (baud) {
-        case 115'200:
-            return B115200;
-        case 230'400:
-            return B230400;
-        case 460'800:
-            return B460800;
-        case 500'000:
-            return B500000;
-        case 921'600:
-            return B921600;
-        case 2'000'000:
-            return B2000000;
-        default:
-            return B1000000;
-    }
-}
+struct Rate {
+    int baud;
+    speed_t code;
+};
+constexpr Rate kRates[] = {{115'200, B115200},   {230'400, B230400}, {460'800, B460800},
+                           {500'000, B500000},   {921'600, B921600}, {1'000'000, B1000000},
+                           {2'000'000, B2000000}};
 
 class Port {
   public:
@@ -176,6 +165,11 @@ class SerialArm final : public haptics::Device {
 };
 
 Result<Port> open_port(const SerialArmOptions& options) {
+    const Rate* rate = std::ranges::find(kRates, options.baud, &Rate::baud);
+    if (rate == std::end(kRates)) {
+        return fail("a serial line has no " + std::to_string(options.baud) + " baud here",
+                    "take 115200, 230400, 460800, 500000, 921600, 1000000 or 2000000");
+    }
     const int handle = ::open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (handle < 0) {
         const int error = errno;
@@ -192,7 +186,7 @@ Result<Port> open_port(const SerialArmOptions& options) {
     how.c_cflag |= CLOCAL | CREAD;
     how.c_cc[VMIN] = 1;  // nothing there is not the end
     how.c_cc[VTIME] = 0;
-    ::cfsetspeed(&how, speed_of(options.baud));
+    ::cfsetspeed(&how, rate->code);
     if (::tcsetattr(handle, TCSANOW, &how) != 0)
         return fail(options.port + " does not take " + std::to_string(options.baud) + " baud", "");
     return port;

@@ -15,7 +15,7 @@ namespace tribo::devices {
 
 struct SerialArmOptions {
     std::string port;       // /dev/ttyACM0
-    int baud = 1'000'000;   // of a true serial line; USB takes no notice
+    int baud = 1'000'000;   // of a true serial line, one of the usual rates; USB takes no notice
     int timeout_ms = 4000;  // for the arm's first line: opening a port resets many a board
     Mounting mounting;
 };

@@ -190,6 +190,9 @@ TEST(SerialArm, says_what_to_do_where_there_is_no_port_no_arm_or_nonsense) {
     EXPECT_NE(open_serial_arm(options).error().cause.find("/dev/no-such-port"), std::string::npos);
     options.port = "/dev/null";
     EXPECT_NE(open_serial_arm(options).error().cause.find("not a serial port"), std::string::npos);
+    options.baud = 123'456;
+    EXPECT_NE(open_serial_arm(options).error().cause.find("123456 baud"), std::string::npos);
+    options.baud = 1'000'000;
     FakeBoard silent("ok M105");
     options.port = silent.port;
     options.timeout_ms = 300;
