@@ -3,10 +3,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "base/result.hpp"
 #include "base/vec3.hpp"
 #include "devices/mounting.hpp"
+#include "haptics/device_limits.hpp"
 
 namespace tribo::app {
 
@@ -20,6 +24,10 @@ struct ArmCall {
 
 // `call` lives as long as the verb.
 void add_arm_flags(CLI::App& verb, ArmCall& call);
+// Of a surface: what was asked for, else 0.5 N/mm, at most what the arm keeps stable and the delay allows.
+// Says so in `warnings`, about `file`, where that is less than was asked for.
+double stable_stiffness(std::optional<double> asked_n_per_mm, const haptics::DeviceLimits& limits,
+                        double rate_hz, const ArmCall& call, const std::string& file, Warnings& warnings);
 devices::Mounting mounting(const ArmCall& call, const Box3& stock);
 
 }  // namespace tribo::app

@@ -23,7 +23,6 @@
 #include "field/mesh_field.hpp"
 #include "formats/feel_trace_csv.hpp"
 #include "formats/stroke_csv.hpp"
-#include "haptics/loop_delay.hpp"
 #include "haptics/simulated_hand.hpp"
 #include "io/feel_stats_json.hpp"
 #include "io/model_file.hpp"
@@ -72,29 +71,6 @@ Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, hapti
         return std::make_unique<haptics::PlaybackHand>(std::move(stroke), 1 / call.rate_hz);
     if (call.device == "simulated") return simulated_hand(call, std::move(stroke));
     return devices::open_arm(call.device, mounting(call.arm, blank));
-}
-
-double stiffness(const FeelCall& call, const formats::Job& job, const haptics::DeviceLimits& limits,
-                 Warnings& warnings) {
-    const double wanted = call.stiffness_n_per_mm.value_or(job.haptics.stiffness_n_per_mm.value_or(0.5));
-    const double passive = haptics::passive_stiffness_n_per_mm(1 / call.rate_hz, call.arm.delay_s());
-    const double most = std::min(limits.max_stiffness_n_per_mm, passive);
-    if (wanted <= most) return wanted;
-    char text[200];
-    if (passive < limits.max_stiffness_n_per_mm) {
-        std::snprintf(
-            text, sizeof text,
-            "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz: %.3g "
-            "stands in",
-            wanted, call.arm.delay_ms, call.rate_hz, most);
-    } else {
-        std::snprintf(text, sizeof text,
-                      "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
-                      static_cast<int>(limits.name.size()), limits.name.data(), most);
-    }
-    // Only what was asked for is worth a word.
-    if (call.stiffness_n_per_mm || job.haptics.stiffness_n_per_mm) warnings.push_back({call.job, 0, text});
-    return most;
 }
 
 // The servo over a whole stroke, and what is known of it afterwards.
@@ -317,7 +293,10 @@ int feel(const FeelCall& call) {
         report(device.error());
         return kRefused;
     }
-    const double surface_n_per_mm = stiffness(call, part.job, (*device)->limits(), part.warnings);
+    const auto asked =
+        call.stiffness_n_per_mm ? call.stiffness_n_per_mm : part.job.haptics.stiffness_n_per_mm;
+    const double surface_n_per_mm =
+        stable_stiffness(asked, (*device)->limits(), call.rate_hz, call.arm, call.job, part.warnings);
     report(part.warnings);
     FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());
     if (part.surface) {

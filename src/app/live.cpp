@@ -11,7 +11,6 @@
 #include "app/render_job.hpp"
 #include "app/threads.hpp"
 #include "devices/device_search.hpp"
-#include "haptics/loop_delay.hpp"
 #include "io/jnd_profile_toml.hpp"
 
 namespace tribo::app {
@@ -51,9 +50,11 @@ LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
     const formats::JobHaptics& h = loaded.job.haptics;
     haptics::ContactOptions& contact = options.feel.contact;
     options.feel.delay_s = call.arm.delay_s();
+    Warnings less;
     contact.stiffness_n_per_mm =
-        std::min({h.stiffness_n_per_mm.value_or(contact.stiffness_n_per_mm), limits.max_stiffness_n_per_mm,
-                  haptics::passive_stiffness_n_per_mm(1 / options.feel.rate_hz, options.feel.delay_s)});
+        stable_stiffness(h.stiffness_n_per_mm, limits, options.feel.rate_hz, call.arm, call.job, less);
+    report(less);
+    options.info.warnings.insert(options.info.warnings.end(), less.begin(), less.end());
     contact.friction_kinetic = h.friction_kinetic.value_or(0);
     contact.friction_static = std::max(h.friction_static.value_or(0), contact.friction_kinetic);
     return options;
