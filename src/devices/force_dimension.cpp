@@ -138,8 +138,7 @@ class ForceDimension final : public haptics::Device {
         if (cause_ != 0) return std::string("the arm has switched its forces off ") + words_of(cause_);
         if (no_watchdog_) {
             return "the arm has not taken a watchdog of 5 ms: should this program hang, its last force "
-                   "stays; "
-                   "keep a hand on the force button";
+                   "stays; keep a hand on the force button";
         }
         return {};
     }

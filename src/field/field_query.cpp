@@ -12,8 +12,6 @@ namespace {
 constexpr double kRounding = 1e-3;
 // Nearer by less than this is not nearer, mm.
 constexpr double kOnSurface = 2e-5;
-// A surface point that one brick's shapes make is one if the field is this close to zero there, in cells:
-// where two bricks meet their lists may differ by a shape whose share is thinner than a cell.
 // Bricks on each side that a look for clear air goes through, and one for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
@@ -200,7 +198,6 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     return false;
 }
 
-// The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
 // The nearest surface point that was found, and how far the next other one is.
 class NearestPlace {
   public:
@@ -223,6 +220,7 @@ class NearestPlace {
     double others_mm_;
 };
 
+// The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
 class FieldQuery::Candidates {
   public:
     Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
@@ -311,7 +309,7 @@ FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c,
     return {node - d * rise, rise};
 }
 
-// Whether the surface about a place, half a cell around, stays further from a point than that.
+// Whether the surface about a place, as far as the place stands for it, stays further from a point than that.
 bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
     const Vec3 way = p - place.at;
     const double over = dot(way, place.normal), aside = length(way - over * place.normal);
