@@ -63,11 +63,10 @@ RC_GTEST_PROP(ContactScout, finds_what_a_look_at_every_point_finds, ()) {
             const TurnLaw law = normal_travel(pose.travel, at);
             const bool outward =
                 law.sine * std::sin(rotation) + law.cosine * std::cos(rotation) + law.constant > 1e-4;
-            // In material from a row below to a row above, so that a whole cell lies in it.
+            // In material from a row below, or the part's end, to a row above: a whole cell lies in it.
             const auto material = [&](double by) {
-                const double there = s + by;
-                return there < s0 || there > s1 ||
-                       stock.is_material(point(pose, profile.at(there), rotation), 1e-3);
+                const double there = std::clamp(s + by, s0, s1);
+                return stock.is_material(point(pose, profile.at(there), rotation), 1e-3);
             };
             any = any || (outward && stock.is_material(point(pose, at, rotation), 0));
             if (!outward || !material(0) || !material(-row) || !material(row)) since = rotation;
