@@ -52,7 +52,8 @@ io::FileResult<Heard> head_of(const formats::JobSound& sound, int sample_rate_hz
                      "the head responses do not tell left from right: neither ear is both earlier "
                      "and louder on the side of the source; they are taken as the file names them"});
         }
-        auto head = sound::Head::measured(*set, rate);
+        auto head = sound::Head::measured(
+            *set, rate, sound.as_measured ? sound::Equalization::none : sound::Equalization::diffuse);
         if (head) return std::move(*head);
         return std::unexpected(io::Failure(head.error()));
     }
@@ -82,7 +83,7 @@ io::FileResult<void> read_voices(const formats::JobSound& sound, sound::Soundtra
             return std::unexpected(io::Failure({sound.chips, 0, 0, "the material has no voice",
                                                 "learn one from a recorded cut with tribo learn"}));
         }
-        track.chip_model = material->voices.models.front().spectrum;
+        track.chips.learned = material->voices.models.front().spectrum;
     }
     return {};
 }

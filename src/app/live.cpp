@@ -24,18 +24,6 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
     return arm;
 }
 
-session::LiveListening listening(const formats::Job& job, const Box3& blank) {
-    const milling::Cutter& cutter = job.cutters.front();
-    session::LiveListening l;
-    l.listener_mm = job.sound.listener_mm.value_or(Vec3{blank.centre().x, blank.centre().y, blank.max.z});
-    l.distance_factor = job.sound.distance_factor;
-    l.reference_distance_m = job.sound.reference_distance_m;
-    l.gain_db = job.sound.gain_db;
-    l.body =
-        sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(job.material.name));
-    return l;
-}
-
 LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
     LiveShowOptions options;
@@ -105,7 +93,7 @@ int live(const LiveCall& call) {
     }
 
     session::LiveExtras extras;
-    extras.listening = listening(first->job, first->setup.blank->bounds_mm());
+    extras.listening = session::listening_to(first->job, first->setup.blank->bounds_mm());
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
 
     // Set back, the program begins again as its files are by then.

@@ -93,9 +93,6 @@ io::FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double>
         if (auto read = read_voices(loaded.job.sound, loaded.track); !read) {
             return std::unexpected(read.error());
         }
-        const milling::Cutter& cutter = loaded.job.cutters.front();
-        loaded.track.body = sound::tool_body(cutter.diameter_mm, cutter.length_mm,
-                                             sound::material_damping(loaded.job.material.name));
     }
     auto material = session::job_material(loaded.job);
     if (!material) {

@@ -10,6 +10,7 @@
 #include "formats/stl.hpp"
 #include "io/gltf.hpp"
 #include "io/picture.hpp"
+#include "session/listening.hpp"
 #include "surface/deviation.hpp"
 
 namespace tribo::app {
@@ -18,12 +19,6 @@ namespace {
 // A cut that is shallower than this looks like the blank's own face.
 constexpr double kOnFaceMm = 1e-3;
 constexpr std::size_t kVerticesAtOnce = 4096;
-
-Vec3 listener(const formats::Job& job, const Box3& blank) {
-    if (job.sound.listener_mm) return *job.sound.listener_mm;
-    const Vec3 c = blank.centre();
-    return {c.x, c.y, blank.max.z};
-}
 
 std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded) {
     const milling::Material& m = loaded.material;
@@ -58,15 +53,11 @@ io::FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
         }
     }
     if (call_.wants("sound")) {
-        const formats::JobSound& s = loaded_.job.sound;
         SoundFileOptions options;
         options.track = loaded_.track;
         options.format.sample_rate_hz = options.track.sample_rate_hz = call_.sample_rate_hz;
-        options.format.bits = s.bits;
-        options.track.gain_db = s.gain_db;
-        options.track.listener_mm = listener(loaded_.job, blank);
-        options.track.distance_factor = s.distance_factor;
-        options.track.reference_distance_m = s.reference_distance_m;
+        options.format.bits = loaded_.job.sound.bits;
+        session::apply(session::listening_to(loaded_.job, blank), options.track);
         options.track.as_published = call_.as_published;
         auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
         if (!file) return std::unexpected(file.error());
@@ -78,7 +69,7 @@ io::FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
 void RenderOutputs::add(const session::MillRow& row, const session::MillSetup& setup) {
     if (forces_) forces_->add(row);
     if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
-    if (sound_) sound_->add(row);
+    if (sound_) sound_->add(row, setup.cutters[row.cutter].flutes);
     if (call_.wants("report")) report_.add(row);
 }
 

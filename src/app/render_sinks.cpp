@@ -8,6 +8,7 @@
 #include "base/math.hpp"
 #include "formats/forces_csv.hpp"
 #include "sound/calibration.hpp"
+#include "sound/workshop.hpp"
 
 namespace tribo::app {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kSameCutS = 1e-6;
 // Length of the waveforms of figure 8, s.
 constexpr double kWaveS = 0.02;
 
-contact::ContactSample sample_of(const session::MillRow& row, double t_s) {
+contact::ContactSample sample_of(const session::MillRow& row, int edges, double t_s) {
     const milling::ToolFrame& f = row.frame;
     const milling::ForceRow& v = row.values;
     contact::ContactSample s;
@@ -35,6 +36,7 @@ contact::ContactSample sample_of(const session::MillRow& row, double t_s) {
     s.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
     s.phase_rad = row.spindle_angle_rad + s.phase_rate_rad_per_s * (t_s - v.t_s);
     s.spectrum = &row.spectrum;
+    s.edges = edges;
     return s;
 }
 
@@ -113,11 +115,11 @@ void SoundFile::write(std::span<const float> block) {
     file_.write(block);
 }
 
-void SoundFile::add(const session::MillRow& row) {
+void SoundFile::add(const session::MillRow& row, int edges) {
     const auto sink = [this](std::span<const float> block) { write(block); };
     const double start = row.values.t_s;
     if (start > last_end_s_ + kSameCutS) {
-        // The tool was in the air: silence until it meets material again.
+        // The tool was in the air: no cut until it meets material again.
         end_cut();
         contact::ContactSample none;
         none.position_mm = row.values.tip_mm;
@@ -129,20 +131,25 @@ void SoundFile::add(const session::MillRow& row) {
         }
         none.t_s = start;
         track_->play_to(none, sink);
-        track_->play_to(sample_of(row, start), sink);
+        track_->play_to(sample_of(row, edges, start), sink);
     }
-    track_->play_to(sample_of(row, 0.5 * (start + row.end_s)), sink);
+    track_->play_to(sample_of(row, edges, 0.5 * (start + row.end_s)), sink);
     last_end_s_ = row.end_s;
+    idle_ = {};
+    idle_.position_mm = row.values.tip_mm;
+    idle_.phase_rate_rad_per_s = row.values.spindle_rpm / 60 * math::kTwoPi;
 }
 
 void SoundFile::end_cut() {
-    if (last_end_s_ >= 0)
-        track_->play_on(last_end_s_, [this](std::span<const float> block) { write(block); });
-    track_->release();
+    if (last_end_s_ < 0) return;
+    track_->play_on(last_end_s_, [this](std::span<const float> block) { write(block); });
+    idle_.t_s = last_end_s_;
+    track_->excite(idle_);
 }
 
 io::FileResult<void> SoundFile::finish(double duration_s) {
     end_cut();
+    track_->play_on(duration_s, [this](std::span<const float> block) { write(block); });
     track_->play_out(duration_s, [this](std::span<const float> block) { write(block); });
     return file_.finish();
 }
@@ -195,6 +202,10 @@ std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
                                               const sound::SoundtrackOptions& options) const {
     std::vector<io::ReportWave> waves;
     if (worst_.force_n <= 0) return waves;
+    // The force's own wave: chips and machine would hide it.
+    sound::SoundtrackOptions force_alone = options;
+    sound::furnish({}, force_alone);
+    force_alone.chips.learned = {};
     const auto wave = [&](double speed, double feed) {
         milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
         model.engage(worst_.engagement, (feed / speed) * worst_.feed);
@@ -207,10 +218,11 @@ std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
         cut.area_mm2 = worst_.feed_mm_per_s > 0 ? worst_.chip_mm3_per_s / worst_.feed_mm_per_s : 0;
         cut.phase_rate_rad_per_s = worst_.rpm * speed / 60 * math::kTwoPi;
         cut.spectrum = &spectrum;
+        cut.edges = setup.cutters[worst_.cutter].flutes;
         char label[80];
         std::snprintf(label, sizeof label, "%.0f rpm, %.0f mm/min, peak %.0f N", worst_.rpm * speed,
                       worst_.feed_mm_per_s * feed * 60, model.peaks().peak_force_n);
-        std::vector<float> samples = sound::steady_wave(cut, options, kWaveS);
+        std::vector<float> samples = sound::steady_wave(cut, force_alone, kWaveS);
         for (float& sample : samples) sample *= static_cast<float>(sound::kFullScalePascal);
         waves.push_back({label, static_cast<double>(options.sample_rate_hz), std::move(samples)});
     };

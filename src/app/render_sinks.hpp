@@ -55,7 +55,7 @@ class SoundFile {
   public:
     static io::FileResult<SoundFile> create(const std::string& path, const SoundFileOptions& options,
                                             double duration_s);
-    void add(const session::MillRow& row);
+    void add(const session::MillRow& row, int edges);
     io::FileResult<void> finish(double duration_s);
     io::ReportSound for_report() const;
     const sound::SoundtrackOptions& options() const { return options_.track; }
@@ -71,6 +71,7 @@ class SoundFile {
     std::unique_ptr<sound::Soundtrack> track_;
     sound::Waveform waveform_;
     double last_end_s_ = -1;
+    contact::ContactSample idle_;  // the spindle after the last row
     std::vector<float> heard_;
     std::int64_t heard_from_ = -1;  // frame of the first sound
 };

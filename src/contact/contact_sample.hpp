@@ -13,6 +13,7 @@
 //   phase        spindle angle, from the datum of       0
 //                ForceSpectrum
 //   spectrum     force over the turn                    none
+//   edges        that pass in a turn of the spindle     0
 //
 // Plain data: copied freely, no allocation. Vectors stand in the stock's (the touched body's) frame. A sample
 // is a moment, not an interval; between two of them every number runs linearly, phase with its own rate.
@@ -39,6 +40,7 @@ struct ContactSample {
     // The periodic part of the force, in the tool's frame; null or empty: none. Borrowed: it has to live only
     // as long as the call that takes the sample.
     const ForceSpectrum* spectrum = nullptr;
+    int edges = 0;  // of the cutter; 0: not told
 };
 
 // Material removed per second by a cutter: feed x area.

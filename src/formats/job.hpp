@@ -80,14 +80,17 @@ struct JobSound {
     double gain_db = 0;
     int bits = 16;  // 16, 24 or 32 per sample
     std::optional<SoundMode> mode;
-    std::string hrtf;  // a SOFA file; empty: the set that is built in
+    std::string hrtf;          // a SOFA file; empty: the set that is built in
+    bool as_measured = false;  // the set's responses; else made for headphones of a diffuse field
     // A recorded cut and the spindle speed at which it was recorded, mixed with equal power: its share of it.
     std::string recording;  // empty: none
     double recording_rpm = 0, recording_share = 0.5;
     std::string idle_recording;  // of a spindle that turns and does not cut; empty: none
     double idle_recording_rpm = 0;
-    std::string
-        chips;  // a material file, whose first voice colours the noise of the chips; empty: a plain band
+    std::string chips;  // a material file, whose first voice is what a recorded cut sounds like; empty: none
+    std::string machine = "mill", room = "workshop";  // names of sound::machines() and sound::rooms()
+    // Against what machine, material and room have, -60 to 60 dB.
+    double cut_db = 0, spindle_db = 0, chips_db = 0, room_db = 0;
 };
 
 enum class ProbeKind { point, ray, cylinder };

@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <vector>
 
 #include "milling/materials.hpp"
+#include "sound/machine.hpp"
+#include "sound/room.hpp"
+#include "sound/workshop.hpp"
 
 namespace tribo::io {
 namespace {
@@ -35,8 +40,16 @@ constexpr std::array kSoundKeys{"listener_mm"sv,
                                 "recording_share"sv,
                                 "idle_recording"sv,
                                 "chips"sv,
-                                "idle_recording_rpm"sv};
+                                "idle_recording_rpm"sv,
+                                "equalize"sv,
+                                "machine"sv,
+                                "room"sv,
+                                "cut_db"sv,
+                                "spindle_db"sv,
+                                "chips_db"sv,
+                                "room_db"sv};
 constexpr std::array kSoundModes{"hrtf"sv, "sphere"sv, "pan"sv};
+constexpr std::array kEqualizations{"diffuse"sv, "none"sv};
 constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "probe"sv,
                                   "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
 constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
@@ -162,6 +175,13 @@ formats::JobEngagement read_engagement(TomlFile& file, const toml::table& table)
     return engagement;
 }
 
+template <class Named>
+std::vector<std::string_view> names_of(std::span<const Named> all) {
+    std::vector<std::string_view> names;
+    for (const Named& n : all) names.push_back(n.name);
+    return names;
+}
+
 formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[sound]", kSoundKeys);
     formats::JobSound sound;
@@ -179,6 +199,12 @@ formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
     sound.hrtf = section.path("hrtf").value_or("");
     if (!sound.hrtf.empty() && sound.mode && *sound.mode != formats::SoundMode::hrtf) {
         section.fail("hrtf", "'hrtf' names a file, but the mode does not use it",
+                     "write mode = \"hrtf\" or remove it");
+    }
+    sound.as_measured = section.word("equalize", kEqualizations).value_or(0) == 1;
+    if (section.has("equalize") &&
+        sound.mode.value_or(formats::SoundMode::hrtf) != formats::SoundMode::hrtf) {
+        section.fail("equalize", "'equalize' is for measured heads, but the mode uses none",
                      "write mode = \"hrtf\" or remove it");
     }
     sound.recording = section.path("recording").value_or("");
@@ -201,6 +227,18 @@ formats::JobSound read_sound(TomlFile& file, const toml::table& table) {
                      "name the recording, or remove it");
     }
     sound.recording_share = section.number("recording_share", {0, 1}).value_or(sound.recording_share);
+    if (const auto n = section.word("machine", names_of(sound::machines())))
+        sound.machine = sound::machines()[*n].name;
+    // Force and vibration alone have no room around them, unless one is asked for.
+    if (sound.machine == sound::machines()[0].name) sound.room = sound::rooms()[0].name;
+    if (const auto n = section.word("room", names_of(sound::rooms()))) sound.room = sound::rooms()[*n].name;
+    const auto level = [&](std::string_view key) {
+        return section.number(key, {-sound::kLargestLevelDb, sound::kLargestLevelDb}).value_or(0);
+    };
+    sound.cut_db = level("cut_db");
+    sound.spindle_db = level("spindle_db");
+    sound.chips_db = level("chips_db");
+    sound.room_db = level("room_db");
     return sound;
 }
 

@@ -180,6 +180,8 @@ void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::
         f.f32(p.spindle_rad_per_s);
         f.f32(p.pace);
         f.f32(p.chip_mm3_per_s);
+        f.u32(count(static_cast<std::size_t>(p.edges)));
+        f.f32(mean_force(p.spectrum).torque_nmm);
         f.i32(p.spectrum.order_step);
         f.u32(count(p.spectrum.harmonics.size()));
         for (const contact::ForceHarmonic& h : p.spectrum.harmonics) {
@@ -191,16 +193,21 @@ void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::
     }
 }
 
-void write_listening_frame(const LiveListening& l, std::vector<std::uint8_t>& out) {
+void write_listening_frame(const Listening& l, std::vector<std::uint8_t>& out) {
     Frame f(LiveFrame::listening, 0, out);
     f.vec3(l.listener_mm);
     f.f32(l.distance_factor);
     f.f32(l.gain_db);
-    for (const sound::BodyMode& mode : l.body.modes) {
+    f.f32(l.reference_distance_m);
+    for (const sound::BodyMode& mode : l.tool.modes) {
         f.f32(mode.hz);
         f.f32(mode.damping);
+        f.f32(mode.gain);
     }
-    f.f32(l.reference_distance_m);
+    const sound::Workshop& w = l.workshop;
+    for (const std::size_t choice : {w.machine, w.room, static_cast<std::size_t>(w.chips)})
+        f.u32(count(choice));
+    for (const double db : {w.cut_db, w.spindle_db, w.chips_db, w.room_db}) f.f32(db);
 }
 
 void write_finger_frame(const LiveTouch& t, std::vector<std::uint8_t>& out) {

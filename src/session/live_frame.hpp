@@ -15,12 +15,12 @@
 #include "contact/texture_record.hpp"
 #include "milling/cutter.hpp"
 #include "motion/program.hpp"
-#include "sound/body.hpp"
+#include "session/listening.hpp"
 
 namespace tribo::session {
 
 // The number that a viewer must know; changes with the layout of any frame.
-inline constexpr std::uint8_t kLiveFrameVersion = 1;
+inline constexpr std::uint8_t kLiveFrameVersion = 2;
 
 enum class LiveFrame : std::uint8_t {
     job = 1,
@@ -95,15 +95,8 @@ struct LiveSoundPiece {
     double spindle_rad_per_s = 0;  // as it turns
     double pace = 1;               // seconds of the program as it was written per second
     double chip_mm3_per_s = 0;
-    contact::ForceSpectrum spectrum;  // torque is not told
-};
-
-// Who listens, and what rings along; as the job says.
-struct LiveListening {
-    Vec3 listener_mm;
-    double distance_factor = 1, gain_db = 0;
-    sound::Body body{};
-    double reference_distance_m = 1;
+    int edges = 0;                    // of the cutter
+    contact::ForceSpectrum spectrum;  // of the torque only the mean is told
 };
 
 struct LiveJob {
@@ -126,7 +119,7 @@ void write_rows_frame(std::span<const LiveRow> rows, bool anew, std::vector<std:
 // `kind` as in milling::CollisionKind.
 void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out);
 void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::uint8_t>& out);
-void write_listening_frame(const LiveListening& listening, std::vector<std::uint8_t>& out);
+void write_listening_frame(const Listening& listening, std::vector<std::uint8_t>& out);
 void write_finger_frame(const LiveTouch& touch, std::vector<std::uint8_t>& out);
 void write_servo_frame(double t_s, const LiveServo& servo, std::vector<std::uint8_t>& out);
 // The eight triangles and the force that each adds when pressed `press_mm` deep into stiffness

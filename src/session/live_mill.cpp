@@ -188,15 +188,11 @@ void LiveMill::show_job(const FrameSink& frames) {
     frames(frame_);
 }
 
-LiveListening LiveMill::listening() const {
+Listening LiveMill::listening() const {
     if (extras_.listening) return *extras_.listening;
-    LiveListening l;
-    const Box3 blank = session_->stock().blank().bounds_mm();
-    l.listener_mm = blank.centre();
-    l.listener_mm.z = blank.max.z;
-    const milling::Cutter& cutter = session_->setup().cutters.front();
-    l.body = sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(""));
-    return l;
+    formats::Job job;
+    job.cutters = {session_->setup().cutters.front()};
+    return listening_to(job, session_->stock().blank().bounds_mm());
 }
 
 void LiveMill::show_designed(const FrameSink& frames) {
@@ -229,8 +225,9 @@ void LiveMill::show_sound(const FrameSink& frames) {
         for (std::size_t n = 0; n < now; ++n) {
             const CutStretch& s = record_.stretches()[pieces_told_ + n];
             const double rad_per_s = change_.speed_factor * s.spindle_rpm / 60 * math::kTwoPi;
+            const int edges = session_->setup().cutters[s.cutter].flutes;
             pieces.push_back({s.start_s, s.end_s, s.tip_mm, changed_phase_rad(s, change_), rad_per_s,
-                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s, forces[n]});
+                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s, edges, forces[n]});
         }
         write_sound_frame(pieces, frame_);
         frames(frame_);

@@ -18,7 +18,7 @@ namespace tribo::session {
 
 // What a viewer is told besides the mill itself.
 struct LiveExtras {
-    std::optional<LiveListening> listening{};  // none: from the centre of the blank's top
+    std::optional<Listening> listening{};  // none: from the centre of the blank's top
     std::shared_ptr<const TriangleMesh> designed{};
 };
 
@@ -70,7 +70,7 @@ class LiveMill {
     void show_rows(const FrameSink& frames);
     void show_sound(const FrameSink& frames);
     void show_designed(const FrameSink& frames);
-    LiveListening listening() const;
+    Listening listening() const;
     void show_state(const FrameSink& frames);
 
     MakeSetup make_setup_;

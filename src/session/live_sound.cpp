@@ -73,15 +73,25 @@ void LiveSound::take(std::span<const std::uint8_t> frame) {
             known_ = false;
             break;
         case LiveFrame::listening: {
-            sound::SoundtrackOptions options = base_;
-            options.listener_mm = r.vec3();
-            options.distance_factor = r.f32();
-            options.gain_db = r.f32();
-            for (sound::BodyMode& mode : options.body.modes) {
+            Listening l;
+            l.listener_mm = r.vec3();
+            l.distance_factor = r.f32();
+            l.gain_db = r.f32();
+            l.reference_distance_m = r.f32();
+            for (sound::BodyMode& mode : l.tool.modes) {
                 mode.hz = r.f32();
                 mode.damping = r.f32();
+                mode.gain = r.f32();
             }
-            options.reference_distance_m = r.f32();
+            l.workshop.machine = r.u32();
+            l.workshop.room = r.u32();
+            l.workshop.chips = static_cast<sound::ChipMaterial>(std::min(r.u32(), 255U));
+            for (double* db :
+                 {&l.workshop.cut_db, &l.workshop.spindle_db, &l.workshop.chips_db, &l.workshop.room_db})
+                *db = r.f32();
+            if (!sound::is_valid(l.workshop)) return;
+            sound::SoundtrackOptions options = base_;
+            apply(l, options);
             if (!sound::check(options)) return;
             base_ = std::move(options);
             begin();
@@ -97,7 +107,7 @@ void LiveSound::take(std::span<const std::uint8_t> frame) {
 
 void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
     Reader r(frame);
-    for (std::uint32_t count = r.u32(); count > 0 && r.has(48); --count) {
+    for (std::uint32_t count = r.u32(); count > 0 && r.has(56); --count) {
         Piece& piece = (*pieces_)[written_ % kPieces];
         piece.t_s = r.f64();
         piece.end_s = piece.t_s + r.f32();
@@ -106,6 +116,8 @@ void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
         piece.rad_per_s = r.f32();
         piece.pace = r.f32();
         piece.chip_mm3_per_s = r.f32();
+        piece.edges = static_cast<int>(std::min(r.u32(), 1000U));
+        piece.torque_nmm = r.f32();
         piece.order_step = std::max(static_cast<int>(r.u32()), 1);
         const std::uint32_t told = r.u32();
         if (!r.has(std::size_t{24} * told)) return;
@@ -115,6 +127,10 @@ void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
             for (float& v : xy) v = static_cast<float>(r.f32());
             r.skip(8);
             if (n < piece.harmonics) piece.xy[n] = xy;
+        }
+        if (written_ == 0) {
+            idle_tip_mm_ = piece.tip_mm;
+            idle_rad_per_s_ = piece.rad_per_s;
         }
         ++written_;
     }
@@ -143,12 +159,25 @@ const LiveSound::Piece* LiveSound::piece_at(double t_s) const {
     return nullptr;
 }
 
+// The spindle turns on as it did last.
+void LiveSound::idle() {
+    contact::ContactSample s;
+    s.t_s = static_cast<double>(track_->frames_rendered() + kHop) / base_.sample_rate_hz;
+    s.position_mm = idle_tip_mm_;
+    s.phase_rate_rad_per_s = idle_rad_per_s_;
+    track_->excite(s);
+}
+
 void LiveSound::steer() {
     const double hop_s = static_cast<double>(kHop) / base_.sample_rate_hz;
     const double t_s = clock_s_ + speed_ * pace_ * hop_s;
     const Piece* piece = known_ && playing_ ? piece_at(t_s) : nullptr;
     if (piece == nullptr) {
-        if (sounding_) track_->release();
+        if (known_ && playing_ && written_ > 0) {
+            idle();
+        } else {
+            track_->release();
+        }
         sounding_ = false;
         return;
     }
@@ -173,6 +202,9 @@ void LiveSound::steer() {
         spectrum_.harmonics[n].x = {static_cast<double>(xy[0]), static_cast<double>(xy[1])};
         spectrum_.harmonics[n].y = {static_cast<double>(xy[2]), static_cast<double>(xy[3])};
     }
+    if (!spectrum_.harmonics.empty()) spectrum_.harmonics[0].torque = piece->torque_nmm;
+    idle_tip_mm_ = piece->tip_mm;
+    idle_rad_per_s_ = piece->rad_per_s;
     contact::ContactSample s;
     s.t_s = static_cast<double>(track_->frames_rendered() + kHop) / base_.sample_rate_hz;
     s.position_mm = piece->tip_mm;
@@ -182,6 +214,7 @@ void LiveSound::steer() {
     s.phase_rad = phase_rad_;
     s.phase_rate_rad_per_s = piece->rad_per_s;
     s.spectrum = &spectrum_;
+    s.edges = piece->edges;
     track_->excite(s);
 }
 

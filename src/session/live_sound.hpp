@@ -40,8 +40,8 @@ class LiveSound {
     struct Piece {
         double t_s = 0, end_s = 0;
         Vec3 tip_mm;
-        double angle_rad = 0, rad_per_s = 0, pace = 1, chip_mm3_per_s = 0;
-        int order_step = 1;
+        double angle_rad = 0, rad_per_s = 0, pace = 1, chip_mm3_per_s = 0, torque_nmm = 0;
+        int edges = 0, order_step = 1;
         std::size_t harmonics = 0;
         std::array<std::array<float, 4>, kHarmonics> xy{};  // re x, im x, re y, im y
     };
@@ -49,6 +49,7 @@ class LiveSound {
     void take_pieces(std::span<const std::uint8_t> frame);
     const Piece* piece_at(double t_s) const;
     void steer();
+    void idle();
 
     sound::SoundtrackOptions base_;
     std::unique_ptr<sound::Soundtrack> track_;
@@ -57,6 +58,8 @@ class LiveSound {
     double clock_s_ = 0, speed_ = 1, pace_ = 1;
     bool playing_ = false, known_ = false, sounding_ = false;
     double phase_rad_ = 0;
+    Vec3 idle_tip_mm_;  // where no metal is cut
+    double idle_rad_per_s_ = 0;
     std::int64_t left_ = 0;  // samples until the next look at the pieces
     contact::ForceSpectrum spectrum_;
 };

@@ -14,11 +14,38 @@ namespace {
 constexpr double kStepSeconds = 0.010;
 // Swing of the chip noise with the partials, as a share of its level.
 constexpr double kNoiseSwing = 0.5;
+constexpr double kMmPerM = 1000;
+
+CutNoise mix(const CutNoise& a, const CutNoise& b, double t) {
+    return {a.body_pa + t * (b.body_pa - a.body_pa), a.chips_pa + t * (b.chips_pa - a.chips_pa),
+            a.coarse + t * (b.coarse - a.coarse)};
+}
 
 }  // namespace
 
+CutNoise noise_of(const CutSound& sound, const contact::ContactSample& cut) {
+    CutNoise noise;
+    if (sound.sound_share > 0 && cut.spectrum != nullptr) {
+        const double watts =
+            std::abs(mean_force(*cut.spectrum).torque_nmm * cut.phase_rate_rad_per_s) / kMmPerM;
+        noise.body_pa = std::sqrt(sound.sound_share * watts * kAirImpedance / (2 * math::kTwoPi));
+    }
+    if (sound.chips.sounds()) {
+        const Chips chips = chips_of(cut);
+        noise.chips_pa = sound.chips.level * chip_pressure_pa(chips);
+        noise.coarse = coarseness(chips.mm3);
+    }
+    if (!sound.chips.learned.reflection.empty()) {
+        noise.chips_pa = std::sqrt(noise.chips_pa * noise.chips_pa + noise.body_pa * noise.body_pa);
+        noise.body_pa = 0;
+    }
+    return noise;
+}
+
 CuttingVoice::CuttingVoice(const CuttingVoiceOptions& options)
-    : options_(options), chips_(options.seed, options.sample_rate_hz, options.chip_band) {
+    : options_(options),
+      pink_(options.seed, options.sample_rate_hz),
+      chips_(options.sound.chips, options.sample_rate_hz, options.seed) {
     bell_size_ = static_cast<std::size_t>(
         std::clamp(std::floor(kStepSeconds * options.sample_rate_hz / kQuantumFrames + 0.5), 2.0,
                    static_cast<double>(kMaxKernel)));
@@ -29,10 +56,9 @@ CuttingVoice::CuttingVoice(const CuttingVoiceOptions& options)
         sum += bell_[k];
     }
     for (std::size_t k = 0; k < bell_size_; ++k) bell_[k] /= sum;
-    if (!options.chip_model.reflection.empty()) {
-        model_chips_.emplace(noise::at_rate(options.chip_model, options.sample_rate_hz), options.seed);
-    }
-    body_.set(options.body, options.sample_rate_hz);
+    body_.set(options.sound.body, options.sample_rate_hz);
+    const double gain = body_.gain_of_pink();
+    pink_gain_ = gain > 0 ? 1 / gain : 0;
 }
 
 void CuttingVoice::drive(const Quantum& force_n) {
@@ -68,34 +94,33 @@ CuttingVoice::Excitation CuttingVoice::now() const {
     if (elapsed_ >= length_) return to_;
     if (waits_) return from_;
     const double t = static_cast<double>(elapsed_) / static_cast<double>(length_);
-    return {to_.step, mix(from_.partials, to_.partials, t),
-            from_.noise_pa + t * (to_.noise_pa - from_.noise_pa)};
+    return {to_.step,
+            {mix(from_.level.partials, to_.level.partials, t), mix(from_.level.noise, to_.level.noise, t)}};
 }
 
 void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
     from_ = now();
-    const bool was_in_contact = !to_.partials.silent();
-    to_.partials =
+    const bool was_in_contact = !to_.level.partials.silent();
+    to_.level.partials =
         next.spectrum != nullptr ? in_plane_partials(*next.spectrum, kPascalPerNewton) : Partials{};
-    to_.noise_pa = kPascalPerMm3PerS * contact::removal_rate_mm3_per_s(next);
-    to_.step = to_.partials.silent() ? from_.step : next.spectrum->order_step;
+    to_.level.noise = noise_of(options_.sound, next);
+    to_.step = to_.level.partials.silent() ? from_.step : next.spectrum->order_step;
     if (to_.step != from_.step) {
         from_.step = to_.step;
-        from_.partials = {};
+        from_.level.partials = {};
     }
     length_ = quanta;
     elapsed_ = 0;
     waits_ = !excited_;  // before the first sample there is nothing to come from
     excited_ = true;
-    if (to_.partials.silent()) return;
+    if (to_.level.partials.silent()) return;
     if (!was_in_contact && !sounding()) phase_.forget();
     const double seconds_per_quantum = kQuantumFrames / options_.sample_rate_hz;
     phase_.lead(next.phase_rad, next.phase_rate_rad_per_s * seconds_per_quantum, quanta, sounding());
 }
 
 void CuttingVoice::release() {
-    to_.partials = {};
-    to_.noise_pa = 0;
+    to_.level = {};
     length_ = elapsed_ = 0;
 }
 
@@ -104,7 +129,9 @@ CuttingVoice::Level CuttingVoice::next_level(const PhasePiece& phase) const {
     if (asked_sounding_ == 0) return sum;
     for (std::size_t k = 0; k < bell_size_; ++k) {
         const Level& level = asked_[(newest_ + k) % bell_size_];
-        sum.noise_pa += bell_[k] * level.noise_pa;
+        sum.noise.body_pa += bell_[k] * level.noise.body_pa;
+        sum.noise.chips_pa += bell_[k] * level.noise.chips_pa;
+        sum.noise.coarse += bell_[k] * level.noise.coarse;
         sum.partials.count = std::max(sum.partials.count, level.partials.count);
         for (std::size_t n = 0; n < static_cast<std::size_t>(level.partials.count); ++n) {
             sum.partials.re[n] += bell_[k] * level.partials.re[n];
@@ -128,52 +155,51 @@ void CuttingVoice::add(Quantum& pressure_pa) {
     newest_ = (newest_ + bell_size_ - 1) % bell_size_;
     Level& asked = asked_[newest_];
     asked_sounding_ -= asked.silent() ? 0 : 1;
-    asked = {wanted.step == step_ ? wanted.partials : Partials{}, wanted.noise_pa};
+    asked = {wanted.step == step_ ? wanted.level.partials : Partials{}, wanted.level.noise};
     asked_sounding_ += asked.silent() ? 0 : 1;
 
     before_ = here_;
     here_ = after_;
     after_ = next_level(phase);
-    Quantum tone{}, sound{};
+    const std::uint64_t quantum = quantum_++;
+    Quantum sound{}, louder{};
     if (!before_.partials.silent() || !here_.partials.silent() || !after_.partials.silent()) {
-        play(before_.partials, here_.partials, after_.partials, phase, step_, tone);
+        play(before_.partials, here_.partials, after_.partials, phase, step_, sound);
     }
-    if (drive_next_ > 0 || drive_share_ > 0) mix_driven(tone);
-    sound = tone;
-    add_noise(tone, sound);
+    if (drive_next_ > 0 || drive_share_ > 0) mix_driven(sound);
+    const bool noisy = before_.noisy() || here_.noisy() || after_.noisy();
+    if (noisy) swing(sound, louder);
+    const auto at = [](std::size_t n) { return static_cast<double>(n) * (1.0 / kQuantumFrames); };
+    const Spline power(before_.noise.body_pa, here_.noise.body_pa, after_.noise.body_pa);
+    if (noisy && options_.sound.sound_share > 0) {
+        const auto pink = pink_.block(quantum);
+        for (std::size_t j = 0; j < sound.size(); ++j) {
+            sound[j] += pink_gain_ * power.at(at(j)) * louder[j] * pink[j];
+        }
+    }
     bool any = false;
     for (const double v : sound) any = any || v != 0;
-    constexpr int kRingQuanta = 64;  // 85 ms: every mode is 60 dB down
-    if (any) ringing_ = body_.rings() ? kRingQuanta : 1;
+    if (any) ringing_ = body_.ring_quanta();
     if (ringing_ > 0) {
         body_.apply(sound);
         for (std::size_t j = 0; j < sound.size(); ++j) pressure_pa[j] += options_.share * sound[j];
         if (--ringing_ == 0) body_.forget();
     }
-    frame_ += kQuantumFrames;
+    if (noisy && options_.sound.chips.sounds()) {
+        const Spline level(before_.noise.chips_pa, here_.noise.chips_pa, after_.noise.chips_pa);
+        Quantum chips;
+        chips_.render(quantum, after_.noise.coarse, chips);
+        for (std::size_t j = 0; j < chips.size(); ++j) {
+            pressure_pa[j] += options_.share * level.at(at(j)) * louder[j] * chips[j];
+        }
+    }
 }
 
-void CuttingVoice::add_noise(const Quantum& tone, Quantum& pressure_pa) {
-    if (before_.noise_pa == 0 && here_.noise_pa == 0 && after_.noise_pa == 0) {
-        chips_fresh_ = true;
-        return;
-    }
-    Quantum chips;
-    if (model_chips_) {
-        const auto block = model_chips_->block(frame_ / kQuantumFrames);
-        for (std::size_t j = 0; j < chips.size(); ++j) chips[j] = static_cast<double>(block[j]);
-    } else {
-        if (chips_fresh_) chips_.clear();
-        chips_.render(frame_, chips);
-    }
-    chips_fresh_ = false;
-    const Spline level(before_.noise_pa, here_.noise_pa, after_.noise_pa);
+void CuttingVoice::swing(const Quantum& tone, Quantum& out) const {
     const Spline peak(before_.partials.peak(), here_.partials.peak(), after_.partials.peak());
-    for (std::size_t j = 0; j < chips.size(); ++j) {
-        const double t = static_cast<double>(j) * (1.0 / kQuantumFrames);
-        const double highest = peak.at(t);
-        const double swing = highest > 0 ? kNoiseSwing * std::clamp(tone[j] / highest, -1.0, 1.0) : 0;
-        pressure_pa[j] += level.at(t) * (1 + swing) * chips[j];
+    for (std::size_t j = 0; j < out.size(); ++j) {
+        const double highest = peak.at(static_cast<double>(j) * (1.0 / kQuantumFrames));
+        out[j] = 1 + (highest > 0 ? kNoiseSwing * std::clamp(tone[j] / highest, -1.0, 1.0) : 0);
     }
 }
 

@@ -4,30 +4,42 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 
-#include "noise/band_noise.hpp"
-#include "noise/model_noise.hpp"
+#include "noise/pink_noise.hpp"
 #include "sound/body.hpp"
+#include "sound/chip_noise.hpp"
 #include "sound/partials.hpp"
 #include "sound/spindle_phase.hpp"
 #include "sound/voice.hpp"
 
 namespace tribo::sound {
 
+// What a cut sounds of besides its force.
+struct CutSound {
+    Body body{};             // what becomes of the force: machine and tool
+    double sound_share = 0;  // of the cutting power that becomes noise, through the body
+    ChipOptions chips{};     // in the air, past the body
+};
+
+// RMS pressures at 1 m of the noise of a cut: what comes through the body, and what the chips make in the
+// air. A learned colour knows both: the chips have all of it.
+struct CutNoise {
+    double body_pa = 0, chips_pa = 0, coarse = 0;
+};
+CutNoise noise_of(const CutSound& sound, const contact::ContactSample& cut);
+
 struct CuttingVoiceOptions {
     double sample_rate_hz = 48000;
-    std::uint64_t seed = 1;       // of the chip noise
-    noise::Band chip_band{};      // 1 to 8 kHz; unless
-    noise::ArModel chip_model{};  // has poles: the colour of a recorded cut
-    double share = 1;             // of the pressure
-    Body body{};                  // what rings along
+    std::uint64_t seed = 1;  // of the noise
+    double share = 1;        // of the pressure
+    CutSound sound{};
 };
 
 // Eq. 22 of the paper made to work: partials at the harmonics of the force spectrum (tooth passing and its
 // multiples; the spindle's own with run-out), each kPascalPerNewton times the force's, in phase with the
-// spindle angle that picture and arm are shown; plus noise with kPascalPerMm3PerS times feed x area (the
-// paper's A2, linear), whose level swings by half with the partials, as chips come tooth by tooth.
+// spindle angle that picture and arm are shown; pink noise by the cutting power; both through the body.
+// Plus the noise of the chips (the paper's A2). Noise swings by half with the partials, as chips come tooth
+// by tooth.
 //
 // An amplitude that steps takes 13 ms along a smooth S, and amplitudes stay 6.7 ms behind their excitation
 // (at 48 kHz); the phase does not. Samples without a spectrum need not know the spindle: theirs is
@@ -44,15 +56,15 @@ class CuttingVoice final : public Voice {
     void add(Quantum& pressure_pa) override;
 
   private:
-    struct Excitation {
-        int step = 1;  // spindle orders per partial
-        Partials partials;
-        double noise_pa = 0;
-    };
     struct Level {
         Partials partials;
-        double noise_pa = 0;
-        bool silent() const { return partials.silent() && noise_pa == 0; }
+        CutNoise noise;
+        bool noisy() const { return noise.body_pa > 0 || noise.chips_pa > 0; }
+        bool silent() const { return partials.silent() && !noisy(); }
+    };
+    struct Excitation {
+        int step = 1;  // spindle orders per partial
+        Level level;
     };
     static constexpr std::size_t kMaxKernel = 40;
 
@@ -62,15 +74,17 @@ class CuttingVoice final : public Voice {
     bool sounding() const {
         return asked_sounding_ > 0 || !before_.silent() || !here_.silent() || !after_.silent();
     }
-    void add_noise(const Quantum& tone, Quantum& pressure_pa);
+    // How much louder noise is in each frame, as the teeth come and go.
+    void swing(const Quantum& tone, Quantum& out) const;
     // Its share of the tone, crossfaded.
     void mix_driven(Quantum& tone);
 
     CuttingVoiceOptions options_;
-    noise::BandNoise chips_;
-    std::optional<noise::ModelNoise> model_chips_;
+    noise::PinkNoise pink_;
+    ChipNoise chips_;
     BodyFilter body_;
-    int ringing_ = 0;  // quanta for which the body is still heard
+    double pink_gain_ = 0;  // that the body makes a level of 1 of
+    int ringing_ = 0;       // quanta for which the body is still heard
     // A force that came at audio rate: its tone, and how much of the sound it makes.
     Quantum driven_{};
     double drive_share_ = 0, drive_next_ = 0, force_before_ = 0, tone_before_ = 0;
@@ -86,8 +100,7 @@ class CuttingVoice final : public Voice {
     std::size_t asked_sounding_ = 0;  // how many of asked_ are not silent
     int step_ = 1;                    // of asked_ and what is played
     Level before_, here_, after_;     // the spline of the quantum in hand
-    std::uint64_t frame_ = 0;
-    bool chips_fresh_ = true;
+    std::uint64_t quantum_ = 0;
 };
 
 }  // namespace tribo::sound

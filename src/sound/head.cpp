@@ -125,6 +125,7 @@ void Head::finish() {
 
 std::shared_ptr<const Head> Head::panning(double sample_rate_hz) {
     const auto head = std::shared_ptr<Head>(new Head(sample_rate_hz, 16));
+    head->ears_apart_m_ = 0;
     for (int r = 0; r < kRows; ++r) {
         for (int c = 0; c < kColumns; ++c) {
             // The angle between the loudspeakers by how far to the side the source is.

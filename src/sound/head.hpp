@@ -32,6 +32,11 @@ enum class EarOrder : std::uint8_t { right, exchanged, unclear };
 EarOrder ear_order(const HrirSet& set);
 void exchange_ears(HrirSet& set);
 
+// What ears are made for. Headphones that give every ear the sound of a diffuse field, as most do, bring that
+// ear's own amplification with them: `diffuse` takes it out of the head, where it would count twice. `none`
+// keeps the responses as they were measured.
+enum class Equalization : std::uint8_t { diffuse, none };
+
 // A radius within which a source is inside the head: there its direction fades into "everywhere", as the
 // angle of a source that passes through the middle would leap. In m; the sphere's radius (Duda and Martens
 // 1998).
@@ -46,7 +51,10 @@ class Head {
     // directions and ears; below 400 Hz, where sets tell of their loudspeaker and room, it has the magnitude
     // of the sphere below, from 800 Hz on its own. Ears amplify: the shipped set by up to 25 dB near 3 kHz.
     // Takes some 0.5 s.
-    static Result<std::shared_ptr<const Head>> measured(const HrirSet& set, double sample_rate_hz);
+    // `diffuse`: from 800 Hz on divided by the root of the mean power of all its directions, smoothed over a
+    // third octave, by no more than 20 dB either way.
+    static Result<std::shared_ptr<const Head>> measured(const HrirSet& set, double sample_rate_hz,
+                                                        Equalization equalization = Equalization::none);
     // A rigid sphere with ears 10 degrees behind its sides, in closed form (Duda and Martens 1998), and
     // behind it up to 8 dB less above 3 kHz, as outer ears do. Takes some 30 ms.
     static std::shared_ptr<const Head> sphere(double sample_rate_hz);
@@ -55,6 +63,8 @@ class Head {
     static std::shared_ptr<const Head> panning(double sample_rate_hz);
 
     double sample_rate_hz() const { return sample_rate_hz_; }
+    // Between the ears; 0 for two loudspeakers.
+    double ears_apart_m() const { return ears_apart_m_; }
     int taps() const { return taps_; }  // a multiple of 16; the rest of EarResponses is zero
 
     // Responses to a source at `place` in head radii (longer than 1: that direction). Real-time safe, about
@@ -80,6 +90,7 @@ class Head {
 
     double sample_rate_hz_;
     int taps_;
+    double ears_apart_m_ = 2 * kHeadRadius;
     std::vector<EarResponses> nodes_;
     HeadTaps everywhere_{};
 };

@@ -223,6 +223,23 @@ void correct_bass(std::vector<Complex>& spectrum, double bin_hz, const Wanted& w
     }
 }
 
+// One over the root of the mean power, bin by bin, smoothed over a third octave.
+std::vector<double> equalizer_of(std::span<const double> power, double bin_hz) {
+    constexpr double kSixthOctave = 1.122462048309373, kMost = 10;  // 20 dB
+    std::vector<double> by(power.size(), 1);
+    for (std::size_t k = 1; k < by.size(); ++k) {
+        const double hz = static_cast<double>(k) * bin_hz;
+        const auto first = static_cast<std::size_t>(hz / kSixthOctave / bin_hz + 0.5);
+        const auto last =
+            std::min(static_cast<std::size_t>(hz * kSixthOctave / bin_hz + 0.5), power.size() - 1);
+        double sum = 0;
+        for (std::size_t n = first; n <= last; ++n) sum += power[n];
+        const double mean = sum / static_cast<double>(last - first + 1);
+        by[k] = std::clamp(1 / std::sqrt(std::max(mean, 1e-30)), 1 / kMost, kMost);
+    }
+    return by;
+}
+
 // How long after its response begins an ear hears, s: where it first has a fifth of its peak.
 double arrival_s(const HrirSet& set, std::size_t direction, std::size_t ear) {
     const auto taps = static_cast<std::size_t>(set.taps);
@@ -307,7 +324,8 @@ void exchange_ears(HrirSet& set) {
     }
 }
 
-Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sample_rate_hz) {
+Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sample_rate_hz,
+                                                   Equalization equalization) {
     if (auto ok = check_hrirs(set); !ok) return std::unexpected(ok.error());
     MinimumPhase phase(sample_rate_hz);
     Resampled resampled(set, phase);
@@ -316,13 +334,31 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
     EarResponses round_head;
     std::vector<EarResponses> by_direction;
     std::vector<Complex> spectra[2];
-    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+    std::size_t peak[2];
+    const auto respond = [&](std::size_t n) {
         const auto taps = static_cast<std::size_t>(set.taps);
         const float* left = set.responses.data() + 2 * n * taps;
-        std::size_t peak[2];
         resampled.at(left, left + taps, taps, spectra, peak);
         for (std::vector<Complex>& spectrum : spectra) {
             for (Complex& v : spectrum) v *= gain;
+        }
+    };
+    std::vector<double> equalizer;
+    if (equalization == Equalization::diffuse) {
+        std::vector<double> power(phase.bins());
+        const double share = 0.5 / static_cast<double>(set.directions.size());
+        for (std::size_t n = 0; n < set.directions.size(); ++n) {
+            respond(n);
+            for (const std::vector<Complex>& spectrum : spectra) {
+                for (std::size_t k = 0; k < power.size(); ++k) power[k] += share * squared(spectrum[k]);
+            }
+        }
+        equalizer = equalizer_of(power, phase.bin_hz());
+    }
+    for (std::size_t n = 0; n < set.directions.size(); ++n) {
+        respond(n);
+        for (std::size_t k = 0; k < equalizer.size(); ++k) {
+            for (std::vector<Complex>& spectrum : spectra) spectrum[k] *= equalizer[k];
         }
         // Twice: the filters are shorter than the measurement, and what they leave of its bass is corrected
         // too.

@@ -5,6 +5,12 @@
 #include "sound/calibration.hpp"
 
 namespace tribo::sound {
+namespace {
+
+// The paper's A2 per mm^3 of material removed in a second; its term is silent as printed.
+constexpr double kPascalPerMm3PerS = 2e-4;
+
+}  // namespace
 
 double published_sound(double t_s, double a1, double f1_hz, double a2) {
     constexpr double kF2 = 0, kTheta1 = 0, kTheta2 = 0;

@@ -75,6 +75,7 @@ Result<void> check_recording(const Recording& r) {
 RecordedVoice::RecordedVoice(const Recording& recording, const RecordedVoiceOptions& options)
     : options_(options), table_(&interpolator_table()) {
     assert(check_recording(recording));
+    body_.set(options.cut.body, options.sample_rate_hz);
     const std::vector<float>& from = recording.samples;
     frames_per_turn_ = recording.sample_rate_hz * 60 / recording.spindle_rpm;
     const double turns = std::floor(static_cast<double>(from.size()) / frames_per_turn_);
@@ -120,12 +121,14 @@ void RecordedVoice::excite(const contact::ContactSample& next, std::int64_t quan
     if (options_.idle_pa > 0) {
         level_from_ = level_to_ = rate_to_ > 0 ? options_.idle_pa : 0;
     } else {
-        const double chips = kPascalPerMm3PerS * contact::removal_rate_mm3_per_s(next);
-        double power = chips * chips;
+        const CutNoise noise = noise_of(options_.cut, next);
+        double power = noise.chips_pa * noise.chips_pa + noise.body_pa * noise.body_pa;
         if (next.spectrum != nullptr) {
             const Partials p = in_plane_partials(*next.spectrum, kPascalPerNewton);
+            const double hz = rate_to_ * options_.sample_rate_hz * next.spectrum->order_step;
             for (std::size_t n = 0; n < static_cast<std::size_t>(p.count); ++n) {
-                power += 2 * (p.re[n] * p.re[n] + p.im[n] * p.im[n]);
+                const double gain = body_.gain_at(hz * static_cast<double>(n + 1));
+                power += 2 * gain * gain * (p.re[n] * p.re[n] + p.im[n] * p.im[n]);
             }
         }
         level_to_ = rate_to_ > 0 ? std::sqrt(power) : 0;

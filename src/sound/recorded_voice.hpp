@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "sound/cutting_voice.hpp"
 #include "sound/ear_kernels.hpp"
 #include "sound/spindle_phase.hpp"
 #include "sound/voice.hpp"
@@ -31,6 +32,7 @@ struct RecordedVoiceOptions {
     // Of an idle spindle: RMS pressure in Pa at 1 m whenever the spindle turns. 0: of a cut, as loud (RMS) as
     // CuttingVoice would be.
     double idle_pa = 0;
+    CutSound cut{};  // of the CuttingVoice
 };
 
 // Order tracking: the recording is a loop of whole turns, read as fast as the spindle turns now over how fast
@@ -59,6 +61,7 @@ class RecordedVoice final : public Voice {
     double frames_per_turn_ = 0, loop_frames_ = 0;
     std::array<std::vector<float>, kCopies> copies_;  // the loop, RMS 1, with some of its start at its end
     const InterpolatorTable* table_;
+    BodyFilter body_;  // of which only the gain is asked
 
     double rate_from_ = 0, rate_to_ = 0;    // turns per frame
     double level_from_ = 0, level_to_ = 0;  // Pa RMS

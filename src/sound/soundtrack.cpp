@@ -9,6 +9,7 @@
 #include "sound/calibration.hpp"
 #include "sound/cutting_voice.hpp"
 #include "sound/limiter.hpp"
+#include "sound/machine_voice.hpp"
 #include "sound/partials.hpp"
 #include "sound/published_voice.hpp"
 
@@ -20,18 +21,23 @@ constexpr double kMmPerM = 1000;
 // The loudness of a source that leaps follows by this share of what is left per quantum, twice over: 21 ms.
 constexpr double kFollow = 0.125;
 
+// In which a spindle that nobody tells of any more dies away by 120 dB.
+constexpr double kFadeSeconds = 0.2;
+
 std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& options) {
     std::vector<std::unique_ptr<Voice>> voices;
     if (options.as_published) {
         voices.push_back(std::make_unique<PublishedVoice>(options.sample_rate_hz));
     } else {
+        const Machine& machine = options.machine;
         CuttingVoiceOptions cut;
         cut.sample_rate_hz = options.sample_rate_hz;
         cut.seed = options.seed;
-        cut.chip_model = options.chip_model;
-        cut.body = options.body;
+        cut.sound = {with_modes(machine.radiation, options.tool, machine.tool_gain), machine.sound_share,
+                     options.chips};
         RecordedVoiceOptions recorded;
         recorded.sample_rate_hz = options.sample_rate_hz;
+        recorded.cut = cut.sound;
         if (options.recording) {
             math::sincos(math::kHalfPi * options.recording_share, recorded.share, cut.share);
             voices.push_back(std::make_unique<RecordedVoice>(*options.recording, recorded));
@@ -41,6 +47,14 @@ std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& opti
             recorded.share = 1;
             recorded.idle_pa = options.idle_pa;
             voices.push_back(std::make_unique<RecordedVoice>(*options.idle, recorded));
+        } else if (machine.spindle.pa > 0) {
+            MachineVoiceOptions spindle;
+            spindle.sample_rate_hz = options.sample_rate_hz;
+            spindle.seed = options.seed + 1;
+            spindle.spindle = machine.spindle;
+            // What a recorded cut was learned or looped from holds the sound of its machine.
+            spindle.share_in_cut = options.chips.learned.reflection.empty() ? cut.share : 0;
+            voices.push_back(std::make_unique<MachineVoice>(spindle));
         }
     }
     return voices;
@@ -94,6 +108,11 @@ Soundtrack::Soundtrack(const SoundtrackOptions& options, std::vector<std::unique
       samples_per_pascal_(math::pow(10, options.gain_db / 20) / kFullScalePascal) {
     assert(check(options));
     if (options.head) source_ = std::make_unique<SpatialSource>(options.head);
+    if (options.head && options.room.reflects()) {
+        room_ = std::make_unique<RoomReflections>(options.room, in_metres(options.listener_mm),
+                                                  options.sample_rate_hz, options.head->ears_apart_m());
+    }
+    ring_s_ = std::max(ring_seconds(options.machine.radiation), ring_seconds(options.tool));
     listener_m_.lead(in_metres(options.listener_mm), 0, true);
     forward_.lead({0, 1, 0}, 0, true);
     up_.lead({0, 0, 1}, 0, true);
@@ -148,7 +167,9 @@ bool Soundtrack::listen(const Listener& pose_mm, double t_s) {
 }
 
 double Soundtrack::tail_seconds() const {
-    return kTailSeconds + (source_ ? source_->seconds_to_silence() : 0);
+    const double air =
+        std::max(source_ ? source_->seconds_to_silence() : 0, room_ ? room_->seconds_to_silence() : 0);
+    return kTailSeconds + std::max(ring_s_, options_.machine.spindle.pa > 0 ? kFadeSeconds : 0) + air;
 }
 
 double Soundtrack::rolloff_now() const {
@@ -192,7 +213,9 @@ void Soundtrack::place(const Quantum& pressure_pa) {
     listener.forward = forward_.advance();
     listener.up = up_.advance();
     made_ = {};
-    source_->add(pressure_pa, source_m_.advance(), listener, made_);
+    const Vec3 place_m = source_m_.advance();
+    source_->add(pressure_pa, place_m, listener, made_);
+    if (room_) room_->add(pressure_pa, place_m, listener, made_);
     for (EarQuantum* ear : {&made_.left, &made_.right}) {
         for (float& v : *ear) v = static_cast<float>(limited(samples_per_pascal_ * static_cast<double>(v)));
     }

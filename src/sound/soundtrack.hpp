@@ -11,10 +11,12 @@
 
 #include "base/result.hpp"
 #include "contact/contact_sample.hpp"
-#include "noise/ar_model.hpp"
 #include "sound/body.hpp"
+#include "sound/chip_noise.hpp"
 #include "sound/glide.hpp"
+#include "sound/machine.hpp"
 #include "sound/recorded_voice.hpp"
+#include "sound/room.hpp"
 #include "sound/spatial_source.hpp"
 #include "sound/voice.hpp"
 
@@ -23,7 +25,8 @@ namespace tribo::sound {
 inline constexpr int kChannels = 2;
 inline constexpr double kTailSeconds = 0.02;  // what a release takes, and some (at the source)
 // With a head: until the air has brought it all.
-inline constexpr double kLongestTailSeconds = kTailSeconds + kLongestTravelSeconds + 0.02;
+inline constexpr double kLongestTailSeconds =
+    kTailSeconds + kLongestRingSeconds + kLongestTravelSeconds + 0.5;
 inline constexpr int kLowestSampleRateHz = 32000;  // carries the chip noise up to 8 kHz with room
 inline constexpr int kHighestSampleRateHz = 192000;
 
@@ -35,12 +38,14 @@ struct SoundtrackOptions {
     double distance_factor = 1;  // > 0; distances count times this (the paper's; > 1 enlarges a small part)
     // How places are heard, of the same sample rate; null: both channels alike, distance is loudness.
     std::shared_ptr<const Head> head{};
-    bool as_published = false;    // eq. 23 as printed in place of partials and noise
-    std::uint64_t seed = 1;       // of the noise
-    noise::ArModel chip_model{};  // colour of the chip noise, learned from a recorded cut; none: a band
-    Body body{};                  // what tool and material add
+    bool as_published = false;  // eq. 23 as printed in place of partials and noise
+    std::uint64_t seed = 1;     // of the noise
+    Body tool{};                // what rings with it; its `direct` does not count
+    Machine machine{};          // none
+    ChipOptions chips{};        // none
+    Room room{};                // none; heard with a head only
     // A recorded cut that follows the spindle, and its share of the power, 0 ... 1 (equal power: the
-    // synthesis has the rest); an idle spindle, and its RMS pressure at 1 m.
+    // synthesis has the rest); an idle spindle in place of the machine's, and its RMS pressure at 1 m.
     std::shared_ptr<const Recording> recording{}, idle{};
     double recording_share = 0.5, idle_pa = 0.02;
 };
@@ -133,6 +138,7 @@ class Soundtrack {
     SoundtrackOptions options_;
     std::vector<std::unique_ptr<Voice>> voices_;
     double samples_per_pascal_ = 0;
+    double ring_s_ = 0;  // of the bodies
     ForceSignal* signal_ = nullptr;
     std::int64_t quantum_ = 0;      // the next one to be made
     std::int64_t frame_ = 0;        // the next one to be given out
@@ -144,6 +150,7 @@ class Soundtrack {
     double slow_ = 1;                           // half way through the smoothing
     double before_ = 1, here_ = 1, after_ = 1;  // smooth, a quantum apart
     std::unique_ptr<SpatialSource> source_;     // none: both channels alike
+    std::unique_ptr<RoomReflections> room_;     // none: no room
     Glide source_m_, listener_m_, forward_, up_;
     Ears made_;  // the last quantum; frame_ says how much of it is out
 };

@@ -119,15 +119,7 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
         loaded.part = std::move(model->mesh);
     }
     loaded.material = job->material.name;
-    const milling::Cutter& cutter = job->cutters.front();
-    session::LiveListening& listening = loaded.listening;
-    const Box3 box = inputs.blank->bounds_mm();
-    listening.listener_mm = job->sound.listener_mm.value_or(Vec3{box.centre().x, box.centre().y, box.max.z});
-    listening.distance_factor = job->sound.distance_factor;
-    listening.reference_distance_m = job->sound.reference_distance_m;
-    listening.gain_db = job->sound.gain_db;
-    listening.body =
-        sound::tool_body(cutter.diameter_mm, cutter.length_mm, sound::material_damping(job->material.name));
+    loaded.listening = session::listening_to(*job, inputs.blank->bounds_mm());
     auto setup = session::prepare_mill(*job, std::move(inputs), {cell_mm, {}, session::LiveMill::kPieceMm},
                                        loaded.warnings);
     if (!setup) {

@@ -12,7 +12,7 @@ namespace tribo::wasm {
 
 struct LoadedMill {
     session::MillSetup setup;
-    session::LiveListening listening;
+    session::Listening listening;
     std::optional<TriangleMesh> part;  // the designed surface
     std::string material;              // its name, or nothing where the job has coefficients of its own
     Warnings warnings;

@@ -31,6 +31,7 @@ gcode = "slots.nc"
 [sound]
 bits = 32
 mode = "sphere"
+machine = "none"
 )";
 constexpr const char* kProgram = "G21 G90 M3\nG0 X-5 Y10 Z-6\nG1 X3 F60\nG0 Z5\nX-5\nZ-12\nG1 X3 F600\nM30\n";
 constexpr int kRate = 48000;

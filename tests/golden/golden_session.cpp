@@ -11,7 +11,7 @@
 #include "formats/gcode_reader.hpp"
 #include "golden/golden.hpp"
 #include "session/mill_setup.hpp"
-#include "sound/soundtrack.hpp"
+#include "sound/workshop.hpp"
 
 namespace tribo::golden {
 namespace {
@@ -30,7 +30,10 @@ std::uint64_t milled(const formats::Job& job, motion::Program program) {
     session::MillSession session(std::move(*setup), serial_for);
 
     Hash hash;
-    sound::Soundtrack track({});
+    sound::SoundtrackOptions sounds;
+    sounds.head = sound::Head::sphere(sounds.sample_rate_hz);
+    sound::furnish({.machine = 1, .room = 1, .chips = sound::ChipMaterial::aluminium}, sounds);
+    sound::Soundtrack track(sounds);
     std::vector<float> block_of_sound(1000);
     session::MillSinks sinks;
     sinks.row = [&](const session::MillRow& row) {

@@ -49,7 +49,7 @@ std::vector<float> sound_of(const contact::ForceSpectrum& spectrum, double secon
                             std::shared_ptr<const sound::Head> head = nullptr) {
     sound::SoundtrackOptions options;
     options.head = std::move(head);
-    options.body = sound::tool_body(12, 40, sound::material_damping("al7075-t6"));
+    options.tool = sound::tool_body(12, 40, sound::material_damping("al7075-t6"));
     sound::Soundtrack track(options);
     std::vector<float> left;
     const auto keep = [&](std::span<const float> block) {

@@ -199,7 +199,7 @@ TEST_P(LongSound, of_everything_at_once_stays_within_full_scale) {
     sound::SoundtrackOptions options;
     options.head = sound::Head::sphere(kRate);
     options.gain_db = 30;  // into the limiter
-    options.body = sound::tool_body(12, 60, 0.03);
+    options.tool = sound::tool_body(12, 60, 0.03);
     sound::Recording machine;
     machine.sample_rate_hz = 44100;
     machine.spindle_rpm = 6000;

@@ -198,22 +198,42 @@ TEST(CuttingSound, level_is_linear_in_force) {
     for (std::size_t n = 0; n < a.size(); ++n) ASSERT_EQ(2 * a[n], b[n]);
 }
 
-TEST(CuttingSound, chip_noise_is_linear_in_feed_times_area_and_calibrated) {
-    for (const double removal : {50.0, 500.0, 2000.0}) {
-        const contact::ContactSample samples[] = {cut_at(0, nullptr, 6000, removal),
-                                                  cut_at(10, nullptr, 6000, removal)};
-        const std::vector<float> wave = track_of(samples, 10);
-        const double expected = kPascalPerMm3PerS * removal / kFullScalePascal;
-        EXPECT_NEAR(test::rms(std::span(wave).subspan(4800, 470000)) / expected, 1, 0.02) << removal;
+TEST(CuttingSound, has_no_chips_machine_or_room_unless_they_are_chosen) {
+    const contact::ContactSample samples[] = {cut_at(0, nullptr, 6000, 1000), cut_at(1, nullptr, 6000, 1000)};
+    for (const float v : track_of(samples, 1)) ASSERT_EQ(v, 0);
+}
+
+TEST(CuttingSound, chips_are_as_loud_as_their_number_and_size_say) {
+    // Removed per second, edges; a thousand chips of 1 mm^3 a second make kChipPascal.
+    const struct {
+        double removal, rpm;
+        int edges;
+        double factor;
+    } cuts[] = {{1000, 6000, 10, 1},
+                {1000, 60000, 1, 1},
+                {2000, 6000, 20, std::sqrt(2.0)},        // twice as many
+                {2000, 6000, 10, std::pow(2, 2.0 / 3)},  // twice as large
+                {10, 600, 0, std::sqrt(0.01)}};          // one a turn where edges are not told
+    for (const auto& cut : cuts) {
+        SoundtrackOptions options;
+        options.chips.material = ChipMaterial::steel;
+        contact::ContactSample samples[] = {cut_at(0, nullptr, cut.rpm, cut.removal),
+                                            cut_at(10, nullptr, cut.rpm, cut.removal)};
+        for (contact::ContactSample& s : samples) s.edges = cut.edges;
+        const std::vector<float> wave = track_of(samples, 10, options);
+        const double expected = kChipPascal * cut.factor / kFullScalePascal;
+        EXPECT_NEAR(test::rms(std::span(wave).subspan(4800, 470000)) / expected, 1, 0.02) << cut.factor;
     }
 }
 
 TEST(CuttingSound, chip_noise_swings_with_the_teeth_by_half_its_level) {
     // One partial, 50 teeth a second: the noise alone is the difference to the same cut without chips.
     const contact::ForceSpectrum spectrum = falling_spectrum(1, 1, 1);
+    SoundtrackOptions options;
+    options.chips.material = ChipMaterial::aluminium;
     const auto wave = [&](double removal) {
         return track_of(std::vector{cut_at(0, &spectrum, 3000, removal), cut_at(8, &spectrum, 3000, removal)},
-                        8);
+                        8, options);
     };
     const std::vector<float> both = wave(1000), tone = wave(0);
     double high = 0, low = 0;

@@ -4,6 +4,7 @@
 
 #include "base/counted_allocations.hpp"
 #include "sound/cuts.hpp"
+#include "sound/workshop.hpp"
 
 namespace tribo::sound {
 namespace {
@@ -13,9 +14,13 @@ using tribo::test::allocations;
 TEST(SoundOfTheAudioThread, never_allocates) {
     const contact::ForceSpectrum two = test::falling_spectrum(2, 64), four = test::falling_spectrum(4, 16);
     std::vector<float> buffer(2 * 128);
-    for (const bool as_published : {false, true}) {
+    for (int n = 0; n < 3; ++n) {
         SoundtrackOptions options;
-        options.as_published = as_published;
+        options.as_published = n == 1;
+        if (n == 2) {
+            options.head = Head::sphere(options.sample_rate_hz);
+            furnish({.machine = 1, .room = 1, .chips = ChipMaterial::steel}, options);
+        }
         Soundtrack track(options);
         const long before = allocations;
         double t = 0;
