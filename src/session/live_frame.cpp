@@ -180,8 +180,6 @@ void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::
         f.f32(p.spindle_rad_per_s);
         f.f32(p.pace);
         f.f32(p.chip_mm3_per_s);
-        f.u32(count(static_cast<std::size_t>(p.edges)));
-        f.f32(mean_force(p.spectrum).torque_nmm);
         f.i32(p.spectrum.order_step);
         f.u32(count(p.spectrum.harmonics.size()));
         for (const contact::ForceHarmonic& h : p.spectrum.harmonics) {
@@ -191,6 +189,11 @@ void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::
             }
         }
     }
+    // Later than the rest of the frame: readers that do not know of it are done.
+    for (const LiveSoundPiece& p : pieces) {
+        f.i32(p.edges);
+        f.f32(mean_force(p.spectrum).torque_nmm);
+    }
 }
 
 void write_listening_frame(const Listening& l, std::vector<std::uint8_t>& out) {
@@ -198,12 +201,12 @@ void write_listening_frame(const Listening& l, std::vector<std::uint8_t>& out) {
     f.vec3(l.listener_mm);
     f.f32(l.distance_factor);
     f.f32(l.gain_db);
-    f.f32(l.reference_distance_m);
-    for (const sound::BodyMode& mode : l.tool.modes) {
-        f.f32(mode.hz);
-        f.f32(mode.damping);
-        f.f32(mode.gain);
+    constexpr std::size_t kToolModes = 2;
+    for (std::size_t n = 0; n < kToolModes; ++n) {
+        f.f32(l.tool.modes[n].hz);
+        f.f32(l.tool.modes[n].damping);
     }
+    f.f32(l.reference_distance_m);
     const sound::Workshop& w = l.workshop;
     for (const std::size_t choice : {w.machine, w.room, static_cast<std::size_t>(w.chips)})
         f.u32(count(choice));

@@ -20,7 +20,7 @@
 namespace tribo::session {
 
 // The number that a viewer must know; changes with the layout of any frame.
-inline constexpr std::uint8_t kLiveFrameVersion = 2;
+inline constexpr std::uint8_t kLiveFrameVersion = 1;
 
 enum class LiveFrame : std::uint8_t {
     job = 1,

@@ -10,6 +10,8 @@
 namespace tribo::session {
 namespace {
 
+constexpr std::uint32_t kMostEdges = 1000;
+
 // Samples between two looks at the pieces: four quanta, 5 ms.
 constexpr std::int64_t kHop = std::int64_t{4} * sound::kQuantumFrames;
 // A clock that is told this far from where it was thought, in s of sound, was set; less is jitter of who
@@ -77,12 +79,8 @@ void LiveSound::take(std::span<const std::uint8_t> frame) {
             l.listener_mm = r.vec3();
             l.distance_factor = r.f32();
             l.gain_db = r.f32();
+            for (std::size_t n = 0; n < 2; ++n) l.tool.modes[n] = {r.f32(), r.f32()};
             l.reference_distance_m = r.f32();
-            for (sound::BodyMode& mode : l.tool.modes) {
-                mode.hz = r.f32();
-                mode.damping = r.f32();
-                mode.gain = r.f32();
-            }
             l.workshop.machine = r.u32();
             l.workshop.room = r.u32();
             l.workshop.chips = static_cast<sound::ChipMaterial>(std::min(r.u32(), 255U));
@@ -107,8 +105,11 @@ void LiveSound::take(std::span<const std::uint8_t> frame) {
 
 void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
     Reader r(frame);
-    for (std::uint32_t count = r.u32(); count > 0 && r.has(56); --count) {
+    const std::size_t first = written_;
+    for (std::uint32_t count = r.u32(); count > 0 && r.has(48); --count) {
         Piece& piece = (*pieces_)[written_ % kPieces];
+        piece.edges = 0;
+        piece.torque_nmm = 0;
         piece.t_s = r.f64();
         piece.end_s = piece.t_s + r.f32();
         piece.tip_mm = r.vec3();
@@ -116,8 +117,6 @@ void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
         piece.rad_per_s = r.f32();
         piece.pace = r.f32();
         piece.chip_mm3_per_s = r.f32();
-        piece.edges = static_cast<int>(std::min(r.u32(), 1000U));
-        piece.torque_nmm = r.f32();
         piece.order_step = std::max(static_cast<int>(r.u32()), 1);
         const std::uint32_t told = r.u32();
         if (!r.has(std::size_t{24} * told)) return;
@@ -133,6 +132,12 @@ void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
             idle_rad_per_s_ = piece.rad_per_s;
         }
         ++written_;
+    }
+    // Frames of earlier versions of the program end here.
+    for (std::size_t n = first; n < written_ && r.has(8); ++n) {
+        Piece& piece = (*pieces_)[n % kPieces];
+        piece.edges = static_cast<int>(std::min(r.u32(), kMostEdges));
+        piece.torque_nmm = r.f32();
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The binary frames of the live view (docs/live-protocol.md, src/session/live_frame.hpp), decoded. Lengths in mm.
 
-export const FRAME_VERSION = 2;
+export const FRAME_VERSION = 1;
 
 export type Vec3 = [number, number, number];
 
@@ -96,8 +96,6 @@ export interface Piece {
   // Seconds of the program as written per second.
   pace: number;
   chips: number;
-  edges: number;
-  torque: number; // N mm, mean
   orderStep: number;
   // The mean first; each re x, im x, re y, im y, re z, im z, in N, in the tool's frame.
   harmonics: Float32Array;
@@ -320,8 +318,6 @@ function decodePiece(r: Reader): Piece {
     radPerS: r.f32(),
     pace: r.f32(),
     chips: r.f32(),
-    edges: r.u32(),
-    torque: r.f32(),
     orderStep: r.i32(),
   };
   const harmonics = new Float32Array(6 * r.u32());

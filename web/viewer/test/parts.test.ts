@@ -101,7 +101,7 @@ describe("chip load", () => {
 
 describe("a turn of the spindle", () => {
   // Mean 5 N along the feed, and 2 * 3 N cos(2 angle) across it.
-  const piece = { time: 0, duration: 1, tip: [0, 0, 0] as [number, number, number], angle: 0, radPerS: 2 * Math.PI * 100, pace: 1, chips: 0, edges: 2, torque: 0, orderStep: 2, harmonics: new Float32Array([5, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0]) };
+  const piece = { time: 0, duration: 1, tip: [0, 0, 0] as [number, number, number], angle: 0, radPerS: 2 * Math.PI * 100, pace: 1, chips: 0, orderStep: 2, harmonics: new Float32Array([5, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0]) };
   it("is the sum of its harmonics", () => {
     const t = turn(piece, 4);
     t.x.forEach((v) => expect(v).toBeCloseTo(5, 12));
