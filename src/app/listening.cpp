@@ -83,7 +83,9 @@ io::FileResult<void> read_voices(const formats::JobSound& sound, sound::Soundtra
             return std::unexpected(io::Failure({sound.chips, 0, 0, "the material has no voice",
                                                 "learn one from a recorded cut with tribo learn"}));
         }
-        track.chips.learned = material->voices.models.front().spectrum;
+        const noise::VoiceModel& voice = material->voices.models.front();
+        track.chips.learned = voice.spectrum;
+        if (voice.bass) track.chips.learned_bass = *voice.bass;
     }
     return {};
 }

@@ -205,7 +205,7 @@ std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
     // The force's own wave: chips and machine would hide it.
     sound::SoundtrackOptions force_alone = options;
     sound::furnish({}, force_alone);
-    force_alone.chips.learned = {};
+    force_alone.chips.learned.reset();
     const auto wave = [&](double speed, double feed) {
         milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
         model.engage(worst_.engagement, (feed / speed) * worst_.feed);

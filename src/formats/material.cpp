@@ -19,6 +19,10 @@ void round_digits(noise::MaterialVoices& voices) {
     for (noise::VoiceModel& v : voices.models) {
         v.level_db = rounded(v.level_db, 1e-3);
         all(v.spectrum.reflection, 1e-8);
+        if (v.bass) {
+            v.bass->share = rounded(v.bass->share, 1e-6);
+            all(v.bass->spectrum.reflection, 1e-8);
+        }
         if (!v.texture) continue;
         for (std::vector<double>& table : v.texture->levels_db) all(table, 1e-2);
         v.texture->coherence = rounded(v.texture->coherence, 1e-4);

@@ -18,9 +18,10 @@ constexpr std::array<std::string_view, 11> kMaterialKeys{
     "schema", "name",   "note",        "stiffness_n_per_mm", "viscosity_n_s_per_mm", "width_mm", "image",
     "voices", "method", "highpass_hz", "level_law"};
 constexpr std::array<std::string_view, 3> kLawKeys{"level_db", "db_per_decade_speed", "db_per_decade_force"};
-constexpr std::array<std::string_view, 8> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
+constexpr std::array<std::string_view, 9> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
                                                      "sample_rate_hz", "reflection", "line_spectrum_hz",
-                                                     "recordings",     "texture"};
+                                                     "recordings",     "texture",    "bass"};
+constexpr std::array<std::string_view, 3> kBassKeys{"share", "sample_rate_hz", "reflection"};
 constexpr std::array<std::string_view, 8> kSourceKeys{"file", "seconds", "sample_rate_hz", "channels",
                                                       "bits", "peak_db", "silent_share",   "clipped_share"};
 
@@ -85,6 +86,7 @@ class Reader {
             v.spectrum.reflection = section.numbers(
                 "reflection", {-noise::kLargestReflection, noise::kLargestReflection}, noise::kLargestOrder);
             check_line_spectrum(section, v);
+            if (const Json* bass = section.object("bass")) v.bass = read_bass(*bass, path + ".bass");
             if (const Json* texture = section.object("texture")) {
                 v.texture = read_texture(*texture, path + ".texture", v.spectrum.sample_rate_hz);
             }
@@ -92,6 +94,17 @@ class Reader {
             m.voices.models.push_back(std::move(v));
             m.sources.push_back(read_sources(section, path));
         }
+    }
+
+    noise::BassModel read_bass(const Json& json, const std::string& path) {
+        JsonSection section(json, path, kBassKeys, error_, file_);
+        noise::BassModel bass;
+        bass.share = section.number("share", {0, 1});
+        bass.spectrum.sample_rate_hz =
+            section.number("sample_rate_hz", {2 * noise::kBassHz, 2 * noise::kBassRateHz});
+        bass.spectrum.reflection = section.numbers(
+            "reflection", {-noise::kLargestReflection, noise::kLargestReflection}, noise::kLargestOrder);
+        return bass;
     }
 
     // The reflection coefficients count; the line spectrum is there for readers that would rather have it.
@@ -214,6 +227,11 @@ Json voice_json(const VoiceModel& v, const std::vector<RecordingSource>& sources
         lines.push_back(std::round(100 * angle / math::kTwoPi * v.spectrum.sample_rate_hz) / 100);
     }
     json["line_spectrum_hz"] = std::move(lines);
+    if (v.bass) {
+        json["bass"] = {{"share", v.bass->share},
+                        {"sample_rate_hz", v.bass->spectrum.sample_rate_hz},
+                        {"reflection", v.bass->spectrum.reflection}};
+    }
     if (v.texture) json["texture"] = texture_json(*v.texture);
     Json recordings = Json::array();
     for (const RecordingSource& s : sources) recordings.push_back(source_json(s));

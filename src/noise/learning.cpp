@@ -19,6 +19,13 @@ constexpr double kWhite = 1e-11;         // added to r_0: the top of a band-limi
 constexpr double kHeldOutBlockS = 0.25;  // alternate blocks learn and test
 constexpr double kSame = 1e-9;           // relative difference of equal speeds and forces
 
+// Of the bass: 2.7 Hz at 44.1 kHz, fine enough for the lowest third octave and for a line of the mains.
+constexpr std::size_t kBassFrame = 16384;
+constexpr std::size_t kBassOrder = 100;
+constexpr double kLeastBass = 1e-6;  // of the power: less is none
+constexpr double kBassToleranceDb = 1, kLowestBandHz = 63;
+constexpr double kThirdOctave = 1.2589254117941673, kSixthOctave = 1.1220184543019633;  // 10^0.1, 10^0.05
+
 using Pieces = std::vector<std::span<const double>>;
 
 // Recordings at one speed and force.
@@ -80,6 +87,37 @@ void restore_below(std::vector<double>& power, double rate_hz, double highpass_h
     double mean = 0;
     for (std::size_t k = first; k < end; ++k) mean += power[k] / static_cast<double>(end - first);
     for (std::size_t k = 0; k < first; ++k) power[k] = mean;
+}
+
+// Mean power spectrum under Hann windows of `frame` samples (a power of two) that overlap by half, a bin 0
+// ... `frame`, times `weight`. Pieces shorter than `shortest` are left out.
+struct WindowedPower {
+    std::vector<double> bins;
+    double weight = 0;
+};
+WindowedPower windowed_power(std::span<const std::span<const double>> pieces, double sample_rate_hz,
+                             double highpass_hz, std::size_t frame, std::size_t shortest) {
+    // Frames are padded to twice their length, so that the correlation does not wrap around.
+    WindowedPower power{std::vector<double>(frame + 1)};
+    std::vector<std::complex<double>> x(2 * frame);
+    for (const std::span<const double> piece : pieces) {
+        const std::size_t length = std::min(piece.size(), frame);
+        if (length < shortest) continue;  // mostly window
+        for (std::size_t at = 0; at + length <= piece.size(); at += length / 2) {
+            std::ranges::fill(x, 0.0);
+            for (std::size_t n = 0; n < length; ++n) {
+                const double phase =
+                    math::kTwoPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length);
+                const double hann = 0.5 - 0.5 * math::cos(phase);
+                x[n] = hann * piece[at + n];
+                power.weight += hann * hann;
+            }
+            fourier(x);
+            for (std::size_t k = 0; k < power.bins.size(); ++k) power.bins[k] += std::norm(x[k]);
+        }
+    }
+    restore_below(power.bins, sample_rate_hz, highpass_hz);
+    return power;
 }
 
 // How far, in dB, the models of orders 1 ... most of one half of the sound are from the spectrum of the
@@ -155,6 +193,7 @@ VoiceModel group_model(const Group& group, std::span<const PreparedRecording> pr
     const Pieces pieces = longest.pieces();
     const bool one_rate = longest.sample_rate_hz == model.spectrum.sample_rate_hz;
     if (options.method == Method::burg && one_rate) model.spectrum.reflection = burg(pieces, order);
+    if (one_rate) model.bass = learn_bass(pieces, model.spectrum, options.highpass_hz);
     if (options.textures && one_rate) model.texture = learn_texture(pieces, model.spectrum, group.speed);
     return model;
 }
@@ -180,36 +219,59 @@ Result<std::vector<PreparedRecording>> prepared_all(std::span<const Recording> r
 
 std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
                                              double sample_rate_hz, double highpass_hz, int lags) {
-    // Frames are padded to twice their length, so that the correlation does not wrap around.
-    constexpr std::size_t kPadded = 2 * kAutocorrelationFrame;
-    std::vector<double> power(kPadded / 2 + 1);
-    std::vector<std::complex<double>> x(kPadded);
-    double weight = 0;
-    const std::size_t shortest = 2 * (static_cast<std::size_t>(lags) + 1);
-    for (const std::span<const double> piece : pieces) {
-        const std::size_t length = std::min(piece.size(), kAutocorrelationFrame);
-        if (length < shortest) continue;  // mostly window
-        for (std::size_t at = 0; at + length <= piece.size(); at += length / 2) {
-            std::ranges::fill(x, 0.0);
-            for (std::size_t n = 0; n < length; ++n) {
-                const double phase =
-                    math::kTwoPi * (static_cast<double>(n) + 0.5) / static_cast<double>(length);
-                const double hann = 0.5 - 0.5 * math::cos(phase);
-                x[n] = hann * piece[at + n];
-                weight += hann * hann;
-            }
-            fourier(x);
-            for (std::size_t k = 0; k < power.size(); ++k) power[k] += std::norm(x[k]);
-        }
-    }
-    restore_below(power, sample_rate_hz, highpass_hz);
-    for (std::size_t k = 0; k < kPadded; ++k) x[k] = power[k <= kPadded / 2 ? k : kPadded - k];
+    const WindowedPower power = windowed_power(pieces, sample_rate_hz, highpass_hz, kAutocorrelationFrame,
+                                               2 * (static_cast<std::size_t>(lags) + 1));
+    const std::size_t half = power.bins.size() - 1;
+    std::vector<std::complex<double>> x(2 * half);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = power.bins[k <= half ? k : 2 * half - k];
     fourier(x);
     std::vector<double> r(static_cast<std::size_t>(lags) + 1);
     for (std::size_t k = 0; k < r.size(); ++k) {
-        r[k] = x[k].real() / (static_cast<double>(kPadded) * std::max(weight, 1e-300));
+        r[k] = x[k].real() / (static_cast<double>(x.size()) * std::max(power.weight, 1e-300));
     }
     return r;
+}
+
+std::optional<BassModel> learn_bass(std::span<const std::span<const double>> pieces, const ArModel& whole,
+                                    double highpass_hz) {
+    const double rate_hz = whole.sample_rate_hz;
+    const auto divisor = static_cast<std::size_t>(std::floor(rate_hz / kBassRateHz + 0.5));
+    if (divisor < 2) return std::nullopt;
+    const double bass_rate_hz = rate_hz / static_cast<double>(divisor);
+    const std::vector<double> power =
+        windowed_power(pieces, rate_hz, highpass_hz, kBassFrame, kBassFrame).bins;
+    const double bin_hz = 0.5 * rate_hz / static_cast<double>(power.size() - 1);
+    std::vector<double> r(kBassOrder + 1);
+    double all = 0;
+    for (std::size_t k = 1; k + 1 < power.size(); ++k) {
+        const double hz = static_cast<double>(k) * bin_hz;
+        all += power[k];
+        if (hz >= 0.5 * bass_rate_hz) continue;
+        const double bass = power[k] * bass_share(hz);
+        for (std::size_t lag = 0; lag < r.size(); ++lag) {
+            r[lag] += bass * math::cos(math::kTwoPi * hz / bass_rate_hz * static_cast<double>(lag));
+        }
+    }
+    if (!(r[0] > kLeastBass * all)) return std::nullopt;
+    BassModel model{{bass_rate_hz, levinson(r, kWhite)}, r[0] / all};
+
+    // Only where the model of the whole is off by more than can be heard, third octave by third octave.
+    double error = 0, bands = 0;
+    for (double middle = kLowestBandHz; middle < kBassHz; middle *= kThirdOctave) {
+        double heard = 0, modelled = 0;
+        const double low = middle / kSixthOctave, high = middle * kSixthOctave;
+        for (auto k = static_cast<std::size_t>(std::ceil(low / bin_hz));
+             static_cast<double>(k) * bin_hz < high; ++k) {
+            heard += power[k] / all;
+            modelled += power_at(whole, static_cast<double>(k) * bin_hz) * bin_hz / (0.5 * rate_hz);
+        }
+        if (!(heard > 0 && modelled > 0)) continue;
+        const double db = 10 * math::log10(heard / modelled);
+        error += db * db;
+        ++bands;
+    }
+    if (bands == 0 || std::sqrt(error / bands) < kBassToleranceDb) return std::nullopt;
+    return model;
 }
 
 Result<Learned> learn(std::span<const Recording> recordings, const LearningOptions& options) {

@@ -61,4 +61,9 @@ Result<Learned> learn(std::span<const Recording> recordings, const LearningOptio
 std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
                                              double sample_rate_hz, double highpass_hz, int lags);
 
+// The bass of pieces that went through prepare()'s high-pass; none where `whole` tells of it within 1 dB (RMS
+// over third octaves), where there is none, or where no piece is long enough for 3 Hz (0.4 s at 44.1 kHz).
+std::optional<BassModel> learn_bass(std::span<const std::span<const double>> pieces, const ArModel& whole,
+                                    double highpass_hz);
+
 }  // namespace tribo::noise

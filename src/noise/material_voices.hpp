@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "noise/ar_model.hpp"
+#include "noise/bass_noise.hpp"
 #include "noise/texture_model.hpp"
 
 namespace tribo::noise {
@@ -19,6 +20,7 @@ struct VoiceModel {
     double level_db = 0;        // RMS, dB of full scale
     ArModel spectrum;
     std::optional<TextureModel> texture{};  // absent: Gaussian noise of that spectrum
+    std::optional<BassModel> bass{};        // absent: the spectrum tells enough of it
 
     friend bool operator==(const VoiceModel&, const VoiceModel&) = default;
 };

@@ -13,7 +13,7 @@
 namespace tribo::sound {
 namespace {
 
-constexpr int kPoints = 7, kOrder = 24;
+constexpr int kPoints = 7, kOrder = 40;
 using Colour = std::array<noise::ColourPoint, kPoints>;
 
 // Of chips half way between fine and coarse. Drawn by ear and by what is known of chip forms (ISO 3685: long
@@ -86,8 +86,10 @@ double coarseness(double chip_mm3) {
 }
 
 ChipNoise::ChipNoise(const ChipOptions& options, double sample_rate_hz, std::uint64_t seed) {
-    if (!options.learned.reflection.empty()) {
-        fine_.emplace(noise::at_rate(options.learned, sample_rate_hz), seed);
+    if (options.learned && options.learned_bass.share > 0) {
+        learned_.emplace(*options.learned, options.learned_bass, sample_rate_hz, seed);
+    } else if (options.learned) {
+        fine_.emplace(noise::at_rate(*options.learned, sample_rate_hz), seed);
     } else if (options.material != ChipMaterial::none) {
         const Colour& colour = colour_of(options.material);
         fine_.emplace(noise_of(colour, kHalfRange, sample_rate_hz, seed));
@@ -96,6 +98,10 @@ ChipNoise::ChipNoise(const ChipOptions& options, double sample_rate_hz, std::uin
 }
 
 void ChipNoise::render(std::uint64_t index, double coarse, Quantum& out) {
+    if (learned_) {
+        std::ranges::copy(learned_->block(index), out.begin());
+        return;
+    }
     const double to = coarse_ ? coarse : 0, from = share_ < 0 ? to : share_;
     share_ = to;
     out.fill(0);

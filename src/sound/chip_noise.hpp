@@ -9,6 +9,7 @@
 
 #include "contact/contact_sample.hpp"
 #include "noise/ar_model.hpp"
+#include "noise/bass_noise.hpp"
 #include "noise/model_noise.hpp"
 #include "sound/voice.hpp"
 
@@ -22,10 +23,12 @@ ChipMaterial chip_material(std::string_view material);
 
 struct ChipOptions {
     ChipMaterial material = ChipMaterial::none;
-    double level = 1;          // of the pressure
-    noise::ArModel learned{};  // where it has poles: the colour of a recorded cut, whatever the material
+    double level = 1;  // of the pressure
+    // The colour of a recorded cut, whatever the material. It has poles; bass without a share is none.
+    std::optional<noise::ArModel> learned{};
+    noise::BassModel learned_bass{};
 
-    bool sounds() const { return material != ChipMaterial::none || !learned.reflection.empty(); }
+    bool sounds() const { return material != ChipMaterial::none || learned; }
 };
 
 // What the chips of a moment are: how many come off per second, and the volume of one. Where the number of
@@ -52,8 +55,9 @@ class ChipNoise {
     void render(std::uint64_t index, double coarse, Quantum& out);
 
   private:
-    std::optional<noise::ModelNoise> fine_, coarse_;  // a learned colour is fine_ alone
-    double share_ = -1;                               // of the coarse; below 0: not yet told
+    std::optional<noise::DetailedNoise> learned_;  // alone
+    std::optional<noise::ModelNoise> fine_, coarse_;
+    double share_ = -1;  // of the coarse; below 0: not yet told
 };
 
 }  // namespace tribo::sound

@@ -35,7 +35,7 @@ CutNoise noise_of(const CutSound& sound, const contact::ContactSample& cut) {
         noise.chips_pa = sound.chips.level * chip_pressure_pa(chips);
         noise.coarse = coarseness(chips.mm3);
     }
-    if (!sound.chips.learned.reflection.empty()) {
+    if (sound.chips.learned) {
         noise.chips_pa = std::sqrt(noise.chips_pa * noise.chips_pa + noise.body_pa * noise.body_pa);
         noise.body_pa = 0;
     }

@@ -53,7 +53,7 @@ std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& opti
             spindle.seed = options.seed + 1;
             spindle.spindle = machine.spindle;
             // What a recorded cut was learned or looped from holds the sound of its machine.
-            spindle.share_in_cut = options.chips.learned.reflection.empty() ? cut.share : 0;
+            spindle.share_in_cut = options.chips.learned ? 0 : cut.share;
             voices.push_back(std::make_unique<MachineVoice>(spindle));
         }
     }

@@ -50,6 +50,13 @@ std::vector<double> numbers_of(const noise::MaterialVoices& voices) {
         to.push_back(m.texture ? static_cast<double>(m.texture->levels_db.size()) : 0);
         if (m.texture) append_texture(to, *m.texture);
     }
+    // What voice_create does not play: the bass of each voice, its order first.
+    for (const noise::VoiceModel& m : voices.models) {
+        to.push_back(m.bass ? static_cast<double>(m.bass->spectrum.reflection.size()) : 0);
+        if (!m.bass) continue;
+        to.insert(to.end(), {m.bass->share, m.bass->spectrum.sample_rate_hz});
+        append(to, m.bass->spectrum.reflection);
+    }
     return to;
 }
 

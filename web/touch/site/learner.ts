@@ -21,7 +21,13 @@ export interface Source {
   clipped_share: number;
 }
 /** A voice as a material file has it. */
-export type LearnedVoice = Omit<VoiceModel, "texture"> & { texture?: Texture; recordings: Source[] };
+export type LearnedVoice = Omit<VoiceModel, "texture"> & { texture?: Texture; bass?: Bass; recordings: Source[] };
+/** Below 700 Hz, in more detail than the voice's own model; for the chips of a cut. */
+export interface Bass {
+  share: number;
+  sample_rate_hz: number;
+  reflection: number[];
+}
 export interface Learned {
   level_law: { level_db: number; db_per_decade_speed: number; db_per_decade_force: number };
   voices: LearnedVoice[];
@@ -54,7 +60,7 @@ function texture(take: () => number, list: (n: number) => number[], bands: numbe
   return { crossovers_hz, levels_db, coherence, lengths_mm, weights, grains: { per_mm, share, scatter, sizes: list(take()), shape: list(take()) } };
 }
 
-/** The numbers of voice_create (src/wasm/touch_voice.cpp) as parts of a material file. */
+/** The numbers of voice_create (src/wasm/touch_voice.cpp), and the bass of each voice, as parts of a material file. */
 function voicesOf(numbers: Float64Array): Omit<Learned, "warnings"> {
   let at = 0;
   const take = () => numbers[at++]!;
@@ -69,6 +75,10 @@ function voicesOf(numbers: Float64Array): Omit<Learned, "warnings"> {
       ...(bands > 0 ? { texture: texture(take, list, bands) } : {}), recordings: [],
     };
   });
+  for (const voice of voices) {
+    const order = take();
+    if (order > 0) voice.bass = { share: take(), sample_rate_hz: take(), reflection: list(order) };
+  }
   return { level_law: { level_db, db_per_decade_speed, db_per_decade_force }, voices };
 }
 
