@@ -10,6 +10,7 @@
 #include "harness.hpp"
 #include "openal_peer.hpp"
 #include "sound/spatial_source.hpp"
+#include "sound/workshop.hpp"
 
 namespace tribo::bench {
 namespace {
@@ -192,6 +193,40 @@ void measure_factors(Report& report) {
                 direct});
 }
 
+// Percent of a core that the soundtrack of a cut takes, told a hundred times a second: a slot with 32
+// harmonics, past a listener.
+double soundtrack_percent(const std::shared_ptr<const sound::Head>& head, const sound::Workshop& workshop) {
+    sound::SoundtrackOptions options;
+    options.head = head;
+    options.tool = sound::tool_body(12, 60, 0.03);
+    sound::furnish(workshop, options);
+    sound::Soundtrack track(options);
+    contact::ForceSpectrum spectrum;
+    spectrum.order_step = 2;
+    for (int n = 0; n <= 32; ++n) {
+        const double newton = 20.0 / (n + 1);
+        spectrum.harmonics.push_back({newton, {0, newton}, newton, 5000.0 / (n + 1)});
+    }
+    constexpr int kPerSecond = 100, kLength = 5;
+    std::vector<float> block(sound::kChannels * static_cast<std::size_t>(kRate) / kPerSecond);
+    const double start = thread_s();
+    for (int n = 0; n < kPerSecond * kLength; ++n) {
+        contact::ContactSample cut;
+        cut.t_s = static_cast<double>(n) / kPerSecond;
+        cut.position_mm = {0.3 * n, 100, 0};
+        cut.slip_mm_per_s = {10, 0, 0};
+        cut.area_mm2 = 50;
+        cut.phase_rate_rad_per_s = 6000 / 60.0 * 2 * kPi;
+        cut.phase_rad = cut.phase_rate_rad_per_s * cut.t_s;
+        cut.spectrum = &spectrum;
+        cut.edges = 2;
+        track.excite(cut);
+        track.render(block);
+        keep(block);
+    }
+    return 100 * (thread_s() - start) / kLength;
+}
+
 }  // namespace
 
 void measure_sound(Report& report) {
@@ -221,6 +256,12 @@ void measure_sound(Report& report) {
                 peer_ns(false, true)});
     report.add({"tone of a moving source over its stray energy", own_clean_db(sphere), "dB", 60,
                 Better::higher, peer, peer_clean_db()});
+    const auto percent = [&](const sound::Workshop& workshop) {
+        return median_of(5, [&] { return soundtrack_percent(sphere, workshop); });
+    };
+    report.add({"soundtrack of a cut, force alone", percent({}), "% of a core"});
+    report.add({"soundtrack of a cut with machine, chips and room",
+                percent({.machine = 1, .room = 1, .chips = sound::ChipMaterial::steel}), "% of a core", 1});
     measure_factors(report);
 }
 

@@ -8,29 +8,12 @@
 #include <random>
 
 #include "app/program.hpp"
+#include "io/riff.hpp"
 
 namespace tribo::test {
 namespace {
 
 constexpr int kRate = 44100;
-
-std::string little(std::uint32_t value, int bytes) {
-    std::string s;
-    for (int n = 0; n < bytes; ++n) s += static_cast<char>(value >> 8 * n & 255);
-    return s;
-}
-
-// A WAV file of 16 bits, mono, by the format's definition.
-std::string wav(const std::vector<double>& x) {
-    std::string data;
-    for (const double v : x) {
-        const long n = std::lround(std::clamp(v, -1.0, 1.0) * 32767);
-        data += little(static_cast<std::uint32_t>(n), 2);
-    }
-    return "RIFF" + little(static_cast<std::uint32_t>(36 + data.size()), 4) + "WAVEfmt " + little(16, 4) +
-           little(1, 2) + little(1, 2) + little(kRate, 4) + little(2 * kRate, 4) + little(2, 2) +
-           little(16, 2) + "data" + little(static_cast<std::uint32_t>(data.size()), 4) + data;
-}
 
 // Two resonances: poles at r e^{+-iw}. As a predictor a_1 ... a_4.
 const std::array<double, 5>& resonances() {
@@ -75,8 +58,8 @@ double gain_db(const std::vector<double>& a, double hz) {
 class Learn : public testing::Test {
   protected:
     Learn() {
-        scratch.put("slow.wav", wav(rubbed(-40, 6, 1)));
-        scratch.put("fast.wav", wav(rubbed(-26, 6, 2)));
+        scratch.put("slow.wav", wav(kRate, rubbed(-40, 6, 1)));
+        scratch.put("fast.wav", wav(kRate, rubbed(-26, 6, 2)));
     }
     Outcome learn(std::vector<std::string> more) const {
         more.insert(more.begin(), "learn");
@@ -152,7 +135,7 @@ TEST_F(Learn, writes_a_page_that_shows_and_plays_original_and_imitation) {
 TEST_F(Learn, reports_silence_and_clipping_and_learns_from_the_rest) {
     std::vector<double> x = rubbed(-6, 4, 3);  // peaks beyond full scale are cut off
     x.insert(x.end(), 4 * kRate, 0.0);
-    scratch.put("odd.wav", wav(x));
+    scratch.put("odd.wav", wav(kRate, x));
     const Outcome run = learn({"--recording", "100@0.5:odd.wav", "--out", "m.json"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_NE(run.err.find("silen"), std::string::npos) << run.err;
@@ -165,8 +148,8 @@ TEST_F(Learn, reports_silence_and_clipping_and_learns_from_the_rest) {
 }
 
 TEST_F(Learn, refuses_bad_calls_by_name_and_leaves_what_was_there) {
-    scratch.put("silent.wav", wav(std::vector<double>(2 * kRate)));
-    scratch.put("short.wav", wav(rubbed(-20, 0.01, 1)));
+    scratch.put("silent.wav", wav(kRate, std::vector<double>(2 * kRate)));
+    scratch.put("short.wav", wav(kRate, rubbed(-20, 0.01, 1)));
     scratch.put("text.wav", "not a sound");
     scratch.put("m.json", "old");
     const std::size_t before = scratch.entries();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A WAV file as its definition reads it, apart from the library that wrote it.
+// WAV files as their definition reads and writes them, apart from the library that does so for the program.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -51,5 +53,25 @@ struct Riff {
         return values;
     }
 };
+
+inline std::string little_endian(std::uint32_t value, int bytes) {
+    std::string s;
+    for (int n = 0; n < bytes; ++n) s += static_cast<char>(value >> 8 * n & 255);
+    return s;
+}
+
+// A WAV file of 16 bits, mono, by the format's definition.
+inline std::string wav(int rate_hz, const std::vector<double>& x) {
+    const auto rate = static_cast<std::uint32_t>(rate_hz);
+    std::string data;
+    for (const double v : x) {
+        const long n = std::lround(std::clamp(v, -1.0, 1.0) * 32767);
+        data += little_endian(static_cast<std::uint32_t>(n), 2);
+    }
+    const auto size = static_cast<std::uint32_t>(data.size());
+    return "RIFF" + little_endian(36 + size, 4) + "WAVEfmt " + little_endian(16, 4) + little_endian(1, 2) +
+           little_endian(1, 2) + little_endian(rate, 4) + little_endian(2 * rate, 4) + little_endian(2, 2) +
+           little_endian(16, 2) + "data" + little_endian(size, 4) + data;
+}
 
 }  // namespace tribo::test
