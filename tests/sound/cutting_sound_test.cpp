@@ -232,14 +232,15 @@ TEST(CuttingSound, chip_noise_swings_with_the_teeth_by_half_its_level) {
     SoundtrackOptions options;
     options.chips.material = ChipMaterial::aluminium;
     const auto wave = [&](double removal) {
-        return track_of(std::vector{cut_at(0, &spectrum, 3000, removal), cut_at(8, &spectrum, 3000, removal)},
-                        8, options);
+        return track_of(
+            std::vector{cut_at(0, &spectrum, 3000, removal), cut_at(24, &spectrum, 3000, removal)}, 24,
+            options);
     };
     const std::vector<float> both = wave(1000), tone = wave(0);
     double high = 0, low = 0;
     int highs = 0, lows = 0;
     const double top = 2 * kSamplePerNewton;
-    for (std::size_t n = 4800; n < 380000; ++n) {
+    for (std::size_t n = 4800; n < 1150000; ++n) {
         const double noise = static_cast<double>(both[n]) - static_cast<double>(tone[n]);
         if (tone[n] > 0.98 * top) high += noise * noise, ++highs;
         if (tone[n] < -0.98 * top) low += noise * noise, ++lows;
