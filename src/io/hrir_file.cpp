@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/hrir_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -70,6 +71,15 @@ bool fits(const MYSOFA_ARRAY& array, std::size_t least) {
 
 // SOFA's listener looks along +x with +y to the left; the head here along +y with +x to the right.
 Result<sound::HrirSet> set_of(MYSOFA_HRTF& h) {
+    // Whichever ear the file puts first: the left one has the larger y. libmysofa wants it first, at +y; what
+    // the responses themselves say counts in the end (sound::ear_order).
+    constexpr float kEarM = 0.09F;
+    const bool swapped =
+        fits(h.ReceiverPosition, 6) && h.ReceiverPosition.values[1] < h.ReceiverPosition.values[4];
+    if (fits(h.ReceiverPosition, 6)) {
+        constexpr std::array<float, 6> kLeftFirst{0, kEarM, 0, 0, -kEarM, 0};
+        std::ranges::copy(kLeftFirst, h.ReceiverPosition.values);
+    }
     if (const int error = mysofa_check(&h); error != MYSOFA_OK) return refused(cause_of(error));
     const std::size_t m = h.M, n = h.N, r = h.R;
     constexpr std::size_t kMost = std::size_t{1} << 27;  // samples, half a gigabyte
@@ -83,8 +93,6 @@ Result<sound::HrirSet> set_of(MYSOFA_HRTF& h) {
     sound::HrirSet set;
     set.sample_rate_hz = static_cast<double>(h.DataSamplingRate.values[0]);
     set.taps = static_cast<int>(n);
-    // libmysofa 1.3 turns receivers into cartesian coordinates with the rest; the left one has +y.
-    const bool swapped = h.ReceiverPosition.values[1] < h.ReceiverPosition.values[4];
     const bool delay_each = h.DataDelay.elements >= 2 * m;
     for (std::size_t k = 0; k < m; ++k) {
         const float* p = h.SourcePosition.values + 3 * k;
