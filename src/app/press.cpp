@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
@@ -31,11 +32,23 @@ constexpr int kBandRows = 16;
 
 struct Inputs {
     formats::Material material;
-    io::Image image;      // at the size of the frames
+    io::Image image;  // at the size of the frames
+    elastic::SmallRelief relief;
     double width_mm = 0;  // of a frame
     std::vector<formats::FingerPoint> stroke;
     Warnings warnings;
 };
+
+// White is high. It belongs to `image`, pixel by pixel.
+io::FileResult<io::Image> read_height_map(const std::string& path, const io::Image& image) {
+    io::FileResult<io::Image> map = io::read_image(path);
+    if (!map || (map->width == image.width && map->height == image.height)) return map;
+    const auto size = [](const io::Image& i) {
+        return std::to_string(i.width) + " x " + std::to_string(i.height) + " pixels";
+    };
+    return std::unexpected(io::Failure(Error{path, 0, 0, "the height map has " + size(*map),
+                                             "give one of " + size(image) + ", as the image"}));
+}
 
 io::Image plain_image() {
     return {1, 1, {206, 200, 190, 255}};
@@ -61,14 +74,22 @@ io::FileResult<Inputs> read_inputs(const PressCall& call) {
     if (!stroke) return std::unexpected(io::Failure(stroke.error()));
     inputs.stroke = *std::move(stroke);
 
+    const auto beside = [&](const std::string& file) {
+        return (std::filesystem::path(call.material).parent_path() / file).string();
+    };
     io::Image image = plain_image();
+    std::optional<io::Image> map;
     if (m.image.empty()) {
         inputs.warnings.push_back({call.material, 0, "the material has no image: a plain one stands for it"});
     } else {
-        const auto beside = std::filesystem::path(call.material).parent_path() / m.image;
-        io::FileResult<io::Image> read = io::read_image(beside.string());
+        io::FileResult<io::Image> read = io::read_image(beside(m.image));
         if (!read) return std::unexpected(read.error());
         image = *std::move(read);
+    }
+    if (!m.height_map.empty()) {
+        io::FileResult<io::Image> read = read_height_map(beside(m.height_map), image);
+        if (!read) return std::unexpected(read.error());
+        map = *std::move(read);
     }
     inputs.width_mm = m.width_mm;
     if (!(inputs.width_mm > 0)) {
@@ -78,6 +99,9 @@ io::FileResult<Inputs> read_inputs(const PressCall& call) {
     // A frame is the top left square of the image.
     inputs.width_mm *= static_cast<double>(std::min(image.width, image.height)) / image.width;
     inputs.image = io::square_at(image, call.size_px);
+    const io::Image heights = map ? io::square_at(*map, call.size_px) : inputs.image;
+    inputs.relief =
+        elastic::small_relief(heights.rgba, call.size_px, call.size_px, static_cast<float>(m.relief_slope));
     return inputs;
 }
 
@@ -166,6 +190,8 @@ int press(const PressCall& call) {
     sheet.set_material({inputs->material.stiffness_n_per_mm, inputs->material.viscosity_n_s_per_mm});
     const auto scheme = call.as_published ? elastic::TimeScheme::implicit_euler : elastic::TimeScheme::exact;
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
+    const elastic::Finish finish{&inputs->relief, static_cast<float>(inputs->material.gloss),
+                                 static_cast<float>(inputs->material.roughness)};
     io::Image picture = inputs->image;
     Finger finger(stroke);
     Progress progress;
@@ -192,7 +218,8 @@ int press(const PressCall& call) {
         parallel(static_cast<std::size_t>(bands), [&](std::size_t band) {
             const int first = static_cast<int>(band) * kBandRows;
             elastic::draw_rows(sheet, inputs->image.rgba, picture.rgba, first,
-                               std::min(kBandRows, call.size_px - first));
+                               std::min(kBandRows, call.size_px - first),
+                               call.as_published ? nullptr : &finish);
         });
         char name[32];
         std::snprintf(name, sizeof name, "frame_%04d", frame);

@@ -67,15 +67,18 @@ class Painter {
         return {sx, sy};
     }
 
-    // How bright the sheet is there, linear; 1 where it is flat.
-    float brightness(float x, float y) const {
+    // What the sheet lets through to one of its points.
+    struct Light {
+        float height_mm = 0, slope_x = 0, slope_y = 0;  // as drawn; slopes as SmallRelief has them
+        float walls = 0;                                // slope of the walls around, 0 or more
+        float sun = 0;                                  // share of the disc that is seen, 0..1
+    };
+    Light light(float x, float y) const {
+        Light light;
         const float per_mm = 0.5F / spacing_mm_;
-        const float nx = (height_mm(x - 1, y) - height_mm(x + 1, y)) * per_mm;
-        const float ny = (height_mm(x, y - 1) - height_mm(x, y + 1)) * per_mm;
-        const float towards =
-            (nx * view_.light_x + ny * view_.light_y + view_.light_z) / std::sqrt(nx * nx + ny * ny + 1);
-        const float diffuse = std::max(towards, 0.0F) / view_.light_z;
-        const float here = height_mm(x, y);
+        light.slope_x = (height_mm(x - 1, y) - height_mm(x + 1, y)) * per_mm;
+        light.slope_y = (height_mm(x, y - 1) - height_mm(x, y + 1)) * per_mm;
+        const float here = light.height_mm = height_mm(x, y);
         float horizon = 0;
         for (int i = 1; i <= kShadowSteps; ++i) {
             const float part = static_cast<float>(i) / kShadowSteps, away = shadow_reach_ * part * part;
@@ -84,11 +87,26 @@ class Painter {
         }
         const float hidden =
             std::clamp((horizon - view_.slope_low) / (view_.slope_high - view_.slope_low), 0.0F, 1.0F);
+        light.sun = 1 - view_.shadow * hidden;
         const float d = sky_reach_, walls = (height_mm(x - d, y) + height_mm(x + d, y) + height_mm(x, y - d) +
                                              height_mm(x, y + d)) /
                                             4;
-        const float m = std::max(walls - here, 0.0F) / (d * spacing_mm_);
-        return view_.ambient / (1 + m * m) + (1 - view_.ambient) * diffuse * (1 - view_.shadow * hidden);
+        light.walls = std::max(walls - here, 0.0F) / (d * spacing_mm_);
+        return light;
+    }
+
+    // Light of the sky between walls, and of the sun on a slope, which is 1 where it is flat.
+    float sky(float walls) const { return view_.ambient / (1 + walls * walls); }
+    float diffuse(float nx, float ny) const {
+        const float towards =
+            (nx * view_.light_x + ny * view_.light_y + view_.light_z) / std::sqrt(nx * nx + ny * ny + 1);
+        return std::max(towards, 0.0F) / view_.light_z;
+    }
+
+    // How bright the smooth sheet is there, linear; 1 where it is flat.
+    float brightness(float x, float y) const {
+        const Light l = light(x, y);
+        return sky(l.walls) + (1 - view_.ambient) * diffuse(l.slope_x, l.slope_y) * l.sun;
     }
 
   private:
@@ -97,8 +115,8 @@ class Painter {
     float spacing_mm_, eye_x_, eye_y_, per_eye_height_, to_light_x_, to_light_y_, shadow_reach_, sky_reach_;
 };
 
-// Light goes by the power 2.2 of a colour's number, so a number goes by this power of the light.
-constexpr double kGamma = 1 / 2.2;
+// Light goes by the power 2.2 of a colour's number.
+constexpr double kGamma = 2.2;
 constexpr float kBrightest = 2;
 constexpr int kGammaKnots = 2048;
 
@@ -107,43 +125,153 @@ const std::array<float, kGammaKnots + 2>& gamma_table() {
         std::array<float, kGammaKnots + 2> values{};
         for (int i = 0; i < kGammaKnots + 2; ++i) {
             const double light = kBrightest * static_cast<double>(i) / kGammaKnots;
-            values[static_cast<std::size_t>(i)] = static_cast<float>(math::pow(light, kGamma));
+            values[static_cast<std::size_t>(i)] = static_cast<float>(math::pow(light, 1 / kGamma));
         }
         return values;
     }();
     return table;
 }
 
-float colour_factor(float light) {
-    const float at = std::clamp(light, 0.0F, kBrightest) * (kGammaKnots / kBrightest);
+template <std::size_t N>
+float between(const std::array<float, N>& table, float at) {
     const auto knot = static_cast<std::size_t>(at);
-    const auto& table = gamma_table();
     return table[knot] + (table[knot + 1] - table[knot]) * (at - static_cast<float>(knot));
 }
+
+float colour_factor(float light) {
+    return between(gamma_table(), std::clamp(light, 0.0F, kBrightest) * (kGammaKnots / kBrightest));
+}
+
+// Light of a colour's number, 0..255, and back. The way back is tabled over the root of the light, over which
+// it is nearly straight.
+constexpr int kRootKnots = 1024;
+struct Lights {
+    std::array<float, 257> of_number{};
+    std::array<float, kRootKnots + 2> number_of_root{};
+
+    Lights() {
+        for (int i = 0; i < 257; ++i)
+            of_number[static_cast<std::size_t>(i)] = static_cast<float>(math::pow(i / 255.0, kGamma));
+        for (int i = 0; i < kRootKnots + 2; ++i) {
+            const double root = static_cast<double>(i) / kRootKnots;
+            number_of_root[static_cast<std::size_t>(i)] =
+                static_cast<float>(255 * math::pow(root, 2 / kGamma));
+        }
+    }
+};
+const Lights& lights() {
+    static const Lights tables;
+    return tables;
+}
+
+// What a finish makes of the light: a factor of the image's own, and what is mirrored on top of it.
+struct Shade {
+    float factor = 1, mirrored = 0;
+};
+
+class Finisher {
+  public:
+    Finisher(const Painter& painter, const PictureView& view, const Finish& finish)
+        : painter_(painter), view_(view), finish_(finish) {
+        // Eye and light stand far away, over the image's middle.
+        const float eye = 1 / std::sqrt(view.eye_below * view.eye_below + view.eye_height * view.eye_height);
+        half_x_ = view.light_x;
+        half_y_ = view.light_y + eye * view.eye_below;
+        half_z_ = view.light_z + eye * view.eye_height;
+        const float length = std::sqrt(half_x_ * half_x_ + half_y_ * half_y_ + half_z_ * half_z_);
+        half_x_ /= length;
+        half_y_ /= length;
+        half_z_ /= length;
+        assert(finish.roughness > 0 && finish.roughness <= 1);
+        power_ = 2 / (finish.roughness * finish.roughness) - 2;
+        peak_ = finish.gloss * (power_ + 2) / 8;
+    }
+
+    Shade shade(float x, float y) const {
+        const Painter::Light light = painter_.light(x, y);
+        const auto [rx, ry] = small_slope(x, y);
+        const float kept = 1 / (1 + std::max(-light.height_mm, 0.0F) / finish_.flatten_mm);
+        const float ex = finish_.steeper * light.slope_x, ey = finish_.steeper * light.slope_y;
+        const float bend = 1 / std::sqrt(1 + (ex * ex + ey * ey) / (finish_.steepest * finish_.steepest));
+        const float nx = bend * ex + kept * rx, ny = bend * ey + kept * ry;
+        const float sun = (1 - view_.ambient) * painter_.diffuse(nx, ny) * light.sun;
+        const float sun_at_rest = (1 - view_.ambient) * painter_.diffuse(rx, ry);
+        return {(painter_.sky(finish_.steeper * light.walls) + sun) / (view_.ambient + sun_at_rest),
+                std::max(sun * lobe(nx, ny) - sun_at_rest * lobe(rx, ry), 0.0F)};
+    }
+
+    // Of `colour` from 0 to 255.
+    float shaded(float colour, Shade shade) const {
+        const float own = between(lights().of_number, colour);
+        float light = own * shade.factor + shade.mirrored;
+        const float knee = std::max(own, finish_.knee);
+        if (light > knee) light = knee + (1 - knee) * (light - knee) / (1 - knee + light - knee);
+        return between(lights().number_of_root, std::sqrt(light) * kRootKnots);
+    }
+
+  private:
+    std::array<float, 2> small_slope(float x, float y) const {
+        if (finish_.relief == nullptr) return {0, 0};
+        const SmallRelief& relief = *finish_.relief;
+        const Between at(x, y, relief.width, relief.height);
+        const auto node = [&](int i, int j) {
+            return relief.slopes.data() + 2 * (std::ptrdiff_t{j} * relief.width + i);
+        };
+        const std::int8_t *a = node(at.x0, at.y0), *b = node(at.x1, at.y0), *c = node(at.x0, at.y1),
+                          *d = node(at.x1, at.y1);
+        constexpr float kStep = kSteepest / 127;
+        return {kStep * at.mix(a[0], b[0], c[0], d[0]), kStep * at.mix(a[1], b[1], c[1], d[1])};
+    }
+    float lobe(float nx, float ny) const {
+        const float along = (nx * half_x_ + ny * half_y_ + half_z_) / std::sqrt(nx * nx + ny * ny + 1);
+        const float t = std::max(along, 1e-3F);
+        return peak_ * t / (power_ - power_ * t + t);
+    }
+
+    const Painter& painter_;
+    const PictureView& view_;
+    Finish finish_;
+    float half_x_, half_y_, half_z_, power_, peak_;
+};
 
 }  // namespace
 
 void draw_rows(const Sheet& sheet, std::span<const std::uint8_t> image, std::span<std::uint8_t> out,
-               int first, int rows, const PictureView& view) {
+               int first, int rows, const Finish* finish, const PictureView& view) {
     const int width = sheet.size().width, height = sheet.size().height;
     assert(image.size() ==
            std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     assert(out.size() == image.size() && first >= 0 && first + rows <= height);
+    assert(finish == nullptr || finish->relief == nullptr ||
+           (finish->relief->width == width && finish->relief->height == height));
     const Painter painter(sheet, view);
+    const Finisher finisher(painter, view, finish != nullptr ? *finish : Finish{});
     const auto texel = [&](int x, int y) { return image.data() + 4 * (std::ptrdiff_t{y} * width + x); };
     for (int y = first; y < first + rows; ++y) {
         for (int x = 0; x < width; ++x) {
             const auto [sx, sy] = painter.seen(static_cast<float>(x), static_cast<float>(y));
-            const float factor = colour_factor(painter.brightness(sx, sy));
             const Between at(sx, sy, width, height);
             const std::uint8_t *a = texel(at.x0, at.y0), *b = texel(at.x1, at.y0), *c = texel(at.x0, at.y1),
                                *d = texel(at.x1, at.y1);
-            std::uint8_t* pixel = out.data() + 4 * (std::ptrdiff_t{y} * width + x);
+            std::array<float, 4> colour;
             for (int channel = 0; channel < 4; ++channel) {
-                const float colour = at.mix(a[channel], b[channel], c[channel], d[channel]);
-                const float lit = channel < 3 ? std::min(colour * factor, 255.0F) : colour;
-                pixel[channel] = static_cast<std::uint8_t>(lit + 0.5F);
+                colour[static_cast<std::size_t>(channel)] =
+                    at.mix(a[channel], b[channel], c[channel], d[channel]);
             }
+            if (finish == nullptr) {
+                const float factor = colour_factor(painter.brightness(sx, sy));
+                for (int channel = 0; channel < 3; ++channel) {
+                    float& value = colour[static_cast<std::size_t>(channel)];
+                    value = std::min(value * factor, 255.0F);
+                }
+            } else if (const Shade shade = finisher.shade(sx, sy); shade.factor != 1 || shade.mirrored != 0) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    float& value = colour[static_cast<std::size_t>(channel)];
+                    value = finisher.shaded(value, shade);
+                }
+            }
+            std::uint8_t* pixel = out.data() + 4 * (std::ptrdiff_t{y} * width + x);
+            for (const float value : colour) *pixel++ = static_cast<std::uint8_t>(value + 0.5F);
         }
     }
 }

@@ -2,12 +2,18 @@
 // The picture of a sheet: its image seen in perspective by an eye that looks a little from below, shaded by
 // one light with a soft shadow. The page's fragment shader (web/touch/src/shader.ts) computes the same; a
 // sheet at rest gives the image itself, byte by byte. Any thread; allocates nothing.
+//
+// With a finish the light falls on the sheet and on the material's small relief together: the image is taken
+// for what this light shows of the relief at rest, so each pixel is multiplied by the light that it gets now
+// over the light that it got then. Diffuse: Lambert 1760, as in hill shading (Horn 1981). Gloss: the lobe of
+// Blinn 1977 with Schlick's quotient (1994) for its power.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "elastic/sheet.hpp"
+#include "elastic/small_relief.hpp"
 
 namespace tribo::elastic {
 
@@ -31,9 +37,28 @@ struct PictureView {
 };
 inline constexpr int kParallaxSteps = 6, kShadowSteps = 8;
 
+// How a material takes the light.
+struct Finish {
+    // As many pixels as the sheet has nodes; null: smooth.
+    const SmallRelief* relief = nullptr;
+    // Share of the light that is mirrored, 0..1: 0.04 is that of most plastics, paper and glass (Schlick
+    // 1994).
+    float gloss = 0.04F;
+    // How wide the mirrored light is spread, 0.05 (polished) .. 1 (matt). The power of the lobe is
+    // 2 / roughness^2 - 2.
+    float roughness = 0.5F;
+    // The sheet's slopes are lit `steeper` times as steep as they are drawn, and bent towards `steepest`, at
+    // which the darkest wall is still lit.
+    float steeper = 2, steepest = 0.8F;
+    // What is pressed gets smoother: at this depth, as it is drawn, slopes are half of what they were.
+    float flatten_mm = 3;
+    // Light above it is compressed, so that nothing turns white; what is brighter at rest, above its own.
+    float knee = 0.7F;
+};
 // Rows `first` .. `first + rows - 1` of the picture. `image` and `out`: four bytes a node (RGBA, sRGB, the
-// opacity is kept), width x height of the sheet, from the top. Rows may be drawn at the same time.
+// opacity is kept), width x height of the sheet, from the top. Rows may be drawn at the same time. Without a
+// finish the sheet is smooth and dull, and too much light is cut off: the look of the published model.
 void draw_rows(const Sheet& sheet, std::span<const std::uint8_t> image, std::span<std::uint8_t> out,
-               int first, int rows, const PictureView& view = {});
+               int first, int rows, const Finish* finish = nullptr, const PictureView& view = {});
 
 }  // namespace tribo::elastic

@@ -23,6 +23,8 @@ struct RecordingSource {
     friend bool operator==(const RecordingSource&, const RecordingSource&) = default;
 };
 
+inline constexpr double kLeastRoughness = 0.05;
+
 struct Material {
     std::string name;
     std::string note;  // anything a reader should know, such as that it is synthetic
@@ -31,6 +33,12 @@ struct Material {
     double viscosity_n_s_per_mm = 0.3;  // nu, >= 0
     double width_mm = 0;                // of the image as the finger feels it; 0: not known
     std::string image;                  // relative to the material file; empty: none
+
+    // How the image takes the light (elastic/picture.hpp).
+    std::string height_map;     // relative to the material file, as large as the image; empty: its brightness
+    double relief_slope = 0.2;  // root mean square slope of the small relief, 0..1
+    double gloss = 0.04;        // share of the light that is mirrored, 0..1
+    double roughness = 0.5;     // what spreads it, kLeastRoughness (polished) .. 1 (matt)
 
     // How the voices were learned.
     std::string method;      // "yule-walker" or "burg"; empty without voices

@@ -14,9 +14,10 @@ using formats::Material;
 using formats::RecordingSource;
 using noise::VoiceModel;
 
-constexpr std::array<std::string_view, 11> kMaterialKeys{
-    "schema", "name",   "note",        "stiffness_n_per_mm", "viscosity_n_s_per_mm", "width_mm", "image",
-    "voices", "method", "highpass_hz", "level_law"};
+constexpr std::array<std::string_view, 15> kMaterialKeys{
+    "schema",    "name",   "note",       "stiffness_n_per_mm", "viscosity_n_s_per_mm",
+    "width_mm",  "image",  "height_map", "relief_slope",       "gloss",
+    "roughness", "voices", "method",     "highpass_hz",        "level_law"};
 constexpr std::array<std::string_view, 3> kLawKeys{"level_db", "db_per_decade_speed", "db_per_decade_force"};
 constexpr std::array<std::string_view, 9> kVoiceKeys{"speed_mm_per_s", "force_n",    "level_db",
                                                      "sample_rate_hz", "reflection", "line_spectrum_hz",
@@ -57,6 +58,13 @@ class Reader {
         m.viscosity_n_s_per_mm = top.number("viscosity_n_s_per_mm", {0, 1e6});
         m.width_mm = top.number("width_mm", {0, 1e5}, 0);
         m.image = top.text("image", "");
+        m.height_map = top.text("height_map", "");
+        if (!m.height_map.empty() && m.image.empty()) {
+            top.fail("height_map", "is given without an image", "name the image that it belongs to as well");
+        }
+        m.relief_slope = top.number("relief_slope", kShares, m.relief_slope);
+        m.gloss = top.number("gloss", kShares, m.gloss);
+        m.roughness = top.number("roughness", {formats::kLeastRoughness, 1}, m.roughness);
         m.method = top.text("method", "");
         m.highpass_hz = top.number("highpass_hz", {0, 1e5}, 0);
         read_voices(top, m);
@@ -268,6 +276,11 @@ std::string material_json(const Material& m) {
     json["viscosity_n_s_per_mm"] = m.viscosity_n_s_per_mm;
     if (m.width_mm > 0) json["width_mm"] = m.width_mm;
     if (!m.image.empty()) json["image"] = m.image;
+    const Material usual;
+    if (!m.height_map.empty()) json["height_map"] = m.height_map;
+    if (m.relief_slope != usual.relief_slope) json["relief_slope"] = m.relief_slope;
+    if (m.gloss != usual.gloss) json["gloss"] = m.gloss;
+    if (m.roughness != usual.roughness) json["roughness"] = m.roughness;
     if (!m.voices.models.empty()) {
         if (!m.method.empty()) json["method"] = m.method;
         if (m.highpass_hz > 0) json["highpass_hz"] = m.highpass_hz;

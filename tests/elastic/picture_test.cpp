@@ -61,7 +61,7 @@ TEST(Picture, what_is_pressed_moves_away_from_the_eye) {
     PictureView view;
     view.relief = 2;
     view.half_mm = 5;
-    draw_rows(sheet, image, out, 0, kSide, view);
+    draw_rows(sheet, image, out, 0, kSide, nullptr, view);
     const auto darkest = [&](int x) {
         int best = 0;
         for (int y = 0; y < kSide; ++y)
