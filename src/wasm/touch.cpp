@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "elastic/sheet.hpp"
+#include "elastic/small_relief.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -105,4 +106,17 @@ TRIBO_EXPORT(sheet_stride) std::int32_t sheet_stride(const TouchSheet* s) {
 TRIBO_EXPORT(sheet_normals) const float* sheet_normals(TouchSheet* s, std::uint32_t axis) {
     s->sheet.update_normals();
     return axis == 0 ? s->sheet.normals_x(0) : s->sheet.normals_y(0);
+}
+
+// The small relief of width x height pixels of four bytes, in their place: the first two bytes of each become
+// the slopes x and y of SmallRelief, and 128.
+TRIBO_EXPORT(sheet_small_relief)
+void sheet_small_relief(std::uint8_t* rgba, int width, int height, double rms_slope) {
+    const std::size_t bytes =
+        std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const auto relief = tribo::elastic::small_relief({rgba, bytes}, width, height,
+                                                     static_cast<float>(within(rms_slope, 0, 1)));
+    for (std::size_t i = 0; i < relief.slopes.size(); ++i) {
+        rgba[2 * i - i % 2] = static_cast<std::uint8_t>(relief.slopes[i] + 128);
+    }
 }

@@ -39,4 +39,4 @@ for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
   console.log(`${file.padEnd(16)} ${bytes} bytes gzip`);
 }
 console.log(`${"together".padEnd(16)} ${total} bytes gzip`);
-if (total > 37_500) throw new Error("the component has grown: 37.5 kB is the most that it may take");
+if (total > 39_500) throw new Error("the component has grown: 39.5 kB is the most that it may take");

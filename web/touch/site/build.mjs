@@ -37,7 +37,9 @@ for (const path of await materialFiles(examples)) {
   // Flat and by the material's name, so that no two meet.
   const name = basename(path, ".json"), image = `${name}-${basename(material.image)}`;
   await copyFile(join(path, "..", material.image), join(out, "materials", image));
-  await writeFile(join(out, "materials", `${name}.json`), JSON.stringify({ ...material, image }));
+  const map = material.height_map && `${name}-heights-${basename(material.height_map)}`;
+  if (map) await copyFile(join(path, "..", material.height_map), join(out, "materials", map));
+  await writeFile(join(out, "materials", `${name}.json`), JSON.stringify({ ...material, image, height_map: map }));
   listed.push({ file: `materials/${name}.json`, name: material.name || name, note: material.note ?? "", image: `materials/${image}` });
 }
 await writeFile(join(out, "materials.json"), JSON.stringify(listed));

@@ -6,7 +6,7 @@ import { engine, type Sheet } from "./engine.js";
 import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
 import { animate, stop, whenIdle } from "./frames.js";
 import { parseMaterial, type Material } from "./material.js";
-import { Relief } from "./relief.js";
+import { Relief, pixelsOf } from "./relief.js";
 import { renderer, type Picture, type Renderer } from "./renderer.js";
 import { build, type Parts } from "./shadow.js";
 import { Vibration } from "./vibration.js";
@@ -252,7 +252,7 @@ export class TriboTouch extends Base {
       const nodesY = Math.max(1, Math.round(image.naturalHeight * scale));
       const spacingMm = this.#material.width_mm / nodesX;
       this.#sheet = made.sheet(nodesX, nodesY, spacingMm);
-      this.#picture = { image, nodesX, nodesY, spacingMm };
+      this.#picture = { image, nodesX, nodesY, spacingMm, finish: this.asPublished ? undefined : this.#material };
       this.#renderer.add(this.#picture);
       this.#renderer.upload(this.#picture, this.#sheet.everything());
     } catch (error) {
@@ -264,6 +264,39 @@ export class TriboTouch extends Base {
     if (stale()) return;
     this.#end("ready");
     if (this.#voice === undefined) this.#makeVoice();
+    // A first touch is lit as if the image were smooth.
+    const { height_map, relief_slope } = this.#material;
+    whenIdle(() => {
+      if (stale()) return;
+      this.#relieve(height_map, relief_slope).catch((error: unknown) => stale() || this.#fail("image", error));
+    });
+  }
+
+  /** Finds the small relief in the image, or in a map of its heights. */
+  async #relieve(address: string, rmsSlope: number): Promise<void> {
+    const picture = this.#picture, made = await engine();
+    if (picture?.finish === undefined) return;
+    const { image, nodesX, nodesY } = picture;
+    let from = image;
+    if (address !== "") {
+      from = await this.#fetched(address);
+      if (from.naturalWidth !== image.naturalWidth || from.naturalHeight !== image.naturalHeight) {
+        throw new Error(`${address}: the height map is not as large as the image`);
+      }
+    }
+    const pixels = pixelsOf(from, nodesX, nodesY);
+    made.smallRelief(pixels, rmsSlope);
+    picture.relief = pixels;
+    this.#renderer?.relieve(picture);
+    if (picture === this.#picture) animate(this);
+  }
+
+  async #fetched(address: string): Promise<HTMLImageElement> {
+    const image = new Image();
+    image.crossOrigin = "anonymous";
+    image.src = address;
+    await image.decode();
+    return image;
   }
 
   #end(state: State, type?: TriboErrorDetail["type"], error?: unknown): void {
@@ -290,18 +323,10 @@ export class TriboTouch extends Base {
   async #loadMap(): Promise<void> {
     const address = this.getAttribute("stiffness-map"), sheet = this.#sheet;
     if (address === null || sheet === undefined) return;
-    const map = new Image();
-    map.crossOrigin = "anonymous";
-    map.src = new URL(address, document.baseURI).href;
-    await map.decode();
+    const map = await this.#fetched(new URL(address, document.baseURI).href);
     if (sheet !== this.#sheet) return;
-    const canvas = document.createElement("canvas");
-    canvas.width = sheet.width;
-    canvas.height = sheet.height;
-    const context = canvas.getContext("2d")!;
-    context.drawImage(map, 0, 0, canvas.width, canvas.height);
-    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-    const levels = new Uint8Array(canvas.width * canvas.height);
+    const { data } = pixelsOf(map, sheet.width, sheet.height);
+    const levels = new Uint8Array(sheet.width * sheet.height);
     for (let i = 0; i < levels.length; ++i) {
       levels[i] = Math.round(0.3 * data[4 * i]! + 0.59 * data[4 * i + 1]! + 0.11 * data[4 * i + 2]!);
     }

@@ -17,6 +17,7 @@ interface Exports {
   sheet_changes(sheet: number): number;
   sheet_heights(sheet: number): number;
   sheet_stride(sheet: number): number;
+  sheet_small_relief(rgba: number, width: number, height: number, rmsSlope: number): void;
 }
 
 /** What touches the sheet; mm from the image's top left corner, newton, seconds. */
@@ -126,6 +127,8 @@ export class Sheet {
 export interface Engine {
   module: WebAssembly.Module;
   sheet(width: number, height: number, spacingMm: number): Sheet;
+  /** Writes the slopes of the pixels' small relief over their red and green. */
+  smallRelief(pixels: ImageData, rmsSlope: number): void;
   /** Bytes of the module's memory. */
   memoryBytes(): number;
 }
@@ -143,6 +146,13 @@ async function load(): Promise<Engine> {
   return {
     module,
     sheet: (width, height, spacingMm) => new Sheet(exports, width, height, spacingMm),
+    smallRelief({ data, width, height }, rmsSlope) {
+      const at = exports.tribo_allocate(data.length);
+      new Uint8Array(exports.memory.buffer, at).set(data);
+      exports.sheet_small_relief(at, width, height, rmsSlope);
+      data.set(new Uint8Array(exports.memory.buffer, at, data.length));
+      exports.tribo_release(at);
+    },
     memoryBytes: () => exports.memory.buffer.byteLength,
   };
 }

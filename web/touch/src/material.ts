@@ -30,6 +30,11 @@ export interface Material {
   width_mm: number;
   /** Absolute address of the image, or "" without one. */
   image: string;
+  /** Absolute address of its heights, or "": its own brightness stands for them. */
+  height_map: string;
+  relief_slope: number;
+  gloss: number;
+  roughness: number;
   law: { level_db: number; db_per_decade_speed: number; db_per_decade_force: number };
   voices: VoiceModel[];
 }
@@ -132,7 +137,8 @@ export function parseMaterial(json: unknown, base: string): Material {
       db_per_decade_force: number(fixed, "db_per_decade_force", -200, 200, law.db_per_decade_force),
     };
   }
-  const image = text(from, "image");
+  const image = text(from, "image"), heightMap = text(from, "height_map");
+  if (heightMap !== "" && image === "") fail("height_map", "is given without an image");
   return {
     name: text(from, "name"),
     note: text(from, "note"),
@@ -140,6 +146,10 @@ export function parseMaterial(json: unknown, base: string): Material {
     viscosity_n_s_per_mm: number(from, "viscosity_n_s_per_mm", 0, 1e6),
     width_mm: number(from, "width_mm", 0, 1e5, 0) || kAssumedWidthMm,
     image: image === "" ? "" : new URL(image, base).href,
+    height_map: heightMap === "" ? "" : new URL(heightMap, base).href,
+    relief_slope: number(from, "relief_slope", 0, 1, 0.2),
+    gloss: number(from, "gloss", 0, 1, 0.04),
+    roughness: number(from, "roughness", 0.05, 1, 0.5),
     law,
     voices,
   };

@@ -4,6 +4,16 @@
 
 const kSide = 128;
 
+/** The image at another size. */
+export function pixelsOf(image: HTMLImageElement, width: number, height: number): ImageData {
+  const canvas = document.createElement("canvas");
+  canvas.width = width;
+  canvas.height = height;
+  const context = canvas.getContext("2d", { willReadFrequently: true })!;
+  context.drawImage(image, 0, 0, width, height);
+  return context.getImageData(0, 0, width, height);
+}
+
 export class Relief {
   #steepness: Float32Array;
   #width: number;
@@ -13,12 +23,7 @@ export class Relief {
     const longer = Math.max(image.naturalWidth, image.naturalHeight);
     this.#width = Math.max(2, Math.round((kSide * image.naturalWidth) / longer));
     this.#height = Math.max(2, Math.round((kSide * image.naturalHeight) / longer));
-    const canvas = document.createElement("canvas");
-    canvas.width = this.#width;
-    canvas.height = this.#height;
-    const context = canvas.getContext("2d", { willReadFrequently: true })!;
-    context.drawImage(image, 0, 0, this.#width, this.#height);
-    const { data } = context.getImageData(0, 0, this.#width, this.#height);
+    const { data } = pixelsOf(image, this.#width, this.#height);
     const bright = (x: number, y: number) => {
       const i = 4 * (Math.min(y, this.#height - 1) * this.#width + Math.min(x, this.#width - 1));
       return 0.3 * data[i]! + 0.59 * data[i + 1]! + 0.11 * data[i + 2]!;

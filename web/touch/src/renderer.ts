@@ -11,14 +11,19 @@ export interface Picture {
   nodesX: number;
   nodesY: number;
   spacingMm: number;
+  /** Share of the light that is mirrored, and how wide it is spread; absent: as published, smooth and dull. */
+  finish: { gloss: number; roughness: number } | undefined;
+  /** Slopes of the small relief in red and green, once they are known. */
+  relief?: ImageData;
 }
 
 interface Textures {
   image: WebGLTexture;
   heights: WebGLTexture;
+  relief: WebGLTexture;
 }
 
-const kUniforms = ["image", "heights", "extent", "node", "spacing", "longer", "parallax"] as const;
+const kUniforms = ["image", "heights", "relief", "gloss", "extent", "node", "spacing", "longer", "parallax"] as const;
 type Uniforms = Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
 
 function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
@@ -80,13 +85,14 @@ export class Renderer extends EventTarget {
     gl.useProgram(program);
     gl.uniform1i(this.#uniforms.image, 0);
     gl.uniform1i(this.#uniforms.heights, 1);
+    gl.uniform1i(this.#uniforms.relief, 2);
     this.#program = program;
   }
 
   add(picture: Picture): void {
     const gl = this.#gl;
     if (this.lost || this.#textures.has(picture)) return;
-    const image = gl.createTexture()!, heights = gl.createTexture()!;
+    const image = gl.createTexture()!, heights = gl.createTexture()!, relief = gl.createTexture()!;
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, image);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, this.#fitting(picture.image));
@@ -97,7 +103,21 @@ export class Renderer extends EventTarget {
     gl.texStorage2D(gl.TEXTURE_2D, 1, this.#floatHeights ? gl.R32F : gl.R16F, picture.nodesX, picture.nodesY);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
     this.#clamp();
-    this.#textures.set(picture, { image, heights });
+    this.#textures.set(picture, { image, heights, relief });
+    this.relieve(picture);
+  }
+
+  /** Takes the picture's small relief; it is smooth until then. */
+  relieve(picture: Picture): void {
+    const textures = this.#textures.get(picture);
+    if (textures === undefined) return;
+    const gl = this.#gl;
+    gl.activeTexture(gl.TEXTURE2);
+    gl.bindTexture(gl.TEXTURE_2D, textures.relief);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG, gl.RG, gl.UNSIGNED_BYTE, picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1));
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+    this.#clamp();
   }
 
   #clamp(): void {
@@ -124,6 +144,7 @@ export class Renderer extends EventTarget {
     if (textures === undefined) return;
     this.#gl.deleteTexture(textures.image);
     this.#gl.deleteTexture(textures.heights);
+    this.#gl.deleteTexture(textures.relief);
     this.#textures.delete(picture);
   }
 
@@ -153,6 +174,10 @@ export class Renderer extends EventTarget {
     gl.bindTexture(gl.TEXTURE_2D, textures.image);
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, textures.heights);
+    gl.activeTexture(gl.TEXTURE2);
+    gl.bindTexture(gl.TEXTURE_2D, textures.relief);
+    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 }, power = 2 / roughness ** 2 - 2;
+    gl.uniform2f(this.#uniforms.gloss, power, (gloss * (power + 2)) / 8);
     const longer = Math.max(picture.nodesX, picture.nodesY);
     gl.uniform2f(this.#uniforms.extent, picture.nodesX / longer, picture.nodesY / longer);
     gl.uniform2f(this.#uniforms.node, 1 / picture.nodesX, 1 / picture.nodesY);

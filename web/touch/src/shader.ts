@@ -15,21 +15,39 @@ precision highp float;
 precision highp sampler2D;
 in vec2 at;
 out vec4 colour;
-uniform sampler2D image, heights;
+uniform sampler2D image, heights, relief;
 uniform vec2 extent;     // of the image, in its longer side
 uniform vec2 node;       // one node of the sheet, in texture coordinates
 uniform float spacing;   // from node to node, mm
 uniform float longer;    // the longer side, mm
 uniform float parallax;  // 1, or 0 where motion is to be reduced
+uniform vec2 gloss;      // power and peak of the mirrored light; peak below 0: as published, smooth and dull
 const vec3 light = vec3(-0.45, -0.6, 0.6614378);
-const float relief = 18.0, halfMm = 0.8;
+const float deep = 18.0, halfMm = 0.8;
 const float eyeBelow = 0.5, eyeHeight = 1.0, ambient = 0.35, skyReach = 0.09;
 const float slopeLow = 0.25, slopeHigh = 1.5, shadow = 0.55, shadowReach = 0.12;
+const float steeper = 2.0, steepest = 0.8, flattenMm = 3.0, bright = 0.7;
+const vec3 halfway = normalize(light + normalize(vec3(0.0, eyeBelow, eyeHeight)));
 
 // As it is drawn.
 float height(vec2 uv) {
   float e = texture(heights, uv).r;
-  return relief * e / (1.0 + abs(e) / halfMm);
+  return deep * e / (1.0 + abs(e) / halfMm);
+}
+
+float along(vec2 n, vec3 to) {
+  return dot(vec3(n, 1.0), to) * inversesqrt(dot(n, n) + 1.0);
+}
+
+// Light of the sun on a slope.
+float sun(vec2 n) {
+  return (1.0 - ambient) * max(along(n, light), 0.0) / light.z;
+}
+
+// Share of it that is mirrored.
+float mirrored(vec2 n) {
+  float t = max(along(n, halfway), 1e-3);
+  return gloss.y * t / (gloss.x - gloss.x * t + t);
 }
 
 void main() {
@@ -38,7 +56,6 @@ void main() {
   for (int i = 0; i < 6; ++i) uv = at + (at - eye) * (-height(uv) * parallax / (eyeHeight * longer));
   vec2 n = vec2(height(uv - vec2(node.x, 0.0)) - height(uv + vec2(node.x, 0.0)),
                 height(uv - vec2(0.0, node.y)) - height(uv + vec2(0.0, node.y))) * (0.5 / spacing);
-  float diffuse = max(dot(vec3(n, 1.0), light) * inversesqrt(dot(n, n) + 1.0), 0.0) / light.z;
   float here = height(uv), horizon = 0.0;
   vec2 toLight = normalize(light.xy);
   for (int i = 1; i <= 8; ++i) {
@@ -50,8 +67,22 @@ void main() {
   float walls = (height(uv - vec2(d.x, 0.0)) + height(uv + vec2(d.x, 0.0)) + height(uv - vec2(0.0, d.y)) +
     height(uv + vec2(0.0, d.y))) * 0.25;
   float m = max(walls - here, 0.0) / (skyReach * longer);
-  float bright = ambient / (1.0 + m * m) + (1.0 - ambient) * diffuse * (1.0 - shadow * hidden);
+  float open = 1.0 - shadow * hidden;
   vec4 base = texture(image, uv);
-  colour = vec4(base.rgb * pow(min(bright, 2.0), 1.0 / 2.2), base.a);
+  if (gloss.y < 0.0) {
+    colour = vec4(base.rgb * pow(min(ambient / (1.0 + m * m) + sun(n) * open, 2.0), 1.0 / 2.2), base.a);
+  } else {
+    vec2 r = (255.0 * texture(relief, uv).rg - 128.0) * (0.75 / 127.0);
+    n *= steeper;
+    n *= inversesqrt(1.0 + dot(n, n) / (steepest * steepest));
+    n += r / (1.0 + max(-here, 0.0) / flattenMm);
+    m *= steeper;
+    float now = sun(n) * open, atRest = sun(r);
+    vec3 own = pow(base.rgb, vec3(2.2)), knee = max(own, bright);
+    vec3 lit = own * ((ambient / (1.0 + m * m) + now) / (ambient + atRest)) + max(now * mirrored(n) - atRest * mirrored(r), 0.0);
+    vec3 over = max(lit - knee, 0.0);
+    lit = min(lit, knee) + (1.0 - knee) * over / max(1.0 - knee + over, 1e-6);
+    colour = vec4(pow(lit, vec3(1.0 / 2.2)), base.a);
+  }
   colour.rgb *= colour.a;
 }`;

@@ -252,9 +252,9 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     await page.waitForTimeout(200);
     const after = await heap(page);
     expect(after - before).toBeLessThan(1_500_000);
-    // The one element that stays has an image and heights; all share the contexts.
+    // The one element that stays has an image, heights and relief; all share the contexts.
     const { webgl, audio, worklets, textures } = await page.evaluate(() => made);
-    expect([webgl, textures]).toEqual([1, 2]);
+    expect([webgl, textures]).toEqual([1, 3]);
     expect(audio).toBeLessThanOrEqual(1);
     expect(worklets).toBeLessThanOrEqual(1);
     expect(page.errors).toEqual([]);
