@@ -114,7 +114,7 @@ export class Renderer extends EventTarget {
     const gl = this.#gl;
     gl.activeTexture(gl.TEXTURE2);
     gl.bindTexture(gl.TEXTURE_2D, textures.relief);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG, gl.RG, gl.UNSIGNED_BYTE, picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1));
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG8, gl.RG, gl.UNSIGNED_BYTE, picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1));
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     this.#clamp();
