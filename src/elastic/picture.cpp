@@ -205,7 +205,10 @@ class Finisher {
         const float own = between(lights().of_number, colour);
         float light = own * shade.factor + shade.mirrored;
         const float knee = std::max(own, finish_.knee);
-        if (light > knee) light = knee + (1 - knee) * (light - knee) / (1 - knee + light - knee);
+        if (light > knee) {
+            const float room = finish_.headroom * (1 - knee), over = light - knee;
+            light = knee + room * over / (room + over);
+        }
         return between(lights().number_of_root, std::sqrt(light) * kRootKnots);
     }
 

@@ -52,8 +52,9 @@ struct Finish {
     float steeper = 2, steepest = 0.8F;
     // What is pressed gets smoother: at this depth, as it is drawn, slopes are half of what they were.
     float flatten_mm = 3;
-    // Light above it is compressed, so that nothing turns white; what is brighter at rest, above its own.
-    float knee = 0.7F;
+    // Light above the knee (what is brighter at rest: above its own) is compressed into this share of what is
+    // left up to white, so that nothing turns white and a white grain still shows.
+    float knee = 0.7F, headroom = 0.75F;
 };
 // Rows `first` .. `first + rows - 1` of the picture. `image` and `out`: four bytes a node (RGBA, sRGB, the
 // opacity is kept), width x height of the sheet, from the top. Rows may be drawn at the same time. Without a

@@ -26,7 +26,7 @@ const vec3 light = vec3(-0.45, -0.6, 0.6614378);
 const float deep = 18.0, halfMm = 0.8;
 const float eyeBelow = 0.5, eyeHeight = 1.0, ambient = 0.35, skyReach = 0.09;
 const float slopeLow = 0.25, slopeHigh = 1.5, shadow = 0.55, shadowReach = 0.12;
-const float steeper = 2.0, steepest = 0.8, flattenMm = 3.0, bright = 0.7;
+const float steeper = 2.0, steepest = 0.8, flattenMm = 3.0, bright = 0.7, headroom = 0.75;
 const vec3 halfway = normalize(light + normalize(vec3(0.0, eyeBelow, eyeHeight)));
 
 // As it is drawn.
@@ -80,8 +80,8 @@ void main() {
     float now = sun(n) * open, atRest = sun(r);
     vec3 own = pow(base.rgb, vec3(2.2)), knee = max(own, bright);
     vec3 lit = own * ((ambient / (1.0 + m * m) + now) / (ambient + atRest)) + max(now * mirrored(n) - atRest * mirrored(r), 0.0);
-    vec3 over = max(lit - knee, 0.0);
-    lit = min(lit, knee) + (1.0 - knee) * over / max(1.0 - knee + over, 1e-6);
+    vec3 room = headroom * (1.0 - knee), over = max(lit - knee, 0.0);
+    lit = min(lit, knee) + room * over / max(room + over, 1e-6);
     colour = vec4(pow(lit, vec3(1.0 / 2.2)), base.a);
   }
   colour.rgb *= colour.a;
