@@ -39,17 +39,6 @@ struct Inputs {
     Warnings warnings;
 };
 
-// White is high. It belongs to `image`, pixel by pixel.
-io::FileResult<io::Image> read_height_map(const std::string& path, const io::Image& image) {
-    io::FileResult<io::Image> map = io::read_image(path);
-    if (!map || (map->width == image.width && map->height == image.height)) return map;
-    const auto size = [](const io::Image& i) {
-        return std::to_string(i.width) + " x " + std::to_string(i.height) + " pixels";
-    };
-    return std::unexpected(io::Failure(Error{path, 0, 0, "the height map has " + size(*map),
-                                             "give one of " + size(image) + ", as the image"}));
-}
-
 io::Image plain_image() {
     return {1, 1, {206, 200, 190, 255}};
 }
@@ -87,7 +76,7 @@ io::FileResult<Inputs> read_inputs(const PressCall& call) {
         image = *std::move(read);
     }
     if (!m.height_map.empty()) {
-        io::FileResult<io::Image> read = read_height_map(beside(m.height_map), image);
+        io::FileResult<io::Image> read = io::read_height_map(beside(m.height_map), image);
         if (!read) return std::unexpected(read.error());
         map = *std::move(read);
     }

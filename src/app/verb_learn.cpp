@@ -13,6 +13,7 @@
 #include "app/options.hpp"
 #include "app/verbs.hpp"
 #include "base/decimal.hpp"
+#include "io/image_file.hpp"
 #include "io/learning_report.hpp"
 #include "io/material_json.hpp"
 #include "io/sound_file.hpp"
@@ -25,6 +26,9 @@ struct Call {
     std::vector<std::string> recordings;
     std::string out, image, name, note, method = "yule-walker";
     double width_mm = 0, stiffness = 4, viscosity = 0.3;
+    std::string height_map;
+    double relief_slope = formats::Material{}.relief_slope, gloss = formats::Material{}.gloss,
+           roughness = formats::Material{}.roughness;
     double highpass_hz = noise::LearningOptions{}.highpass_hz;
     int order = 0;
     bool report = false;
@@ -104,6 +108,10 @@ formats::Material material_of(const Call& call, const noise::Learned& learned, c
     m.viscosity_n_s_per_mm = call.viscosity;
     m.width_mm = call.width_mm;
     if (!call.image.empty()) m.image = image_beside(call.image, call.out);
+    if (!call.height_map.empty()) m.height_map = image_beside(call.height_map, call.out);
+    m.relief_slope = call.relief_slope;
+    m.gloss = call.gloss;
+    m.roughness = call.roughness;
     m.method = call.method;
     m.highpass_hz = call.highpass_hz;
     m.voices = learned.voices;
@@ -147,11 +155,22 @@ io::FileResult<void> write_report(const Call& call, const formats::Material& m, 
     return io::write_file(file, io::learning_report(m, learned, voices));
 }
 
+io::FileResult<void> check_height_map(const Call& call) {
+    const io::FileResult<io::Image> image = io::read_image(call.image);
+    if (!image) return std::unexpected(image.error());
+    const auto map = io::read_height_map(call.height_map, *image);
+    if (!map) return std::unexpected(map.error());
+    return {};
+}
+
 int learn(const Call& call) {
     io::FileResult<Sounds> sounds = read_sounds(call);
     if (!sounds) return report(sounds.error());
     if (!call.image.empty() && !std::filesystem::is_regular_file(call.image)) {
         return report(Error{call.image, 0, 0, "is no file", "give the image of the material"});
+    }
+    if (!call.height_map.empty()) {
+        if (const auto checked = check_height_map(call); !checked) return report(checked.error());
     }
     noise::LearningOptions options;
     options.method = call.method == "burg" ? noise::Method::burg : noise::Method::yule_walker;
@@ -184,7 +203,21 @@ void add_learn(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("SPEED[@FORCE]:FILE");
     verb->add_option("--out", call->out, "Material file")->required()->type_name("M.json");
-    verb->add_option("--image", call->image, "Picture of the material")->type_name("F");
+    CLI::Option* image = verb->add_option("--image", call->image, "Picture of the material")->type_name("F");
+    verb->add_option("--height-map", call->height_map,
+                     "Its heights, white is high; its own brightness stands for them if absent")
+        ->needs(image)
+        ->type_name("F");
+    verb->add_option("--relief-slope", call->relief_slope,
+                     "Root mean square slope of its small relief: 0.2 if absent, 0 for a smooth one")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("S");
+    verb->add_option("--gloss", call->gloss, "Share of light that it mirrors: 0.04 if absent")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("G");
+    verb->add_option("--roughness", call->roughness, "0.05 polished to 1 matt: 0.5 if absent")
+        ->check(CLI::Range(formats::kLeastRoughness, 1.0))
+        ->type_name("R");
     verb->add_option("--width-mm", call->width_mm, "Width of the image as the finger feels it")
         ->check(finite_number(0, 1e5))
         ->type_name("W");

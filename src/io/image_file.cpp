@@ -91,6 +91,16 @@ FileResult<Image> read_image(const std::string& path) {
     return *std::move(image);
 }
 
+FileResult<Image> read_height_map(const std::string& path, const Image& picture) {
+    FileResult<Image> map = read_image(path);
+    if (!map || (map->width == picture.width && map->height == picture.height)) return map;
+    const auto size = [](const Image& i) {
+        return std::to_string(i.width) + " x " + std::to_string(i.height) + " pixels";
+    };
+    return std::unexpected(Failure(Error{path, 0, 0, "the height map has " + size(*map),
+                                         "give one of " + size(picture) + ", as the image"}));
+}
+
 Image square_at(const Image& image, int side) {
     assert(image.width > 0 && image.height > 0 && side > 0);
     const std::vector<Cover> cover = covers(std::min(image.width, image.height), side);

@@ -14,6 +14,8 @@ inline constexpr int kMostImageSide = 16'384;
 inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{64} << 20;
 
 FileResult<Image> read_image(const std::string& path);
+// Heights of a picture, pixel by pixel; refused where they are not as large as it.
+FileResult<Image> read_height_map(const std::string& path, const Image& picture);
 Result<Image> parse_image(std::string_view bytes, const std::string& source_name);
 
 // The top left square of the image, as large as it can be, at `side` x `side` pixels: means over areas where

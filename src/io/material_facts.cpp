@@ -87,6 +87,16 @@ Facts describe(const formats::Material& m) {
         json["image"] = m.image;
         facts.lines.emplace_back("image", m.image);
     }
+    if (!m.height_map.empty()) {
+        json["height_map"] = m.height_map;
+        facts.lines.emplace_back("height map", m.height_map);
+    }
+    json["relief_slope"] = m.relief_slope;
+    json["gloss"] = m.gloss;
+    json["roughness"] = m.roughness;
+    facts.lines.emplace_back("finish", text_of("gloss %.3g", m.gloss) +
+                                           text_of(", roughness %.3g", m.roughness) +
+                                           text_of(", relief of slope %.3g", m.relief_slope));
     json["voices"] = Json::array();
     for (const noise::VoiceModel& v : m.voices.models) {
         json["voices"].push_back(voice_facts(v));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/program.hpp"
+#include "base/hash.hpp"
 #include "io/image_file.hpp"
 
 namespace tribo::test {
@@ -134,6 +135,50 @@ TEST(Press, a_frame_before_the_touch_is_the_image_itself) {
     EXPECT_EQ(summary["frames"], 7);
 }
 
+// A picture of its own with the keys in `more`, pressed and drawn at 48 x 48.
+std::string last_frame(const std::string& more, std::vector<std::string> flags,
+                       const io::Image* height_map = nullptr) {
+    Scratch scratch;
+    io::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 255)};
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(80 + (i / 4 * 31 + i % 4 * 7) % 120);
+    }
+    scratch.put("image.png", io::png_bytes(image));
+    if (height_map != nullptr) scratch.put("map.png", io::png_bytes(*height_map));
+    std::string text = material(1.4, 0.1);
+    text.insert(text.size() - 1, R"(, "image": "image.png")" + more);
+    scratch.put("m.json", text);
+    scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,25,30,1\n0.5,25,30,1\n");
+    flags.insert(flags.end(), {"--size", "48", "--fps", "10"});
+    const Outcome run = press(scratch, std::move(flags));
+    EXPECT_EQ(run.code, 0) << run.err;
+    const auto frame = io::parse_image(scratch.get("out/frame_0005.png"), "frame");
+    EXPECT_TRUE(frame);
+    return frame ? std::string(frame->rgba.begin(), frame->rgba.end()) : "";
+}
+
+// The hash of what Tribo 0.1 drew before materials had a finish.
+TEST(Press, as_published_draws_the_same_frames_whatever_the_finish) {
+    const std::string plain = last_frame("", {"--as-published"});
+    Hash hash;
+    hash.add(std::string_view(plain));
+    EXPECT_EQ(hash.value(), 5421012510701842409U);
+    EXPECT_TRUE(last_frame(R"(, "gloss": 1, "roughness": 0.1, "relief_slope": 1)", {"--as-published"}) ==
+                plain);
+}
+
+TEST(Press, lights_a_material_by_its_finish_and_its_height_map) {
+    const std::string usual = last_frame("", {});
+    EXPECT_TRUE(last_frame(R"(, "gloss": 0.04, "roughness": 0.5, "relief_slope": 0.2)", {}) == usual);
+    EXPECT_FALSE(last_frame(R"(, "gloss": 0.5)", {}) == usual);
+    EXPECT_FALSE(last_frame(R"(, "roughness": 0.2)", {}) == usual);
+    EXPECT_FALSE(last_frame(R"(, "relief_slope": 0.5)", {}) == usual);
+    // A level map is no relief at all.
+    const io::Image level{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 128)};
+    EXPECT_TRUE(last_frame(R"(, "height_map": "map.png")", {}, &level) ==
+                last_frame(R"(, "relief_slope": 0)", {}));
+}
+
 TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {
     Scratch scratch;
     scratch.put("m.json", material(1.4, 0.1));
@@ -161,6 +206,18 @@ TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {
     expect_refusal({}, "gone.png");
     scratch.put("gone.png", "not a picture");
     expect_refusal({}, "gone.png");
+    const io::Image image{4, 3, std::vector<std::uint8_t>(48, 200)}, turned{3, 4, image.rgba};
+    scratch.put("gone.png", io::png_bytes(image));
+    without_image.insert(without_image.size() - 1, R"(, "height_map": "map.png")");
+    scratch.put("m.json", without_image);
+    expect_refusal({}, "map.png");
+    scratch.put("map.png", "no picture either");
+    expect_refusal({}, "map.png");
+    scratch.put("map.png", io::png_bytes(turned));
+    expect_refusal({}, "map.png: error: the height map has 3 x 4 pixels");
+    expect_refusal({}, "4 x 3 pixels, as the image");
+    scratch.put("m.json", "{\n\"schema\": \"tribo.material/1\",\n\"gloss\": NaN}");
+    expect_refusal({}, "m.json:3:");
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ Material sponge() {
     m.viscosity_n_s_per_mm = 0.1;
     m.width_mm = 80;
     m.image = "sponge.png";
+    m.height_map = "sponge-heights.png";
+    m.relief_slope = 0.35;
+    m.gloss = 0.02;
+    m.roughness = 0.9;
     m.method = "burg";
     m.highpass_hz = 50;
     m.voices.models = {{30, 0.5, -41.25, {44100, {-0.9, 0.3, 1.0 / 3}}},
@@ -80,6 +84,16 @@ TEST(MaterialJson, is_refused_with_path_and_remedy_where_it_is_wrong) {
         {with("\"viscosity_n_s_per_mm\": 0.1,", ""), "viscosity_n_s_per_mm is missing"},
         {with("\"width_mm\": 80", "\"width_mm\": 1e400"), "number overflow"},
         {with("\"image\": \"sponge.png\"", "\"image\": 5"), "image is number and not a text"},
+        {with("\"image\": \"sponge.png\",", ""), "height_map is given without an image"},
+        {with("\"height_map\": \"sponge-heights.png\"", "\"height_map\": [1]"),
+         "height_map is array and not a text"},
+        {with("\"relief_slope\": 0.35", "\"relief_slope\": 1.5"), "relief_slope is 1.5"},
+        {with("\"relief_slope\": 0.35", "\"relief_slope\": \"steep\""),
+         "relief_slope is string and not a number"},
+        {with("\"gloss\": 0.02", "\"gloss\": -0.1"), "gloss is -0.1"},
+        {with("\"gloss\": 0.02", "\"gloss\": NaN"), "is not JSON here"},
+        {with("\"gloss\": 0.02", "\"gloss\": null"), "gloss is null and not a number"},
+        {with("\"roughness\": 0.9", "\"roughness\": 0"), "roughness is 0"},
         {with("\"speed_mm_per_s\": 30", "\"speed_mm_per_s\": -30"), "voices[0].speed_mm_per_s is -30"},
         {with("\"speed_mm_per_s\": 100", "\"speed_mm_per_s\": 10"), "voices[1].speed_mm_per_s does not rise"},
         {with("-0.9, 0.3", "-1.0, 0.3"), "voices[0].reflection[0] is -1"},

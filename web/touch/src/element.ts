@@ -281,7 +281,8 @@ export class TriboTouch extends Base {
     if (address !== "") {
       from = await this.#fetched(address);
       if (from.naturalWidth !== image.naturalWidth || from.naturalHeight !== image.naturalHeight) {
-        throw new Error(`${address}: the height map is not as large as the image`);
+        throw new Error(`${address}: the height map has ${from.naturalWidth} x ${from.naturalHeight} pixels; ` +
+          `give one of ${image.naturalWidth} x ${image.naturalHeight}, as the image`);
       }
     }
     const pixels = pixelsOf(from, nodesX, nodesY);

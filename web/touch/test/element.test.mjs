@@ -82,6 +82,31 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     expect(page.errors).toEqual([]);
   });
 
+  test("is lit by its small relief, out of its image or a map as large as it", async () => {
+    // Of a dent, how much neighbours along a row differ in the mean.
+    const grain = async (src) => {
+      const page = await open(kTag.replace("sponge.json", src).replace("256px", "96px"));
+      await settled(page);
+      await page.waitForTimeout(500);
+      const hand = await fingers(page);
+      await hand.touch([{ x: 50, y: 50, force: 0.6 }]);
+      await page.waitForFunction(() => log.some((e) => e.n === "contact-move" && e.depth_mm > 1));
+      const differs = await page.evaluate(() => {
+        const canvas = t.shadowRoot.querySelector("canvas"), { data } = canvas.getContext("2d").getImageData(20, 20, 56, 56);
+        let sum = 0;
+        for (let i = 4; i < data.length; i += 4) if ((i / 4) % 56 > 0) sum += Math.abs(data[i] - data[i - 4]);
+        return sum / (56 * 55);
+      });
+      const errors = await log(page, "error");
+      await context.close();
+      return { differs, errors };
+    };
+    const plain = await grain("plain.json"), mapped = await grain("mapped.json"), wrong = await grain("mismapped.json");
+    expect([plain.errors, mapped.errors]).toEqual([[], []]);
+    expect(mapped.differs).toBeGreaterThan(2 * plain.differs);
+    expect(wrong.errors[0]).toMatchObject({ type: "image", message: expect.stringContaining("ridges.png: the height map has 96 x 96 pixels; give one of 256 x 192, as the image") });
+  });
+
   test("takes five fingers at once, a rub, a cancel and a mouse", async () => {
     const page = await open(kTag);
     await settled(page);

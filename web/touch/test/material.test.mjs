@@ -17,6 +17,8 @@ test("a material's image is beside it and its voices become numbers", () => {
   const read = parseMaterial(material(), base);
   expect(read.image).toBe("https://example.org/goods/sponge.png");
   expect(read.width_mm).toBe(80);
+  expect([read.height_map, read.relief_slope, read.gloss, read.roughness]).toEqual(["", 0.2, 0.04, 0.5]);
+  expect(parseMaterial(material({ height_map: "h.png" }), base).height_map).toBe("https://example.org/goods/h.png");
   expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0]);
 });
 
@@ -25,7 +27,9 @@ test.each([
   [material({ stiffness_n_per_mm: "soft" }), "stiffness"], [material({ stiffness_n_per_mm: 0 }), "stiffness"],
   [material({ viscosity_n_s_per_mm: -1 }), "viscosity"], [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
   [material({ voices: [{ speed_mm_per_s: 1, level_db: 0, sample_rate_hz: 44100, reflection: [1] }] }), "reflection"],
-  [material({ image: 7 }), "image"],
+  [material({ image: 7 }), "image"], [material({ height_map: 7 }), "height_map"], [material({ height_map: "h.png", image: "" }), "height_map"],
+  [material({ gloss: 1.5 }), "gloss"], [material({ gloss: null }), "gloss"], [material({ gloss: Number.NaN }), "gloss"],
+  [material({ roughness: 0 }), "roughness"], [material({ relief_slope: "steep" }), "relief_slope"],
 ])("a wrong material is refused by its key", (json, key) => {
   expect(() => parseMaterial(json, base)).toThrow(key);
 });

@@ -53,6 +53,9 @@ const made = {
   "/halves.png": () => png(64, 48, (x) => (x < 32 ? [255, 255, 255] : [0, 0, 0])),
   "/sponge.json": () => JSON.stringify(material()),
   "/plain.json": () => JSON.stringify(material({ image: "plain.png", voices: [] })),
+  "/mapped.json": () => JSON.stringify(material({ image: "plain.png", height_map: "ridges.png", voices: [] })),
+  "/mismapped.json": () => JSON.stringify(material({ height_map: "ridges.png" })),
+  "/ridges.png": () => png(96, 96, (x) => (x % 8 < 4 ? [255, 255, 255] : [0, 0, 0])),
   "/broken.json": () => '{"schema": "tribo.material/1", "stiffness_n_per_mm": "soft"}',
   "/noimage.json": () => JSON.stringify(material({ image: "gone.png" })),
 };
