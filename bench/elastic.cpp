@@ -2,7 +2,10 @@
 // The elastic image: a frame of a whole sheet, and what a small touch costs of it.
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
+#include "elastic/picture.hpp"
 #include "elastic/sheet.hpp"
 #include "harness.hpp"
 
@@ -39,6 +42,26 @@ FrameCost frame_cost(double radius_mm) {
     return {median({press.begin(), press.end()}), median({step.begin(), step.end()})};
 }
 
+// Seconds to draw a pressed sheet whole, by one thread.
+double picture_s(const elastic::Finish* finish) {
+    elastic::Sheet sheet({kNodes, kNodes, 80.0 / kNodes});
+    sheet.set_material({1.4, 0});
+    elastic::Contact contact;
+    contact.x_mm = contact.y_mm = 40;
+    contact.force_n = 1;
+    sheet.press({&contact, 1});
+    sheet.step(1);
+    const std::vector<std::uint8_t> image(std::size_t{4} * kNodes * kNodes, 150);
+    std::vector<std::uint8_t> out(image.size());
+    std::vector<double> seconds(7);
+    for (double& s : seconds) {
+        const double begin = thread_s();
+        elastic::draw_rows(sheet, image, out, 0, kNodes, finish);
+        s = thread_s() - begin;
+    }
+    return median(seconds);
+}
+
 }  // namespace
 
 void measure_elastic(Report& report) {
@@ -59,6 +82,11 @@ void measure_elastic(Report& report) {
         rest.update_normals();
     }
     report.add({"frame at rest", (thread_s() - begin) * 1e3, "us", 10});
+    const elastic::SmallRelief relief{kNodes, kNodes, std::vector<std::int8_t>(2 * kNodes * kNodes, 9)};
+    const elastic::Finish finish{&relief};
+    const double lit_s = picture_s(&finish);
+    report.add({"picture with a finish, one thread", lit_s * 1e3, "ms", 150});
+    report.add({"of it, over one as published", lit_s / picture_s(nullptr), "x", 1.5});
 }
 
 }  // namespace tribo::bench

@@ -196,8 +196,11 @@ class Finisher {
         const float nx = bend * ex + kept * rx, ny = bend * ey + kept * ry;
         const float sun = (1 - view_.ambient) * painter_.diffuse(nx, ny) * light.sun;
         const float sun_at_rest = (1 - view_.ambient) * painter_.diffuse(rx, ry);
+        // What comes on top of the mirrored light at rest, without an edge where it sets in.
+        const float mirrored = sun * lobe(nx, ny);
+        const float more = std::max(mirrored - sun_at_rest * lobe(rx, ry), 0.0F);
         return {(painter_.sky(finish_.steeper * light.walls) + sun) / (view_.ambient + sun_at_rest),
-                std::max(sun * lobe(nx, ny) - sun_at_rest * lobe(rx, ry), 0.0F)};
+                more > 0 ? more * more / mirrored : 0};
     }
 
     // Of `colour` from 0 to 255.

@@ -77,9 +77,9 @@ void main() {
     n *= inversesqrt(1.0 + dot(n, n) / (steepest * steepest));
     n += r / (1.0 + max(-here, 0.0) / flattenMm);
     m *= steeper;
-    float now = sun(n) * open, atRest = sun(r);
+    float now = sun(n) * open, atRest = sun(r), shine = now * mirrored(n), more = max(shine - atRest * mirrored(r), 0.0);
     vec3 own = pow(base.rgb, vec3(2.2)), knee = max(own, bright);
-    vec3 lit = own * ((ambient / (1.0 + m * m) + now) / (ambient + atRest)) + max(now * mirrored(n) - atRest * mirrored(r), 0.0);
+    vec3 lit = own * ((ambient / (1.0 + m * m) + now) / (ambient + atRest)) + more * more / max(shine, 1e-9);
     vec3 room = headroom * (1.0 - knee), over = max(lit - knee, 0.0);
     lit = min(lit, knee) + room * over / max(room + over, 1e-6);
     colour = vec4(pow(lit, vec3(1.0 / 2.2)), base.a);
