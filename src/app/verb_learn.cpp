@@ -208,15 +208,19 @@ void add_learn(CLI::App& program, int& exit_code) {
                      "Its heights, white is high; its own brightness stands for them if absent")
         ->needs(image)
         ->type_name("F");
+    // A range lets NaN pass.
     verb->add_option("--relief-slope", call->relief_slope,
                      "Root mean square slope of its small relief: 0.2 if absent, 0 for a smooth one")
         ->check(CLI::Range(0.0, 1.0))
+        ->check(finite_number(-1, 1))
         ->type_name("S");
     verb->add_option("--gloss", call->gloss, "Share of light that it mirrors: 0.04 if absent")
         ->check(CLI::Range(0.0, 1.0))
+        ->check(finite_number(-1, 1))
         ->type_name("G");
     verb->add_option("--roughness", call->roughness, "0.05 polished to 1 matt: 0.5 if absent")
         ->check(CLI::Range(formats::kLeastRoughness, 1.0))
+        ->check(finite_number(0, 1))
         ->type_name("R");
     verb->add_option("--width-mm", call->width_mm, "Width of the image as the finger feels it")
         ->check(finite_number(0, 1e5))

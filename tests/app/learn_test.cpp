@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/program.hpp"
+#include "io/png.hpp"
 #include "io/riff.hpp"
 
 namespace tribo::test {
@@ -147,10 +148,35 @@ TEST_F(Learn, reports_silence_and_clipping_and_learns_from_the_rest) {
     EXPECT_NEAR(m["voices"][0]["level_db"].get<double>(), -6, 1);
 }
 
+TEST_F(Learn, takes_down_how_the_image_takes_the_light_and_no_more_than_was_said) {
+    const std::vector<std::uint8_t> pixels(24, 90);
+    scratch.put("image.png", io::png_bytes({2, 3, pixels}));
+    scratch.put("map.png", io::png_bytes({2, 3, pixels}));
+    const auto learned = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--recording", "40:slow.wav", "--order", "4", "--image", "image.png",
+                                 "--out", "m.json"});
+        const Outcome run = learn(more);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return nlohmann::json::parse(scratch.get("m.json"));
+    };
+    const auto m =
+        learned({"--height-map", "map.png", "--relief-slope", "0", "--gloss", "0.5", "--roughness", "0.1"});
+    EXPECT_EQ(m["height_map"], "map.png");
+    EXPECT_EQ(m["relief_slope"], 0);
+    EXPECT_EQ(m["gloss"], 0.5);
+    EXPECT_EQ(m["roughness"], 0.1);
+    const auto usual = learned({});
+    for (const char* key : {"height_map", "relief_slope", "gloss", "roughness"})
+        EXPECT_FALSE(usual.contains(key)) << key;
+}
+
 TEST_F(Learn, refuses_bad_calls_by_name_and_leaves_what_was_there) {
     scratch.put("silent.wav", wav(kRate, std::vector<double>(2 * kRate)));
     scratch.put("short.wav", wav(kRate, rubbed(-20, 0.01, 1)));
     scratch.put("text.wav", "not a sound");
+    const std::vector<std::uint8_t> pixels(24, 90);
+    scratch.put("image.png", io::png_bytes({2, 3, pixels}));
+    scratch.put("turned.png", io::png_bytes({3, 2, pixels}));
     scratch.put("m.json", "old");
     const std::size_t before = scratch.entries();
     const auto refuses = [&](std::vector<std::string> more, const std::string& part) {
@@ -175,6 +201,15 @@ TEST_F(Learn, refuses_bad_calls_by_name_and_leaves_what_was_there) {
     refuses({"--recording", "40:slow.wav", "--order", "0"}, "--order");
     refuses({"--recording", "40:slow.wav", "--stiffness", "nan"}, "--stiffness");
     refuses({"--recording", "40:slow.wav", "--image", "gone.png"}, "gone.png");
+    refuses({"--recording", "40:slow.wav", "--gloss", "1.5"}, "--gloss");
+    refuses({"--recording", "40:slow.wav", "--gloss", "nan"}, "--gloss");
+    refuses({"--recording", "40:slow.wav", "--roughness", "0"}, "--roughness");
+    refuses({"--recording", "40:slow.wav", "--relief-slope", "-0.1"}, "--relief-slope");
+    refuses({"--recording", "40:slow.wav", "--height-map", "map.png"}, "--image");
+    refuses({"--recording", "40:slow.wav", "--image", "image.png", "--height-map", "gone.png"}, "gone.png");
+    refuses({"--recording", "40:slow.wav", "--image", "image.png", "--height-map", "text.wav"}, "text.wav");
+    refuses({"--recording", "40:slow.wav", "--image", "image.png", "--height-map", "turned.png"},
+            "turned.png: error: the height map has 3 x 2 pixels; give one of 2 x 3 pixels, as the image");
 }
 
 TEST_F(Learn, names_folders_and_files_that_are_not_there) {

@@ -9,6 +9,7 @@
 
 #include "app/program.hpp"
 #include "base/hash.hpp"
+#include "elastic/colour_difference.hpp"
 #include "io/image_file.hpp"
 
 namespace tribo::test {
@@ -165,6 +166,22 @@ TEST(Press, as_published_draws_the_same_frames_whatever_the_finish) {
     EXPECT_EQ(hash.value(), 5421012510701842409U);
     EXPECT_TRUE(last_frame(R"(, "gloss": 1, "roughness": 0.1, "relief_slope": 1)", {"--as-published"}) ==
                 plain);
+}
+
+TEST(Press, half_a_newton_is_seen_on_two_percent_of_paper_and_ten_of_sponge) {
+    for (const auto& [name, share] : {std::pair{"paper", 0.02}, {"sponge", 0.10}}) {
+        Scratch scratch;
+        scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,40,40,0\n0.1,40,40,0\n0.101,40,40,0.5\n1,40,40,0.5\n");
+        const std::string file = std::string(TRIBO_SOURCE_DIR) + "/examples/materials/" + name + ".json";
+        const Outcome run =
+            run_tribo({"press", file, "--stroke", "s.csv", "--out", "out", "--fps", "10", "--size", "256"},
+                      scratch.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+        const auto rest = io::parse_image(scratch.get("out/frame_0000.png"), "rest");
+        const auto pressed = io::parse_image(scratch.get("out/frame_0010.png"), "pressed");
+        ASSERT_TRUE(rest && pressed);
+        EXPECT_GE(elastic::share_seen(rest->rgba, pressed->rgba), share) << name;
+    }
 }
 
 TEST(Press, lights_a_material_by_its_finish_and_its_height_map) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Pictures of sheets with a finish: what shows of a dent, and what must not.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
