@@ -2,6 +2,7 @@
 #include "noise/sound_statistics.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -13,6 +14,8 @@ namespace tribo::noise {
 namespace {
 
 constexpr std::size_t kSpectrumFrame = 1024;
+constexpr double kEnvelopeS = 0.002;
+constexpr std::size_t kModulationFrame = 512;  // of the envelope: 1 s
 
 double db(double power) {
     return 10 * math::log10(std::max(power, 1e-30));
@@ -48,6 +51,37 @@ double level_deviation_db(std::span<const double> sound, double sample_rate_hz, 
     for (const double l : levels) mean += l / count;
     for (const double l : levels) square += (l - mean) * (l - mean) / count;
     return std::sqrt(square);
+}
+
+std::vector<double> modulation_density(std::span<const double> sound, double sample_rate_hz,
+                                       std::span<const double> hz) {
+    const auto frame = static_cast<std::size_t>(kEnvelopeS * sample_rate_hz);
+    std::vector<double> envelope;
+    double mean = 0;
+    for (std::size_t at = 0; at + frame <= sound.size(); at += frame) {
+        double energy = 0;
+        for (std::size_t n = at; n < at + frame; ++n) energy += sound[n] * sound[n];
+        envelope.push_back(std::sqrt(energy));
+        mean += envelope.back();
+    }
+    mean /= std::max(1.0, static_cast<double>(envelope.size()));
+    std::vector<double> density;
+    if (!(mean > 0)) return std::vector<double>(hz.size());
+    for (double& v : envelope) v = v / mean - 1;
+    const std::vector<double> power =
+        power_spectrum(envelope, std::min(kModulationFrame, std::bit_floor(envelope.size())));
+    const double step = 0.5 / kEnvelopeS / static_cast<double>(power.size());
+    for (const double f : hz) {
+        double sum = 0, count = 0;
+        for (std::size_t k = 0; k < power.size(); ++k) {
+            const double at = step * (static_cast<double>(k) + 0.5);
+            if (at < f * 0.84 || at > f * 1.19) continue;
+            sum += power[k];
+            ++count;
+        }
+        density.push_back(count > 0 ? sum / count : 0);
+    }
+    return density;
 }
 
 double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz) {

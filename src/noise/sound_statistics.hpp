@@ -18,6 +18,11 @@ double level_deviation_db(std::span<const double> sound, double sample_rate_hz, 
 // Levels in dB of the frames one after another.
 std::vector<double> frame_levels_db(std::span<const double> sound, std::size_t frame);
 
+// Fluctuation of the envelope (RMS of frames of 2 ms) over its mean: power density in half octaves around
+// `hz`, each 2 ... 200. Bands a second of sound resolves; less sound blurs them.
+std::vector<double> modulation_density(std::span<const double> sound, double sample_rate_hz,
+                                       std::span<const double> hz);
+
 // Root mean square of the difference in dB between two power densities at 50 Hz steps from 200 Hz to
 // `to_hz`, each scaled to the same mean of its logarithm: shape alone.
 double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz = 20000);

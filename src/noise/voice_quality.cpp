@@ -16,7 +16,6 @@ constexpr double kBlockS = 0.25;
 constexpr int kPlainOrder = 50;
 constexpr double kPlayedS = 10;
 constexpr double kLevelS = 60;  // the level of a textured voice wanders: a long mean
-constexpr double kEnvelopeS = 0.002;
 
 using Pieces = std::vector<std::span<const double>>;
 
@@ -45,33 +44,10 @@ std::vector<double> played(const VoiceModel& model, bool textured, double second
     return x;
 }
 
-// Fluctuation of the amplitude of 2 ms frames in steps of half an octave from 2 to 200 Hz.
 std::vector<double> modulation_db(const std::vector<double>& sound, double rate,
                                   const std::vector<double>& hz) {
-    const auto frame = static_cast<std::size_t>(kEnvelopeS * rate);
-    std::vector<double> envelope;
-    double mean = 0;
-    for (std::size_t at = 0; at + frame <= sound.size(); at += frame) {
-        double energy = 0;
-        for (std::size_t n = at; n < at + frame; ++n) energy += sound[n] * sound[n];
-        envelope.push_back(std::sqrt(energy));
-        mean += envelope.back();
-    }
-    mean /= std::max(1.0, static_cast<double>(envelope.size()));
-    for (double& v : envelope) v = v / mean - 1;
-    const std::vector<double> power = power_spectrum(envelope, 256);
-    const double step = 0.5 / kEnvelopeS / static_cast<double>(power.size());
-    std::vector<double> levels;
-    for (const double f : hz) {
-        double sum = 0, count = 0;
-        for (std::size_t k = 0; k < power.size(); ++k) {
-            const double at = step * (static_cast<double>(k) + 0.5);
-            if (at < f * 0.84 || at > f * 1.19) continue;
-            sum += power[k];
-            ++count;
-        }
-        levels.push_back(db(count > 0 ? sum / count : 0));
-    }
+    std::vector<double> levels = modulation_density(sound, rate, hz);
+    for (double& v : levels) v = db(v);
     return levels;
 }
 
