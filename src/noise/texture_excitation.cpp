@@ -113,6 +113,8 @@ void TextureExcitation::restart() {
         std::fill(std::begin(s.s1), std::end(s.s1), 0.0F);
         std::fill(std::begin(s.s2), std::end(s.s2), 0.0F);
     }
+    for (std::size_t n = 0; n < step_.size(); ++n) step_[n] = static_cast<std::uint8_t>(n);
+    steps_left_ = 0;
     to_next_mm_ = per_mm_ > 0 ? next_gap() * random.uniform(drawn_++) : 0;
     gain_.fill(0);
     tail_.fill(0);
@@ -124,12 +126,17 @@ double TextureExcitation::next_gap() {
     return ((1 - scatter_) - scatter_ * math::log(1 - u)) / per_mm_;
 }
 
+// Every step of the sizes comes once before one comes again: the rare large ones, on which the kurtosis
+// hangs, come as often as in the recording, not in bad luck twice or never.
 double TextureExcitation::next_size() {
-    const double place = CounterNoise(key_).uniform(drawn_++) * (sizes_ - 1);
-    const auto index =
-        std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(std::max(sizes_ - 2, 0)));
-    const double share = place - static_cast<double>(index);
-    return sizes_ > 1 ? (1 - share) * size_[index] + share * size_[index + 1] : size_[0];
+    if (sizes_ == 1) return size_[0];
+    const CounterNoise random(key_);
+    if (steps_left_ == 0) steps_left_ = sizes_ - 1;
+    const auto drawn = static_cast<std::size_t>(random.uniform(drawn_++) * steps_left_);
+    std::swap(step_[drawn], step_[static_cast<std::size_t>(--steps_left_)]);
+    const std::size_t index = step_[static_cast<std::size_t>(steps_left_)];
+    const double share = random.uniform(drawn_++);
+    return (1 - share) * size_[index] + share * size_[index + 1];
 }
 
 double TextureExcitation::level(int band, double g) const {
