@@ -7,8 +7,11 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "base/noise_hash.hpp"
 #include "noise/model_noise.hpp"
+#include "noise/slow_level.hpp"
 #include "noise/sound_statistics.hpp"
+#include "noise/texture_fitting.hpp"
 
 namespace tribo::noise {
 namespace {
@@ -19,19 +22,15 @@ constexpr std::array<double, 4> kCrossoversHz{400, 1500, 5000, 12000};
 constexpr double kFrameS = 0.003;
 constexpr double kFramesPerBandwidth = 4;  // a band's frame is at least this many over its width
 // Memory of the level process, at the learned speed.
-constexpr std::array<double, kMostLengths> kMemoryS{0.003, 0.012, 0.05, 0.2};
+constexpr std::array<double, kMostLengths> kMemoryS{0.002, 0.006, 0.02, 0.06};
 // Level deviations beyond those of Gaussian noise that are worth a texture.
 constexpr double kLeastDeviationDb = 0.7;
 // With fewer grains than this nothing is known of their sizes.
 constexpr std::size_t kFewestGrains = 8;
 constexpr double kGrainReachS = 0.0005;
 constexpr double kSurroundingsS = 0.01;
-constexpr double kGrainConcentration = 0.5;
-
-constexpr std::uint64_t kCalibrationSeeds = 11;
-constexpr int kCalibrationRounds = 10;
-constexpr double kCalibrationS = 6;         // of sound for each seed at most
-constexpr double kCalibratedWithin = 0.05;  // of the logarithms together
+// Share of a grain's energy in its five middle samples; noise of one level has a tenth there.
+constexpr double kGrainConcentration = 0.2;
 
 // Where a Gaussian is exceeded by 1 - p: Acklam's rational approximation (2003), to 1e-9.
 double normal_quantile(double p) {
@@ -65,21 +64,6 @@ double normal_quantile(double p) {
             1);
 }
 
-// Second-order Butterworth, as texture_excitation plays it.
-void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool low) {
-    const double k = math::tan(math::kPi * corner_hz / rate_hz);
-    const double a0 = 1 + std::sqrt(2.0) * k + k * k;
-    const double b0 = (low ? k * k : 1) / a0, b1 = low ? 2 * b0 : -2 * b0;
-    const double a1 = 2 * (k * k - 1) / a0, a2 = (1 - std::sqrt(2.0) * k + k * k) / a0;
-    double s1 = 0, s2 = 0;
-    for (double& v : x) {
-        const double y = b0 * v + s1;
-        s1 = b1 * v - a1 * y + s2;
-        s2 = b0 * v - a2 * y;
-        v = y;
-    }
-}
-
 // Levels of one band, two ways.
 struct BandLevels {
     std::vector<double> fine,
@@ -92,12 +76,17 @@ struct Analysis {
     double fine_s = kFrameS;
 };
 
-Analysis analysed(Pieces pieces, double rate_hz) {
-    Analysis a;
+std::vector<double> corners_at(double rate_hz) {
     std::vector<double> corners;
     for (const double hz : kCrossoversHz) {
         if (hz < 0.4 * rate_hz) corners.push_back(hz);
     }
+    return corners;
+}
+
+Analysis analysed(const std::vector<double>& sound, double rate_hz) {
+    Analysis a;
+    const std::vector<double> corners = corners_at(rate_hz);
     const auto coarse =
         static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / corners[0]) * rate_hz);
     a.bands.resize(corners.size() + 1);
@@ -105,18 +94,10 @@ Analysis analysed(Pieces pieces, double rate_hz) {
         const double low = b > 0 ? corners[b - 1] : 0, high = b < corners.size() ? corners[b] : 0.5 * rate_hz;
         const auto fine =
             static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / (high - low)) * rate_hz);
-        double count = 0;
-        for (const std::span<const double> piece : pieces) {
-            std::vector<double> x(piece.begin(), piece.end());
-            if (b > 0) split_off(x, low, rate_hz, false);
-            if (b < corners.size()) split_off(x, high, rate_hz, true);
-            for (const double v : x) a.bands[b].power += v * v;
-            count += static_cast<double>(x.size());
-            const std::vector<double> f = frame_levels_db(x, fine), c = frame_levels_db(x, coarse);
-            a.bands[b].fine.insert(a.bands[b].fine.end(), f.begin(), f.end());
-            a.bands[b].coarse.insert(a.bands[b].coarse.end(), c.begin(), c.end());
-        }
-        a.bands[b].power /= std::max(count, 1.0);
+        const std::vector<double> x = band_of(sound, b, corners, rate_hz);
+        for (const double v : x) a.bands[b].power += v * v / static_cast<double>(x.size());
+        a.bands[b].fine = frame_levels_db(x, fine);
+        a.bands[b].coarse = frame_levels_db(x, coarse);
     }
     return a;
 }
@@ -203,6 +184,12 @@ std::vector<double> memory_shares(const std::vector<double>& g, double frame_s, 
     return w;
 }
 
+std::vector<double> joined(const auto& pieces) {
+    std::vector<double> all;
+    for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+    return all;
+}
+
 std::vector<double> plain_noise(const ArModel& model, std::size_t count, std::uint64_t seed) {
     ModelNoise noise(model, seed);
     std::vector<double> x(count);
@@ -210,83 +197,30 @@ std::vector<double> plain_noise(const ArModel& model, std::size_t count, std::ui
     return x;
 }
 
-std::vector<double> residual_of(Pieces pieces, const ArModel& model) {
-    const std::vector<double> a = predictor_of(model.reflection);
-    std::vector<double> e;
-    for (const std::span<const double> x : pieces) {
-        for (std::size_t n = a.size(); n < x.size(); ++n) {
-            double v = x[n];
-            for (std::size_t k = 0; k < a.size(); ++k) v += a[k] * x[n - 1 - k];
-            e.push_back(v);
-        }
-    }
+// What the model does not predict, mean square 1; `scale` becomes what it was multiplied by.
+std::vector<double> residual_of(const std::vector<double>& x, const std::vector<double>& a, double& scale) {
+    std::vector<double> e(x.size());
     double square = 0;
-    for (const double v : e) square += v * v;
-    const double scale = square > 0 ? std::sqrt(static_cast<double>(e.size()) / square) : 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        double v = x[n];
+        for (std::size_t k = 0; k < std::min(a.size(), n); ++k) v += a[k] * x[n - 1 - k];
+        e[n] = v;
+        square += v * v;
+    }
+    scale = square > 0 ? std::sqrt(static_cast<double>(e.size()) / square) : 0;
     for (double& v : e) v *= scale;
     return e;
 }
 
-// Median over seeds of what a texture's own sound shows.
-struct Shown {
-    double kurtosis = 0, deviation_db = 0;
-};
-Shown shown(const TextureModel& texture, const ArModel& model, std::size_t count, double speed_mm_per_s) {
-    std::vector<double> kurtoses, deviations, x;
-    const double travel_mm = speed_mm_per_s * kNoiseBlock / model.sample_rate_hz;
-    for (std::uint64_t seed = 0; seed < kCalibrationSeeds; ++seed) {
-        ModelNoise noise(model, &texture, 1000 + seed);
-        x.clear();
-        for (std::uint64_t n = 0; x.size() < count; ++n) {
-            for (const float v : noise.block(n, travel_mm)) x.push_back(v);
-        }
-        kurtoses.push_back(kurtosis(x));
-        deviations.push_back(level_deviation_db(x, model.sample_rate_hz));
+// The way back.
+std::vector<double> filtered(const std::vector<double>& e, const std::vector<double>& a, double scale) {
+    std::vector<double> x(e.size());
+    for (std::size_t n = 0; n < e.size(); ++n) {
+        double v = scale > 0 ? e[n] / scale : 0;
+        for (std::size_t k = 0; k < std::min(a.size(), n); ++k) v -= a[k] * x[n - 1 - k];
+        x[n] = v;
     }
-    const auto median = [](std::vector<double>& v) {
-        std::ranges::sort(v);
-        return v[v.size() / 2];
-    };
-    return {median(kurtoses), median(deviations)};
-}
-
-// Tables with deviations from the middle scaled by `spread`, those of the louder sixth by `crest` besides.
-TextureModel bent(const TextureModel& texture, double spread, double crest) {
-    TextureModel out = texture;
-    for (std::vector<double>& table : out.levels_db) {
-        const double middle = table[kLevelSteps / 2], knee = table[kLevelSteps / 2 + 2];
-        for (std::size_t n = 0; n < table.size(); ++n) {
-            const double own = n > kLevelSteps / 2 + 2 ? knee + crest * (table[n] - knee) : table[n];
-            table[n] = middle + spread * (own - middle);
-        }
-    }
-    normalize(out);
-    return out;
-}
-
-// What the analysis smoothed away: levels are stretched until the texture's own sound shows the recording's
-// kurtosis and 10 ms level deviation.
-TextureModel calibrated(const TextureModel& texture, const ArModel& model, std::size_t count,
-                        double speed_mm_per_s, Shown wanted) {
-    double spread = 1, crest = 1;
-    TextureModel best = texture;
-    double least = 1e300;
-    for (int round = 0; round < kCalibrationRounds; ++round) {
-        const TextureModel trial = bent(texture, spread, crest);
-        const Shown now = shown(trial, model, count, speed_mm_per_s);
-        const double level = math::log(wanted.deviation_db / now.deviation_db);
-        const double peak =
-            math::log(std::max(wanted.kurtosis, 3.01) / 3) / math::log(std::max(now.kurtosis, 3.01) / 3);
-        const double miss = std::abs(level) + std::abs(math::log(wanted.kurtosis / now.kurtosis));
-        if (miss < least) {
-            least = miss;
-            best = trial;
-        }
-        if (least < kCalibratedWithin) break;
-        spread = std::clamp(spread * math::exp(0.8 * level), 0.2, 3.0);
-        crest = std::clamp(crest * math::pow(std::clamp(peak, 0.5, 2.0), 0.6), 0.1, 3.0);
-    }
-    return best;
+    return x;
 }
 
 }  // namespace
@@ -296,7 +230,7 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
     const auto reach = static_cast<std::size_t>(std::max(kGrainReachS * sample_rate_hz, 2.0));
     const auto around = static_cast<std::size_t>(kSurroundingsS * sample_rate_hz);
     std::vector<std::size_t> places;
-    std::vector<double> sizes, window;
+    std::vector<double> sizes, floors, window;
     double energy = 0;
     for (const double v : residual) energy += v * v;
     for (std::size_t begin = 0; begin + around <= residual.size(); begin += around) {
@@ -320,10 +254,12 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
             if (!largest || core < kGrainConcentration * near) continue;
             places.push_back(n);
             sizes.push_back(std::copysign(std::sqrt(near), residual[n]));
+            floors.push_back(floor / kGrainThreshold);
             n += reach;
         }
     }
     if (places.size() < kFewestGrains) return grains;
+    const CounterNoise fill(1);
     double taken = 0, last_gap = 0, gaps = 0, squares = 0;
     grains.shape.assign(std::min<std::size_t>(2 * reach + 1, kLongestGrain), 0.0);
     for (std::size_t k = 0; k < places.size(); ++k) {
@@ -332,7 +268,9 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
             if (tap < grains.shape.size()) grains.shape[tap] += (sizes[k] < 0 ? -residual[m] : residual[m]);
             taken += residual[m] * residual[m];
         }
-        for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) residual[m] = 0;
+        for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) {
+            residual[m] = floors[k] * fill.gaussian(m);
+        }
         if (k == 0) continue;
         last_gap = static_cast<double>(places[k] - places[k - 1]);
         gaps += last_gap;
@@ -343,10 +281,12 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
     for (double& v : grains.shape) v /= std::sqrt(square);
     const auto count = static_cast<double>(places.size() - 1);
     const double mean = gaps / count;
-    grains.per_mm = static_cast<double>(places.size()) / static_cast<double>(residual.size()) *
-                    sample_rate_hz / speed_mm_per_s;
-    grains.share = std::clamp(taken / energy, 0.0, 1.0);
     grains.scatter = std::min(std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean, 1.0);
+    // Of grains at random places those nearer than the reach to one another are found as one.
+    const double rate = static_cast<double>(places.size()) / static_cast<double>(residual.size());
+    grains.per_mm =
+        rate / (1 - grains.scatter * rate * static_cast<double>(reach)) * sample_rate_hz / speed_mm_per_s;
+    grains.share = std::clamp(taken / energy, 0.0, 1.0);
     std::ranges::sort(sizes);
     const std::size_t steps = std::min<std::size_t>(sizes.size(), kMostGrainSizes);
     for (std::size_t n = 0; n < steps; ++n) {
@@ -358,16 +298,15 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
 std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, double speed_mm_per_s) {
     TextureModel texture;
     const double rate = model.sample_rate_hz;
-    std::vector<double> residual = residual_of(pieces, model);
+    const std::vector<double> level = joined(without_slow_level(pieces, rate));
+    const std::vector<double> predictor = predictor_of(model.reflection);
+    double scale = 1;
+    std::vector<double> residual = residual_of(level, predictor, scale);
     texture.grains = take_grains(residual, rate, speed_mm_per_s);
 
-    const Analysis own = analysed(pieces, rate);
-    std::size_t count = 0;
-    for (const auto piece : pieces) count += piece.size();
-    const std::vector<double> noise = plain_noise(model, count, 1);
-    const std::span<const double> noise_piece[] = {noise};
-    const Analysis plain = analysed(noise_piece, rate);
-
+    const Analysis own =
+        analysed(texture.grains.sizes.empty() ? level : filtered(residual, predictor, scale), rate);
+    const Analysis plain = analysed(plain_noise(model, level.size(), 1), rate);
     double largest = 0;
     std::vector<double> shrinks;
     for (std::size_t b = 0; b < own.bands.size(); ++b) {
@@ -378,7 +317,7 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
         texture.levels_db.push_back(level_table(own.bands[b].fine, shrinks.back()));
     }
     if (largest < kLeastDeviationDb * kLeastDeviationDb && texture.grains.sizes.empty()) return std::nullopt;
-    for (std::size_t b = 0; b + 1 < own.bands.size(); ++b) texture.crossovers_hz.push_back(kCrossoversHz[b]);
+    texture.crossovers_hz = corners_at(rate);
 
     // Memory: of the bands whose frames are short, together.
     std::vector<double> together;
@@ -405,12 +344,11 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
         }
     }
     texture.coherence = std::clamp(coherence / std::max(pairs, 1), 0.0, 1.0);
-    normalize(texture);
-    std::vector<double> whole;
-    for (const auto piece : pieces) whole.insert(whole.end(), piece.begin(), piece.end());
-    count = std::min(count, static_cast<std::size_t>(kCalibrationS * rate));
-    return calibrated(texture, model, count, speed_mm_per_s,
-                      {kurtosis(whole), level_deviation_db(whole, rate)});
+    HeardTexture wanted = heard_texture(level, rate, texture.crossovers_hz);
+    // What the slow level takes away is partly the texture's own: the truth lies between with and without it.
+    const double with_slow = kurtosis(joined(pieces));
+    wanted.kurtosis = std::sqrt(with_slow * std::min(with_slow, wanted.kurtosis));
+    return fitted_texture(texture, model, level.size(), speed_mm_per_s, wanted);
 }
 
 }  // namespace tribo::noise
