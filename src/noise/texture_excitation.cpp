@@ -91,13 +91,9 @@ TextureExcitation::TextureExcitation(const TextureModel& texture, double sample_
     sizes_ = static_cast<int>(grains.sizes.size());
     std::ranges::copy(grains.sizes, size_.begin());
     if (sizes_ > 0) {
-        // Mean square of what next_size() draws: linear between the quantiles.
         double sum = 0;
-        for (int n = 0; n + 1 < sizes_; ++n) {
-            const double a = size_[static_cast<std::size_t>(n)], b = size_[static_cast<std::size_t>(n + 1)];
-            sum += (a * a + a * b + b * b) / 3;
-        }
-        mean_square_ = sizes_ > 1 ? sum / (sizes_ - 1) : size_[0] * size_[0];
+        for (const double size : grains.sizes) sum += size * size;
+        mean_square_ = sum / sizes_;
         if (!(mean_square_ > 0)) per_mm_ = share_ = 0;
     }
     restart();
@@ -113,8 +109,8 @@ void TextureExcitation::restart() {
         std::fill(std::begin(s.s1), std::end(s.s1), 0.0F);
         std::fill(std::begin(s.s2), std::end(s.s2), 0.0F);
     }
-    for (std::size_t n = 0; n < step_.size(); ++n) step_[n] = static_cast<std::uint8_t>(n);
-    steps_left_ = 0;
+    std::sort(size_.begin(), size_.begin() + sizes_);
+    sizes_left_ = 0;
     to_next_mm_ = per_mm_ > 0 ? next_gap() * random.uniform(drawn_++) : 0;
     gain_.fill(0);
     tail_.fill(0);
@@ -126,17 +122,14 @@ double TextureExcitation::next_gap() {
     return ((1 - scatter_) - scatter_ * math::log(1 - u)) / per_mm_;
 }
 
-// Every step of the sizes comes once before one comes again: the rare large ones, on which the kurtosis
-// hangs, come as often as in the recording, not in bad luck twice or never.
+// Every size comes once before one comes again: the few large ones, on which the kurtosis hangs, come as
+// often as in the recording, not twice or never by bad luck.
 double TextureExcitation::next_size() {
-    if (sizes_ == 1) return size_[0];
-    const CounterNoise random(key_);
-    if (steps_left_ == 0) steps_left_ = sizes_ - 1;
-    const auto drawn = static_cast<std::size_t>(random.uniform(drawn_++) * steps_left_);
-    std::swap(step_[drawn], step_[static_cast<std::size_t>(--steps_left_)]);
-    const std::size_t index = step_[static_cast<std::size_t>(steps_left_)];
-    const double share = random.uniform(drawn_++);
-    return (1 - share) * size_[index] + share * size_[index + 1];
+    if (sizes_left_ == 0) sizes_left_ = sizes_;
+    const double place = CounterNoise(key_).uniform(drawn_++) * sizes_left_;
+    --sizes_left_;
+    std::swap(size_[static_cast<std::size_t>(place)], size_[static_cast<std::size_t>(sizes_left_)]);
+    return size_[static_cast<std::size_t>(sizes_left_)];
 }
 
 double TextureExcitation::level(int band, double g) const {

@@ -13,13 +13,17 @@ namespace {
 
 constexpr int kSeeds = 6;
 constexpr int kRounds = 10;
-constexpr double kPlayedS = 5;  // for each seed at most
+// Given up after this many rounds without a miss that is less by 2 %.
+constexpr int kPatience = 3;
+constexpr double kGain = 0.98;
+constexpr double kPlayedS = 5;  // for each seed
 // A round moves a knob by this factor at most.
 constexpr double kLargestTurn = 2;
 // Coherence is measured through the levels' noise: up to this factor too low.
 constexpr double kCoherenceWithin = 1.5;
 constexpr std::size_t kSteps = kModulationHz.size();
-constexpr double kLeast = 1e-12;  // modulation
+constexpr double kLeast = 1e-12;      // modulation
+constexpr double kLeastExcess = 0.1;  // of a kurtosis over 3
 
 // Second-order Butterworth, as texture_excitation plays it.
 void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool low) {
@@ -158,11 +162,11 @@ void turn_knobs(Knobs& knobs, const TextureModel& measured, std::span<const doub
     }
     const double sum = sum_of(weights);
     for (std::size_t m = 0; m < weights.size(); ++m) knobs.weights[m] = weights[m] / sum;
-    const double peak =
-        math::log(std::max(wanted.kurtosis, 3.01) / 3) / math::log(std::max(now.kurtosis, 3.01) / 3);
-    if (grains)
-        knobs.grains *= turn(std::sqrt(std::max(wanted.kurtosis - 3, 0.1) / std::max(now.kurtosis - 3, 0.1)));
-    knobs.crest = std::clamp(knobs.crest * math::pow(turn(peak), 0.6), 0.1, grains ? 1.0 : 4.0);
+    // Few sounds are loud enough to count for the kurtosis: it scatters, so that steps are small.
+    const double peak = math::pow(
+        turn(std::max(wanted.kurtosis - 3, kLeastExcess) / std::max(now.kurtosis - 3, kLeastExcess)), 0.35);
+    if (grains) knobs.grains *= peak;
+    knobs.crest = std::clamp(knobs.crest * peak, 0.1, grains ? 1.0 : 4.0);
 }
 
 }  // namespace
@@ -187,22 +191,25 @@ HeardTexture heard_texture(const std::vector<double>& sound, double sample_rate_
     return heard;
 }
 
-TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, std::size_t samples,
-                            double speed_mm_per_s, const HeardTexture& wanted) {
-    const std::size_t count = std::min(samples, static_cast<std::size_t>(kPlayedS * model.sample_rate_hz));
+TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, double speed_mm_per_s,
+                            const HeardTexture& wanted) {
+    const auto count = static_cast<std::size_t>(kPlayedS * model.sample_rate_hz);
     std::vector<double> memory_s;
     for (const double mm : texture.lengths_mm) memory_s.push_back(mm / speed_mm_per_s);
     Knobs knobs{std::vector<double>(texture.levels_db.size(), 1), texture.weights, texture.coherence};
     TextureModel best = texture;
     double least = 1e300;
+    int last_gain = 0;
     for (int round = 0; round < kRounds; ++round) {
         const TextureModel trial = turned(texture, knobs);
         const Played now = played(trial, model, count, speed_mm_per_s, wanted);
         const double miss = difference_db(wanted, now);
         if (miss < least) {
+            last_gain = miss < kGain * least ? round : last_gain;
             least = miss;
             best = trial;
         }
+        if (round - last_gain == kPatience) break;
         turn_knobs(knobs, texture, memory_s, wanted, now);
     }
     return best;

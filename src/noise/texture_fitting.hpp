@@ -31,7 +31,7 @@ std::vector<double> band_of(const std::vector<double>& sound, std::size_t band,
 // The texture with the spread of its levels, the weights of its lengths, its coherence and the share of its
 // grains such that what `model` plays of it, `samples` at a time, comes nearest to what is wanted. Tries a
 // few rounds on the sound of a few seeds, always the same ones.
-TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, std::size_t samples,
-                            double speed_mm_per_s, const HeardTexture& wanted);
+TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, double speed_mm_per_s,
+                            const HeardTexture& wanted);
 
 }  // namespace tribo::noise

@@ -288,10 +288,19 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
         rate / (1 - grains.scatter * rate * static_cast<double>(reach)) * sample_rate_hz / speed_mm_per_s;
     grains.share = std::clamp(taken / energy, 0.0, 1.0);
     std::ranges::sort(sizes);
+    // Every grain's, or of more grains than there is room for the root mean square of as many neighbours.
     const std::size_t steps = std::min<std::size_t>(sizes.size(), kMostGrainSizes);
     for (std::size_t n = 0; n < steps; ++n) {
-        grains.sizes.push_back(sizes[n * (sizes.size() - 1) / (steps - 1)]);
+        const std::size_t begin = n * sizes.size() / steps, end = (n + 1) * sizes.size() / steps;
+        double sum = 0, energy_of_step = 0;
+        for (std::size_t k = begin; k < end; ++k) {
+            sum += sizes[k];
+            energy_of_step += sizes[k] * sizes[k];
+        }
+        grains.sizes.push_back(
+            std::copysign(std::sqrt(energy_of_step / static_cast<double>(end - begin)), sum));
     }
+    std::ranges::sort(grains.sizes);
     return grains;
 }
 
@@ -348,7 +357,7 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
     // What the slow level takes away is partly the texture's own: the truth lies between with and without it.
     const double with_slow = kurtosis(joined(pieces));
     wanted.kurtosis = std::sqrt(with_slow * std::min(with_slow, wanted.kurtosis));
-    return fitted_texture(texture, model, level.size(), speed_mm_per_s, wanted);
+    return fitted_texture(texture, model, speed_mm_per_s, wanted);
 }
 
 }  // namespace tribo::noise

@@ -13,7 +13,7 @@ struct GrainModel {
     double per_mm = 0;   // mean count on a millimetre of way; 0: none
     double share = 0;    // of the power at the learned speed, 0 ... 1
     double scatter = 1;  // of the distances between grains: deviation over mean, 0 (even) ... 1 (at random)
-    // Quantiles of the amplitude, signed, ascending, at equal steps of probability.
+    // Amplitudes, signed, ascending; each comes as often as another.
     std::vector<double> sizes;
     // What a grain of size 1 adds to the driving noise, sample by sample at the model's rate; sum of
     // squares 1.
