@@ -230,5 +230,21 @@ TEST(SoundStatistics, are_those_of_known_sounds) {
     EXPECT_NEAR(kurtosis(sine), 1.5, 1e-3);
 }
 
+TEST(SoundStatistics, modulation_is_that_of_the_envelope_over_its_mean) {
+    // The RMS of 96 Gaussians has a relative variance of 1 / (2 * 96), whatever its frequency.
+    std::vector<double> x = drawn({48000, {}}, 48000 * 60, 0.5, 2);
+    const std::vector<double> hz{4.76, 9.51, 19.0, 38.1, 100};
+    const std::vector<double> noise = modulation_density(x, 48000, hz);
+    for (const double density : noise) EXPECT_NEAR(10 * std::log10(density * 2 * 96), 0, 0.6);
+    // A swing of m at 19 Hz is m^2 / 2, all of it in the seven of 256 steps of that half octave.
+    for (std::size_t n = 0; n < x.size(); ++n) {
+        x[n] = (n % 2 == 0 ? 1 : -1) *
+               (1 + 0.2 * std::sin(2 * std::numbers::pi * 19 * static_cast<double>(n) / 48000));
+    }
+    const std::vector<double> swing = modulation_density(x, 48000, hz);
+    EXPECT_NEAR(swing[2], 0.02 * 256 / 7, 0.02 * 256 / 7 * 0.1);
+    for (const std::size_t other : {0, 1, 3, 4}) EXPECT_LT(swing[other], 1e-3 * swing[2]);
+}
+
 }  // namespace
 }  // namespace tribo::noise
