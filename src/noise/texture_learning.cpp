@@ -261,14 +261,9 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
     if (places.size() < kFewestGrains) return grains;
     const CounterNoise fill(1);
     double taken = 0, last_gap = 0, gaps = 0, squares = 0;
-    grains.shape.assign(std::min<std::size_t>(2 * reach + 1, kLongestGrain), 0.0);
     for (std::size_t k = 0; k < places.size(); ++k) {
         for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) {
-            const std::size_t tap = m + reach - places[k];
-            if (tap < grains.shape.size()) grains.shape[tap] += (sizes[k] < 0 ? -residual[m] : residual[m]);
             taken += residual[m] * residual[m];
-        }
-        for (std::size_t m = places[k] - reach; m <= places[k] + reach; ++m) {
             residual[m] = floors[k] * fill.gaussian(m);
         }
         if (k == 0) continue;
@@ -276,9 +271,8 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
         gaps += last_gap;
         squares += last_gap * last_gap;
     }
-    double square = 0;
-    for (const double v : grains.shape) square += v * v;
-    for (double& v : grains.shape) v /= std::sqrt(square);
+    // Impulses, white as the noise between them: the model's filter gives both their colour.
+    grains.shape = {1};
     const auto count = static_cast<double>(places.size() - 1);
     const double mean = gaps / count;
     grains.scatter = std::min(std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean, 1.0);

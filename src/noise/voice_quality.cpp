@@ -7,6 +7,7 @@
 #include "base/math.hpp"
 #include "noise/levinson.hpp"
 #include "noise/model_noise.hpp"
+#include "noise/slow_level.hpp"
 #include "noise/sound_statistics.hpp"
 
 namespace tribo::noise {
@@ -87,11 +88,16 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     const std::vector<double> long_voice = played(model, true, kLevelS, 2);
     for (const double v : long_voice) power += v * v / static_cast<double>(long_voice.size());
     q.level_error_db = db(power) - model.level_db;
+    // The voice leaves the hand's slow level to the stroke.
+    std::vector<double> levelled;
+    for (const std::vector<double>& piece : without_slow_level(recording.pieces(), rate)) {
+        levelled.insert(levelled.end(), piece.begin(), piece.end());
+    }
     q.kurtosis = {kurtosis(sound), kurtosis(gaussian), kurtosis(voice)};
-    q.deviation_db = {level_deviation_db(sound, rate), level_deviation_db(gaussian, rate),
+    q.deviation_db = {level_deviation_db(levelled, rate), level_deviation_db(gaussian, rate),
                       level_deviation_db(voice, rate)};
     for (double hz = 5.6; hz < 210; hz *= std::sqrt(2.0)) q.modulation.hz.push_back(hz);
-    q.modulation.original_db = modulation_db(sound, rate, q.modulation.hz);
+    q.modulation.original_db = modulation_db(levelled, rate, q.modulation.hz);
     q.modulation.gaussian_db = modulation_db(gaussian, rate, q.modulation.hz);
     q.modulation.voice_db = modulation_db(voice, rate, q.modulation.hz);
     q.original = heard(sound, rate);

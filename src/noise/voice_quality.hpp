@@ -25,6 +25,7 @@ struct VoiceQuality {
     // differ by themselves.
     double held_out_db = 0, held_out_plain_db = 0, halves_db = 0;
     double level_error_db = 0;  // of a minute played, against the level that was learned
+    // Of the recording as it is; the level deviation (10 ms) and the modulation without its slow level.
     Trio kurtosis, deviation_db;
     std::vector<double> hz, original_db, model_db;  // spectra
     ModulationSpectrum modulation;
