@@ -108,7 +108,8 @@ std::string figures(const noise::VoiceQuality& q) {
     std::string html =
         "<table><tr><th></th><th>recording</th><th>filter and white noise</th><th>voice</th></tr>\n";
     html += row("Kurtosis", three(q.kurtosis, 1), "3 is Gaussian, more is grain");
-    html += row("Level deviation, 10 ms frames", three(q.deviation_db, 2), "dB");
+    html += row("Level deviation, 10 ms frames", three(q.deviation_db, 2),
+                "dB, the recording without the slow level of its hand");
     html +=
         "</table>\n<table><tr><th></th><th>voice</th><th>plain fit, order 50</th><th>the halves "
         "themselves</th></tr>\n";
@@ -135,7 +136,8 @@ std::string section(const ReportedVoice& v) {
         plot(q.hz, spectra, 50, std::min(20000.0, 0.5 * q.sample_rate_hz)) + legend(spectra) +
         "<figcaption>Power spectrum, dB of full scale, over Hz.</figcaption></figure>\n<figure>" +
         plot(q.modulation.hz, modulation, 5, 200) + legend(modulation) +
-        "<figcaption>Modulation spectrum: how strongly the envelope fluctuates, dB, over "
+        "<figcaption>Modulation spectrum: how strongly the envelope fluctuates, the slow level of the hand "
+        "apart, dB, over "
         "Hz.</figcaption></figure></div>\n" +
         figures(q) + "<div class=\"pair\"><div>" + player("Recording", q.original, q.sample_rate_hz) +
         player("Voice", q.voice, q.sample_rate_hz) + "</div><div>" +
