@@ -41,9 +41,9 @@ void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool lo
 }
 
 // Of a texture's own sound: mean over seeds, of `count` samples each; of the kurtosis the geometric mean, and
-// how far, in dB, the seeds are from `wanted`, root mean square.
+// how far its logarithm is from the wanted one, root mean square over the seeds.
 struct Played : HeardTexture {
-    double kurtosis_miss_db = 0;
+    double kurtosis_miss = 0;
 };
 
 Played played(const TextureModel& texture, const ArModel& model, std::size_t count, double speed_mm_per_s,
@@ -60,9 +60,9 @@ Played played(const TextureModel& texture, const ArModel& model, std::size_t cou
             for (const float v : noise.block(n, travel_mm)) x.push_back(v);
         }
         const HeardTexture one = heard_texture(x, model.sample_rate_hz, texture.crossovers_hz);
-        const double miss_db = 10 * math::log10(one.kurtosis / wanted.kurtosis);
+        const double miss = math::log(one.kurtosis / wanted.kurtosis);
         logarithm += math::log(one.kurtosis) / kSeeds;
-        square += miss_db * miss_db / kSeeds;
+        square += miss * miss / kSeeds;
         for (std::size_t b = 0; b < one.modulation.size(); ++b) {
             for (std::size_t k = 0; k < kSteps; ++k) {
                 all.modulation[b][k] += one.modulation[b][k] / kSeeds;
@@ -70,7 +70,7 @@ Played played(const TextureModel& texture, const ArModel& model, std::size_t cou
         }
     }
     all.kurtosis = math::exp(logarithm);
-    all.kurtosis_miss_db = std::sqrt(square);
+    all.kurtosis_miss = std::sqrt(square);
     return all;
 }
 
@@ -110,20 +110,20 @@ double turn(double factor) {
     return std::clamp(factor, 1 / kLargestTurn, kLargestTurn);
 }
 
-// How far two sounds differ, in dB: modulation, root mean square, and kurtosis together.
-double difference_db(const HeardTexture& wanted, const Played& now) {
-    double square = 0, count = 0;
+// How far what is played is from what is wanted: the Itakura-Saito distance of the modulation spectra
+// (Itakura and Saito 1968), to which a line that is missed weighs more than a gap that is filled, and for the
+// kurtosis what that distance is for small errors, half the squared logarithm.
+double distance(const HeardTexture& wanted, const Played& now) {
+    double sum = 0, count = 0;
     for (std::size_t b = 0; b < wanted.modulation.size(); ++b) {
         for (std::size_t k = 0; k < kSteps; ++k) {
-            const double a = wanted.modulation[b][k], p = now.modulation[b][k];
-            if (!(a > 0) || !(p > 0)) continue;
-            const double d = 10 * math::log10(p / a);
-            square += d * d;
+            if (!(wanted.modulation[b][k] > 0) || !(now.modulation[b][k] > 0)) continue;
+            const double ratio = wanted.modulation[b][k] / now.modulation[b][k];
+            sum += ratio - math::log(ratio) - 1;
             ++count;
         }
     }
-    const double k = now.kurtosis_miss_db;
-    return std::sqrt(square / std::max(count, 1.0) + k * k);
+    return sum / std::max(count, 1.0) + 0.5 * now.kurtosis_miss * now.kurtosis_miss;
 }
 
 // One round: each knob a step towards what is wanted.
@@ -203,7 +203,7 @@ TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, d
     for (int round = 0; round < kRounds; ++round) {
         const TextureModel trial = turned(texture, knobs);
         const Played now = played(trial, model, count, speed_mm_per_s, wanted);
-        const double miss = difference_db(wanted, now);
+        const double miss = distance(wanted, now);
         if (miss < least) {
             last_gain = miss < kGain * least ? round : last_gain;
             least = miss;

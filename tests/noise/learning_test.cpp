@@ -243,7 +243,8 @@ TEST(SoundStatistics, modulation_is_that_of_the_envelope_over_its_mean) {
     }
     const std::vector<double> swing = modulation_density(x, 48000, hz);
     EXPECT_NEAR(swing[2], 0.02 * 256 / 7, 0.02 * 256 / 7 * 0.1);
-    for (const std::size_t other : {0, 1, 3, 4}) EXPECT_LT(swing[other], 1e-3 * swing[2]);
+    for (const std::size_t other : std::initializer_list<std::size_t>{0, 1, 3, 4})
+        EXPECT_LT(swing[other], 1e-3 * swing[2]);
 }
 
 }  // namespace
