@@ -94,8 +94,8 @@ TEST(SoundFile, is_refused_with_the_reason) {
     }
 }
 
-// Real friction, whole: kurtosis (median over 20 noise seeds) within a factor of 1.5 and 10 ms level
-// deviation within 1.5 dB of the recording's own.
+// Real friction, whole: kurtosis (median over 20 noise seeds) within a factor of 1.5 of the recording's own.
+// Of its level deviation most is the hand's; the modulation is tested in tests/app/rub_recordings_test.cpp.
 TEST(RealFriction, is_played_as_grainy_as_it_was_recorded) {
     const std::string folder = std::string(TRIBO_SOURCE_DIR) + "/../shared/data/audio/";
     for (const char* name : {"lmt_carpet.wav", "lmt_rough_paper.wav"}) {
@@ -107,7 +107,7 @@ TEST(RealFriction, is_played_as_grainy_as_it_was_recorded) {
         const noise::VoiceModel& m = learned->voices.models[0];
         ASSERT_TRUE(m.texture);
         const auto prepared = noise::prepare(recording, 50);
-        std::vector<double> kurtoses, deviations, plain;
+        std::vector<double> kurtoses, plain;
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
             noise::ModelNoise textured(m.spectrum, &*m.texture, seed), gaussian(m.spectrum, seed);
             std::vector<double> x, y(prepared->sound.size());
@@ -115,14 +115,11 @@ TEST(RealFriction, is_played_as_grainy_as_it_was_recorded) {
                 for (const float v : textured.block(n, 100 * 64 / file->sample_rate_hz)) x.push_back(v);
             gaussian.render(0, y);
             kurtoses.push_back(noise::kurtosis(x));
-            deviations.push_back(noise::level_deviation_db(x, file->sample_rate_hz));
             plain.push_back(noise::kurtosis(y));
         }
         std::ranges::sort(kurtoses);
-        std::ranges::sort(deviations);
         const double own = noise::kurtosis(prepared->sound);
         EXPECT_LT(std::abs(std::log(kurtoses[10] / own)), std::log(1.5)) << name << " " << own;
-        EXPECT_NEAR(deviations[10], noise::level_deviation_db(prepared->sound, file->sample_rate_hz), 1.5);
         EXPECT_LT(plain[10], 3.2) << "without a texture none of it is there";
     }
 }
