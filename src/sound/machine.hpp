@@ -21,7 +21,8 @@ struct SpindleLine {
 };
 
 // A spindle that turns: lines that follow its speed, and pink noise through the broad resonances of its
-// housing, which stay where they are. RMS pressure at 1 m is pa (speed / rpm)^exponent.
+// housing, which stay where they are. RMS pressure at 1 m is pa (speed / rpm)^exponent, up to
+// four times that speed.
 struct SpindleSound {
     static constexpr std::size_t kLines = 8;
     double pa = 0, rpm = 6000, exponent = 1;

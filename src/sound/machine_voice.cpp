@@ -14,6 +14,8 @@ constexpr double kFollow = 0.125;  // of what is left, per quantum, twice over
 constexpr double kInaudiblePa = 1e-9;
 // A spindle as slow as this share of its usual speed is not heard.
 constexpr double kLeastSpeed = 1e-3;
+// Beyond this many times its usual speed it gets no louder.
+constexpr double kLoudestSpeed = 4;
 
 }  // namespace
 
@@ -84,7 +86,8 @@ void MachineVoice::add(Quantum& pressure_pa) {
     const double speed = rate * 60 * options_.sample_rate_hz / options_.spindle.rpm;
     const double share = 1 + cutting * (options_.share_in_cut - 1);
     const double level = told_ && speed > kLeastSpeed
-                             ? share * options_.spindle.pa * math::pow(speed, options_.spindle.exponent)
+                             ? share * options_.spindle.pa *
+                                   math::pow(std::min(speed, kLoudestSpeed), options_.spindle.exponent)
                              : 0;
     before_ = here_;
     here_ = after_;

@@ -108,7 +108,7 @@ Soundtrack::Soundtrack(const SoundtrackOptions& options, std::vector<std::unique
       samples_per_pascal_(math::pow(10, options.gain_db / 20) / kFullScalePascal) {
     assert(check(options));
     if (options.head) source_ = std::make_unique<SpatialSource>(options.head);
-    if (options.head && options.room.reflects()) {
+    if (options.head && options.room.reflects() && !options.as_published) {
         room_ = std::make_unique<RoomReflections>(options.room, in_metres(options.listener_mm),
                                                   options.sample_rate_hz, options.head->ears_apart_m());
     }

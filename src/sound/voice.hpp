@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever sounds takes its excitation through this one interface: partials and chip noise today, learned
-// friction and recordings later.
+// Whatever sounds takes its excitation through this one interface: a cut, a
+// spindle, a recording.
 #pragma once
 
 #include <array>

@@ -162,6 +162,49 @@ TEST_F(BuiltinHrirs, have_the_free_fields_level_in_the_bass_as_a_rigid_sphere_ha
     }
 }
 
+TEST_F(BuiltinHrirs, made_for_headphones_lose_what_all_directions_share_and_keep_what_tells_them_apart) {
+    const auto equal = sound::Head::measured(*shipped(), kRate, sound::Equalization::diffuse);
+    ASSERT_TRUE(equal);
+    const auto sphere = sound::Head::sphere(kRate);
+    constexpr double kBand = 1.1225;  // a sixth of an octave
+    double before = 0, after = 0;
+    for (double hz = 1000; hz < 12000; hz *= std::pow(2, 1.0 / 3)) {
+        double power = 0, raw = 0;
+        const std::size_t count = shipped()->directions.size();
+        for (std::size_t n = 0; n < count; n += 7) {
+            sound::EarResponses a, b;
+            (*equal)->hear(2 * shipped()->directions[n], a);
+            head().hear(2 * shipped()->directions[n], b);
+            for (const double f : {hz / kBand, hz, hz * kBand}) {
+                const Both x = made(a, f), y = made(b, f);
+                for (std::size_t ear = 0; ear < 2; ++ear)
+                    power += std::norm(x[ear]), raw += std::norm(y[ear]);
+            }
+            // The difference of the ears is what it was.
+            const Both x = made(a, hz), y = made(b, hz);
+            EXPECT_NEAR(20 * std::log10(std::abs(x[0]) / std::abs(x[1])),
+                        20 * std::log10(std::abs(y[0]) / std::abs(y[1])), 1)
+                << n << ' ' << hz;
+        }
+        const double means = 6.0 * std::ceil(static_cast<double>(count) / 7);
+        EXPECT_NEAR(10 * std::log10(power / means), 0, 1) << hz;
+        after = std::max(after, std::abs(10 * std::log10(power / means)));
+        before = std::max(before, std::abs(10 * std::log10(raw / means)));
+    }
+    EXPECT_GT(before, 10);  // there was something to lose
+    // In the bass it is the sphere still, in every direction.
+    for (std::size_t n = 0; n < shipped()->directions.size(); n += 11) {
+        sound::EarResponses a, b;
+        (*equal)->hear(2 * shipped()->directions[n], a);
+        sphere->hear(2 * shipped()->directions[n], b);
+        for (const double hz : {100.0, 200.0, 400.0}) {
+            const Both x = made(a, hz), y = made(b, hz);
+            for (std::size_t ear = 0; ear < 2; ++ear)
+                EXPECT_NEAR(20 * std::log10(std::abs(x[ear]) / std::abs(y[ear])), 0, 1) << n << ' ' << hz;
+        }
+    }
+}
+
 TEST_F(BuiltinHrirs, leave_no_stray_energy_beside_a_tone_that_circles_the_head) {
     const auto made_once = sound::Head::measured(*shipped(), kRate);
     sound::SpatialSource source(*made_once);

@@ -3,6 +3,7 @@
 #include "sound/workshop.hpp"
 
 #include <cmath>
+#include <complex>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <rapidcheck/gtest.h>
@@ -98,6 +99,29 @@ TEST(Machine, keeps_the_teeth_at_their_frequencies) {
     for (int n = 1; n <= 8; ++n) {
         const double expected = 80.0 / n * test::kSamplePerNewton * body.gain_at(375 * n);
         EXPECT_NEAR(test::tone_amplitude(middle, 375 * n, kRate) / expected, 1, 2e-3) << n;
+    }
+}
+
+TEST(Machine, keeps_the_teeth_at_their_frequencies_to_a_hundred_thousandth) {
+    const contact::ForceSpectrum spectrum = working_spectrum(0);
+    SoundtrackOptions options;
+    furnish({.machine = 1, .spindle_db = -60}, options);
+    const std::vector<float> wave = track_of(steady(&spectrum, 4500, 6), 6, options);
+    // How far a line turns against its own frequency from one second to another, 4 s later.
+    const auto turn = [&](std::size_t from, double hz) {
+        std::complex<double> sum = 0;
+        for (std::size_t n = 0; n < 48000; ++n) {
+            const double hann =
+                0.5 - 0.5 * std::cos(2 * std::numbers::pi * (static_cast<double>(n) + 0.5) / 48000);
+            sum += hann * static_cast<double>(wave[from + n]) *
+                   std::polar(1.0, -2 * std::numbers::pi * hz * static_cast<double>(from + n) / kRate);
+        }
+        return std::arg(sum);
+    };
+    for (int n = 1; n <= 8; ++n) {
+        const double hz = 375.0 * n;
+        const double off = std::remainder(turn(48000 * 5, hz) - turn(48000, hz), 2 * std::numbers::pi);
+        EXPECT_LT(std::abs(off) / (2 * std::numbers::pi * 4) / hz, 1e-5) << hz;
     }
 }
 
