@@ -109,7 +109,7 @@ void TextureExcitation::restart() {
         std::fill(std::begin(s.s1), std::end(s.s1), 0.0F);
         std::fill(std::begin(s.s2), std::end(s.s2), 0.0F);
     }
-    std::sort(size_.begin(), size_.begin() + sizes_);
+    for (std::size_t n = 0; n < order_.size(); ++n) order_[n] = static_cast<std::uint8_t>(n);
     sizes_left_ = 0;
     to_next_mm_ = per_mm_ > 0 ? next_gap() * random.uniform(drawn_++) : 0;
     gain_.fill(0);
@@ -128,8 +128,9 @@ double TextureExcitation::next_size() {
     if (sizes_left_ == 0) sizes_left_ = sizes_;
     const double place = CounterNoise(key_).uniform(drawn_++) * sizes_left_;
     --sizes_left_;
-    std::swap(size_[static_cast<std::size_t>(place)], size_[static_cast<std::size_t>(sizes_left_)]);
-    return size_[static_cast<std::size_t>(sizes_left_)];
+    std::uint8_t& drawn = order_[static_cast<std::size_t>(sizes_left_)];
+    std::swap(order_[static_cast<std::size_t>(place)], drawn);
+    return size_[drawn];
 }
 
 double TextureExcitation::level(int band, double g) const {

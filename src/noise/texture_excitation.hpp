@@ -37,7 +37,9 @@ class TextureExcitation {
         state_{};                  // of each process; the last: common
     double common_ = 1, own_ = 0;  // amplitudes of both shares
     double per_mm_ = 0, share_ = 0, scatter_ = 1, mean_square_ = 1;
-    std::array<double, kMostGrainSizes> size_{};  // those left of this round come first
+    std::array<double, kMostGrainSizes> size_{};
+    std::array<std::uint8_t, kMostGrainSizes>
+        order_{};  // places in size_: those left of this round come first
     int sizes_left_ = 0;
     std::array<float, kLongestGrain> shape_{};
     std::array<float, 64> tail_{};  // of grains that reach into the next block

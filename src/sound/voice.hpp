@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever sounds takes its excitation through this one interface: a cut, a
-// spindle, a recording.
+// Whatever sounds takes its excitation through this one interface: a cut, a spindle, a
+// recording.
 #pragma once
 
 #include <array>
