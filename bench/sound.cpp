@@ -214,8 +214,7 @@ double soundtrack_percent(const std::shared_ptr<const sound::Head>& head, const 
         contact::ContactSample cut;
         cut.t_s = static_cast<double>(n) / kPerSecond;
         cut.position_mm = {0.3 * n, 100, 0};
-        cut.slip_mm_per_s = {10, 0, 0};
-        cut.area_mm2 = 50;
+        cut.removed_mm3_per_s = 500;
         cut.phase_rate_rad_per_s = 6000 / 60.0 * 2 * kPi;
         cut.phase_rad = cut.phase_rate_rad_per_s * cut.t_s;
         cut.spectrum = &spectrum;

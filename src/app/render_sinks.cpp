@@ -33,6 +33,7 @@ contact::ContactSample sample_of(const session::MillRow& row, int edges, double 
     const double whole = std::hypot(tooth, down);
     if (whole > 0) s.slip_mm_per_s = speed * ((tooth / whole) * f.x - (down / whole) * f.z);
     s.area_mm2 = speed > 0 ? row.chip_mm3_per_s / speed : 0;
+    s.removed_mm3_per_s = row.chip_mm3_per_s;
     s.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
     s.phase_rad = row.spindle_angle_rad + s.phase_rate_rad_per_s * (t_s - v.t_s);
     s.spectrum = &row.spectrum;
@@ -214,8 +215,6 @@ std::vector<io::ReportWave> ReportRows::waves(const session::MillSetup& setup,
         contact::ContactSample cut;
         cut.position_mm = options.listener_mm;
         cut.force_n = model.mean().force_n;
-        cut.slip_mm_per_s = {worst_.feed_mm_per_s * feed, 0, 0};
-        cut.area_mm2 = worst_.feed_mm_per_s > 0 ? worst_.chip_mm3_per_s / worst_.feed_mm_per_s : 0;
         cut.phase_rate_rad_per_s = worst_.rpm * speed / 60 * math::kTwoPi;
         cut.spectrum = &spectrum;
         cut.edges = setup.cutters[worst_.cutter].flutes;

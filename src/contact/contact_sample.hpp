@@ -8,8 +8,9 @@
 //   normal       tool axis, tip to shank                out of the material
 //   force        on the tool, mean over a turn          on the finger
 //   slip         feed velocity of the tip               velocity along the surface
-//   area         cut across the feed: |slip| area is    of the patch that touches
-//                the material removed per second
+//   area         cut across the feed; 0 where the tip   of the patch that touches
+//                stands and only the axis turns
+//   removed      material per second                    0
 //   phase        spindle angle, from the datum of       0
 //                ForceSpectrum
 //   spectrum     force over the turn                    none
@@ -29,10 +30,11 @@ namespace tribo::contact {
 struct ContactSample {
     double t_s = 0;  // since the session began; samples come in order of time, equal times make a step
     Vec3 position_mm;
-    Vec3 normal{0, 0, 1};  // unit
-    Vec3 force_n;          // on the one that touches; zero: no contact
-    Vec3 slip_mm_per_s;    // of the one that touches, relative to the material
-    double area_mm2 = 0;   // >= 0
+    Vec3 normal{0, 0, 1};          // unit
+    Vec3 force_n;                  // on the one that touches; zero: no contact
+    Vec3 slip_mm_per_s;            // of the one that touches, relative to the material
+    double area_mm2 = 0;           // >= 0
+    double removed_mm3_per_s = 0;  // >= 0
 
     double phase_rad = 0;             // at t_s; whole turns may be left out
     double phase_rate_rad_per_s = 0;  // >= 0 for a spindle that turns the right way
@@ -43,16 +45,12 @@ struct ContactSample {
     int edges = 0;  // of the cutter; 0: not told
 };
 
-// Material removed per second by a cutter: feed x area.
-inline double removal_rate_mm3_per_s(const ContactSample& s) {
-    return length(s.slip_mm_per_s) * s.area_mm2;
-}
-
 // Whether every number of the sample is one; senses refuse a sample that is not. Real-time safe.
 inline bool is_finite(const ContactSample& s) {
     if (!(std::isfinite(s.t_s) && tribo::is_finite(s.position_mm) && tribo::is_finite(s.normal) &&
           tribo::is_finite(s.force_n) && tribo::is_finite(s.slip_mm_per_s) && std::isfinite(s.area_mm2) &&
-          std::isfinite(s.phase_rad) && std::isfinite(s.phase_rate_rad_per_s))) {
+          std::isfinite(s.removed_mm3_per_s) && std::isfinite(s.phase_rad) &&
+          std::isfinite(s.phase_rate_rad_per_s))) {
         return false;
     }
     if (s.spectrum == nullptr) return true;

@@ -213,9 +213,7 @@ void LiveSound::steer() {
     contact::ContactSample s;
     s.t_s = static_cast<double>(track_->frames_rendered() + kHop) / base_.sample_rate_hz;
     s.position_mm = piece->tip_mm;
-    // Only their product is heard: the material removed per second.
-    s.slip_mm_per_s = {1, 0, 0};
-    s.area_mm2 = piece->chip_mm3_per_s;
+    s.removed_mm3_per_s = piece->chip_mm3_per_s;
     s.phase_rad = phase_rad_;
     s.phase_rate_rad_per_s = piece->rad_per_s;
     s.spectrum = &spectrum_;

@@ -69,9 +69,8 @@ ChipMaterial chip_material(std::string_view material) {
 
 Chips chips_of(const contact::ContactSample& cut) {
     const double per_second = std::abs(cut.phase_rate_rad_per_s) / math::kTwoPi * std::max(cut.edges, 1);
-    const double removed = contact::removal_rate_mm3_per_s(cut);
-    if (!(per_second > 0 && removed > 0)) return {};
-    return {per_second, removed / per_second};
+    if (!(per_second > 0 && cut.removed_mm3_per_s > 0)) return {};
+    return {per_second, cut.removed_mm3_per_s / per_second};
 }
 
 double chip_pressure_pa(const Chips& chips) {

@@ -21,7 +21,7 @@ double published_sound(double t_s, double a1, double f1_hz, double a2) {
 void PublishedVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
     if (until_next_ == 0) now_ = next_;
     next_ = {kPascalPerNewton * length(next.force_n), next.phase_rate_rad_per_s / math::kTwoPi,
-             kPascalPerMm3PerS * contact::removal_rate_mm3_per_s(next)};
+             kPascalPerMm3PerS * next.removed_mm3_per_s};
     until_next_ = quanta;
 }
 

@@ -52,8 +52,7 @@ std::uint64_t milled(const formats::Job& job, motion::Program program) {
         sample.t_s = v.t_s;
         sample.position_mm = v.tip_mm;
         sample.force_n = v.mean_n;
-        sample.slip_mm_per_s = {15, 0, 0};
-        sample.area_mm2 = row.chip_mm3_per_s / 15;
+        sample.removed_mm3_per_s = row.chip_mm3_per_s;
         sample.phase_rad = row.spindle_angle_rad;
         sample.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
         sample.spectrum = &row.spectrum;

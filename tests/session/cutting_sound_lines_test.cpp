@@ -35,8 +35,7 @@ contact::ContactSample sample_at(double t, double rpm, double angle, const conta
     contact::ContactSample s;
     s.t_s = t;
     s.force_n = {100, 0, 0};
-    s.slip_mm_per_s = {10, 0, 0};
-    s.area_mm2 = 10;
+    s.removed_mm3_per_s = 100;
     s.phase_rad = angle;
     s.phase_rate_rad_per_s = rpm / 60 * 2 * kPi;
     s.spectrum = &spectrum;

@@ -33,8 +33,7 @@ inline contact::ContactSample cut_at(double t_s, const contact::ForceSpectrum* s
     s.t_s = t_s;
     s.spectrum = spectrum;
     s.force_n = {100, 0, 0};
-    s.slip_mm_per_s = {10, 0, 0};
-    s.area_mm2 = removal_mm3_per_s / 10;
+    s.removed_mm3_per_s = removal_mm3_per_s;
     s.phase_rate_rad_per_s = rpm / 60 * 2 * std::numbers::pi;
     s.phase_rad = s.phase_rate_rad_per_s * t_s;
     return s;
