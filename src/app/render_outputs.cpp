@@ -20,7 +20,18 @@ namespace {
 constexpr double kOnFaceMm = 1e-3;
 constexpr std::size_t kVerticesAtOnce = 4096;
 
-std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded) {
+// What the sound is made of, and that not all of it is measured.
+std::string sound_of(const formats::Job& job) {
+    const sound::Workshop w = session::listening_to(job, {}).workshop;
+    std::string what(sound::machines()[w.machine].what);
+    if (w.room > 0) what += ", " + std::string(sound::rooms()[w.room].what);
+    if (!job.sound.recording.empty() || !job.sound.chips.empty() || !job.sound.idle_recording.empty())
+        what += "; with recordings";
+    if (w.machine > 0) what += "; chips, spindle and room are made up, not measured";
+    return what;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded, bool sound) {
     const milling::Material& m = loaded.material;
     char k[200], band[200];
     const milling::CuttingCoefficients& c = m.coefficients;
@@ -35,6 +46,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loade
         {"Band", band},
     };
     if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
+    if (sound) facts.emplace_back("Sound", sound_of(loaded.job));
     facts.emplace_back("Not modelled", "chatter, deflection of tool and part, heat, wear");
     return facts;
 }
@@ -177,7 +189,7 @@ io::FileResult<void> RenderOutputs::write_report(const session::MillSession& ses
         data.sound = sound_->for_report();
         data.sound->waves = report_.waves(session.setup(), sound_->options());
     }
-    data.facts = facts_of(loaded_);
+    data.facts = facts_of(loaded_, call_.wants("sound") && !call_.as_published);
     return io::write_file(folder_.file("report.html"), io::report_html(data));
 }
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sound/machine.hpp"
 
-#include <string>
-#include <vector>
-
-#include "base/nearest.hpp"
 #include "sound/calibration.hpp"
 
 namespace tribo::sound {
@@ -99,15 +95,6 @@ const Machine kMachines[] = {
 
 std::span<const Machine> machines() {
     return kMachines;
-}
-
-Result<Machine> find_machine(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (const Machine& m : kMachines) {
-        if (m.name == name) return m;
-        names.push_back(m.name);
-    }
-    return fail("unknown machine '" + std::string(name) + "'", suggestion(name, names));
 }
 
 }  // namespace tribo::sound

@@ -8,7 +8,6 @@
 #include <span>
 #include <string_view>
 
-#include "base/result.hpp"
 #include "sound/body.hpp"
 
 namespace tribo::sound {
@@ -43,7 +42,4 @@ struct Machine {
 // is fitted to third octaves of end milling in steel on a vertical machining centre (docs/sound.md), the rest
 // is not measured.
 std::span<const Machine> machines();
-// Refuses a name that is none.
-Result<Machine> find_machine(std::string_view name);
-
 }  // namespace tribo::sound

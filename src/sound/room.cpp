@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "base/math.hpp"
-#include "base/nearest.hpp"
 #include "sound/head.hpp"
 
 namespace tribo::sound {
@@ -54,15 +52,6 @@ Vec3 inside(Vec3 p, Vec3 low, Vec3 high) {
 
 std::span<const Room> rooms() {
     return kRooms;
-}
-
-Result<Room> find_room(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (const Room& room : kRooms) {
-        if (room.name == name) return room;
-        names.push_back(room.name);
-    }
-    return fail("unknown room '" + std::string(name) + "'", suggestion(name, names));
 }
 
 RoomReflections::RoomReflections(const Room& room, Vec3 centre_m, double sample_rate_hz, double ears_apart_m)

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.hpp"
 #include "base/vec3.hpp"
 #include "sound/spatial_source.hpp"
 #include "sound/voice.hpp"
@@ -28,9 +27,6 @@ struct Room {
 
 // "none" comes first. Sizes and reflections are typical, not measured.
 std::span<const Room> rooms();
-// Refuses a name that is none.
-Result<Room> find_room(std::string_view name);
-
 // The six first images of a source in a box (Allen and Berkley 1979), each with its way, its side and 1 / r.
 // An image reaches the ears by straight lines, as loud at the far ear as half its shadow would have it; a
 // place that changes is followed by a crossfade over a quantum. A source or listener beyond a wall counts as
