@@ -245,7 +245,8 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     await page.click("#record");
     await page.click("#play");
     await until("Pause", "play");
-    await page.waitForTimeout(500);
+    // So long that a busy machine sees it play.
+    await page.waitForTimeout(3000);
     const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
     const path = join(folder, "run.tribo");
     await download.saveAs(path);
