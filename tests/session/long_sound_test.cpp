@@ -212,7 +212,7 @@ TEST_P(LongSound, of_everything_at_once_stays_within_full_scale) {
     }
     options.recording = options.idle = std::make_shared<const sound::Recording>(machine);
     for (const bool recorded : {true, false}) {
-        // All of it made, or machine and half of the cut recorded.
+        // The spindle and half of the cut recorded, then all of it made.
         if (!recorded) options.recording = options.idle = nullptr;
         sound::furnish({.machine = 3, .room = 3, .chips = sound::ChipMaterial::nickel}, options);
         sound::Soundtrack track(options);

@@ -5,8 +5,9 @@ import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
 import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
 import { animate, stop, whenIdle } from "./frames.js";
+import { smallRelief, stiffnessLevels, stiffnessPalette } from "./maps.js";
 import { parseMaterial, type Material } from "./material.js";
-import { Relief, pixelsOf } from "./relief.js";
+import { Relief } from "./relief.js";
 import { renderer, type Picture, type Renderer } from "./renderer.js";
 import { build, type Parts } from "./shadow.js";
 import { Vibration } from "./vibration.js";
@@ -39,7 +40,6 @@ const kPublishedNodes = 256;
 const kMostPixelRatio = 2;
 const kKeyboardStep = 0.02;
 const kNearPixels = 200;
-const kStrongestMapFactor = 8;
 
 // On a server there are no elements; the class is never made there.
 const Base = typeof HTMLElement === "undefined" ? (class {} as typeof HTMLElement) : HTMLElement;
@@ -276,28 +276,9 @@ export class TriboTouch extends Base {
   async #relieve(address: string, rmsSlope: number): Promise<void> {
     const picture = this.#picture, made = await engine();
     if (picture?.finish === undefined) return;
-    const { image, nodesX, nodesY } = picture;
-    let from = image;
-    if (address !== "") {
-      from = await this.#fetched(address);
-      if (from.naturalWidth !== image.naturalWidth || from.naturalHeight !== image.naturalHeight) {
-        throw new Error(`${address}: the height map has ${from.naturalWidth} x ${from.naturalHeight} pixels; ` +
-          `give one of ${image.naturalWidth} x ${image.naturalHeight}, as the image`);
-      }
-    }
-    const pixels = pixelsOf(from, nodesX, nodesY);
-    made.smallRelief(pixels, rmsSlope);
-    picture.relief = pixels;
+    picture.relief = await smallRelief(picture, address, rmsSlope, made);
     this.#renderer?.relieve(picture);
     if (picture === this.#picture) animate(this);
-  }
-
-  async #fetched(address: string): Promise<HTMLImageElement> {
-    const image = new Image();
-    image.crossOrigin = "anonymous";
-    image.src = address;
-    await image.decode();
-    return image;
   }
 
   #end(state: State, type?: TriboErrorDetail["type"], error?: unknown): void {
@@ -320,23 +301,11 @@ export class TriboTouch extends Base {
     }
   }
 
-  /** A grey image: white has the material's stiffness, black eight times as much. */
   async #loadMap(): Promise<void> {
     const address = this.getAttribute("stiffness-map"), sheet = this.#sheet;
     if (address === null || sheet === undefined) return;
-    const map = await this.#fetched(new URL(address, document.baseURI).href);
-    if (sheet !== this.#sheet) return;
-    const { data } = pixelsOf(map, sheet.width, sheet.height);
-    const levels = new Uint8Array(sheet.width * sheet.height);
-    for (let i = 0; i < levels.length; ++i) {
-      levels[i] = Math.round(0.3 * data[4 * i]! + 0.59 * data[4 * i + 1]! + 0.11 * data[4 * i + 2]!);
-    }
-    const palette = new Float64Array(512);
-    for (let level = 0; level < 256; ++level) {
-      palette[2 * level] = this.stiffness * kStrongestMapFactor ** (1 - level / 255);
-      palette[2 * level + 1] = this.damping;
-    }
-    sheet.setMaterials(levels, palette);
+    const levels = await stiffnessLevels(new URL(address, document.baseURI).href, sheet);
+    if (sheet === this.#sheet) sheet.setMaterials(levels, stiffnessPalette(this.stiffness, this.damping));
   }
 
   get #sounds(): boolean {

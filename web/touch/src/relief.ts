@@ -14,6 +14,11 @@ export function pixelsOf(image: HTMLImageElement, width: number, height: number)
   return context.getImageData(0, 0, width, height);
 }
 
+/** Brightness of a pixel, 0 to 255. */
+export function grey(data: Uint8ClampedArray, pixel: number): number {
+  return 0.3 * data[4 * pixel]! + 0.59 * data[4 * pixel + 1]! + 0.11 * data[4 * pixel + 2]!;
+}
+
 export class Relief {
   #steepness: Float32Array;
   #width: number;
@@ -24,10 +29,8 @@ export class Relief {
     this.#width = Math.max(2, Math.round((kSide * image.naturalWidth) / longer));
     this.#height = Math.max(2, Math.round((kSide * image.naturalHeight) / longer));
     const { data } = pixelsOf(image, this.#width, this.#height);
-    const bright = (x: number, y: number) => {
-      const i = 4 * (Math.min(y, this.#height - 1) * this.#width + Math.min(x, this.#width - 1));
-      return 0.3 * data[i]! + 0.59 * data[i + 1]! + 0.11 * data[i + 2]!;
-    };
+    const bright = (x: number, y: number) =>
+      grey(data, Math.min(y, this.#height - 1) * this.#width + Math.min(x, this.#width - 1));
     this.#steepness = new Float32Array(this.#width * this.#height);
     let sum = 0;
     for (let y = 0; y < this.#height; ++y) {
