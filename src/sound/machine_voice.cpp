@@ -10,8 +10,6 @@
 namespace tribo::sound {
 namespace {
 
-constexpr double kFollow = 0.125;  // of what is left, per quantum, twice over
-constexpr double kInaudiblePa = 1e-9;
 // A spindle as slow as this share of its usual speed is not heard.
 constexpr double kLeastSpeed = 1e-3;
 // Beyond this many times its usual speed it gets no louder.
@@ -31,23 +29,16 @@ MachineVoice::MachineVoice(const MachineVoiceOptions& options)
 }
 
 void MachineVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
-    const double t = length_ > 0 ? static_cast<double>(elapsed_) / static_cast<double>(length_) : 1;
-    const bool arrived = elapsed_ >= length_;
-    rate_from_ = arrived ? rate_to_ : rate_from_ + t * (rate_to_ - rate_from_);
-    cut_from_ = arrived ? cut_to_ : cut_from_ + t * (cut_to_ - cut_from_);
-    rate_to_ = std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz;
-    cut_to_ = next.spectrum != nullptr && !next.spectrum->empty() ? 1 : 0;
+    rate_.lead(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
+    cutting_.lead(next.spectrum != nullptr && !next.spectrum->empty() ? 1 : 0, quanta);
     // A spindle that nobody hears is at its speed.
-    if (after_ == 0 && here_ == 0) rate_from_ = rate_to_;
-    length_ = quanta;
-    elapsed_ = 0;
+    if (level_.over()) rate_.leap(rate_.target());
     told_ = true;
 }
 
 void MachineVoice::release() {
     told_ = false;  // it dies away at its speed
-    rate_from_ = rate_to_;
-    length_ = elapsed_ = 0;
+    rate_.leap(rate_.target());
 }
 
 void MachineVoice::add_lines(double turns_per_frame, Quantum& sound) {
@@ -78,31 +69,22 @@ void MachineVoice::add_lines(double turns_per_frame, Quantum& sound) {
 }
 
 void MachineVoice::add(Quantum& pressure_pa) {
-    const double t =
-        length_ > 0 ? std::min(1.0, static_cast<double>(elapsed_ + 1) / static_cast<double>(length_)) : 1.0;
-    if (elapsed_ < length_) ++elapsed_;
-    const double rate = rate_from_ + t * (rate_to_ - rate_from_);
-    const double cutting = cut_from_ + t * (cut_to_ - cut_from_);
+    const double rate = rate_.advance();
     const double speed = rate * 60 * options_.sample_rate_hz / options_.spindle.rpm;
-    const double share = 1 + cutting * (options_.share_in_cut - 1);
-    const double level = told_ && speed > kLeastSpeed
-                             ? share * options_.spindle.pa *
-                                   math::pow(std::min(speed, kLoudestSpeed), options_.spindle.exponent)
-                             : 0;
-    before_ = here_;
-    here_ = after_;
-    slow_ += kFollow * (level - slow_);
-    after_ += kFollow * (slow_ - after_);
-    if (level == 0 && after_ < kInaudiblePa && slow_ < kInaudiblePa) slow_ = after_ = 0;
+    const double share = 1 + cutting_.advance() * (options_.share_in_cut - 1);
+    const bool turns = told_ && speed > kLeastSpeed;
+    level_.follow(turns ? share * options_.spindle.pa *
+                              math::pow(std::min(speed, kLoudestSpeed), options_.spindle.exponent)
+                        : 0);
     const std::uint64_t quantum = quantum_++;
-    if (before_ == 0 && here_ == 0 && after_ == 0) return;
+    if (level_.silent()) return;
 
     Quantum sound;
     const auto pink = pink_.block(quantum);
     for (std::size_t n = 0; n < sound.size(); ++n) sound[n] = noise_gain_ * pink[n];
     housing_.apply(sound);
     add_lines(rate, sound);
-    const Spline loud(before_, here_, after_);
+    const Spline loud = level_.spline();
     for (std::size_t n = 0; n < sound.size(); ++n) {
         pressure_pa[n] += loud.at(static_cast<double>(n) * (1.0 / kQuantumFrames)) * sound[n];
     }

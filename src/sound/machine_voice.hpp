@@ -8,6 +8,7 @@
 #include "noise/pink_noise.hpp"
 #include "sound/body.hpp"
 #include "sound/machine.hpp"
+#include "sound/smooth_level.hpp"
 #include "sound/voice.hpp"
 
 namespace tribo::sound {
@@ -37,13 +38,12 @@ class MachineVoice final : public Voice {
     noise::PinkNoise pink_;
     BodyFilter housing_;
     double noise_gain_ = 0, line_gain_ = 0;  // of a level of 1
-    double rate_from_ = 0, rate_to_ = 0;     // turns per frame
-    double cut_from_ = 0, cut_to_ = 0;       // share of cutting
-    std::int64_t length_ = 0, elapsed_ = 0;
+    Ramp rate_;                              // turns per frame
+    Ramp cutting_;                           // 1: the tool cuts
+    SmoothLevel level_;
     bool told_ = false;  // whether anybody says how it turns
     std::uint64_t quantum_ = 0;
-    std::array<double, SpindleSound::kLines> turns_{};     // phase of each line
-    double slow_ = 0, before_ = 0, here_ = 0, after_ = 0;  // level, smooth
+    std::array<double, SpindleSound::kLines> turns_{};  // phase of each line
 };
 
 }  // namespace tribo::sound

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kLeastTurns = 4, kMostSeconds = 120;
 constexpr double kLeastRms = 1e-5;  // of full scale; less is silence
-constexpr double kFollow = 0.125;   // of what is left, per quantum, twice over
-constexpr double kInaudiblePa = 1e-9;
 constexpr std::size_t kMargin = kInterpolatorTaps;
 
 double rms(const std::vector<float>& x) {
@@ -113,36 +111,30 @@ RecordedVoice::RecordedVoice(const Recording& recording, const RecordedVoiceOpti
 }
 
 void RecordedVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
-    const double t = length_ > 0 ? static_cast<double>(elapsed_) / static_cast<double>(length_) : 1;
-    const bool arrived = elapsed_ >= length_;
-    rate_from_ = arrived ? rate_to_ : rate_from_ + t * (rate_to_ - rate_from_);
-    level_from_ = arrived ? level_to_ : level_from_ + t * (level_to_ - level_from_);
-    rate_to_ = std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz;
+    rate_.lead(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
+    const double rate = rate_.target();
     if (options_.idle_pa > 0) {
-        level_from_ = level_to_ = rate_to_ > 0 ? options_.idle_pa : 0;
+        level_.leap(rate > 0 ? options_.idle_pa : 0);
     } else {
         const CutNoise noise = noise_of(options_.cut, next);
         double power = noise.chips_pa * noise.chips_pa + noise.body_pa * noise.body_pa;
         if (next.spectrum != nullptr) {
             const Partials p = in_plane_partials(*next.spectrum, kPascalPerNewton);
-            const double hz = rate_to_ * options_.sample_rate_hz * next.spectrum->order_step;
+            const double hz = rate * options_.sample_rate_hz * next.spectrum->order_step;
             for (std::size_t n = 0; n < static_cast<std::size_t>(p.count); ++n) {
                 const double gain = body_.gain_at(hz * static_cast<double>(n + 1));
                 power += 2 * gain * gain * (p.re[n] * p.re[n] + p.im[n] * p.im[n]);
             }
         }
-        level_to_ = rate_to_ > 0 ? std::sqrt(power) : 0;
+        level_.lead(rate > 0 ? std::sqrt(power) : 0, quanta);
     }
     // A spindle that nobody hears is at its speed.
-    if (after_ == 0 && here_ == 0) rate_from_ = rate_to_;
-    length_ = quanta;
-    elapsed_ = 0;
+    if (loudness_.over()) rate_.leap(rate);
 }
 
 void RecordedVoice::release() {
-    level_from_ = level_to_ = 0;
-    rate_from_ = rate_to_;
-    length_ = elapsed_ = 0;
+    level_.leap(0);
+    rate_.leap(rate_.target());
 }
 
 double RecordedVoice::read(const std::vector<float>& copy, double place) const {
@@ -157,28 +149,18 @@ double RecordedVoice::read(const std::vector<float>& copy, double place) const {
 }
 
 void RecordedVoice::add(Quantum& pressure_pa) {
-    const auto at = [&](std::int64_t quantum) {
-        return length_ > 0 ? std::min(1.0, static_cast<double>(quantum) / static_cast<double>(length_)) : 1.0;
-    };
-    const double t0 = at(elapsed_), t1 = at(elapsed_ + 1);
-    if (elapsed_ < length_) ++elapsed_;
-    const double level = options_.share * (level_from_ + t1 * (level_to_ - level_from_));
-    before_ = here_;
-    here_ = after_;
-    slow_ += kFollow * (level - slow_);
-    after_ += kFollow * (slow_ - after_);
-    if (level == 0 && after_ < kInaudiblePa && slow_ < kInaudiblePa) slow_ = after_ = 0;
-    if (before_ == 0 && here_ == 0 && after_ == 0) return;
+    const double rate0 = rate_.here(), rate1 = rate_.advance();
+    loudness_.follow(options_.share * level_.advance());
+    if (loudness_.silent()) return;
 
-    const double step0 = (rate_from_ + t0 * (rate_to_ - rate_from_)) * frames_per_turn_;
-    const double step1 = (rate_from_ + t1 * (rate_to_ - rate_from_)) * frames_per_turn_;
+    const double step0 = rate0 * frames_per_turn_, step1 = rate1 * frames_per_turn_;
     const double fastest = kFastestPlay;
     // Which copies: the recording as it is up to its own speed, an octave lower at twice that.
     const double octaves =
         std::clamp(step1 > 1 ? math::log(std::min(step1, fastest)) / math::log(2) : 0, 0.0, kCopies - 1.0);
     const auto first = std::min(static_cast<std::size_t>(octaves), static_cast<std::size_t>(kCopies - 2));
     const double blend = octaves - static_cast<double>(first);
-    const Spline loud(before_, here_, after_);
+    const Spline loud = loudness_.spline();
     for (std::size_t j = 0; j < pressure_pa.size(); ++j) {
         const double t = static_cast<double>(j) * (1.0 / kQuantumFrames);
         double sample = read(copies_[first], place_);

@@ -9,6 +9,7 @@
 #include "base/result.hpp"
 #include "sound/cutting_voice.hpp"
 #include "sound/ear_kernels.hpp"
+#include "sound/smooth_level.hpp"
 #include "sound/spindle_phase.hpp"
 #include "sound/voice.hpp"
 
@@ -63,11 +64,10 @@ class RecordedVoice final : public Voice {
     const InterpolatorTable* table_;
     BodyFilter body_;  // of which only the gain is asked
 
-    double rate_from_ = 0, rate_to_ = 0;    // turns per frame
-    double level_from_ = 0, level_to_ = 0;  // Pa RMS
-    std::int64_t length_ = 0, elapsed_ = 0;
+    Ramp rate_;   // turns per frame
+    Ramp level_;  // Pa RMS
     double place_ = 0;
-    double slow_ = 0, before_ = 0, here_ = 0, after_ = 0;  // level, smooth
+    SmoothLevel loudness_;
 };
 
 }  // namespace tribo::sound
