@@ -40,7 +40,7 @@ class LiveProgram {
         posix_spawn_file_actions_addclose(&actions, way[0]);
         std::string program = TRIBO_PROGRAM, verb = "live", flag = "--port", port = "0",
                     job = TRIBO_SOURCE_DIR "/examples/bowl/bowl.toml", root = "--web-root",
-                    page = TRIBO_SOURCE_DIR "/web/viewer";
+                    page = TRIBO_SOURCE_DIR "/web/mill";
         char* const arguments[] = {program.data(), verb.data(), job.data(),  flag.data(),
                                    port.data(),    root.data(), page.data(), nullptr};
         if (::posix_spawn(&child_, program.c_str(), &actions, nullptr, arguments, environ) != 0) child_ = 0;

@@ -11,21 +11,14 @@ if ! command -v npm >/dev/null ||
     exit 0
 fi
 
+cd web
 installed() { [ -e node_modules/.package-lock.json ] && [ ! package-lock.json -nt node_modules/.package-lock.json ]; }
+installed || npm ci --loglevel=error --no-audit --no-fund
+npm run --silent build
+[ "$1" = test ] || exit 0
+npm run --silent check
 # What failed is said once more at the end, where it is looked for.
-run_tests() {
-    local log=$PWD/../../build/web/$1-tests.log
-    npm test --silent 2>&1 | tee "$log" && return
-    grep -a ' FAIL ' "$log"
-    return 1
-}
-for package in touch viewer; do
-    cd "web/$package"
-    installed || npm ci --loglevel=error --no-audit --no-fund
-    npm run --silent build
-    if [ "$1" = test ]; then
-        npm run --silent check
-        run_tests "$package"
-    fi
-    cd ../..
-done
+log=$PWD/../build/web/tests.log
+npm test --silent 2>&1 | tee "$log" && exit 0
+grep -a ' FAIL ' "$log"
+exit 1

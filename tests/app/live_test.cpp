@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo live` as a program: what it says, how it ends. What it shows: web/viewer/test/live.test.ts.
+// `tribo live` as a program: what it says, how it ends. What it shows: web/mill/test/live.test.ts.
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>

@@ -30,7 +30,7 @@ const common = {
 await build({ ...common, entryPoints: { "tribo-touch": `${here}src/index.ts` }, outdir: `${here}dist` });
 await build({ ...common, entryPoints: { element: `${here}src/element.ts`, worklet: `${here}src/worklet.ts` }, outdir: `${here}dist` });
 await copyFile(`${wasm}/touch.wasm`, `${here}dist/touch.wasm`);
-execFileSync(process.execPath, [`${here}node_modules/typescript/bin/tsc`, "-p", `${here}tsconfig.json`], { stdio: "inherit" });
+execFileSync(process.execPath, [`${here}../node_modules/typescript/bin/tsc`, "-p", `${here}tsconfig.json`], { stdio: "inherit" });
 
 let total = 0;
 for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {

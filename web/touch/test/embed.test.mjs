@@ -2,6 +2,7 @@
 // The example of docs/touch.md, word for word; the site's page; the package as npm would publish it.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, expect, test } from "vitest";
@@ -75,7 +76,7 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   expect(await page.locator("#meaning").textContent()).toContain("2 mm deep; 63 % of the way takes 300 ms");
   await page.locator("#own summary").click();
   await page.waitForFunction(() => document.querySelector("#make").noValidate);
-  await page.evaluate(await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8"));
+  await page.evaluate(await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
   const { violations } = await page.evaluate(() => axe.run());
   expect(violations.map((v) => `${v.id} ${v.nodes[0].html}`)).toEqual([]);
   if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/page.png`, fullPage: true });

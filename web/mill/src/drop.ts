@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Files that are dropped or chosen: what is to be milled out of them, or why nothing can be.
+
+import type { JobFile, Order } from "./workshop.js";
+
+// A page holds what it reads several times over; the program takes longer ones.
+export const LARGEST_FILE = 64 << 20;
+
+const MODELS = /\.(wrl|vrml|stl|obj|ply)(\.gz)?$/i;
+const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|csv|txt)$/i;
+
+export type Wanted = { order: Order } | { recording: JobFile } | { refused: string };
+
+function megabytes(bytes: number): string {
+  return `${(bytes / 1e6).toFixed(0)} MB`;
+}
+
+function lastName(path: string): string {
+  return path.slice(path.lastIndexOf("/") + 1);
+}
+
+// Of several jobs those whose stock no other one begins with (`[stock] from`): the last of a chain of set-ups.
+function lastJobs(jobs: JobFile[]): JobFile[] {
+  const earlier = new Set<string>();
+  for (const job of jobs) {
+    const text = new TextDecoder().decode(job.bytes);
+    for (const [, , name = ""] of text.matchAll(/\bfrom\s*=\s*(["'])(.*?)\1/g)) earlier.add(lastName(name));
+  }
+  return jobs.filter((job) => !earlier.has(lastName(job.name)));
+}
+
+// Of files with folders in their names ("bowl/bowl.toml"), the files of one drop or choice.
+export function sort(files: JobFile[], before: Order | undefined): Wanted {
+  const [first] = files;
+  if (!first) return { refused: "there was no file in it" };
+  const recording = files.find((f) => f.name.endsWith(".tribo"));
+  if (recording) return { recording };
+  const tables = files.filter((f) => f.name.endsWith(".toml"));
+  const jobs = tables.length > 1 ? lastJobs(tables) : tables;
+  const programs = files.filter((f) => PROGRAMS.test(f.name));
+  const models = files.filter((f) => MODELS.test(f.name));
+  if (jobs.length === 0 && tables.length > 0) {
+    return { refused: `each of the ${tables.length} jobs begins with the stock of another; let the first begin with box_mm or mesh` };
+  }
+  if (jobs.length > 1) {
+    return { refused: `there are ${jobs.length} jobs (${jobs.map((f) => f.name).join(", ")}); drop one, with the files that it names` };
+  }
+  const cell = 0;
+  const [job] = jobs, [program] = programs, [model] = models;
+  if (job) return { order: { files, job: job.name, part: "", cell } };
+  if (programs.length > 1) {
+    return { refused: `there are ${programs.length} programs (${programs.map((f) => f.name).join(", ")}); drop one, or a job that names it` };
+  }
+  if (program) return { order: { files, job: program.name, part: model?.name ?? "", cell } };
+  if (model && models.length === 1 && before) {
+    return { order: { ...before, files: [...before.files, model], part: model.name } };
+  }
+  if (model) return { refused: "a model alone says no path: drop it together with a program" };
+  // A name without a known ending: the module looks into it.
+  return { order: { files, job: first.name, part: "", cell } };
+}
+
+export function tooLarge(files: { name: string; size: number }[]): string {
+  const large = files.find((f) => f.size > LARGEST_FILE);
+  if (!large) return "";
+  return `${large.name}: ${megabytes(large.size)} are more than a page can hold (${megabytes(LARGEST_FILE)}); try: tribo render, or tribo live, which take it`;
+}
+
+export async function read(files: { name: string; file: File }[]): Promise<JobFile[]> {
+  return Promise.all(files.map(async ({ name, file }) => ({ name, bytes: await file.arrayBuffer() })));
+}
+
+// The files of a drop, folders walked through.
+export async function dropped(data: DataTransfer): Promise<{ name: string; file: File }[]> {
+  const entries = [...data.items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry != null);
+  if (entries.length === 0) return [...data.files].map((file) => ({ name: file.name, file }));
+  const all: { name: string; file: File }[] = [];
+  const walk = async (entry: FileSystemEntry): Promise<void> => {
+    if (entry.isFile) {
+      const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+      all.push({ name: entry.fullPath.replace(/^\//, ""), file });
+      return;
+    }
+    const reader = (entry as FileSystemDirectoryEntry).createReader();
+    for (;;) {
+      const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+      if (some.length === 0) return;
+      for (const inner of some) await walk(inner);
+    }
+  };
+  for (const entry of entries) await walk(entry);
+  return all;
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The finger: mouse, touch or pen on the part, a gamepad, or keys. What presses on the picture presses into
+// the part; what hovers is above it.
+
+import type { Scene } from "./scene.js";
+import type { Source } from "./source.js";
+import { vec3, type Vec3 } from "./vec3.js";
+
+// How deep the hand wants to go where it presses, and how high it hovers; shares of the part's size.
+const PRESS = 0.012;
+const HOVER = 0.01;
+const GAMEPAD_DEADZONE = 0.15;
+
+export class Finger {
+  enabled = false;
+  // An arm leads the finger itself.
+  arm = false;
+  private down: number | undefined;
+  private at: Vec3 | undefined;
+  private keys = false;
+  private padDown = false;
+  private telling = false;
+
+  constructor(
+    private readonly scene: Scene,
+    private readonly source: () => Source | undefined,
+  ) {
+    const { canvas } = scene;
+    // Before the camera's own listeners: what begins on the part is a touch, else a turn of the camera.
+    canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
+    canvas.addEventListener("pointermove", (event) => this.move(event), { capture: true });
+    for (const kind of ["pointerup", "pointercancel"] as const)
+      canvas.addEventListener(kind, (event) => this.release(event), { capture: true });
+    canvas.addEventListener("pointerleave", () => {
+      if (this.down === undefined && !this.keys) this.leave();
+    });
+  }
+
+  get touching(): boolean {
+    return this.down !== undefined || this.keys || this.padDown;
+  }
+
+  // By keys: Shift and arrows move it in the plane of the picture.
+  nudge(right: number, up: number): void {
+    if (!this.enabled || !this.scene.job) return;
+    this.keys = true;
+    this.shift(right, up, true);
+  }
+  lift(): void {
+    if (!this.keys) return;
+    this.keys = false;
+    this.leave();
+  }
+
+  // From a controller in VR: a place in the part's frame.
+  place(at: Vec3, down: boolean): void {
+    if (this.enabled) this.tell(at, down);
+  }
+
+  // Once a picture: the first gamepad's left stick moves, its right trigger presses.
+  pollGamepad(): void {
+    const pad = navigator.getGamepads?.().find((g) => g?.connected);
+    if (!pad || !this.enabled || !this.scene.job) return;
+    const [x, y] = [beyondDeadZone(pad.axes[0]), beyondDeadZone(pad.axes[1])];
+    const pressed = (pad.buttons[7]?.value ?? pad.buttons[0]?.value ?? 0) > 0.1;
+    if (x !== 0 || y !== 0 || pressed !== this.padDown) {
+      this.padDown = pressed;
+      this.shift(0.4 * x, -0.4 * y, pressed);
+    }
+  }
+
+  // What the hand feels as rumble, where a gamepad can.
+  rumble(force: number, limit: number): void {
+    if (!this.padDown) return;
+    const pad = navigator.getGamepads?.().find((g) => g?.connected);
+    const strength = Math.min(force / Math.max(limit, 1e-6), 1);
+    void pad?.vibrationActuator?.playEffect("dual-rumble", { duration: 60, weakMagnitude: strength, strongMagnitude: strength });
+  }
+
+  private press(event: PointerEvent): void {
+    if (!this.enabled || this.arm || event.button !== 0 || this.down !== undefined) return;
+    const hit = this.scene.pick(event.offsetX, event.offsetY);
+    if (!hit) return;
+    this.down = event.pointerId;
+    this.scene.controls.enabled = false;
+    this.scene.canvas.setPointerCapture(event.pointerId);
+    this.scene.canvas.classList.add("touching");
+    this.follow(event);
+  }
+
+  private move(event: PointerEvent): void {
+    if (!this.enabled || this.arm) return;
+    if (this.down === undefined) {
+      if (event.pointerType === "touch" || event.buttons !== 0) return;
+      const hit = this.scene.pick(event.offsetX, event.offsetY);
+      if (hit) this.tell(along(hit.point, hit.normal, HOVER * this.scene.extent()), true);
+      else this.leave();
+      return;
+    }
+    if (event.pointerId === this.down) this.follow(event);
+  }
+
+  private follow(event: PointerEvent): void {
+    const hit = this.scene.pick(event.offsetX, event.offsetY);
+    if (!hit) return;
+    // A pen that knows its pressure presses by it; a mouse says 0.5.
+    const depth = PRESS * this.scene.extent() * (event.pressure > 0 ? 2 * event.pressure : 1);
+    this.tell(along(hit.point, hit.normal, -depth), true);
+  }
+
+  private release(event: PointerEvent): void {
+    if (event.pointerId !== this.down) return;
+    this.down = undefined;
+    this.scene.controls.enabled = true;
+    this.scene.canvas.classList.remove("touching");
+    this.leave();
+  }
+
+  private leave(): void {
+    if (!this.at) return;
+    this.source()?.send({ op: "finger", position_mm: this.at, down: false });
+    this.at = undefined;
+  }
+
+  private shift(right: number, up: number, down: boolean): void {
+    const job = this.scene.job!;
+    const step = 0.02 * this.scene.extent();
+    const start: Vec3 = this.at ?? vec3((k) => (job.blank.min[k] + job.blank.max[k]) / 2);
+    const m = this.scene.camera.matrixWorld.elements;
+    // Right and away from the eye, as they lie on the table.
+    const side = flat([m[0], m[1], 0]);
+    const ahead = flat([-m[8] + m[4], -m[9] + m[5], 0]);
+    const next = vec3((k) => start[k] + step * (right * side[k] + up * ahead[k]));
+    for (const k of [0, 1] as const) next[k] = Math.min(Math.max(next[k], job.blank.min[k]), job.blank.max[k]);
+    // The part keeps it out; it presses from above.
+    next[2] = down ? (job.blank.min[2] + job.blank.max[2]) / 2 : job.blank.max[2] + HOVER * this.scene.extent();
+    const top = this.scene.surfaceBelow(next[0], next[1]);
+    if (top !== undefined) next[2] = top + (down ? -PRESS : HOVER) * this.scene.extent();
+    this.tell(next, down);
+  }
+
+  // At most once a picture: hands move more often than that.
+  private tell(at: Vec3, down: boolean): void {
+    this.at = at;
+    if (this.telling) return;
+    this.telling = true;
+    requestAnimationFrame(() => {
+      this.telling = false;
+      if (this.at) this.source()?.send({ op: "finger", position_mm: this.at, down });
+    });
+  }
+}
+
+function beyondDeadZone(deflection = 0): number {
+  return Math.abs(deflection) < GAMEPAD_DEADZONE ? 0 : deflection;
+}
+function along(p: Vec3, direction: Vec3, by: number): Vec3 {
+  return [p[0] + by * direction[0], p[1] + by * direction[1], p[2] + by * direction[2]];
+}
+function flat(v: Vec3): Vec3 {
+  const size = Math.hypot(v[0], v[1]) || 1;
+  return [v[0] / size, v[1] / size, 0];
+}

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+// The binary frames of the live view (docs/live-protocol.md, src/session/live_frame.hpp), decoded. Lengths in mm.
+
+import type { Axis, Vec3 } from "./vec3.js";
+
+export const FRAME_VERSION = 1;
+
+export interface Cutter {
+  number: number;
+  flutes: number;
+  radius: number;
+  corner: number;
+  length: number;
+  holder: { radius: number; length: number }[];
+}
+
+export interface JobFrame {
+  kind: "job";
+  duration: number;
+  cell: number;
+  blank: { min: Vec3; max: Vec3 };
+  cutters: Cutter[];
+}
+
+export interface PathFrame {
+  kind: "path";
+  times: Float32Array;
+  points: Float32Array;
+  rapid: Uint8Array;
+}
+
+export interface ChunkFrame {
+  kind: "chunk";
+  chunk: Vec3;
+  positions: Float32Array;
+  indices: Uint16Array;
+}
+
+export interface StateFrame {
+  kind: "state";
+  time: number;
+  tip: Vec3;
+  axis: Vec3;
+  force: Vec3;
+  peakForce: number;
+  torque: number;
+  rpm: number;
+  feed: number;
+  angle: number;
+  removed: number;
+  milled: number;
+  speed: number;
+  line: number;
+  cutter: number;
+  cutting: boolean;
+  playing: boolean;
+  rapid: boolean;
+}
+
+export interface Row {
+  time: number;
+  duration: number;
+  tip: Vec3;
+  meanForce: number;
+  peakForce: number;
+  torque: number;
+  entry: number;
+  exit: number;
+  depth: number;
+  feedPerTooth: number;
+  line: number;
+}
+
+export interface RowsFrame {
+  kind: "rows";
+  // All rows before are void.
+  anew: boolean;
+  rows: Row[];
+}
+
+export interface CollisionFrame {
+  kind: "collision";
+  time: number;
+  what: string;
+  line: number;
+  tip: Vec3;
+}
+
+// A piece of the cut as the ear and the plots of a turn need it.
+export interface Piece {
+  time: number;
+  duration: number;
+  tip: Vec3;
+  angle: number;
+  radPerS: number;
+  // Seconds of the program as written per second.
+  pace: number;
+  chips: number;
+  orderStep: number;
+  // The mean first; each re x, im x, re y, im y, re z, im z, in N, in the tool's frame.
+  harmonics: Float32Array;
+}
+
+export interface SoundFrame {
+  kind: "sound";
+  pieces: Piece[];
+}
+
+export interface FingerFrame {
+  kind: "finger";
+  hand: Vec3;
+  proxy: Vec3;
+  force: Vec3;
+  slip: number;
+  contact: boolean;
+  on: boolean;
+  cutMode: boolean;
+  stopped: boolean;
+  // Whether there is a hand.
+  present: boolean;
+}
+
+export type Quantiles = [number, number, number, number];
+
+export interface ServoFrame {
+  kind: "servo";
+  ticks: number;
+  late: number;
+  fault: string; // empty: none
+  rate: number;
+  limit: number;
+  largest: number;
+  // Median, 99 %, 99.9 %, most; in microseconds.
+  lateness: Quantiles;
+  cpu: Quantiles;
+}
+
+export interface TextureFrame {
+  kind: "texture";
+  // Three corners and a force each.
+  triangles: { corners: [Vec3, Vec3, Vec3]; force: Vec3 }[];
+}
+
+export interface ListeningFrame {
+  kind: "listening";
+  listener: Vec3;
+}
+
+export interface DesignedFrame {
+  kind: "designed";
+  positions: Float32Array;
+  indices: Uint16Array;
+}
+
+// A kind that this page does not know; a newer engine may send some.
+export interface OtherFrame {
+  kind: "other";
+}
+
+export type Frame =
+  | JobFrame
+  | ChunkFrame
+  | StateFrame
+  | RowsFrame
+  | CollisionFrame
+  | SoundFrame
+  | FingerFrame
+  | ServoFrame
+  | TextureFrame
+  | ListeningFrame
+  | DesignedFrame
+  | PathFrame
+  | OtherFrame;
+
+const COLLISIONS = [
+  "rapid through stock",
+  "shank in stock",
+  "holder in stock",
+  "tool in fixture",
+  "holder in fixture",
+];
+
+const FAULTS = ["", "the device is silent", "the simulation stalled", "the clock jumped", "a force was no number", "too fast", "the arm switched its motors off"];
+
+class Reader {
+  at = 16;
+  constructor(private readonly view: DataView) {}
+  u32(): number {
+    this.at += 4;
+    return this.view.getUint32(this.at - 4, true);
+  }
+  i32(): number {
+    this.at += 4;
+    return this.view.getInt32(this.at - 4, true);
+  }
+  f32(): number {
+    this.at += 4;
+    return this.view.getFloat32(this.at - 4, true);
+  }
+  f64(): number {
+    this.at += 8;
+    return this.view.getFloat64(this.at - 8, true);
+  }
+  vec3(): Vec3 {
+    return [this.f32(), this.f32(), this.f32()];
+  }
+  left(): number {
+    return this.view.byteLength - this.at;
+  }
+}
+
+// Throws a RangeError on a frame that is cut off, an Error on one of another version.
+export function decodeFrame(buffer: ArrayBuffer): Frame {
+  const view = new DataView(buffer);
+  const kind = view.getUint8(0);
+  if (view.getUint8(1) !== FRAME_VERSION) throw new Error(`frames of version ${view.getUint8(1)} are not known`);
+  const time = view.getFloat64(8, true);
+  const r = new Reader(view);
+  switch (kind) {
+    case 1:
+      return decodeJob(r);
+    case 2:
+      return decodeChunk(r, buffer);
+    case 3:
+      return decodeState(r, time);
+    case 4: {
+      const rows: Row[] = [];
+      for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
+      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows };
+    }
+    case 5: {
+      const what = COLLISIONS[r.i32()] ?? "collision";
+      const line = r.i32();
+      return { kind: "collision", time, what, line, tip: r.vec3() };
+    }
+    case 6: {
+      const pieces: Piece[] = [];
+      for (let n = r.u32(); n > 0; --n) pieces.push(decodePiece(r));
+      return { kind: "sound", pieces };
+    }
+    case 7:
+      return decodeFinger(r);
+    case 8:
+      return decodeServo(r);
+    case 9: {
+      const triangles: TextureFrame["triangles"] = [];
+      while (r.left() >= 48) triangles.push({ corners: [r.vec3(), r.vec3(), r.vec3()], force: r.vec3() });
+      return { kind: "texture", triangles };
+    }
+    case 10:
+      return { kind: "listening", listener: r.vec3() };
+    case 11:
+      return { kind: "designed", ...decodeMesh(r, buffer) };
+    case 12:
+      return decodePath(r);
+    default:
+      return { kind: "other" };
+  }
+}
+
+function decodeJob(r: Reader): JobFrame {
+  const duration = r.f64();
+  const cell = r.f32();
+  const blank = { min: r.vec3(), max: r.vec3() };
+  const cutters: Cutter[] = [];
+  for (let n = r.u32(); n > 0; --n) {
+    const cutter: Cutter = {
+      number: r.i32(),
+      flutes: r.u32(),
+      radius: r.f32(),
+      corner: r.f32(),
+      length: r.f32(),
+      holder: [],
+    };
+    for (let steps = r.u32(); steps > 0; --steps) cutter.holder.push({ radius: r.f32(), length: r.f32() });
+    cutters.push(cutter);
+  }
+  return { kind: "job", duration, cell, blank, cutters };
+}
+
+function decodePath(r: Reader): PathFrame {
+  const count = r.u32();
+  const path: PathFrame = {
+    kind: "path",
+    times: new Float32Array(count),
+    points: new Float32Array(3 * count),
+    rapid: new Uint8Array(count),
+  };
+  for (let n = 0; n < count; ++n) {
+    path.times[n] = r.f32();
+    path.points.set(r.vec3(), 3 * n);
+    path.rapid[n] = r.u32();
+  }
+  return path;
+}
+
+function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
+  const chunk: Vec3 = [r.i32(), r.i32(), r.i32()];
+  return { kind: "chunk", chunk, ...decodeMesh(r, buffer) };
+}
+
+function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; indices: Uint16Array } {
+  const vertices = r.u32();
+  const triangles = r.u32();
+  const origin = r.vec3();
+  const step = r.f32();
+  const packed = new Uint16Array(buffer, r.at, 3 * vertices);
+  const positions = new Float32Array(3 * vertices);
+  for (let n = 0; n < packed.length; ++n) positions[n] = origin[(n % 3) as Axis] + step * packed[n]!;
+  const begin = r.at + 4 * Math.ceil((6 * vertices) / 4);
+  return { positions, indices: new Uint16Array(buffer, begin, 3 * triangles) };
+}
+
+function decodePiece(r: Reader): Piece {
+  const piece = {
+    time: r.f64(),
+    duration: r.f32(),
+    tip: r.vec3(),
+    angle: r.f32(),
+    radPerS: r.f32(),
+    pace: r.f32(),
+    chips: r.f32(),
+    orderStep: r.i32(),
+  };
+  const harmonics = new Float32Array(6 * r.u32());
+  for (let n = 0; n < harmonics.length; ++n) harmonics[n] = r.f32();
+  return { ...piece, harmonics };
+}
+
+function decodeFinger(r: Reader): FingerFrame {
+  const finger = { kind: "finger" as const, hand: r.vec3(), proxy: r.vec3(), force: r.vec3(), slip: r.f32() };
+  const flags = r.u32();
+  const flag = (bit: number) => (flags & bit) !== 0;
+  return { ...finger, contact: flag(1), on: flag(2), cutMode: flag(4), stopped: flag(8), present: flag(16) };
+}
+
+function decodeServo(r: Reader): ServoFrame {
+  const four = (): Quantiles => [r.f32(), r.f32(), r.f32(), r.f32()];
+  const [ticks, late, fault] = [r.u32(), r.u32(), r.u32()];
+  const [rate, limit, largest] = [r.f32(), r.f32(), r.f32()];
+  return { kind: "servo", ticks, late, fault: FAULTS[fault] ?? "fault", rate, limit, largest, lateness: four(), cpu: four() };
+}
+
+function decodeState(r: Reader, time: number): StateFrame {
+  const state = {
+    kind: "state" as const,
+    time,
+    tip: r.vec3(),
+    axis: r.vec3(),
+    force: r.vec3(),
+    peakForce: r.f32(),
+    torque: r.f32(),
+    rpm: r.f32(),
+    feed: r.f32(),
+    angle: r.f32(),
+    removed: r.f32(),
+    milled: r.f32(),
+    speed: r.f32(),
+    line: r.u32(),
+    cutter: r.u32(),
+  };
+  const flags = r.u32();
+  return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0 };
+}
+
+function decodeRow(r: Reader): Row {
+  return {
+    time: r.f64(),
+    duration: r.f32(),
+    tip: r.vec3(),
+    meanForce: r.f32(),
+    peakForce: r.f32(),
+    torque: r.f32(),
+    entry: r.f32(),
+    exit: r.f32(),
+    depth: r.f32(),
+    feedPerTooth: r.f32(),
+    line: r.u32(),
+  };
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What a point of the machined surface is coloured by: the cut that made it (force, chip), or how far it is
+// off the designed surface.
+
+import type { Cutter, Row } from "./frames.js";
+import { heat } from "./heat.js";
+import type { SurfaceDistance } from "./surface_distance.js";
+import { vec3, type Vec3 } from "./vec3.js";
+
+export type Colouring = "plain" | "force" | "chip" | "deviation" | "scallop";
+
+// A tooth that takes less than this rubs rather than cuts: about a third of a used edge's radius, mm.
+export const RUBBING_MM = 0.01;
+// A tooth that takes more than this share of the cutter's diameter is overloaded.
+export const OVERLOAD_SHARE = 0.025;
+const RUBBING: Vec3 = [0.55, 0.3, 0.75];
+const OVERLOAD: Vec3 = [0.85, 0.2, 0.12];
+// Deviations are looked for up to this, mm.
+const REACH_MM = 3;
+
+// The thickest chip of a piece: the feed per tooth, less where the cutter is engaged on one side only.
+export function chip(row: Row): number {
+  const { entry, exit } = row;
+  const top = entry <= Math.PI / 2 && exit >= Math.PI / 2 ? 1 : Math.max(Math.sin(entry), Math.sin(exit));
+  return row.feedPerTooth * Math.max(top, 0);
+}
+
+export function chipVerdict(row: Row, diameter: number): "rubbing" | "overload" | "" {
+  const thickest = chip(row);
+  return thickest < RUBBING_MM ? "rubbing" : thickest > OVERLOAD_SHARE * diameter ? "overload" : "";
+}
+
+// From blue over white to red; share -1 ... 1.
+export function diverging(share: number): Vec3 {
+  const s = Math.min(Math.max(share, -1), 1);
+  const end: Vec3 = s < 0 ? [0.7, 0.09, 0.17] : [0.13, 0.4, 0.67];
+  return vec3((k) => 0.95 + Math.abs(s) * (end[k] - 0.95));
+}
+
+// A line of the program whose chips are out of range: its worst, and when that was cut.
+export interface ChipMark {
+  line: number;
+  verdict: "rubbing" | "overload";
+  chip: number;
+  time: number;
+}
+
+interface Cut {
+  row: Row;
+  axis: Vec3;
+  radius: number;
+  corner: number;
+}
+
+export class HeatMap {
+  private cells = new Map<number, Cut[]>();
+  private marks = new Map<string, ChipMark>();
+  private size = 1;
+  largestForce = 1;
+  largestChip = 1e-3;
+  readonly scale = { deviation: 0.1 };
+
+  begin(cutters: Cutter[]): void {
+    this.cells.clear();
+    this.marks.clear();
+    this.size = Math.max(...cutters.map((c) => c.radius), 0.1);
+    this.largestForce = 1;
+    this.largestChip = 1e-3;
+  }
+
+  add(row: Row, axis: Vec3, cutter: Cutter): void {
+    this.largestForce = Math.max(this.largestForce, row.peakForce);
+    this.largestChip = Math.max(this.largestChip, chip(row));
+    this.mark(row, cutter);
+    const key = this.key(row.tip);
+    const cut = { row, axis, radius: cutter.radius, corner: cutter.corner };
+    const cell = this.cells.get(key);
+    if (cell) cell.push(cut);
+    else this.cells.set(key, [cut]);
+  }
+
+  // By line.
+  chipMarks(): ChipMark[] {
+    return [...this.marks.values()].sort((a, b) => a.line - b.line);
+  }
+
+  colour(mode: Colouring, p: Vec3, designed: SurfaceDistance): Vec3 | undefined {
+    if (mode === "deviation" || mode === "scallop") {
+      const off = designed.empty ? Number.NaN : designed.at(p, REACH_MM);
+      if (Number.isNaN(off)) return undefined;
+      return mode === "deviation" ? diverging(off / this.scale.deviation) : heat(off / this.scale.deviation);
+    }
+    const cut = this.cutAt(p);
+    if (!cut) return undefined;
+    return this.ofRow(mode, cut.row, 2 * cut.radius);
+  }
+
+  ofRow(mode: Colouring, row: Row, diameter: number): Vec3 {
+    if (mode !== "chip") return heat(row.peakForce / this.largestForce);
+    const verdict = chipVerdict(row, diameter);
+    if (verdict) return verdict === "rubbing" ? RUBBING : OVERLOAD;
+    return heat(chip(row) / this.largestChip);
+  }
+
+  private mark(row: Row, cutter: Cutter): void {
+    const verdict = chipVerdict(row, 2 * cutter.radius);
+    if (!verdict) return;
+    const key = `${row.line} ${verdict}`, before = this.marks.get(key), thickest = chip(row);
+    const worse = !before || (verdict === "rubbing" ? thickest < before.chip : thickest > before.chip);
+    if (worse) this.marks.set(key, { line: row.line, verdict, chip: thickest, time: row.time });
+  }
+
+  // The latest cut whose cutter's surface passes nearest to the point.
+  private cutAt(p: Vec3): Cut | undefined {
+    let best: Cut | undefined;
+    let error = 0.25 * this.size;
+    for (let i = -1; i <= 1; ++i) {
+      for (let j = -1; j <= 1; ++j) {
+        for (let k = -2; k <= 1; ++k) {
+          const near: Vec3 = [p[0] + i * this.size, p[1] + j * this.size, p[2] + k * this.size];
+          for (const cut of this.cells.get(this.key(near)) ?? []) {
+            const off = Math.abs(clearance(cut, p));
+            if (off < error - 1e-3 || (off < error + 1e-3 && (!best || cut.row.time > best.row.time))) {
+              best = cut;
+              error = Math.min(error, off);
+            }
+          }
+        }
+      }
+    }
+    return best;
+  }
+
+  private key(p: Vec3): number {
+    const at = vec3((k) => Math.floor(p[k] / this.size) + 2048);
+    return (at[0] * 4096 + at[1]) * 4096 + at[2];
+  }
+}
+
+// Distance of a point to the cutter, negative inside; the cutter without an upper end.
+function clearance(cut: Cut, p: Vec3): number {
+  const d: Vec3 = [p[0] - cut.row.tip[0], p[1] - cut.row.tip[1], p[2] - cut.row.tip[2]];
+  const height = d[0] * cut.axis[0] + d[1] * cut.axis[1] + d[2] * cut.axis[2];
+  const away = Math.sqrt(Math.max(d[0] ** 2 + d[1] ** 2 + d[2] ** 2 - height ** 2, 0));
+  const out = away - (cut.radius - cut.corner);
+  const below = cut.corner - height;
+  const outside = Math.hypot(Math.max(out, 0), Math.max(below, 0));
+  return outside > 0 ? outside - cut.corner : Math.max(out, below) - cut.corner;
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What plots are drawn from: the rows, and the newest pieces of the cut.
+
+import type { Piece, Row } from "./frames.js";
+
+const KEPT_PIECES = 4096;
+
+export class History {
+  rows: Row[] = [];
+  private pieces: Piece[] = [];
+  time = 0;
+  duration = 1;
+
+  begin(duration: number): void {
+    this.rows = [];
+    this.pieces = [];
+    this.duration = duration;
+  }
+  addRows(rows: Row[]): void {
+    for (const row of rows) this.rows.push(row);
+  }
+  addPieces(pieces: Piece[]): void {
+    for (const piece of pieces) this.pieces.push(piece);
+    if (this.pieces.length > 2 * KEPT_PIECES) this.pieces = this.pieces.slice(-KEPT_PIECES);
+  }
+  // The piece that is cut now, or was last.
+  piece(): Piece | undefined {
+    for (let n = this.pieces.length - 1; n >= 0; --n) if (this.pieces[n]!.time <= this.time) return this.pieces[n];
+    return undefined;
+  }
+}

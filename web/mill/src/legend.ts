@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What the colours of the part mean.
+
+import { heat } from "./heat.js";
+import { diverging, OVERLOAD_SHARE, RUBBING_MM, type Colouring, type HeatMap } from "./heat_map.js";
+import { element } from "./page.js";
+import type { Vec3 } from "./vec3.js";
+
+function css(c: Vec3): string {
+  return `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
+}
+
+export function showLegend(colouring: Colouring, map: HeatMap): void {
+  const box = element("legend");
+  box.hidden = colouring === "plain";
+  if (colouring === "plain") return;
+  const steps = Array.from({ length: 21 }, (_, n) => n / 20);
+  const scale = colouring === "deviation" ? (t: number) => diverging(2 * t - 1) : heat;
+  element("legend-bar").style.background = `linear-gradient(90deg, ${steps.map((t) => css(scale(t))).join(", ")})`;
+  const mm = map.scale.deviation;
+  const ends: Record<Exclude<Colouring, "plain">, [string, string]> = {
+    force: ["peak force 0", `${map.largestForce.toFixed(0)} N`],
+    chip: ["chip 0", `${map.largestChip.toFixed(3)} mm`],
+    deviation: [`gouge ${mm} mm`, `${mm} mm left`],
+    scallop: ["0", `${mm} mm above the surface`],
+  };
+  const [low, high] = ends[colouring];
+  element("legend-low").textContent = low;
+  element("legend-high").textContent = high;
+  element("legend-marks").innerHTML =
+    colouring === "chip"
+      ? `<i style="background:#8c4dbf"></i>rubs (below ${RUBBING_MM} mm)<i style="background:#d9331f"></i>overload (above ${100 * OVERLOAD_SHARE} % of the diameter)`
+      : "";
+}

@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: MIT
+// The mill's page: frames to picture, sound and plots; hands to whoever mills.
+
+import * as drop from "./drop.js";
+import { canvas, context, hasEngine, line } from "./early.js";
+import { listed, order as orderOf } from "./examples.js";
+import { Finger } from "./finger.js";
+import type { CollisionFrame, Frame, StateFrame } from "./frames.js";
+import type { ChipMark, Colouring } from "./heat_map.js";
+import { History } from "./history.js";
+import { Keys } from "./keys.js";
+import { showLegend } from "./legend.js";
+import { Memory } from "./memory.js";
+import { clock, element, recall, remember } from "./page.js";
+import { PALETTES } from "./palette.js";
+import { Parameters } from "./parameters.js";
+import { Plot } from "./plot.js";
+import type { Plots } from "./plots.js";
+import { LineList, showServo, showState, showWarnings } from "./readout.js";
+import { readRecording, Recorder, Replay } from "./recording.js";
+import { Scene } from "./scene.js";
+import { Sound } from "./sound.js";
+import type { Listener, ServerInfo, Settings, Source } from "./source.js";
+import { vec3, type Vec3 } from "./vec3.js";
+import { Workshop, type JobFile, type Order } from "./workshop.js";
+
+const listener: Listener = {
+  frame: take,
+  info(message: ServerInfo) {
+    const name = (message.job ?? "").replace(/^.*\//, "");
+    document.title = name ? `${name} - Tribo` : "Tribo: mill";
+    if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
+    element("job").textContent = name;
+    showWarnings(message.warnings);
+    parameters.info(message);
+    soundsHere = (message.audio ?? "browser") === "browser";
+    element("sound").hidden = !soundsHere || !Sound.possible;
+    forceLimit = message.device?.max_force_n || 3;
+    finger.arm = message.device?.arm ?? false;
+  },
+  settings(s: Settings) {
+    parameters.show(s);
+    finger.enabled = true;
+    element("feel").hidden = false;
+    element("force-on").setAttribute("aria-pressed", String(s.force));
+    element<HTMLSelectElement>("mode").value = s.mode;
+    stopped = s.stopped;
+    element("stop").textContent = stopped ? "Release" : "Stop";
+    element("stop").setAttribute("aria-pressed", String(stopped));
+  },
+  line(open, why) {
+    say(open ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
+  },
+  refused: say,
+};
+
+const engine = hasEngine ? line() : undefined;
+let source: Source | undefined = engine;
+
+const scene = new Scene(canvas, context);
+const history = new History();
+const memory = new Memory();
+const sound = new Sound();
+// Whether the page sounds, and not the engine.
+let soundsHere = true;
+const seek = (time: number) => source?.send({ op: "seek", t_s: time });
+const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
+const collisions = new LineList<CollisionFrame>("collisions", (frame) => {
+  scene.overlays.setMark(frame.tip);
+  scene.draw();
+  seek(frame.time);
+});
+const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
+const finger = new Finger(scene, () => source);
+const parameters = new Parameters((command) => source?.send(command));
+const play = element<HTMLButtonElement>("play");
+const time = element<HTMLInputElement>("time");
+const speed = element<HTMLSelectElement>("speed");
+const notice = element("notice");
+const begin = element<HTMLButtonElement>("begin");
+const hint = element("hint");
+
+let order: Order | undefined;
+let plots: Plots | undefined;
+let recorder: Recorder | undefined;
+let playing = false;
+let scrubbing = false;
+let begun = false;
+let felt = false;
+let first = true;
+let stopped = false;
+let forceLimit = 3;
+let colouring: Colouring = "plain";
+let duration = 0;
+let measuring: Vec3[] | undefined;
+
+function say(text: string): void {
+  element("notice-box").hidden = text === "";
+  notice.textContent = text;
+}
+element("dismiss").addEventListener("click", () => say(""));
+function advise(text: string): void {
+  hint.hidden = text === "";
+  hint.textContent = text;
+}
+
+function showPlaying(now: boolean): void {
+  if (now === playing) return;
+  playing = now;
+  play.textContent = playing ? "Pause" : "Play";
+  play.setAttribute("aria-pressed", String(playing));
+}
+
+function show(state: StateFrame): void {
+  scene.show(state);
+  sound.state(state);
+  plot.setTime(state.time);
+  history.time = state.time;
+  plots?.changed();
+  showPlaying(state.playing);
+  if (state.playing) begun = true;
+  begin.hidden = begun || duration === 0;
+  element("examples").hidden ||= begun;
+  if (!scrubbing) time.value = String(state.time);
+  element("clock").textContent = `${clock(state.time)} / ${clock(duration)}`;
+  // Speeds travel in single precision.
+  const shown = [...speed.options].find((o) => Math.abs(Number(o.value) / state.speed - 1) < 1e-6);
+  if (shown && document.activeElement !== speed) speed.value = shown.value;
+  showState(state);
+  if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
+}
+
+function take(frame: Frame, bytes: ArrayBuffer): void {
+  memory.take(frame, bytes);
+  recorder?.take(bytes);
+  sound.frame(frame.kind, bytes);
+  switch (frame.kind) {
+    case "job":
+      duration = frame.duration;
+      time.max = String(duration);
+      collisions.clear();
+      history.begin(duration);
+      plot.begin(duration);
+      scene.begin(frame);
+      element("designed-label").hidden = true;
+      if (first) scene.fit();
+      first = false;
+      break;
+    case "chunk":
+      scene.take(frame);
+      break;
+    case "path":
+      scene.addPath(frame);
+      break;
+    case "designed":
+      scene.addDesigned(frame);
+      element("designed-label").hidden = false;
+      break;
+    case "rows":
+      if (frame.anew) {
+        plot.begin(duration);
+        history.rows = [];
+        scene.forgetRows();
+      }
+      plot.addRows(frame.rows);
+      history.addRows(frame.rows);
+      scene.addRows(frame.rows);
+      break;
+    case "sound":
+      history.addPieces(frame.pieces);
+      break;
+    case "collision":
+      collisions.add(frame, frame.what);
+      break;
+    case "finger":
+      element("felt-row").hidden = !frame.present;
+      element("felt").textContent = `${Math.hypot(...frame.force).toFixed(2)} N`;
+      if (frame.present) scene.overlays.showFinger(frame);
+      else scene.overlays.hideFinger();
+      finger.rumble(Math.hypot(...frame.force), forceLimit);
+      if (frame.contact && !felt) {
+        felt = true;
+        advise("");
+      }
+      xr?.pulse(frame);
+      scene.draw();
+      break;
+    case "servo":
+      showServo(frame);
+      break;
+    case "texture":
+      scene.overlays.showTexture(frame);
+      scene.draw();
+      break;
+    case "state":
+      show(frame);
+      break;
+  }
+}
+
+// What mills from now on; the picture begins anew with its first frames.
+function change(to: () => Source): void {
+  source?.close();
+  showPlaying(false);
+  begun = false;
+  first = true;
+  finger.enabled = false;
+  element("feel").hidden = true;
+  element("servo").hidden = true;
+  scene.overlays.hideFinger();
+  parameters.clear();
+  source = to();
+}
+
+async function mill(wanted: Order): Promise<void> {
+  say("");
+  advise("Reading ...");
+  const next = new Workshop(listener);
+  const refusal = await next.open(wanted);
+  advise("");
+  if (refusal) {
+    next.close();
+    say(refusal);
+    return;
+  }
+  order = wanted;
+  change(() => next);
+  if (speed.value !== "1") next.send({ op: "speed", value: Number(speed.value) });
+}
+
+function replay(file: JobFile): void {
+  try {
+    const frames = readRecording(file.bytes);
+    change(() => new Replay(listener, frames, file.name));
+    say("");
+  } catch (error) {
+    say(`${file.name}: ${(error as Error).message}`);
+  }
+}
+
+async function open(files: { name: string; file: File }[]): Promise<void> {
+  const large = drop.tooLarge(files.map(({ name, file }) => ({ name, size: file.size })));
+  if (large) return say(large);
+  const wanted = drop.sort(await drop.read(files), order);
+  if ("refused" in wanted) say(wanted.refused);
+  else if ("recording" in wanted) replay(wanted.recording);
+  else await mill(wanted.order);
+}
+
+// ---- Play, time, speed
+play.addEventListener("click", () => {
+  if (!playing && !Sound.possible) element("sound").hidden = true;
+  if (!playing) void hear();
+  source?.send({ op: playing ? "pause" : "play" });
+});
+begin.addEventListener("click", () => play.click());
+speed.addEventListener("change", () => source?.send({ op: "speed", value: Number(speed.value) }));
+time.addEventListener("input", () => (scrubbing = true));
+time.addEventListener("change", () => {
+  scrubbing = false;
+  seek(Number(time.value));
+});
+
+// ---- Sound
+async function hear(): Promise<void> {
+  if (!Sound.possible || !soundsHere) return;
+  try {
+    await sound.wake();
+  } catch (error) {
+    say(`There is no sound: ${(error as Error).message}`);
+  }
+  element("sound").setAttribute("aria-pressed", String(sound.running && !sound.muted));
+}
+element("sound").addEventListener("click", () => {
+  sound.muted = sound.running && !sound.muted;
+  remember("muted", String(sound.muted));
+  void hear();
+});
+sound.muted = recall("muted") === "true";
+if (!Sound.possible) element("sound").hidden = true;
+
+// ---- Look
+const root = document.documentElement;
+const theme = element<HTMLSelectElement>("theme");
+const safe = element<HTMLInputElement>("safe");
+theme.value = recall("theme");
+safe.checked = recall("safe") === "true";
+function look(): void {
+  if (theme.value) root.dataset.theme = theme.value;
+  else delete root.dataset.theme;
+  scene.setPalette(safe.checked ? PALETTES.safe : PALETTES.paper);
+  remember("theme", theme.value);
+  remember("safe", String(safe.checked));
+}
+theme.addEventListener("change", look);
+safe.addEventListener("change", look);
+look();
+const colour = element<HTMLSelectElement>("colouring");
+const scale = element<HTMLInputElement>("scale");
+function paint(): void {
+  const wanted = colour.value as Colouring;
+  const needs = wanted === "deviation" || wanted === "scallop";
+  if (needs && !scene.hasDesigned) {
+    say("The job has no designed surface to compare with: drop its model, or name it under [part].");
+    colour.value = colouring;
+    return;
+  }
+  colouring = wanted;
+  element("scale-label").hidden = !needs;
+  const value = Number(scale.value);
+  if (value > 0) scene.heatMap.scale.deviation = value;
+  scene.setColouring(colouring);
+  showLegend(colouring, scene.heatMap);
+}
+colour.addEventListener("change", paint);
+scale.addEventListener("change", paint);
+let chipsListed = "";
+function listChips(): void {
+  const marks = colouring === "chip" ? scene.heatMap.chipMarks() : [];
+  const said = marks.map((m) => `${m.verdict === "rubbing" ? "rubs" : "overload"}, ${m.chip.toFixed(3)} mm`);
+  const now = marks.map((m, n) => `${m.line} ${said[n]}`).join();
+  if (now === chipsListed) return;
+  chipsListed = now;
+  chips.clear();
+  marks.forEach((mark, n) => chips.add(mark, said[n]!));
+}
+setInterval(() => {
+  showLegend(colouring, scene.heatMap);
+  listChips();
+}, 500);
+for (const what of ["path", "tool", "positions", "designed"] as const) {
+  const box = element<HTMLInputElement>(`show-${what}`);
+  box.addEventListener("change", () => scene.setVisible(what, box.checked));
+}
+element("fit").addEventListener("click", () => scene.fit());
+
+// ---- Measure
+const ruler = element<HTMLButtonElement>("measure");
+function measure(on: boolean): void {
+  measuring = on ? [] : undefined;
+  ruler.setAttribute("aria-pressed", String(on));
+  scene.canvas.classList.toggle("measuring", on);
+  element("measured").hidden = !on;
+  element("measured").textContent = "Click two places on the part";
+  scene.overlays.setMeasure([]);
+  scene.draw();
+}
+ruler.addEventListener("click", () => measure(!measuring));
+scene.canvas.addEventListener(
+  "pointerdown",
+  (event) => {
+    if (!measuring) return;
+    const hit = scene.pick(event.offsetX, event.offsetY);
+    if (!hit) return;
+    event.stopImmediatePropagation();
+    if (measuring.length === 2) measuring = [];
+    measuring.push(hit.point);
+    scene.overlays.setMeasure(measuring);
+    scene.draw();
+    const [a, b] = measuring;
+    if (!a || !b) return;
+    const d = vec3((k) => b[k] - a[k]);
+    element("measured").textContent = `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
+  },
+  { capture: true },
+);
+
+// ---- Feel
+element("force-on").addEventListener("click", () => {
+  const on = element("force-on").getAttribute("aria-pressed") !== "true";
+  source?.send({ op: "force", value: on });
+});
+element("stop").addEventListener("click", () => source?.send({ op: stopped ? "release" : "stop" }));
+element<HTMLSelectElement>("mode").addEventListener("change", (event) =>
+  source?.send({ op: "mode", value: (event.target as HTMLSelectElement).value as "cut" | "inspect" }),
+);
+
+// ---- Panels
+function toggles(button: string, panel: string, opened?: () => void): void {
+  element(button).addEventListener("click", () => {
+    const box = element(panel);
+    box.hidden = !box.hidden;
+    element(button).setAttribute("aria-expanded", String(!box.hidden));
+    if (!box.hidden) opened?.();
+  });
+}
+toggles("show-panel", "panel");
+toggles("show-plots", "plots", async () => {
+  const loaded = await import("./plots.js");
+  plots ??= new loaded.Plots(element("plots"), history, sound, seek);
+  plots.changed();
+});
+
+// ---- Record
+const record = element<HTMLButtonElement>("record");
+record.addEventListener("click", () => {
+  if (!recorder) {
+    recorder = new Recorder();
+    for (const bytes of memory.replay()) recorder.take(bytes);
+    record.textContent = "Stop and keep";
+  } else {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(recorder.file());
+    link.download = `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    recorder = undefined;
+    record.textContent = "Record";
+  }
+  record.setAttribute("aria-pressed", String(recorder !== undefined));
+});
+
+// ---- Files
+const chooser = element<HTMLInputElement>("files");
+element("open").addEventListener("click", () => chooser.click());
+chooser.addEventListener("change", () => {
+  void open([...(chooser.files ?? [])].map((file) => ({ name: file.name, file })));
+  chooser.value = "";
+});
+let inside = 0;
+addEventListener("dragenter", () => (element("drop").hidden = ++inside <= 0));
+addEventListener("dragleave", () => (element("drop").hidden = --inside <= 0));
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  inside = 0;
+  element("drop").hidden = true;
+  if (event.dataTransfer) void drop.dropped(event.dataTransfer).then(open);
+});
+
+// ---- VR, where there is any
+let xr: import("./xr.js").Headset | undefined;
+void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
+  const button = element<HTMLButtonElement>("vr");
+  button.hidden = !can;
+  button.addEventListener("click", async () => {
+    void hear();
+    const { Headset } = await import("./xr.js");
+    xr ??= new Headset(scene, finger, () => play.click());
+    await xr.enter();
+  });
+});
+
+new Keys(scene, finger, {
+  play: () => play.click(),
+  mute: () => element("sound").click(),
+  seek: (by) => seek(Math.min(Math.max(Number(time.value) + by, 0), duration)),
+});
+
+function frame(): void {
+  finger.pollGamepad();
+  plots?.update();
+  requestAnimationFrame(frame);
+}
+requestAnimationFrame(frame);
+
+engine?.listen(listener);
+
+// ---- Without an engine the page mills
+if (!hasEngine) {
+  void listed().then(async (examples) => {
+    const box = element("examples");
+    const [first, ...others] = examples;
+    for (const example of others) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = example.name;
+      button.addEventListener("click", async () => mill(await orderOf(example)));
+      box.append(button);
+    }
+    if (!first) return;
+    box.hidden = others.length === 0;
+    await mill(await orderOf(first));
+  });
+}

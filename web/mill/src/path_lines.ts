@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The tool path: thin where nothing is known yet, coloured where it was cut.
+
+import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments } from "three";
+
+import type { PathFrame, Row } from "./frames.js";
+import type { Vec3 } from "./vec3.js";
+
+// Rows whose time is this near follow one another, s.
+const SAME_CUT_S = 1e-6;
+
+export class PathLines {
+  readonly group = new Group();
+  private cut: LineSegments | undefined;
+  private rows: Row[] = [];
+  private drawn = 0;
+  private largest = 0;
+  private colourOf: (row: Row) => Vec3 = () => [0, 0, 0];
+
+  // Another job.
+  begin(): void {
+    for (const line of this.group.children as (Line | LineSegments)[]) line.geometry.dispose();
+    this.group.clear();
+    this.cut = undefined;
+    this.forgetRows();
+  }
+
+  take(path: PathFrame): void {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(path.points, 3));
+    this.group.add(new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 })));
+  }
+
+  forgetRows(): void {
+    this.rows = [];
+    this.drawn = 0;
+    this.largest = 0;
+    this.cut?.geometry.setDrawRange(0, 0);
+  }
+
+  // `largest` is what the scale goes by: where it grew, everything changes its colour.
+  add(rows: Row[], colourOf: (row: Row) => Vec3, largest: number): void {
+    for (const row of rows) this.rows.push(row);
+    this.colourOf = colourOf;
+    if (largest > this.largest) this.drawn = 0;
+    this.largest = largest;
+    this.update();
+  }
+
+  recolour(colourOf: (row: Row) => Vec3): void {
+    this.colourOf = colourOf;
+    this.drawn = 0;
+    this.update();
+  }
+
+  private update(): void {
+    const needed = this.rows.length;
+    let capacity = this.cut ? this.cut.geometry.getAttribute("position").count / 2 : 0;
+    if (!this.cut || capacity < needed) {
+      capacity = Math.max(1024, 2 * needed);
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * capacity), 3));
+      geometry.setAttribute("color", new BufferAttribute(new Float32Array(6 * capacity), 3));
+      if (this.cut) {
+        this.cut.geometry.dispose();
+        this.group.remove(this.cut);
+      }
+      this.cut = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+      this.cut.frustumCulled = false;
+      this.group.add(this.cut);
+      this.drawn = 0;
+    }
+    const position = this.cut.geometry.getAttribute("position") as BufferAttribute;
+    const colour = this.cut.geometry.getAttribute("color") as BufferAttribute;
+    const c = new Color();
+    for (let n = this.drawn; n < needed; ++n) {
+      const row = this.rows[n]!;
+      const before = this.rows[n - 1];
+      const joined = before && row.time - before.time - before.duration < SAME_CUT_S;
+      position.setXYZ(2 * n, ...(joined ? before.tip : row.tip));
+      position.setXYZ(2 * n + 1, ...row.tip);
+      c.setRGB(...this.colourOf(row), "srgb");
+      colour.setXYZ(2 * n, c.r, c.g, c.b);
+      colour.setXYZ(2 * n + 1, c.r, c.g, c.b);
+    }
+    this.drawn = needed;
+    position.needsUpdate = true;
+    colour.needsUpdate = true;
+    this.cut.geometry.setDrawRange(0, 2 * needed);
+  }
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Plots that people read, loaded when they are opened: force over time, over a turn, its spectrum,
+// engagement, and what is heard as a spectrogram.
+
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+
+import type { Row } from "./frames.js";
+import type { History } from "./history.js";
+import { heat } from "./heat.js";
+import type { Sound } from "./sound.js";
+import { spectrum, turn } from "./turn.js";
+
+const MOST_POINTS = 2000;
+const DEG = 180 / Math.PI;
+// The spectrogram goes up to here, Hz, and down to this level, dB.
+const TOP_HZ = 8000;
+const FLOOR_DB = -100;
+const CEILING_DB = -20;
+
+interface View {
+  name: string;
+  series: { label: string; stroke: string; bars?: boolean }[];
+  axes: [string, string];
+  data(history: History): uPlot.AlignedData;
+  seek?: boolean;
+}
+
+// Of many rows the largest in each of MOST_POINTS stretches.
+function overTime(history: History, ...values: ((row: Row) => number)[]): uPlot.AlignedData {
+  const { rows } = history;
+  const step = Math.max(1, Math.ceil(rows.length / MOST_POINTS));
+  const stretches = Array.from({ length: Math.ceil(rows.length / step) }, (_, n) => rows.slice(n * step, (n + 1) * step));
+  const largest = (value: (row: Row) => number) => stretches.map((stretch) => stretch.reduce((most, row) => Math.max(most, value(row)), -Infinity));
+  return [stretches.map(([first]) => first!.time), ...values.map(largest)];
+}
+
+const VIEWS: View[] = [
+  {
+    name: "Force",
+    series: [
+      { label: "peak, N", stroke: "#d0342c" },
+      { label: "mean, N", stroke: "#3b82d0" },
+    ],
+    axes: ["s", "N"],
+    data: (h) => overTime(h, (row) => row.peakForce, (row) => row.meanForce),
+    seek: true,
+  },
+  {
+    name: "One turn",
+    series: [
+      { label: "along the feed, N", stroke: "#d0342c" },
+      { label: "to its left, N", stroke: "#3b82d0" },
+      { label: "to the shank, N", stroke: "#b58900" },
+    ],
+    axes: ["degrees of the spindle", "N"],
+    data: (h) => {
+      const piece = h.piece();
+      if (!piece) return [[], [], [], []];
+      const t = turn(piece);
+      return [t.degrees, t.x, t.y, t.z];
+    },
+  },
+  {
+    name: "Spectrum",
+    series: [{ label: "force across the axis, N", stroke: "#3b82d0", bars: true }],
+    axes: ["Hz", "N"],
+    data: (h) => {
+      const piece = h.piece();
+      if (!piece) return [[], []];
+      const s = spectrum(piece);
+      return [s.hz, s.newton];
+    },
+  },
+  {
+    name: "Engagement",
+    series: [
+      { label: "exit, degrees", stroke: "#d0342c" },
+      { label: "entry, degrees", stroke: "#3b82d0" },
+      { label: "depth, mm", stroke: "#b58900" },
+    ],
+    axes: ["s", "degrees, mm"],
+    data: (h) => overTime(h, (row) => row.exit * DEG, (row) => row.entry * DEG, (row) => row.depth),
+    seek: true,
+  },
+];
+const SOUND = "Sound";
+
+export class Plots {
+  private readonly tabs = document.createElement("div");
+  private readonly panel = document.createElement("div");
+  private plot: uPlot | undefined;
+  private open = VIEWS[0]!.name;
+  private dirty = true;
+  private heard: HTMLCanvasElement | undefined;
+
+  constructor(
+    private readonly box: HTMLElement,
+    private readonly history: History,
+    private readonly sound: Sound,
+    private readonly seek: (time: number) => void,
+  ) {
+    this.tabs.setAttribute("role", "tablist");
+    this.tabs.setAttribute("aria-label", "Plots");
+    this.panel.setAttribute("role", "tabpanel");
+    this.panel.id = "plot-panel";
+    this.panel.tabIndex = 0;
+    for (const name of [...VIEWS.map((v) => v.name), SOUND]) {
+      const tab = document.createElement("button");
+      tab.type = "button";
+      tab.id = `tab-${name.replace(" ", "-").toLowerCase()}`;
+      tab.setAttribute("role", "tab");
+      tab.setAttribute("aria-controls", this.panel.id);
+      tab.textContent = name;
+      tab.addEventListener("click", () => this.choose(name));
+      this.tabs.append(tab);
+    }
+    this.tabs.addEventListener("keydown", (event) => {
+      const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+      if (step === 0) return;
+      const all = [...this.tabs.children] as HTMLElement[];
+      const next = all[(all.findIndex((t) => t.textContent === this.open) + step + all.length) % all.length]!;
+      next.click();
+      next.focus();
+    });
+    box.append(this.tabs, this.panel);
+    new ResizeObserver(() => {
+      this.plot?.setSize(this.size());
+      this.dirty = true;
+    }).observe(this.panel);
+    this.choose(this.open);
+  }
+
+  // Once a picture, while the plots are open.
+  update(): void {
+    if (this.box.hidden) return;
+    if (this.open === SOUND) {
+      this.drawSound();
+    } else if (this.dirty) {
+      this.dirty = false;
+      const view = VIEWS.find((v) => v.name === this.open)!;
+      this.plot?.setData(view.data(this.history));
+    }
+  }
+  changed(): void {
+    this.dirty = true;
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(this.panel.clientWidth, 100), height: Math.max(this.panel.clientHeight - 34, 60) };
+  }
+
+  private choose(name: string): void {
+    this.open = name;
+    for (const tab of this.tabs.children) {
+      const on = tab.textContent === name;
+      tab.setAttribute("aria-selected", String(on));
+      (tab as HTMLElement).tabIndex = on ? 0 : -1;
+      if (on) this.panel.setAttribute("aria-labelledby", tab.id);
+    }
+    this.plot?.destroy();
+    this.plot = undefined;
+    this.heard = undefined;
+    this.panel.replaceChildren();
+    const view = VIEWS.find((v) => v.name === name);
+    if (view) this.make(view);
+    else this.makeSound();
+    this.dirty = true;
+  }
+
+  private make(view: View): void {
+    const ink = getComputedStyle(this.box).getPropertyValue("--ink");
+    const faint = getComputedStyle(this.box).getPropertyValue("--line");
+    const axis = (label: string): uPlot.Axis => ({ label, stroke: ink, grid: { stroke: faint, width: 1 }, ticks: { stroke: faint }, labelSize: 18, size: label === "N" || label.startsWith("degrees,") ? 56 : 34 });
+    this.plot = new uPlot(
+      {
+        ...this.size(),
+        scales: { x: { time: false } },
+        cursor: { drag: { x: true, y: false } },
+        axes: view.axes.map(axis),
+        series: [
+          { label: view.axes[0] },
+          ...view.series.map((s) => ({
+            label: s.label,
+            stroke: s.stroke,
+            width: 1.5,
+            points: { show: false },
+            value: (_: uPlot, v: number | null) => (v == null ? "" : v.toPrecision(4)),
+            ...(s.bars ? { paths: uPlot.paths.bars!({ size: [0.5, 24] }), fill: `${s.stroke}66` } : {}),
+          })),
+        ],
+      },
+      view.data(this.history),
+      this.panel,
+    );
+    if (view.seek) {
+      const { plot } = this;
+      plot.over.addEventListener("dblclick", () => this.seek(plot.posToVal(plot.cursor.left ?? 0, "x")));
+    }
+  }
+
+  private makeSound(): void {
+    const canvas = document.createElement("canvas");
+    canvas.className = "spectrogram";
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `Spectrogram of the sound, 0 to ${TOP_HZ / 1000} kHz`);
+    this.panel.append(canvas);
+    canvas.width = Math.max(1, Math.round(canvas.clientWidth));
+    canvas.height = Math.max(1, Math.round(canvas.clientHeight));
+    this.heard = canvas;
+  }
+
+  private drawSound(): void {
+    const canvas = this.heard;
+    const context = canvas?.getContext("2d");
+    if (!canvas || !context) return;
+    const { analyser } = this.sound;
+    const { width, height } = canvas;
+    if (!analyser || !this.sound.running) {
+      context.clearRect(0, 0, width, height);
+      context.fillStyle = getComputedStyle(this.box).getPropertyValue("--quiet");
+      context.font = "14px system-ui, sans-serif";
+      context.fillText("The sound is off: press Sound.", 12, 24);
+      return;
+    }
+    const levels = new Float32Array(analyser.frequencyBinCount);
+    analyser.getFloatFrequencyData(levels);
+    context.drawImage(canvas, -1, 0);
+    const bins = (TOP_HZ / (analyser.context.sampleRate / 2)) * levels.length;
+    for (let y = 0; y < height; ++y) {
+      const level = levels[Math.floor(((height - 1 - y) / height) * bins)]!;
+      const [r, g, b] = heat((level - FLOOR_DB) / (CEILING_DB - FLOOR_DB));
+      context.fillStyle = `rgb(${r * 255} ${g * 255} ${b * 255})`;
+      context.fillRect(width - 1, y, 1, 1);
+    }
+    context.fillStyle = "#ffffffb0";
+    context.font = "11px system-ui, sans-serif";
+    for (let khz = 2; khz < TOP_HZ / 1000; khz += 2) {
+      const y = height - (khz * 1000 * height) / TOP_HZ;
+      context.fillRect(0, y, 4, 1);
+    }
+  }
+}

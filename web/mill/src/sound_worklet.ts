@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The audio thread's side of sound.ts.
+
+import type { ToEar } from "./sound.js";
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  tribo_allocate(bytes: number): number;
+  sound_open(rate: number): number;
+  sound_take(frame: number, length: number): void;
+  sound_follow(time: number, speed: number, playing: number, lead: number): void;
+  sound_render(frames: number): number;
+}
+
+// What AudioWorkletGlobalScope has and TypeScript's page library does not know.
+declare const sampleRate: number;
+declare class AudioWorkletProcessor {
+  readonly port: MessagePort;
+}
+declare function registerProcessor(name: string, type: unknown): void;
+
+const LARGEST_FRAME = 1 << 18;
+
+class Ear extends AudioWorkletProcessor {
+  private readonly x: Exports;
+  private readonly inbox: number;
+  private readonly open: boolean;
+
+  constructor(options: { processorOptions: { module: WebAssembly.Module } }) {
+    super();
+    const instance = new WebAssembly.Instance(options.processorOptions.module, {});
+    this.x = instance.exports as unknown as Exports;
+    this.x._initialize();
+    this.inbox = this.x.tribo_allocate(LARGEST_FRAME);
+    this.open = this.x.sound_open(sampleRate) !== 0;
+    this.port.onmessage = ({ data }: MessageEvent<ToEar>) => this.take(data);
+  }
+
+  private take(message: ToEar): void {
+    if (message.kind === "clock") {
+      this.x.sound_follow(message.time, message.speed, Number(message.playing), message.lead);
+    } else if (message.bytes.byteLength <= LARGEST_FRAME) {
+      new Uint8Array(this.x.memory.buffer, this.inbox, message.bytes.byteLength).set(new Uint8Array(message.bytes));
+      this.x.sound_take(this.inbox, message.bytes.byteLength);
+    }
+  }
+
+  process(_inputs: Float32Array[][], [output]: Float32Array[][]): boolean {
+    const [left, right] = output ?? [];
+    if (!this.open || !left || !right) return true;
+    const samples = new Float32Array(this.x.memory.buffer, this.x.sound_render(left.length), 2 * left.length);
+    for (let n = 0; n < left.length; ++n) {
+      left[n] = samples[2 * n]!;
+      right[n] = samples[2 * n + 1]!;
+    }
+    return true;
+  }
+}
+
+registerProcessor("tribo-mill", Ear);

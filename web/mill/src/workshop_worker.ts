@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// The worker's side of workshop.ts: the module, its clock, and its frames handed over as they come.
+
+import type { Command, Settings } from "./source.js";
+import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  tribo_version(): number;
+  tribo_allocate(bytes: number): number;
+  tribo_release(pointer: number): void;
+  mill_put_file(name: number, nameLength: number, bytes: number, length: number): void;
+  mill_forget_files(): void;
+  mill_open(name: number, nameLength: number, part: number, partLength: number, cell: number): number;
+  mill_text(): number;
+  mill_play(on: number): void;
+  mill_speed(value: number): void;
+  mill_seek(time: number): void;
+  mill_finger(x: number, y: number, z: number, down: number): void;
+  mill_feel(scale: number, jnd: number, cutMode: number, force: number, stopped: number): void;
+  mill_change(feed: number, speed: number, helix: number, material: number, length: number): number;
+  mill_helix_deg(): number;
+  mill_materials(): number;
+  mill_tick(seconds: number, looks: number): number;
+  mill_frames(): number;
+}
+
+const TICK_MS = 1000 / 60;
+// Of a tick, how much may go into milling.
+const MILLING_MS = 12;
+// Where a tick takes longer than that, the next one waits: half as many pictures cost half as much.
+const BUSY_TICK_MS = 30;
+const MOST_LOOKS = 4096;
+// A clock that did not run for longer than this (a laptop asleep) jumps no further, s.
+const LONGEST_STEP_S = 0.1;
+
+function post(message: FromWorker, transfer: Transferable[] = []): void {
+  (self as unknown as { postMessage(m: unknown, t: Transferable[]): void }).postMessage(message, transfer);
+}
+
+async function unpacked(file: JobFile): Promise<Uint8Array> {
+  const bytes = new Uint8Array(file.bytes);
+  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
+  const stream = new Blob([file.bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+class Mill {
+  private looks = 64;
+  private took = 0; // ms, of the last tick
+  private before = performance.now();
+  private settings: Settings = {
+    op: "settings",
+    feed_percent: 100,
+    spindle_percent: 100,
+    helix_deg: 30,
+    force_scale: 0.01,
+    jnd: 0.5,
+    material: "",
+    mode: "cut",
+    force: true,
+    stopped: false,
+  };
+
+  constructor(private readonly x: Exports) {}
+
+  get version(): string {
+    return this.text(this.x.tribo_version());
+  }
+
+  async open(order: Order): Promise<void> {
+    const { x } = this;
+    x.mill_forget_files();
+    for (const file of order.files) {
+      const bytes = this.put(await unpacked(file));
+      const name = this.put(new TextEncoder().encode(file.name));
+      x.mill_put_file(name.at, name.length, bytes.at, bytes.length);
+      x.tribo_release(bytes.at);
+      x.tribo_release(name.at);
+    }
+    const job = this.put(new TextEncoder().encode(order.job));
+    const part = this.put(new TextEncoder().encode(order.part));
+    const opened = x.mill_open(job.at, job.length, part.at, part.length, order.cell);
+    x.tribo_release(job.at);
+    x.tribo_release(part.at);
+    const said = this.text(x.mill_text());
+    if (!opened) return post({ kind: "refused", why: said });
+    const warnings = said.split("\n").filter(Boolean);
+    const [material = "", ...materials] = this.text(x.mill_materials()).split("\n");
+    post({ kind: "opened", job: order.job, version: this.version, warnings, materials });
+    this.settings.material = material;
+    this.settings.helix_deg = x.mill_helix_deg();
+    post({ kind: "settings", settings: this.settings });
+    this.before = performance.now();
+  }
+
+  obey(command: Command): void {
+    const { x } = this;
+    if (command.op === "play" || command.op === "pause") x.mill_play(Number(command.op === "play"));
+    else if (command.op === "speed") x.mill_speed(command.value);
+    else if (command.op === "seek") x.mill_seek(command.t_s);
+    else if (command.op === "finger") x.mill_finger(...(command.position_mm as [number, number, number]), Number(command.down));
+    else this.set(command);
+  }
+
+  private set(command: Command): void {
+    const s = { ...this.settings };
+    if (command.op === "stop" || command.op === "release") s.stopped = command.op === "stop";
+    else if (command.op === "mode") s.mode = command.value;
+    else if (command.op === "force") s.force = command.value;
+    else if (command.op === "material") s.material = command.value;
+    else if (command.op === "set" && command.key in s) (s as unknown as Record<string, number>)[command.key] = command.value;
+    else return;
+    const { x } = this;
+    const cut = (a: Settings) => [a.feed_percent, a.spindle_percent, a.helix_deg, a.material].join();
+    if (cut(s) !== cut(this.settings)) {
+      const name = this.put(new TextEncoder().encode(s.material));
+      const done = x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, name.at, name.length);
+      x.tribo_release(name.at);
+      if (!done) return post({ kind: "no", why: this.text(x.mill_text()) });
+    }
+    x.mill_feel(s.force_scale, s.jnd, Number(s.mode === "cut"), Number(s.force), Number(s.stopped));
+    this.settings = s;
+    post({ kind: "settings", settings: s });
+  }
+
+  tick(): void {
+    const now = performance.now();
+    if (this.took > MILLING_MS && now - this.before < BUSY_TICK_MS) return;
+    const seconds = Math.min((now - this.before) / 1000, LONGEST_STEP_S);
+    this.before = now;
+    const length = this.x.mill_tick(seconds, this.looks);
+    const took = (this.took = performance.now() - now);
+    if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
+    else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
+    if (length < 0) return post({ kind: "failed", why: this.text(this.x.mill_text()) });
+    if (length > 0) this.hand(length);
+  }
+
+  private hand(length: number): void {
+    const at = this.x.mill_frames();
+    const view = new DataView(this.x.memory.buffer, at, length);
+    const frames: ArrayBuffer[] = [];
+    for (let n = 0; n < length; ) {
+      const bytes = view.getUint32(n, true);
+      frames.push(this.x.memory.buffer.slice(at + n + 8, at + n + 8 + bytes) as ArrayBuffer);
+      n += 8 + 8 * Math.ceil(bytes / 8);
+    }
+    post({ kind: "frames", frames }, frames);
+  }
+
+  private put(bytes: Uint8Array): { at: number; length: number } {
+    const at = this.x.tribo_allocate(bytes.length);
+    new Uint8Array(this.x.memory.buffer, at, bytes.length).set(bytes);
+    return { at, length: bytes.length };
+  }
+
+  private text(at: number): string {
+    const memory = new Uint8Array(this.x.memory.buffer);
+    let end = at;
+    while (memory[end] !== 0) ++end;
+    return new TextDecoder().decode(memory.slice(at, end));
+  }
+}
+
+let compiled: Promise<WebAssembly.Module> | undefined;
+let mill: Mill | undefined;
+
+async function fresh(): Promise<Mill> {
+  compiled ??= WebAssembly.compileStreaming(fetch(new URL("tribo.wasm", self.location.href)));
+  const instance = await WebAssembly.instantiate(await compiled, {});
+  const x = instance.exports as unknown as Exports;
+  x._initialize();
+  return new Mill(x);
+}
+
+// A module that trapped (memory, as a rule) is of no more use.
+function broken(error: unknown): void {
+  mill = undefined;
+  post({
+    kind: "failed",
+    why:
+      error instanceof WebAssembly.RuntimeError || error instanceof RangeError
+        ? "the part needs more memory than this page has; try the program, or a coarser grid"
+        : `the page's own mill failed: ${String(error)}`,
+  });
+}
+
+self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+  try {
+    if (data.kind === "open") {
+      // A fresh one: memory never shrinks.
+      const next = await fresh();
+      mill = undefined;
+      await next.open(data.order);
+      mill = next;
+    } else {
+      mill?.obey(data.command);
+    }
+  } catch (error) {
+    broken(error);
+  }
+};
+
+setInterval(() => {
+  try {
+    mill?.tick();
+  } catch (error) {
+    broken(error);
+  }
+}, TICK_MS);

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+import { afterEach, describe, expect, it, vi } from "vitest";
+
+import { liveUrl } from "../src/connection.js";
+import { heat } from "../src/heat.js";
+import { sort, tooLarge } from "../src/drop.js";
+import { chip, chipVerdict, HeatMap } from "../src/heat_map.js";
+import { readRecording, Recorder, Replay } from "../src/recording.js";
+import type { Listener } from "../src/source.js";
+import { SurfaceDistance } from "../src/surface_distance.js";
+import { outline } from "../src/tool.js";
+import { spectrum, turn } from "../src/turn.js";
+import type { Vec3 } from "../src/vec3.js";
+
+describe("heat", () => {
+  const lightness = ([r, g, b]: Vec3) => 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;
+  it("grows lighter all the way", () => {
+    for (let n = 1; n <= 40; ++n) expect(lightness(heat(n / 40))).toBeGreaterThan(lightness(heat((n - 1) / 40)));
+  });
+  it("stays on its scale", () => {
+    expect(heat(-1)).toEqual(heat(0));
+    expect(heat(2)).toEqual(heat(1));
+  });
+});
+
+describe("outline", () => {
+  const tool = { number: 1, flutes: 2, radius: 5, corner: 0, length: 30, holder: [{ radius: 12, length: 20 }] };
+  it("of a flat end mill has a square corner and its holder", () => {
+    expect(outline(tool)).toEqual([
+      [0, 0],
+      [5, 0],
+      [5, 30],
+      [12, 30],
+      [12, 50],
+      [0, 50],
+    ]);
+  });
+  it("of a ball lies on the ball", () => {
+    for (const [r, z] of outline({ ...tool, corner: 5, holder: [] })) {
+      if (z <= 5) expect(Math.hypot(r, z - 5)).toBeCloseTo(5, 9);
+    }
+  });
+});
+
+describe("liveUrl", () => {
+  it("is beside the page and keeps its token", () => {
+    expect(liveUrl({ protocol: "http:", host: "127.0.0.1:8317", search: "" })).toBe("ws://127.0.0.1:8317/live");
+    expect(liveUrl({ protocol: "https:", host: "mill", search: "?token=a%26b" })).toBe("wss://mill/live?token=a%26b");
+  });
+});
+
+describe("SurfaceDistance", () => {
+  it("is signed, and exact over faces, edges and corners", () => {
+    const surface = new SurfaceDistance();
+    surface.add(new Float32Array([0, 0, 0, 10, 0, 0, 10, 10, 0, 0, 10, 0]), new Uint16Array([0, 1, 2, 0, 2, 3]));
+    expect(surface.at([5, 5, 0.25], 3)).toBeCloseTo(0.25, 12);
+    expect(surface.at([5, 5, -0.25], 3)).toBeCloseTo(-0.25, 12);
+    expect(surface.at([-0.3, 5, 0.4], 3)).toBeCloseTo(0.5, 12);
+    expect(surface.at([10.2, 10.1, 0.2], 3)).toBeCloseTo(0.3, 12);
+    expect(surface.at([5, 5, 9], 3)).toBeNaN();
+  });
+});
+
+describe("chip load", () => {
+  const row = { time: 0, duration: 0.1, tip: [0, 0, 0] as [number, number, number], meanForce: 1, peakForce: 2, torque: 0, depth: 1, feedPerTooth: 0.1, line: 1 };
+  it("of a slot is the feed per tooth, of a thin side cut less", () => {
+    expect(chip({ ...row, entry: 0, exit: Math.PI })).toBeCloseTo(0.1, 12);
+    expect(chip({ ...row, entry: 0, exit: Math.PI / 6 })).toBeCloseTo(0.05, 12);
+  });
+  it("tells rubbing and overload", () => {
+    expect(chipVerdict({ ...row, feedPerTooth: 0.005, entry: 0, exit: Math.PI }, 10)).toBe("rubbing");
+    expect(chipVerdict({ ...row, feedPerTooth: 0.3, entry: 0, exit: Math.PI }, 10)).toBe("overload");
+    expect(chipVerdict({ ...row, entry: 0, exit: Math.PI }, 10)).toBe("");
+  });
+  it("lists each line once for what it does wrong, by its worst chip", () => {
+    const map = new HeatMap();
+    const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
+    map.begin([ball]);
+    const slot = { ...row, entry: 0, exit: Math.PI };
+    for (const [line, feedPerTooth, time] of [[7, 0.3, 1], [7, 0.4, 2], [7, 0.2, 3], [4, 0.008, 4], [4, 0.1, 5], [4, 0.002, 6]] as const)
+      map.add({ ...slot, line, feedPerTooth, time }, [0, 0, 1], ball);
+    expect(map.chipMarks()).toEqual([
+      { line: 4, verdict: "rubbing", chip: 0.002, time: 6 },
+      { line: 7, verdict: "overload", chip: 0.4, time: 2 },
+    ]);
+    map.begin([ball]);
+    expect(map.chipMarks()).toEqual([]);
+  });
+  it("colours a point by the latest cut that made it", () => {
+    const map = new HeatMap();
+    const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
+    map.begin([ball]);
+    map.add({ ...row, entry: 0, exit: Math.PI, peakForce: 10 }, [0, 0, 1], ball);
+    map.add({ ...row, tip: [0, 5, 0], entry: 0, exit: Math.PI, peakForce: 20 }, [0, 0, 1], ball);
+    const none = new SurfaceDistance();
+    // The lowest points of either ball, and one that neither made.
+    expect(map.colour("force", [0, 0, 0], none)).toEqual(heat(0.5));
+    expect(map.colour("force", [0, 5, 0], none)).toEqual(heat(1));
+    expect(map.colour("force", [0, 0, 40], none)).toBeUndefined();
+  });
+});
+
+describe("a turn of the spindle", () => {
+  // Mean 5 N along the feed, and 2 * 3 N cos(2 angle) across it.
+  const piece = { time: 0, duration: 1, tip: [0, 0, 0] as [number, number, number], angle: 0, radPerS: 2 * Math.PI * 100, pace: 1, chips: 0, orderStep: 2, harmonics: new Float32Array([5, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0]) };
+  it("is the sum of its harmonics", () => {
+    const t = turn(piece, 4);
+    t.x.forEach((v) => expect(v).toBeCloseTo(5, 12));
+    [6, -6, 6, -6, 6].forEach((v, n) => expect(t.y[n]).toBeCloseTo(v, 12));
+  });
+  it("has its line where the teeth pass", () => {
+    expect(spectrum(piece)).toEqual({ hz: [200], newton: [6] });
+  });
+});
+
+describe("a recording", () => {
+  it("gives back what was put in", async () => {
+    const recorder = new Recorder();
+    recorder.take(new Uint8Array([1, 2, 3, 4]).buffer);
+    recorder.take(new Uint8Array([5, 6, 7, 8, 9, 10, 11, 12]).buffer);
+    const bytes = await recorder.file().arrayBuffer();
+    expect(readRecording(bytes).map((r) => [...new Uint8Array(r.bytes)])).toEqual([
+      [1, 2, 3, 4],
+      [5, 6, 7, 8, 9, 10, 11, 12],
+    ]);
+    expect(() => readRecording(bytes.slice(0, bytes.byteLength - 3))).toThrow("cut off");
+    expect(() => readRecording(new ArrayBuffer(40))).toThrow("no recording");
+  });
+});
+
+describe("a replay", () => {
+  afterEach(() => void vi.useRealTimers());
+
+  function frame(kind: number, length: number): ArrayBuffer {
+    const bytes = new ArrayBuffer(length);
+    new Uint8Array(bytes).set([kind, 1]);
+    return bytes;
+  }
+
+  it("can be paused, goes on, and says so when it is over, whatever comes last", () => {
+    vi.useFakeTimers();
+    const told: string[] = [];
+    const listener = {
+      frame: (now) => told.push(now.kind === "state" ? (now.playing ? "plays" : "stands") : now.kind),
+      line: () => undefined,
+      info: () => undefined,
+    } as Partial<Listener> as Listener;
+    const state = frame(3, 96), collision = frame(5, 36);
+    const frames = [0, 0.2, 0.4].map((seconds) => ({ seconds, bytes: state }));
+    const replay = new Replay(listener, [...frames, { seconds: 0.6, bytes: collision }], "run.tribo");
+    const after = (ms: number) => (vi.advanceTimersByTime(ms), told.splice(0));
+    expect(after(300)).toEqual(["plays", "plays"]);
+    replay.send({ op: "pause" });
+    expect(after(1000)).toEqual(["stands"]);
+    replay.send({ op: "play" });
+    expect(after(1000)).toEqual(["plays", "plays", "collision", "stands"]);
+    replay.send({ op: "play" });
+    expect(after(300)).toEqual(["plays", "plays", "plays"]);
+    replay.close();
+  });
+});
+
+describe("a drop", () => {
+  const file = (name: string) => ({ name, bytes: new ArrayBuffer(0) });
+  it("is a job, a program with a model, or a model for what is there", () => {
+    expect(sort([file("a/bowl.csv"), file("a/bowl.toml")], undefined)).toMatchObject({ order: { job: "a/bowl.toml", part: "" } });
+    expect(sort([file("p.nc"), file("s.wrl")], undefined)).toMatchObject({ order: { job: "p.nc", part: "s.wrl" } });
+    const before = { files: [file("p.nc")], job: "p.nc", part: "", cell: 0 };
+    expect(sort([file("s.stl")], before)).toMatchObject({ order: { job: "p.nc", part: "s.stl" } });
+    expect(sort([file("run.tribo")], undefined)).toMatchObject({ recording: { name: "run.tribo" } });
+  });
+  it("of a chain of set-ups is the last job", () => {
+    const job = (name: string, text: string) => ({ name, bytes: new TextEncoder().encode(text).buffer });
+    const first = job("p/a.toml", "[stock]\nbox_mm = 1"), second = job("p/b.toml", "[stock]\nfrom = 'a.toml'");
+    const third = job("p/c.toml", '[stock]\nfrom="../p/b.toml"');
+    expect(sort([third, first, second], undefined)).toMatchObject({ order: { job: "p/c.toml" } });
+    expect(sort([second, first], undefined)).toMatchObject({ order: { job: "p/b.toml" } });
+    const round = job("p/a.toml", '[stock]\nfrom = "b.toml"');
+    expect(sort([second, round], undefined)).toMatchObject({ refused: expect.stringContaining("the stock of another") });
+  });
+  it("is refused in words", () => {
+    expect(sort([file("a.toml"), file("b.toml")], undefined)).toMatchObject({ refused: expect.stringContaining("2 jobs") });
+    expect(sort([file("s.stl")], undefined)).toMatchObject({ refused: expect.stringContaining("together with a program") });
+    expect(tooLarge([{ name: "big.nc", size: 100e6 }])).toContain("big.nc: 100 MB");
+  });
+});

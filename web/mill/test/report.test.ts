@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// report.html as `tribo render` writes it, opened as a file: the part in 3D, without a network, and without WebGL.
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium, type Browser, type Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+
+import { CHROMIUM, jobText, PATIENCE_MS, PROGRAM } from "./browser.js";
+
+const FLAGS = ["--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update"];
+const WITH_GL = [...FLAGS, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+const JOB = jobText("[[0, 0, -8], [40, 20, 0]]", `[part]
+surface = "plane.stl"
+`);
+const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\n";
+// Where the two grooves end, as one square.
+const corner = (x: number, y: number) => `vertex ${x} ${y} -2\n`;
+const facet = (...corners: string[]) => `facet normal 0 0 1\nouter loop\n${corners.join("")}endloop\nendfacet\n`;
+const PLANE = `solid plane\n${facet(corner(0, 3), corner(40, 3), corner(40, 11))}${facet(corner(0, 3), corner(40, 11), corner(0, 11))}endsolid\n`;
+
+describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the report", () => {
+  let folder: string;
+  let browser: Browser;
+  let page: Page;
+  const asked: string[] = [];
+  const problems: string[] = [];
+  let address: string;
+
+  beforeAll(async () => {
+    folder = mkdtempSync(join(tmpdir(), "tribo-report-"));
+    writeFileSync(join(folder, "job.toml"), JOB);
+    writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT);
+    writeFileSync(join(folder, "plane.stl"), PLANE);
+    execFileSync(PROGRAM, ["render", join(folder, "job.toml"), "--out", join(folder, "out"), "--resolution", "0.25"]);
+    address = pathToFileURL(join(folder, "out/report.html")).href;
+    browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: WITH_GL });
+    page = await browser.newPage({ viewport: { width: 900, height: 700 } });
+    page.on("pageerror", (error) => problems.push(error.message));
+    page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
+    page.on("request", (request) => asked.push(request.url()));
+    await page.goto(address);
+    await page.waitForFunction(() => document.querySelector("#part-view img")?.hasAttribute("hidden"));
+  }, PATIENCE_MS);
+
+  afterAll(async () => {
+    await browser?.close();
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  // How many pixels of the view are of each of its colours, and a number that changes with the picture.
+  const view = () =>
+    page.evaluate(async () => {
+      await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+      const canvas = document.querySelector<HTMLCanvasElement>("#part-view canvas");
+      const flat = document.createElement("canvas");
+      flat.width = canvas?.width ?? 0;
+      flat.height = canvas?.height ?? 0;
+      const context = flat.getContext("2d");
+      if (!canvas || !context) return { drawn: 0, blue: 0, grey: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
+      context.drawImage(canvas, 0, 0);
+      const bytes = context.getImageData(0, 0, flat.width, flat.height).data;
+      const seen = { drawn: 0, blue: 0, grey: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
+      for (let n = 0; n < bytes.length; n += 4) {
+        const [r, g, b, a] = bytes.subarray(n, n + 4) as unknown as [number, number, number, number];
+        if (a === 0) continue;
+        ++seen.drawn;
+        seen.sum = (31 * seen.sum + r + 3 * g + 7 * b + n) % 1_000_000_007;
+        if (b > 1.3 * r && b > 1.1 * g) ++seen.blue;
+        if (Math.abs(r - g) < 12 && Math.abs(b - g) < 16) ++seen.grey;
+        if (r > 1.4 * b && r > 1.2 * g) ++seen.orange;
+        if (b > 1.15 * g && r > 1.03 * g) ++seen.purple;
+        if (r > 200 && g > 150 && b < 60) ++seen.yellow;
+      }
+      return seen;
+    });
+
+  it("is one file of less than 5 MB that asks for nothing else", () => {
+    expect(asked.filter((url) => !url.startsWith("data:"))).toEqual([address]);
+    expect(statSync(join(folder, "out/report.html")).size).toBeLessThan(5e6);
+    expect(problems).toEqual([]);
+  });
+
+  it("draws machined surface, untouched stock and the tool's tip", async () => {
+    const seen = await view();
+    expect(seen.drawn).toBeGreaterThan(30_000);
+    expect(seen.blue).toBeGreaterThan(5_000);
+    expect(seen.grey).toBeGreaterThan(5_000);
+    expect(seen.yellow).toBeGreaterThan(20);
+  }, PATIENCE_MS);
+
+  it("turns and comes nearer by mouse and keyboard, and comes back", async () => {
+    const first = await view();
+    const box = await page.locator("#part-view canvas").boundingBox();
+    if (!box) throw new Error("no view");
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 80, y + 20, { steps: 4 });
+    await page.mouse.up();
+    const turned = await view();
+    expect(turned.sum).not.toBe(first.sum);
+    await page.focus("#part-view canvas");
+    await page.keyboard.press("+");
+    await page.keyboard.press("+");
+    const near = await view();
+    expect(near.drawn).toBeGreaterThan(1.2 * turned.drawn);
+    await page.keyboard.press("ArrowLeft");
+    expect((await view()).sum).not.toBe(near.sum);
+    await page.mouse.wheel(0, 300);
+    await expect.poll(async () => (await view()).drawn, { timeout: PATIENCE_MS }).toBeLessThan(near.drawn);
+    await page.keyboard.press("Home");
+    expect((await view()).sum).toBe(first.sum);
+  }, PATIENCE_MS);
+
+  it("follows the row that the plots point at", async () => {
+    const before = await view();
+    await page.fill("#row", "0");
+    expect((await view()).sum).not.toBe(before.sum);
+  }, PATIENCE_MS);
+
+  it("colours the part by its deviation", async () => {
+    expect(await page.locator("#part-view .scale").isHidden()).toBe(true);
+    await page.check("#part-view input[value=deviation]");
+    const seen = await view();
+    expect(seen.blue).toBeLessThan(seen.purple + 1);
+    expect(seen.purple).toBeGreaterThan(1_000);
+    expect(await page.locator("#part-view .scale").textContent()).toMatch(/mm gouge0\+[\d.]+ mm left/);
+    await page.check("#part-view input[value=surface]");
+  }, PATIENCE_MS);
+
+  it("says what it is and how it is used", async () => {
+    const canvas = page.locator("#part-view canvas");
+    expect(await canvas.getAttribute("aria-label")).toBe("The part as milled");
+    expect(await page.locator("#part-hint").innerText()).toContain("arrow keys");
+  });
+
+  it("looks the part in the dark too", async () => {
+    await page.emulateMedia({ colorScheme: "dark" });
+    expect((await view()).blue).toBeGreaterThan(5_000);
+    await page.emulateMedia({ colorScheme: "light" });
+  }, PATIENCE_MS);
+
+  it("keeps the picture where there is no WebGL", async () => {
+    const plain = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...FLAGS, "--disable-3d-apis"] });
+    try {
+      const without = await plain.newPage();
+      await without.goto(address);
+      await without.waitForFunction(() => document.getElementById("readout")?.textContent !== "");
+      expect(await without.locator("#part-view img").isVisible()).toBe(true);
+      expect(await without.locator("#part-view canvas").isVisible()).toBe(false);
+    } finally {
+      await plain.close();
+    }
+  }, PATIENCE_MS);
+});

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+import { defineConfig } from "vitest/config";
+
+export default defineConfig({
+  test: {
+    include: ["*/test/*.test.{ts,mjs}"],
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+    // One browser at a time: two starve each other on a small machine.
+    fileParallelism: false,
+  },
+});
