@@ -3,7 +3,7 @@ import { defineConfig } from "vitest/config";
 
 export default defineConfig({
   test: {
-    include: ["*/test/*.test.{ts,mjs}"],
+    include: ["*/test/*.test.ts"],
     testTimeout: 60_000,
     hookTimeout: 60_000,
     // One browser at a time: two starve each other on a small machine.

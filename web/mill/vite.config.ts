@@ -2,26 +2,24 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFi
 import { join } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
+import { MILL_PAGE, MODULES } from "../tools/places.js";
 
-const ROOT = join(import.meta.dirname, "../..");
-const OUT = join(ROOT, "build/web/viewer");
-const WASM = process.env.TRIBO_WASM_DIR ?? join(ROOT, "build/wasm");
 
 // The modules beside the page, and of everything that is text or code packed forms for the engine's server.
 function modules(): Plugin {
   return {
     name: "tribo-modules",
     closeBundle() {
-      mkdirSync(OUT, { recursive: true });
+      mkdirSync(MILL_PAGE, { recursive: true });
       for (const name of ["tribo.wasm", "mill_sound.wasm"]) {
-        if (!existsSync(join(WASM, name))) throw new Error(`${join(WASM, name)} is not built: make build`);
-        copyFileSync(join(WASM, name), join(OUT, name));
+        if (!existsSync(join(MODULES, name))) throw new Error(`${join(MODULES, name)} is not built: make build`);
+        copyFileSync(join(MODULES, name), join(MILL_PAGE, name));
       }
-      for (const name of readdirSync(OUT)) {
+      for (const name of readdirSync(MILL_PAGE)) {
         if (!/\.(html|js|css|wasm)$/.test(name)) continue;
-        const bytes = readFileSync(join(OUT, name));
-        writeFileSync(join(OUT, `${name}.gz`), gzipSync(bytes, { level: 9 }));
-        writeFileSync(join(OUT, `${name}.br`), brotliCompressSync(bytes));
+        const bytes = readFileSync(join(MILL_PAGE, name));
+        writeFileSync(join(MILL_PAGE, `${name}.gz`), gzipSync(bytes, { level: 9 }));
+        writeFileSync(join(MILL_PAGE, `${name}.br`), brotliCompressSync(bytes));
       }
     },
   };
@@ -48,7 +46,7 @@ export default defineConfig({
   worker: { format: "es" },
   build: {
     target: "es2022",
-    outDir: OUT,
+    outDir: MILL_PAGE,
     emptyOutDir: true,
     assetsDir: ".",
     modulePreload: { polyfill: false },

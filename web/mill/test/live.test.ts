@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: MIT
 // The page with the engine behind it: `tribo live` in headless Chromium.
-import { spawn, type ChildProcess } from "node:child_process";
+import type { ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { CHROMIUM, jobText, launch, PATIENCE_MS, PROGRAM } from "./browser.js";
+import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { jobText } from "../../testing/job.js";
+import { startLive } from "../../testing/live.js";
+import { PROGRAM } from "../../tools/places.js";
 
 const JOB = jobText("[[0, 0, -8], [40, 20, 0]]");
 // Two grooves, then a rapid through what is left between.
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\nG0 Y16 X20\n";
 
-async function startLive(folder: string, port = "0"): Promise<{ engine: ChildProcess; url: string }> {
-  const engine = spawn(PROGRAM, ["live", join(folder, "job.toml"), "--port", port, "--resolution", "0.5"]);
-  let said = "";
-  const url = await new Promise<string>((resolve, reject) => {
-    const take = (data: Buffer) => {
-      said += data.toString();
-      const found = /http:\/\/\S+/.exec(said);
-      if (found) resolve(found[0]);
-    };
-    engine.stdout?.on("data", take);
-    engine.stderr?.on("data", take);
-    engine.on("exit", (code) => reject(new Error(`tribo live ended with ${code}: ${said}`)));
-  });
-  return { engine, url };
-}
+const start = (folder: string, port = "0") => startLive(join(folder, "job.toml"), "--port", port, "--resolution", "0.5");
 
-describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () => {
+describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
   let folder: string;
   let engine: ChildProcess;
   let browser: Browser;
@@ -41,7 +30,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     folder = mkdtempSync(join(tmpdir(), "tribo-live-"));
     writeFileSync(join(folder, "job.toml"), JOB);
     writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT);
-    const started = await startLive(folder);
+    const started = await start(folder);
     engine = started.engine;
     browser = await launch();
     page = await browser.newPage({ viewport: { width: 800, height: 600 } });
@@ -263,7 +252,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the live page", () 
     await page.waitForSelector("#notice-box:not([hidden])", { timeout: PATIENCE_MS });
     expect(await page.textContent("#notice")).toContain("No line to the engine");
     // A new one on the same port is found.
-    engine = (await startLive(folder, new URL(page.url()).port)).engine;
+    engine = (await start(folder, new URL(page.url()).port)).engine;
     await page.waitForSelector("#notice-box", { state: "hidden", timeout: PATIENCE_MS });
     await until("0.00", "removed");
   }, PATIENCE_MS);

@@ -5,13 +5,12 @@ import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chromium, type Browser, type Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { CHROMIUM, jobText, PATIENCE_MS, PROGRAM } from "./browser.js";
-
-const FLAGS = ["--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update"];
-const WITH_GL = [...FLAGS, "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+import { hasBrowser, launch, launchWithoutGraphics, PATIENCE_MS } from "../../testing/browser.js";
+import { jobText } from "../../testing/job.js";
+import { PROGRAM } from "../../tools/places.js";
 
 const JOB = jobText("[[0, 0, -8], [40, 20, 0]]", `[part]
 surface = "plane.stl"
@@ -22,7 +21,7 @@ const corner = (x: number, y: number) => `vertex ${x} ${y} -2\n`;
 const facet = (...corners: string[]) => `facet normal 0 0 1\nouter loop\n${corners.join("")}endloop\nendfacet\n`;
 const PLANE = `solid plane\n${facet(corner(0, 3), corner(40, 3), corner(40, 11))}${facet(corner(0, 3), corner(40, 11), corner(0, 11))}endsolid\n`;
 
-describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the report", () => {
+describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
   let folder: string;
   let browser: Browser;
   let page: Page;
@@ -37,7 +36,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the report", () => 
     writeFileSync(join(folder, "plane.stl"), PLANE);
     execFileSync(PROGRAM, ["render", join(folder, "job.toml"), "--out", join(folder, "out"), "--resolution", "0.25"]);
     address = pathToFileURL(join(folder, "out/report.html")).href;
-    browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: WITH_GL });
+    browser = await launch();
     page = await browser.newPage({ viewport: { width: 900, height: 700 } });
     page.on("pageerror", (error) => problems.push(error.message));
     page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
@@ -145,7 +144,7 @@ describe.runIf(existsSync(PROGRAM) && existsSync(CHROMIUM))("the report", () => 
   }, PATIENCE_MS);
 
   it("keeps the picture where there is no WebGL", async () => {
-    const plain = await chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...FLAGS, "--disable-3d-apis"] });
+    const plain = await launchWithoutGraphics();
     try {
       const without = await plain.newPage();
       await without.goto(address);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The page without an engine, from static files, in headless Chromium.
-import type { Server } from "node:http";
 import { existsSync, mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import AxeBuilder from "axe-core";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { CHROMIUM, jobText, launch, PATIENCE_MS, ROOT, serve } from "./browser.js";
+import { violations } from "../../testing/axe.js";
+import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { jobText } from "../../testing/job.js";
+import { serveFolder, type Server } from "../../testing/server.js";
+import { SITE } from "../../tools/places.js";
 
-const SITE = join(ROOT, "build/web/site");
 const PICTURES = process.env.TRIBO_PICTURES;
 
 const JOB = jobText("[[0, 0, -6], [30, 16, 0]]");
@@ -22,9 +23,8 @@ function file(name: string, text: string) {
   return { name, mimeType: "text/plain", buffer: Buffer.from(text) };
 }
 
-describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM))("the page without an engine", () => {
+describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the page without an engine", () => {
   let server: Server;
-  let url: string;
   let browser: Browser;
   let page: Page;
   let folder: string;
@@ -36,7 +36,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
     on.on("pageerror", (error) => problems.push(error.message));
     on.on("request", (request) => {
       const asked = new URL(request.url());
-      if (!["data:", "blob:"].includes(asked.protocol) && asked.host !== new URL(url).host) foreign.push(request.url());
+      if (!["data:", "blob:"].includes(asked.protocol) && asked.host !== new URL(server.root).host) foreign.push(request.url());
     });
   };
   const text = async (id: string) => (await page.textContent(`#${id}`)) ?? "";
@@ -58,7 +58,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
 
   beforeAll(async () => {
     folder = mkdtempSync(join(tmpdir(), "tribo-page-"));
-    ({ server, url } = await serve(SITE));
+    server = await serveFolder(SITE);
     browser = await launch();
     page = await browser.newPage({ viewport: { width: 1000, height: 700 } });
     watch(page);
@@ -79,13 +79,13 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
         return connect.call(this, to);
       };
     });
-    await page.goto(`${url}mill/`);
+    await page.goto(`${server.root}/mill/`);
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
   }, PATIENCE_MS);
 
   afterAll(async () => {
     await browser?.close();
-    server?.close();
+    await server?.close();
     rmSync(folder, { recursive: true, force: true });
   });
 
@@ -322,12 +322,7 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
   it("is free of what axe finds, light and dark, wide and on a phone", async () => {
     for (const theme of ["light", "dark"]) {
       await page.selectOption("#theme", theme);
-      await page.evaluate(AxeBuilder.source);
-      const found = await page.evaluate(async () => {
-        const { violations } = await (window as unknown as { axe: typeof AxeBuilder }).axe.run();
-        return violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).join(", ")}`);
-      });
-      expect(found).toEqual([]);
+      expect(await violations(page)).toEqual([]);
     }
     await picture("dark");
     await page.setViewportSize({ width: 390, height: 844 });

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
 // VR with an emulated headset: the part on its bench, the controller as the finger, a pulse from the force.
-import type { Server } from "node:http";
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { CHROMIUM, launch, PATIENCE_MS, ROOT, serve } from "./browser.js";
+import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { serveFolder, type Server } from "../../testing/server.js";
+import { SITE } from "../../tools/places.js";
 
-const SITE = join(ROOT, "build/web/site");
 const IWER = join(dirname(createRequire(import.meta.url).resolve("iwer/package.json")), "build/iwer.min.js");
 
-describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM))("the page in VR", () => {
+describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the page in VR", () => {
   let server: Server;
   let browser: Browser;
   let page: Page;
   const problems: string[] = [];
 
   beforeAll(async () => {
-    const started = await serve(SITE);
-    server = started.server;
+    server = await serveFolder(SITE);
     browser = await launch();
     page = await browser.newPage({ viewport: { width: 500, height: 400 } });
     page.on("pageerror", (error) => problems.push(error.message));
@@ -36,13 +35,13 @@ describe.runIf(existsSync(join(SITE, "mill/index.html")) && existsSync(CHROMIUM)
       };
       for (const side of ["left", "right"]) for (const actuator of device.controllers[side].inputSource.gamepad.hapticActuators) watch(actuator);
     });
-    await page.goto(`${started.url}mill/`);
+    await page.goto(`${server.root}/mill/`);
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
   }, PATIENCE_MS);
 
   afterAll(async () => {
     await browser?.close();
-    server?.close();
+    await server?.close();
   });
 
   it("sets the part on a bench and lets the controller feel it", async () => {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the page makes of material files, and of what screens say about fingers.
-import { build } from "esbuild";
 import { expect, test } from "vitest";
-import { material } from "./site.mjs";
+import { Finger, type FingerReport } from "../src/fingers.js";
+import { parseMaterial, voiceNumbers } from "../src/material.js";
+import { material } from "./site.js";
 
-async function load(name) {
-  const { outputFiles } = await build({
-    entryPoints: [new URL(`../src/${name}.ts`, import.meta.url).pathname], bundle: true, write: false, format: "esm" });
-  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
-}
-const { parseMaterial, voiceNumbers } = await load("material");
-const { Finger } = await load("fingers");
 const base = "https://example.org/goods/sponge.json";
 
 test("a material's image is beside it and its voices become numbers", () => {
@@ -22,7 +16,7 @@ test("a material's image is beside it and its voices become numbers", () => {
   expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0]);
 });
 
-test.each([
+test.each<[unknown, string]>([
   [null, "file"], [[], "file"], [{}, "schema"], [material({ schema: "tribo.material/9" }), "schema"],
   [material({ stiffness_n_per_mm: "soft" }), "stiffness"], [material({ stiffness_n_per_mm: 0 }), "stiffness"],
   [material({ viscosity_n_s_per_mm: -1 }), "viscosity"], [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
@@ -34,7 +28,7 @@ test.each([
   expect(() => parseMaterial(json, base)).toThrow(key);
 });
 
-const report = (changes) => ({ x: 0, y: 0, width: 0, height: 0, pressure: Number.NaN, time: 0, ...changes });
+const report = (changes: Partial<FingerReport>) => ({ x: 0, y: 0, width: 0, height: 0, pressure: Number.NaN, time: 0, ...changes });
 
 test("force grows with time where nothing measures it, and follows pressure where something does", () => {
   const mouse = new Finger(report({}));
@@ -54,7 +48,7 @@ test("speed is way over time, and nothing once the finger stands", () => {
 
 test("what is expected next takes the lag out of speed and place", () => {
   // 400 mm/s^2: at t the finger is at 200 t^2 and moves at 400 t.
-  const at = (t) => ({ x: 200 * t * t, y: 0, width: 0, height: 0, pressure: Number.NaN, time: t });
+  const at = (t: number) => ({ x: 200 * t * t, y: 0, width: 0, height: 0, pressure: Number.NaN, time: t });
   const plain = new Finger(at(0)), led = new Finger(at(0));
   for (let t = 0.01; t < 0.3005; t += 0.01) {
     plain.move(at(t));

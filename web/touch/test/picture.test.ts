@@ -1,26 +1,37 @@
 // SPDX-License-Identifier: MIT
 // The shader against src/elastic/picture.cpp: both draw the picture of tests/elastic/pressed.ppm (finish_test.cpp).
-import { readFile } from "node:fs/promises";
-import { build } from "esbuild";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { hasBrowser, launch } from "./browser.mjs";
-import { png, serve } from "./site.mjs";
+import { hasBrowser, launch } from "../../testing/browser.js";
+import { bundle } from "../../tools/bundle.js";
+import { ROOT } from "../../tools/places.js";
+import type * as Parts from "./parts.js";
+import { png, serve, type Rgb, type Site } from "./site.js";
+
+declare global {
+  interface Window {
+    parts: typeof Parts;
+  }
+}
 
 const kSide = 64;
-const striped = (x, y) => {
+const striped = (x: number, y: number): Rgb => {
   const stripe = 6 * Math.abs((x + y) % 20 - 10);
   return [90 + stripe + x, 60 + stripe + y, 40 + stripe];
 };
-let site, browser, page;
+let site: Site, browser: Browser, page: Page, folder: string;
 
 beforeAll(async () => {
   if (!hasBrowser) return;
   site = await serve();
-  const { outputFiles } = await build({
-    stdin: { contents: 'export * from "./engine.ts"; export * from "./renderer.ts"; export * from "./relief.ts";', resolveDir: new URL("../src", import.meta.url).pathname, loader: "ts" },
-    bundle: true, write: false, format: "esm" });
+  folder = await mkdtemp(join(tmpdir(), "tribo-parts-"));
+  const file = join(folder, "parts.js");
+  await bundle({ entry: join(import.meta.dirname, "parts.ts"), file });
   // Beside touch.wasm, where the engine looks for it.
-  site.pages.set("/dist/parts.js", outputFiles[0].text);
+  site.pages.set("/dist/parts.js", await readFile(file));
   site.pages.set("/striped.png", png(kSide, kSide, striped));
   site.page("/", '<canvas width="64" height="64"></canvas><script type="module">import * as parts from "/dist/parts.js"; window.parts = parts;</script>');
   browser = await launch();
@@ -31,15 +42,17 @@ beforeAll(async () => {
 afterAll(async () => {
   await browser?.close();
   await site?.close();
+  if (folder) await rm(folder, { recursive: true });
 });
 
+type Finish = Parts.Picture["finish"];
 /** RGBA of the picture; of one at rest where nothing presses. */
-const drawn = (finish, force) => page.evaluate(async ([side, finish, force]) => {
+const drawn = (finish: Finish, force: number) => page.evaluate(async ([side, finish, force]) => {
   const { engine, renderer, pixelsOf } = window.parts;
   const made = await engine(), image = new Image();
   image.src = "/striped.png";
   await image.decode();
-  const sheet = made.sheet(side, side, 0.5), picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish };
+  const sheet = made.sheet(side, side, 0.5), picture: Parts.Picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish };
   if (finish !== undefined) {
     picture.relief = pixelsOf(image, side, side);
     made.smallRelief(picture.relief, 0.2);
@@ -47,27 +60,27 @@ const drawn = (finish, force) => page.evaluate(async ([side, finish, force]) => 
   sheet.setMaterial(2, 0);
   sheet.press([{ x: 14, y: 17, halfWidth: 4, halfHeight: 4, force, held: 0 }], false);
   sheet.step(1, false);
-  const context = document.querySelector("canvas").getContext("2d");
+  const context = document.querySelector("canvas")!.getContext("2d")!;
   renderer().add(picture);
   renderer().upload(picture, sheet.everything());
   renderer().draw(picture, context, true);
   renderer().free(picture);
   sheet.free();
   return [...context.getImageData(0, 0, side, side).data];
-}, [kSide, finish, force]);
-const kFinish = { gloss: 0.1, roughness: 0.3 };
+}, [kSide, finish, force] as const);
+const kFinish: Finish = { gloss: 0.1, roughness: 0.3 };
 
 test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", async () => {
-  const file = await readFile(new URL("../../../tests/elastic/pressed.ppm", import.meta.url));
+  const file = await readFile(join(ROOT, "tests/elastic/pressed.ppm"));
   const expected = file.subarray(file.length - 3 * kSide * kSide), pixels = await drawn(kFinish, 1);
   let most = 0, sum = 0, moved = 0;
   for (let i = 0; i < kSide * kSide; ++i) {
     const flat = striped(i % kSide, Math.floor(i / kSide));
-    for (let c = 0; c < 3; ++c) {
-      const away = Math.abs(pixels[4 * i + c] - expected[3 * i + c]);
+    for (const c of [0, 1, 2] as const) {
+      const away = Math.abs(pixels[4 * i + c]! - expected[3 * i + c]!);
       most = Math.max(most, away);
       sum += away;
-      moved += Math.abs(flat[c] - expected[3 * i + c]);
+      moved += Math.abs(flat[c] - expected[3 * i + c]!);
     }
   }
   // The picture is far from flat; graphics hardware interpolates with eight bits, and rounds where it likes.
@@ -76,7 +89,7 @@ test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", 
   expect(most).toBeLessThanOrEqual(8);
 });
 
-test.skipIf(!hasBrowser).each([["lit", kFinish], ["published", undefined]])("at rest a %s picture is the image byte by byte", async (_, finish) => {
+test.skipIf(!hasBrowser).each<[string, Finish]>([["lit", kFinish], ["published", undefined]])("at rest a %s picture is the image byte by byte", async (_, finish) => {
   const pixels = await drawn(finish, 0);
   for (let i = 0; i < kSide * kSide; ++i) {
     expect(pixels.slice(4 * i, 4 * i + 3)).toEqual(striped(i % kSide, Math.floor(i / kSide)));

@@ -2,14 +2,17 @@
 // The example of docs/touch.md, word for word; the site's page; the package as npm would publish it.
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
-import { hasBrowser, launch } from "./browser.mjs";
-import { material, png, serve, servePage } from "./site.mjs";
+import { hasBrowser, launch } from "../../testing/browser.js";
+import { COMPONENT, ROOT } from "../../tools/places.js";
+import type { TriboTouch } from "../src/element.js";
+import { violations } from "../../testing/axe.js";
+import { material, png, serve, servePage, type Site } from "./site.js";
 
-let site, browser;
+let site: Site, browser: Browser;
 beforeAll(async () => {
   site = await serve();
   if (hasBrowser) browser = await launch();
@@ -20,11 +23,11 @@ afterAll(async () => {
 });
 
 test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable carpet", async () => {
-  const text = await readFile(new URL("../../../docs/touch.md", import.meta.url), "utf8");
-  const example = /```html\n([^]*?)```/.exec(text)[1];
+  const text = await readFile(join(ROOT, "docs/touch.md"), "utf8");
+  const [, example = ""] = /```html\n([^]*?)```/.exec(text) ?? [];
   expect(example.trim().split("\n").length).toBe(5);
   for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
-    site.pages.set(`/${file}`, await readFile(new URL(`../dist/${file}`, import.meta.url)));
+    site.pages.set(`/${file}`, await readFile(join(COMPONENT, file)));
   }
   site.pages.set("/example.html", example);
   site.pages.set("/carpet.jpg", png(64, 48, () => [90, 90, 90]));
@@ -32,8 +35,8 @@ test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable c
   site.requests.length = 0;
   const page = await browser.newPage();
   await page.goto(`${site.root}/example.html`);
-  await page.waitForFunction(() => document.querySelector("tribo-touch").state === "ready");
-  expect(await page.evaluate(() => document.querySelector("tribo-touch").material.name)).toBe("carpet");
+  await page.waitForFunction(() => document.querySelector<TriboTouch>("tribo-touch")?.state === "ready");
+  expect(await page.evaluate(() => document.querySelector<TriboTouch>("tribo-touch")?.material?.name)).toBe("carpet");
   // The poster is the material's image: fetched before the material is there, and only once.
   expect(site.requests.filter((path) => path === "/carpet.jpg")).toHaveLength(1);
   await page.close();
@@ -43,7 +46,7 @@ test("the packed package installs from its tarball and imports on a server", asy
   const folder = await mkdtemp(join(tmpdir(), "tribo-pack-"));
   try {
     const here = new URL("..", import.meta.url).pathname;
-    const name = execFileSync("npm", ["pack", "--silent", "--pack-destination", folder], { cwd: here, encoding: "utf8" }).trim().split("\n").pop();
+    const name = execFileSync("npm", ["pack", "--silent", "--pack-destination", folder], { cwd: here, encoding: "utf8" }).trim().split("\n").at(-1)!;
     execFileSync("npm", ["init", "--yes", "--silent"], { cwd: folder });
     execFileSync("npm", ["install", "--silent", "--no-audit", "--no-fund", "--offline", join(folder, name)], { cwd: folder });
     const installed = JSON.parse(await readFile(join(folder, "node_modules/@tribo/touch/package.json"), "utf8"));
@@ -60,25 +63,23 @@ test("the packed package installs from its tarball and imports on a server", asy
 });
 
 test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passes axe-core", async () => {
-  await servePage(site);
+  servePage(site);
   const page = await browser.newPage({ viewport: { width: 900, height: 900 } });
-  const errors = [];
+  const errors: string[] = [];
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`${site.root}/site/index.html`);
-  const ready = () => page.waitForFunction(() => [...document.querySelectorAll("tribo-touch")].every((e) => e.state === "ready"));
+  const ready = () => page.waitForFunction(() => [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"));
   await ready();
-  await page.waitForFunction(() => document.getElementById("stiffness-value").textContent === "1.40 N/mm");
+  await page.waitForFunction(() => document.getElementById("stiffness-value")?.textContent === "1.40 N/mm");
   await page.getByText("Paper", { exact: true }).click();
-  await page.waitForFunction(() => document.getElementById("stiffness-value").textContent === "7.00 N/mm");
+  await page.waitForFunction(() => document.getElementById("stiffness-value")?.textContent === "7.00 N/mm");
   await ready();
   await page.locator("#stiffness").fill("0");
-  expect(await page.evaluate(() => [ours.stiffness, published.stiffness])).toEqual([1, 1]);
+  expect(await page.evaluate(() => ["#ours", "#published"].map((id) => document.querySelector<TriboTouch>(id)?.stiffness))).toEqual([1, 1]);
   expect(await page.locator("#meaning").textContent()).toContain("2 mm deep; 63 % of the way takes 300 ms");
   await page.locator("#own summary").click();
-  await page.waitForFunction(() => document.querySelector("#make").noValidate);
-  await page.evaluate(await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
-  const { violations } = await page.evaluate(() => axe.run());
-  expect(violations.map((v) => `${v.id} ${v.nodes[0].html}`)).toEqual([]);
+  await page.waitForFunction(() => document.querySelector<HTMLFormElement>("#make")?.noValidate);
+  expect(await violations(page)).toEqual([]);
   if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/page.png`, fullPage: true });
   expect(errors).toEqual([]);
   await page.close();

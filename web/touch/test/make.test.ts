@@ -6,15 +6,19 @@ import { existsSync } from "node:fs";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, test } from "vitest";
-import { hasBrowser, launch } from "./browser.mjs";
-import { png, serve, servePage } from "./site.mjs";
+import { hasBrowser, launch } from "../../testing/browser.js";
+import { PROGRAM } from "../../tools/places.js";
+import type { LearnedVoice } from "../site/learner.js";
+import type { TriboTouch } from "../src/element.js";
+import { png, serve, servePage, type Site } from "./site.js";
 
-const root = new URL("../../../", import.meta.url).pathname;
-const program = [process.env.TRIBO_PROGRAM, `${root}build/release/tribo`, `${root}build/g/tribo`].find((path) => path && existsSync(path));
+
+type Filter = [number, number];
 
 /** Noise through x[n] = e[n] - a1 x[n-1] - a2 x[n-2]: what its model is, is known. */
-function rub(seconds, seed, [a1, a2], level, rate = 44100) {
+function rub(seconds: number, seed: number, [a1, a2]: Filter, level: number, rate = 44100): Int16Array {
   let state = seed, x1 = 0, x2 = 0;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5;
   return Int16Array.from({ length: seconds * rate }, () => {
@@ -24,7 +28,7 @@ function rub(seconds, seed, [a1, a2], level, rate = 44100) {
   });
 }
 
-function wav(samples, rate = 44100) {
+function wav(samples: Int16Array, rate = 44100): Buffer {
   const head = Buffer.alloc(44);
   head.write("RIFF", 0, "latin1");
   head.writeUInt32LE(36 + 2 * samples.length, 4);
@@ -42,18 +46,18 @@ function wav(samples, rate = 44100) {
 }
 
 // k2 = a2, k1 = a1 / (1 + a2).
-const filters = { 60: [-1.2, 0.5], 240: [-0.6, 0.3] };
+const filters: Record<number, Filter> = { 60: [-1.2, 0.5], 240: [-0.6, 0.3] };
 const files = Object.entries(filters).map(([speed, filter], i) => ({
   name: `felt-${speed}.wav`, mimeType: "audio/wav", buffer: wav(rub(2, 7 + i, filter, 0.02 * (i + 1))),
 }));
 const picture = { name: "felt.png", mimeType: "image/png", buffer: png(200, 150, (x, y) => [120 + ((x * 7) % 40), 90 + ((y * 5) % 40), 80]) };
 
-let site, browser, folder;
+let site: Site, browser: Browser, folder: string;
 beforeAll(async () => {
   folder = await mkdtemp(join(tmpdir(), "tribo-make-"));
   await writeFile(join(folder, "microphone.wav"), wav(rub(8, 3, [-0.9, 0.2], 0.05, 48000), 48000));
   site = await serve();
-  await servePage(site);
+  servePage(site);
   if (hasBrowser) {
     browser = await launch("--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream",
       `--use-file-for-fake-audio-capture=${join(folder, "microphone.wav")}`);
@@ -68,18 +72,27 @@ afterAll(async () => {
 async function opened() {
   site.requests.length = 0;
   const page = await browser.newPage({ viewport: { width: 900, height: 1100 }, acceptDownloads: true });
-  const errors = [];
+  const errors: string[] = [];
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`${site.root}/site/index.html`);
   expect(site.requests).not.toContain("/site/learn.wasm");
   await page.locator("#own summary").click();
-  await page.waitForFunction(() => document.querySelector("#make").noValidate);
+  await page.waitForFunction(() => document.querySelector<HTMLFormElement>("#make")?.noValidate);
   return { page, errors, said: () => page.locator("#make-said").textContent() };
 }
 
-async function downloaded(page) {
+interface MaterialFile {
+  schema: string;
+  image: string;
+  width_mm: number;
+  stiffness_n_per_mm: number;
+  viscosity_n_s_per_mm: number;
+  voices: LearnedVoice[];
+}
+
+async function downloaded(page: Page): Promise<{ name: string; json: MaterialFile }> {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#make-download").click()]);
-  return { name: download.suggestedFilename(), json: JSON.parse(await readFile(await download.path(), "utf8")) };
+  return { name: download.suggestedFilename(), json: JSON.parse(await readFile(await download.path(), "utf8")) as MaterialFile };
 }
 
 describe.skipIf(!hasBrowser)("make your own", () => {
@@ -88,36 +101,40 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await page.locator("#make-image").setInputFiles(picture);
     await page.locator("#make-sounds").setInputFiles(files);
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 2);
-    expect(await page.locator("#make-list input").evaluateAll((all) => all.map((i) => i.value))).toEqual(["60", "240"]);
+    expect(await page.locator("#make-list input").evaluateAll((all) => all.map((i) => (i as HTMLInputElement).value))).toEqual(["60", "240"]);
     if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/make.png`, fullPage: true });
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-download").hidden === false || document.getElementById("make-said").className === "wrong");
+    await page.waitForFunction(() => document.getElementById("make-download")?.hidden === false || document.getElementById("make-said")?.className === "wrong");
     expect(await said()).toContain("learned 2 voices");
-    await page.waitForFunction(() => ours.state === "ready" && ours.material.name === "felt" && ours.material.voices.length === 2);
+    await page.waitForFunction(() => {
+      const ours = document.querySelector<TriboTouch>("#ours");
+      return ours?.state === "ready" && ours.material?.name === "felt" && ours.material.voices.length === 2;
+    });
     await page.locator("#stiffness").fill(String(Math.log10(2.5)));
     const { name, json } = await downloaded(page);
     expect(name).toBe("felt.json");
     expect([json.schema, json.image, json.width_mm, json.stiffness_n_per_mm, json.viscosity_n_s_per_mm]).toEqual(["tribo.material/1", "felt.png", 80, 2.5, 0.3]);
     // What the noise was made with.
     Object.values(filters).forEach(([a1, a2], i) => {
-      const [k1, k2] = json.voices[i].reflection;
+      const [k1 = 0, k2 = 0] = json.voices[i]!.reflection;
       expect(Math.abs(k1 - a1 / (1 + a2))).toBeLessThan(0.02);
       expect(Math.abs(k2 - a2)).toBeLessThan(0.03);
     });
-    expect(json.voices.map((v) => v.recordings[0].file)).toEqual(["felt-60.wav", "felt-240.wav"]);
+    expect(json.voices.map((v) => v.recordings[0]!.file)).toEqual(["felt-60.wav", "felt-240.wav"]);
     expect(errors).toEqual([]);
     await page.close();
     await writeFile(join(folder, "page.json"), JSON.stringify(json));
   });
 
-  test.skipIf(program === undefined)("the program learns the same numbers from the same files, and reads the page's file", async () => {
+  test.skipIf(!existsSync(PROGRAM))("the program learns the same numbers from the same files, and reads the page's file", async () => {
     for (const { name, buffer } of [...files, picture]) await writeFile(join(folder, name), buffer);
-    execFileSync(program, ["learn", "--recording", "60:felt-60.wav", "--recording", "240:felt-240.wav", "--image", "felt.png", "--width-mm", "80", "--out", "felt.json"],
+    execFileSync(PROGRAM, ["learn", "--recording", "60:felt-60.wav", "--recording", "240:felt-240.wav", "--image", "felt.png", "--width-mm", "80", "--out", "felt.json"],
       { cwd: folder, stdio: "ignore" });
-    const native = JSON.parse(await readFile(join(folder, "felt.json"), "utf8")), ours = JSON.parse(await readFile(join(folder, "page.json"), "utf8"));
+    const native = JSON.parse(await readFile(join(folder, "felt.json"), "utf8")) as { voices: { line_spectrum_hz?: number[] }[] };
+    const ours: unknown = JSON.parse(await readFile(join(folder, "page.json"), "utf8"));
     for (const voice of native.voices) delete voice.line_spectrum_hz;
     expect(ours).toEqual({ ...native, stiffness_n_per_mm: 2.5 });
-    const seen = JSON.parse(execFileSync(program, ["inspect", join(folder, "page.json"), "--json"], { encoding: "utf8" }));
+    const seen = JSON.parse(execFileSync(PROGRAM, ["inspect", join(folder, "page.json"), "--json"], { encoding: "utf8" })) as { kind: string };
     expect(seen.kind).toBe("material");
   });
 
@@ -127,9 +144,9 @@ describe.skipIf(!hasBrowser)("make your own", () => {
       const data = new DataTransfer();
       data.items.add(new File([new Uint8Array(bytes)], name, { type: mimeType }));
       return data;
-    }, { ...picture, buffer: undefined, bytes: [...picture.buffer] });
+    }, { name: picture.name, mimeType: picture.mimeType, bytes: [...picture.buffer] });
     await page.dispatchEvent("#own", "drop", { dataTransfer });
-    await page.waitForFunction(() => document.getElementById("make-said").textContent === "felt.png, 0 recordings");
+    await page.waitForFunction(() => document.getElementById("make-said")?.textContent === "felt.png, 0 recordings");
     await page.locator("#make-speed").fill("150");
     await page.locator("#make-record").click();
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1, null, { timeout: 30_000 });
@@ -138,48 +155,48 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await page.locator("#make-download").waitFor();
     expect(await said()).toContain("learned 1 voice");
     const { json } = await downloaded(page);
-    expect(json.voices[0].speed_mm_per_s).toBe(150);
-    expect(Math.abs(json.voices[0].reflection[0] + 0.75)).toBeLessThan(0.05);
+    expect(json.voices[0]!.speed_mm_per_s).toBe(150);
+    expect(Math.abs(json.voices[0]!.reflection[0]! + 0.75)).toBeLessThan(0.05);
     expect(errors).toEqual([]);
     await page.close();
   });
 
   test("says in words what is wrong with a file", async () => {
     const { page, errors, said } = await opened();
-    const sound = (name, buffer) => ({ name, mimeType: "audio/wav", buffer });
-    const half = Buffer.from(files[0].buffer);
+    const sound = (name: string, buffer: Buffer) => ({ name, mimeType: "audio/wav", buffer });
+    const half = Buffer.from(files[0]!.buffer);
     half.writeUInt16LE(2, 20);
     for (const [file, words] of [
       [sound("empty.wav", Buffer.alloc(0)), "empty.wav: is empty"],
       [sound("text.wav", Buffer.from("this is no sound")), "text.wav: is no sound that this browser can read"],
-      [sound("header.wav", files[0].buffer.subarray(0, 40)), "header.wav: is a WAV file without sound in it"],
+      [sound("header.wav", files[0]!.buffer.subarray(0, 40)), "header.wav: is a WAV file without sound in it"],
       [sound("adpcm.wav", half), "adpcm.wav: is a WAV of a kind that is not read"],
-    ]) {
+    ] as const) {
       await page.locator("#make-sounds").setInputFiles(file);
-      await page.waitForFunction((w) => document.getElementById("make-said").textContent.includes(w), words);
+      await page.waitForFunction((w) => document.getElementById("make-said")?.textContent?.includes(w), words);
     }
     for (const [file, words] of [
       [{ name: "broken.png", mimeType: "image/png", buffer: picture.buffer.subarray(0, 30) }, "broken.png: is no picture"],
       [{ name: "film.gif", mimeType: "image/gif", buffer: picture.buffer }, "film.gif: is neither PNG nor JPEG"],
-    ]) {
+    ] as const) {
       await page.locator("#make-image").setInputFiles(file);
-      await page.waitForFunction((w) => document.getElementById("make-said").textContent.includes(w), words);
+      await page.waitForFunction((w) => document.getElementById("make-said")?.textContent?.includes(w), words);
     }
     await page.locator("#make [type=submit]").click();
     expect(await said()).toContain("choose a picture first");
     await page.locator("#make-image").setInputFiles(picture);
-    await page.waitForFunction(() => document.getElementById("make-said").textContent === "felt.png, 0 recordings");
+    await page.waitForFunction(() => document.getElementById("make-said")?.textContent === "felt.png, 0 recordings");
     await page.locator("#make [type=submit]").click();
     expect(await said()).toContain("at least one recording");
     await page.locator("#make-sounds").setInputFiles(sound("silence.wav", wav(new Int16Array(44100))));
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1);
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-said").textContent.includes("silence.wav: error: is silent"));
+    await page.waitForFunction(() => document.getElementById("make-said")?.textContent?.includes("silence.wav: error: is silent"));
     await page.locator("#make-list button").click();
     await page.locator("#make-sounds").setInputFiles(sound("short.wav", wav(rub(0.1, 1, [-0.5, 0], 0.1))));
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1);
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-said").textContent.includes("ms of sound; give at least 0.2 s"));
+    await page.waitForFunction(() => document.getElementById("make-said")?.textContent?.includes("ms of sound; give at least 0.2 s"));
     expect(errors).toEqual([]);
     await page.close();
   });

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What the browser tests serve: the built component, made-up materials, pages. No network but localhost.
-import { readFile } from "node:fs/promises";
-import { createServer } from "node:http";
-import { extname } from "node:path";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import { deflateSync } from "node:zlib";
+import { serve as serveBodies, type Body } from "../../testing/server.js";
+import { COMPONENT, SITE } from "../../tools/places.js";
 
-const kTypes = { ".js": "text/javascript", ".wasm": "application/wasm", ".json": "application/json", ".png": "image/png",
-  ".html": "text/html", ".jpg": "image/jpeg", ".css": "text/css" };
-const dist = new URL("../dist/", import.meta.url).pathname;
+export type Rgb = [number, number, number];
 
-function chunk(type, data) {
+function chunk(type: string, data: Buffer): Buffer {
   const bytes = Buffer.alloc(12 + data.length);
   bytes.writeUInt32BE(data.length, 0);
   bytes.write(type, 4, "latin1");
@@ -23,8 +22,7 @@ function chunk(type, data) {
   return bytes;
 }
 
-/** A PNG of colour(x, y) = [r, g, b]. */
-export function png(width, height, colour) {
+export function png(width: number, height: number, colour: (x: number, y: number) => Rgb): Buffer {
   const rows = Buffer.alloc(height * (1 + 3 * width));
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) rows.set(colour(x, y), y * (1 + 3 * width) + 1 + 3 * x);
@@ -36,9 +34,10 @@ export function png(width, height, colour) {
   return Buffer.concat([Buffer.from("89504e470d0a1a0a", "hex"), chunk("IHDR", header), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
 }
 
-const checker = (size) => (x, y) => ((x / size) ^ (y / size)) & 1 ? [190, 140, 70] : [230, 200, 130];
+const checker = (size: number) => (x: number, y: number): Rgb => (((x / size) ^ (y / size)) & 1 ? [190, 140, 70] : [230, 200, 130]);
 
-export function material(changes = {}) {
+/** A material file, with what a test wants otherwise. */
+export function material(changes: object = {}): object {
   return {
     schema: "tribo.material/1", name: "sponge", stiffness_n_per_mm: 1.4, viscosity_n_s_per_mm: 0.1, width_mm: 80, image: "sponge.png",
     method: "yule-walker", highpass_hz: 50, level_law: { level_db: -20, db_per_decade_speed: 10, db_per_decade_force: 10 },
@@ -47,7 +46,7 @@ export function material(changes = {}) {
   };
 }
 
-const made = {
+const made: Record<string, () => Body> = {
   "/sponge.png": () => png(256, 192, checker(16)),
   "/plain.png": () => png(96, 96, () => [120, 120, 120]),
   "/halves.png": () => png(64, 48, (x) => (x < 32 ? [255, 255, 255] : [0, 0, 0])),
@@ -61,10 +60,9 @@ const made = {
 };
 
 /** The built touch page under /site/, without its materials. */
-export async function servePage(site) {
-  const built = new URL("../../../build/web/site/", import.meta.url);
+export function servePage(site: Site): void {
   for (const file of ["index.html", "touch.css", "page.js", "make.js", "learner.js", "learn.wasm", "tribo-touch.js", "worklet.js", "touch.wasm"]) {
-    site.pages.set(`/site/${file}`, await readFile(new URL(file, built)));
+    site.pages.set(`/site/${file}`, readFileSync(join(SITE, file)));
   }
   site.pages.set("/site/materials.json", JSON.stringify([{ file: "a.json", name: "Sponge", note: "made up" }, { file: "b.json", name: "Paper", note: "" }]));
   site.pages.set("/site/a.json", JSON.stringify(material()));
@@ -72,26 +70,29 @@ export async function servePage(site) {
   site.pages.set("/site/sponge.png", png(320, 240, (x, y) => [200 + (x % 16), 180, 120 + (y % 16)]));
 }
 
-/** Serves until close(); `blocked` is a set of paths that answer 404 as long as they are in it. */
-export async function serve() {
-  const blocked = new Set(), pages = new Map(), requests = [];
-  const server = createServer(async (request, response) => {
-    const path = new URL(request.url, "http://localhost").pathname;
-    requests.push(path);
-    try {
-      if (blocked.has(path)) throw new Error("blocked");
-      const body = pages.get(path) ?? made[path]?.() ?? (path.startsWith("/dist/") ? await readFile(dist + path.slice(6)) : undefined);
-      if (body === undefined) throw new Error("unknown");
-      response.writeHead(200, { "Content-Type": kTypes[extname(path)] ?? "text/html" }).end(body);
-    } catch {
-      response.writeHead(404).end("not here");
-    }
-  });
-  await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
-  return {
-    blocked, pages, requests,
-    root: `http://localhost:${server.address().port}`,
-    page(path, body) { pages.set(path, `<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><body>${body}`); },
-    close: () => new Promise((done) => { server.closeAllConnections(); server.close(done); }),
+export interface Site {
+  root: string;
+  /** Paths that answer 404 as long as they are in it. */
+  blocked: Set<string>;
+  /** What lies where, besides the component under /dist/ and the made-up materials. */
+  pages: Map<string, Body>;
+  requests: string[];
+  page(path: string, body: string): void;
+  close(): Promise<void>;
+}
+
+export async function serve(): Promise<Site> {
+  const blocked = new Set<string>();
+  const pages = new Map<string, Body>();
+  const requests: string[] = [];
+  const packed = (path: string) => {
+    const file = join(COMPONENT, path.slice("/dist/".length));
+    return path.startsWith("/dist/") && existsSync(file) ? readFileSync(file) : undefined;
   };
+  const { root, close } = await serveBodies((path) => {
+    requests.push(path);
+    return blocked.has(path) ? undefined : (pages.get(path) ?? made[path]?.() ?? packed(path));
+  });
+  const page = (path: string, body: string) => pages.set(path, `<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><body>${body}`);
+  return { root, blocked, pages, requests, page, close };
 }

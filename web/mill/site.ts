@@ -2,10 +2,7 @@
 // Puts the mill page without an engine, and its examples, into the static site (build/web/site/mill).
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-
-const ROOT = join(import.meta.dirname, "../..");
-const from = join(ROOT, "build/web/viewer"), examples = join(ROOT, "examples");
-const out = join(process.env.TRIBO_SITE_DIR ?? join(ROOT, "build/web/site"), "mill");
+import { MILL_PAGE, ROOT, SITE } from "../tools/places.js";
 
 // The first is milled when the page opens.
 const EXAMPLES = [
@@ -13,18 +10,19 @@ const EXAMPLES = [
   { name: "Plate", job: "plate.toml", folder: "plate", files: ["plate.toml", "plate.nc"] },
 ];
 
+const out = join(SITE, "mill");
 rmSync(out, { recursive: true, force: true });
 mkdirSync(join(out, "examples"), { recursive: true });
-for (const name of readdirSync(from)) {
+for (const name of readdirSync(MILL_PAGE)) {
   if (/\.(br|gz)$/.test(name)) continue;
-  copyFileSync(join(from, name), join(out, name));
+  copyFileSync(join(MILL_PAGE, name), join(out, name));
 }
 const page = readFileSync(join(out, "index.html"), "utf8");
 const none = page.replace('name="tribo-engine" content="here"', 'name="tribo-engine" content="none"');
 if (none === page) throw new Error("the page does not say who mills");
 writeFileSync(join(out, "index.html"), none);
-for (const example of EXAMPLES) {
-  for (const file of example.files) copyFileSync(join(examples, example.folder, file), join(out, "examples", file));
+for (const { folder, files } of EXAMPLES) {
+  for (const file of files) copyFileSync(join(ROOT, "examples", folder, file), join(out, "examples", file));
 }
 writeFileSync(join(out, "examples/examples.json"), JSON.stringify(EXAMPLES.map(({ name, job, files }) => ({ name, job, files }))));
 console.log(`mill page with ${EXAMPLES.length} examples`);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// npm run measure [JOB]: what a visitor of `tribo live` waits for, in headless Chromium, as JSON: until the first picture (the blank)
+// and until the part's own surface is on the screen. At 1.6 Mbit/s and 150 ms with a processor four times slower, and without all that.
+// Medians of TRIBO_RUNS (5) runs. docs/mill-page.md has the numbers.
+import { join } from "node:path";
+import { launch, slowDown } from "../testing/browser.js";
+import { startLive } from "../testing/live.js";
+import { ROOT } from "../tools/places.js";
+
+/** What was drawn, and when it was on the screen, ms. */
+type Seen = Partial<Record<"first" | "part", number>>;
+declare global {
+  interface Window {
+    seen: Seen;
+  }
+}
+
+const RUNS = Number(process.env.TRIBO_RUNS ?? 5);
+// More corners than the blank's box and the tool have.
+const PART_CORNERS = 1000;
+
+const job = process.argv[2] ?? join(ROOT, "examples/bowl/bowl.toml");
+const { engine, url } = await startLive(job, "--port", "0", "--audio", "off");
+
+/** In the page: notes when what was drawn is on the screen. */
+function watch(partCorners: number): void {
+  window.seen = {};
+  const note = (what: keyof Seen) => {
+    if (what in window.seen) return;
+    window.seen[what] = 0;
+    requestAnimationFrame(() => setTimeout(() => (window.seen[what] = performance.now())));
+  };
+  const plain = WebGL2RenderingContext.prototype.drawElements;
+  WebGL2RenderingContext.prototype.drawElements = function (mode, count, ...rest) {
+    note("first");
+    if (count > partCorners) note("part");
+    return plain.call(this, mode, count, ...rest);
+  };
+}
+
+async function visit(throttled: boolean): Promise<Seen> {
+  const browser = await launch();
+  const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 } })).newPage();
+  await page.addInitScript(watch, PART_CORNERS);
+  if (throttled) await slowDown(page);
+  // A visitor's browser is up already.
+  await page.waitForTimeout(1500);
+  await page.goto(url, { waitUntil: "commit" });
+  await page.waitForFunction(() => (window.seen.part ?? 0) > 0, null, { polling: 50 });
+  const seen = await page.evaluate(() => window.seen);
+  await browser.close();
+  return seen;
+}
+
+const median = (values: number[]) => Math.round(values.sort((a, b) => a - b)[values.length >> 1]!);
+const measured: Record<string, number> = {};
+for (const [name, throttled] of [["throttled", true], ["unthrottled", false]] as const) {
+  const visits: Required<Seen>[] = [];
+  for (let n = 0; n < RUNS; ++n) visits.push((await visit(throttled)) as Required<Seen>);
+  measured[`first_picture_${name}_ms`] = median(visits.map((seen) => seen.first));
+  measured[`part_${name}_ms`] = median(visits.map((seen) => seen.part));
+}
+console.log(JSON.stringify(measured));
+engine.kill();

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Builds dist/: the registering module, the class alone, the worklet, types, and touch.wasm beside them.
+import { execFileSync } from "node:child_process";
+import { copyFile, mkdir, readFile, rm } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { gzipSync } from "node:zlib";
+import { bundle } from "../tools/bundle.js";
+import { COMPONENT, MODULES } from "../tools/places.js";
+
+/** What a page may have to fetch for the component, packed. */
+const MOST_BYTES = 39_000;
+
+const here = import.meta.dirname;
+const banner = "// Tribo, MIT licence";
+const entries = { "tribo-touch": "index", element: "element", worklet: "worklet" };
+
+await rm(COMPONENT, { recursive: true, force: true });
+await mkdir(COMPONENT, { recursive: true });
+for (const [name, entry] of Object.entries(entries)) {
+  await bundle({ entry: join(here, `src/${entry}.ts`), file: join(COMPONENT, `${name}.js`), banner });
+}
+await copyFile(join(MODULES, "touch.wasm"), join(COMPONENT, "touch.wasm"));
+const compiler = join(dirname(createRequire(import.meta.url).resolve("typescript/package.json")), "bin/tsc");
+execFileSync(process.execPath, [compiler, "-p", here], { stdio: "inherit" });
+
+let total = 0;
+for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {
+  const bytes = gzipSync(await readFile(join(COMPONENT, file)), { level: 9 }).length;
+  total += bytes;
+  console.log(`${file.padEnd(16)} ${bytes} bytes gzip`);
+}
+console.log(`${"together".padEnd(16)} ${total} bytes gzip`);
+if (total > MOST_BYTES) throw new Error(`the component has grown: ${MOST_BYTES} bytes are the most that it may take`);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Data into a module's memory and out of it. A memory that grows detaches all views of it: none is kept here,
+// and none may be kept over a call of the module.
+
+import type { Address, AnyExports, CommonExports } from "./exports.js";
+
+export const bytesAt = (x: AnyExports, at: Address, length: number) => new Uint8Array(x.memory.buffer, at, length);
+export const floatsAt = (x: AnyExports, at: Address, length: number) => new Float32Array(x.memory.buffer, at, length);
+export const doublesAt = (x: AnyExports, at: Address, length: number) => new Float64Array(x.memory.buffer, at, length);
+
+/** UTF-8 up to a zero. */
+export function textAt(x: AnyExports, at: Address): string {
+  const bytes = new Uint8Array(x.memory.buffer, at);
+  return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+}
+
+/** Puts data where `use` can point a function of the module at them. */
+export function lend<Result>(x: CommonExports, data: ArrayBufferView, use: (at: Address, length: number) => Result): Result {
+  const { buffer, byteOffset, byteLength } = data;
+  const at = x.tribo_allocate(byteLength);
+  bytesAt(x, at, byteLength).set(new Uint8Array(buffer, byteOffset, byteLength));
+  const result = use(at, byteLength);
+  x.tribo_release(at);
+  return result;
+}
+
+export function lendText<Result>(x: CommonExports, text: string, use: (at: Address, length: number) => Result): Result {
+  return lend(x, new TextEncoder().encode(text), use);
+}
