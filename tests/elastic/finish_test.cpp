@@ -295,7 +295,7 @@ TEST(Finish, of_the_glossiest_and_of_the_roughest_material_keeps_numbers_in_rang
     }
 }
 
-// What the page's shader is held to as well (web/touch/test/picture.test.mjs): the same picture, in
+// What the page's shader is held to as well (web/touch/test/picture.test.ts): the same picture, in
 // pressed.ppm. A change of the look changes it: TRIBO_WRITE_PRESSED=1 writes it anew; look at it.
 TEST(Finish, draws_the_picture_that_the_page_is_held_to) {
     constexpr int kPictureSide = 64;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The plate of the examples as the live view shows it in the end: the bits that tribo.wasm gives for it too
-// (tests/wasm/mill.test.mjs holds the module to the same file).
+// (web/wasm/test/mill.test.ts holds the module to the same file).
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>

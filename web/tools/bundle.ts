@@ -21,7 +21,8 @@ function shorten(text: string): string {
   return text
     .replace(/\/\/.*|\/\*[^]*?\*\//g, "")
     .replace(/\s*\n\s*/g, "\n")
-    .replace(/ *([{};,=*+<>?]) */g, "$1")
+    .replace(/ *([{};,=*+<>?/()-]) */g, "$1")
+    .replace(/([{};,])\n/g, "$1")
     .replace(/: /g, ":");
 }
 

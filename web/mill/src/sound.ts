@@ -2,6 +2,8 @@
 // The ear of the page: frames and the picture's clock go to mill_sound.wasm in an AudioWorklet. Begins with
 // the first gesture, as browsers demand.
 
+import type { MillSoundExports } from "@tribo/wasm/exports";
+import { compile } from "@tribo/wasm/module";
 import type { StateFrame } from "./frames.js";
 import workletUrl from "./sound_worklet.ts?worker&url";
 
@@ -74,7 +76,7 @@ export class Sound {
   private async open(): Promise<void> {
     const context = new AudioContext({ latencyHint: "interactive" });
     const [module] = await Promise.all([
-      WebAssembly.compileStreaming(fetch(new URL("mill_sound.wasm", document.baseURI))),
+      compile<MillSoundExports>("mill_sound.wasm", document.baseURI),
       context.audioWorklet.addModule(workletUrl),
     ]);
     const node = new AudioWorkletNode(context, "tribo-mill", {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The audio thread's side of sound.ts.
 
+import type { MillSoundExports } from "@tribo/wasm/exports";
+import { bytesAt, floatsAt } from "@tribo/wasm/memory";
+import { instantiateNow, type Compiled } from "@tribo/wasm/module";
 import type { ToEar } from "./sound.js";
-
-interface Exports {
-  memory: WebAssembly.Memory;
-  _initialize(): void;
-  tribo_allocate(bytes: number): number;
-  sound_open(rate: number): number;
-  sound_take(frame: number, length: number): void;
-  sound_follow(time: number, speed: number, playing: number, lead: number): void;
-  sound_render(frames: number): number;
-}
 
 // What AudioWorkletGlobalScope has and TypeScript's page library does not know.
 declare const sampleRate: number;
@@ -23,15 +16,13 @@ declare function registerProcessor(name: string, type: unknown): void;
 const LARGEST_FRAME = 1 << 18;
 
 class Ear extends AudioWorkletProcessor {
-  private readonly x: Exports;
+  private readonly x: MillSoundExports;
   private readonly inbox: number;
   private readonly open: boolean;
 
-  constructor(options: { processorOptions: { module: WebAssembly.Module } }) {
+  constructor(options: { processorOptions: { module: Compiled<MillSoundExports> } }) {
     super();
-    const instance = new WebAssembly.Instance(options.processorOptions.module, {});
-    this.x = instance.exports as unknown as Exports;
-    this.x._initialize();
+    this.x = instantiateNow(options.processorOptions.module);
     this.inbox = this.x.tribo_allocate(LARGEST_FRAME);
     this.open = this.x.sound_open(sampleRate) !== 0;
     this.port.onmessage = ({ data }: MessageEvent<ToEar>) => this.take(data);
@@ -41,7 +32,7 @@ class Ear extends AudioWorkletProcessor {
     if (message.kind === "clock") {
       this.x.sound_follow(message.time, message.speed, Number(message.playing), message.lead);
     } else if (message.bytes.byteLength <= LARGEST_FRAME) {
-      new Uint8Array(this.x.memory.buffer, this.inbox, message.bytes.byteLength).set(new Uint8Array(message.bytes));
+      bytesAt(this.x, this.inbox, message.bytes.byteLength).set(new Uint8Array(message.bytes));
       this.x.sound_take(this.inbox, message.bytes.byteLength);
     }
   }
@@ -49,7 +40,7 @@ class Ear extends AudioWorkletProcessor {
   process(_inputs: Float32Array[][], [output]: Float32Array[][]): boolean {
     const [left, right] = output ?? [];
     if (!this.open || !left || !right) return true;
-    const samples = new Float32Array(this.x.memory.buffer, this.x.sound_render(left.length), 2 * left.length);
+    const samples = floatsAt(this.x, this.x.sound_render(left.length), 2 * left.length);
     for (let n = 0; n < left.length; ++n) {
       left[n] = samples[2 * n]!;
       right[n] = samples[2 * n + 1]!;

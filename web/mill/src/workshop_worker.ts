@@ -1,30 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The worker's side of workshop.ts: the module, its clock, and its frames handed over as they come.
 
+import type { MillExports } from "@tribo/wasm/exports";
+import { lend, lendText, textAt } from "@tribo/wasm/memory";
+import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Command, Settings } from "./source.js";
 import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
-
-interface Exports {
-  memory: WebAssembly.Memory;
-  _initialize(): void;
-  tribo_version(): number;
-  tribo_allocate(bytes: number): number;
-  tribo_release(pointer: number): void;
-  mill_put_file(name: number, nameLength: number, bytes: number, length: number): void;
-  mill_forget_files(): void;
-  mill_open(name: number, nameLength: number, part: number, partLength: number, cell: number): number;
-  mill_text(): number;
-  mill_play(on: number): void;
-  mill_speed(value: number): void;
-  mill_seek(time: number): void;
-  mill_finger(x: number, y: number, z: number, down: number): void;
-  mill_feel(scale: number, jnd: number, cutMode: number, force: number, stopped: number): void;
-  mill_change(feed: number, speed: number, helix: number, material: number, length: number): number;
-  mill_helix_deg(): number;
-  mill_materials(): number;
-  mill_tick(seconds: number, looks: number): number;
-  mill_frames(): number;
-}
 
 const TICK_MS = 1000 / 60;
 // Of a tick, how much may go into milling.
@@ -63,31 +44,24 @@ class Mill {
     stopped: false,
   };
 
-  constructor(private readonly x: Exports) {}
+  constructor(private readonly x: MillExports) {}
 
   get version(): string {
-    return this.text(this.x.tribo_version());
+    return textAt(this.x, this.x.tribo_version());
   }
 
   async open(order: Order): Promise<void> {
     const { x } = this;
     x.mill_forget_files();
     for (const file of order.files) {
-      const bytes = this.put(await unpacked(file));
-      const name = this.put(new TextEncoder().encode(file.name));
-      x.mill_put_file(name.at, name.length, bytes.at, bytes.length);
-      x.tribo_release(bytes.at);
-      x.tribo_release(name.at);
+      const bytes = await unpacked(file);
+      lendText(x, file.name, (...name) => lend(x, bytes, (...content) => x.mill_put_file(...name, ...content)));
     }
-    const job = this.put(new TextEncoder().encode(order.job));
-    const part = this.put(new TextEncoder().encode(order.part));
-    const opened = x.mill_open(job.at, job.length, part.at, part.length, order.cell);
-    x.tribo_release(job.at);
-    x.tribo_release(part.at);
-    const said = this.text(x.mill_text());
+    const opened = lendText(x, order.job, (...job) => lendText(x, order.part, (...part) => x.mill_open(...job, ...part, order.cell)));
+    const said = textAt(x, x.mill_text());
     if (!opened) return post({ kind: "refused", why: said });
     const warnings = said.split("\n").filter(Boolean);
-    const [material = "", ...materials] = this.text(x.mill_materials()).split("\n");
+    const [material = "", ...materials] = textAt(x, x.mill_materials()).split("\n");
     post({ kind: "opened", job: order.job, version: this.version, warnings, materials });
     this.settings.material = material;
     this.settings.helix_deg = x.mill_helix_deg();
@@ -115,10 +89,8 @@ class Mill {
     const { x } = this;
     const cut = (a: Settings) => [a.feed_percent, a.spindle_percent, a.helix_deg, a.material].join();
     if (cut(s) !== cut(this.settings)) {
-      const name = this.put(new TextEncoder().encode(s.material));
-      const done = x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, name.at, name.length);
-      x.tribo_release(name.at);
-      if (!done) return post({ kind: "no", why: this.text(x.mill_text()) });
+      const done = lendText(x, s.material, (...name) => x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, ...name));
+      if (!done) return post({ kind: "no", why: textAt(x, x.mill_text()) });
     }
     x.mill_feel(s.force_scale, s.jnd, Number(s.mode === "cut"), Number(s.force), Number(s.stopped));
     this.settings = s;
@@ -134,7 +106,7 @@ class Mill {
     const took = (this.took = performance.now() - now);
     if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
     else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
-    if (length < 0) return post({ kind: "failed", why: this.text(this.x.mill_text()) });
+    if (length < 0) return post({ kind: "failed", why: textAt(this.x, this.x.mill_text()) });
     if (length > 0) this.hand(length);
   }
 
@@ -149,30 +121,14 @@ class Mill {
     }
     post({ kind: "frames", frames }, frames);
   }
-
-  private put(bytes: Uint8Array): { at: number; length: number } {
-    const at = this.x.tribo_allocate(bytes.length);
-    new Uint8Array(this.x.memory.buffer, at, bytes.length).set(bytes);
-    return { at, length: bytes.length };
-  }
-
-  private text(at: number): string {
-    const memory = new Uint8Array(this.x.memory.buffer);
-    let end = at;
-    while (memory[end] !== 0) ++end;
-    return new TextDecoder().decode(memory.slice(at, end));
-  }
 }
 
-let compiled: Promise<WebAssembly.Module> | undefined;
+let compiled: Promise<Compiled<MillExports>> | undefined;
 let mill: Mill | undefined;
 
 async function fresh(): Promise<Mill> {
-  compiled ??= WebAssembly.compileStreaming(fetch(new URL("tribo.wasm", self.location.href)));
-  const instance = await WebAssembly.instantiate(await compiled, {});
-  const x = instance.exports as unknown as Exports;
-  x._initialize();
-  return new Mill(x);
+  compiled ??= compile<MillExports>("tribo.wasm", self.location.href);
+  return new Mill(await instantiate(await compiled));
 }
 
 // A module that trapped (memory, as a rule) is of no more use.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A worker that learns: learn.wasm is loaded for the first recordings that come, and the page stays free
 // meanwhile.
+import type { LearnExports } from "@tribo/wasm/exports";
+import { doublesAt, lendText, textAt } from "@tribo/wasm/memory";
+import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Texture, VoiceModel } from "../src/material.js";
 import type { Sound } from "./sound.js";
 
@@ -37,21 +40,6 @@ export type Answer = { learned: Learned } | { wrong: string };
 
 export const kHighpassHz = 50;
 
-interface Exports {
-  memory: WebAssembly.Memory;
-  _initialize(): void;
-  tribo_allocate(bytes: number): number;
-  tribo_release(at: number): void;
-  learn_create(): number;
-  learn_destroy(learning: number): void;
-  learn_add(learning: number, name: number, nameBytes: number, samples: number, rate: number, speed: number, force: number): number;
-  learn_run(learning: number, highpassHz: number): number;
-  learn_text(learning: number): number;
-  learn_numbers(learning: number): number;
-  learn_number_count(learning: number): number;
-  learn_found(learning: number): number;
-}
-
 function texture(take: () => number, list: (n: number) => number[], bands: number): Texture {
   const crossovers_hz = list(bands - 1);
   const levels_db = Array.from({ length: bands }, () => list(17)), coherence = take(), lengths = take();
@@ -84,21 +72,18 @@ function voicesOf(numbers: Float64Array): Omit<Learned, "warnings"> {
 
 const rounded = (value: number, step: number) => Math.round(value / step) / Math.round(1 / step);
 
-export function learn(x: Exports, lessons: Lesson[]): Answer {
+export function learn(x: LearnExports, lessons: Lesson[]): Answer {
   const learning = x.learn_create();
   for (const { name, speed, force, sound } of lessons) {
-    const bytes = new TextEncoder().encode(name), text = x.tribo_allocate(bytes.length);
-    new Uint8Array(x.memory.buffer, text, bytes.length).set(bytes);
-    const samples = x.learn_add(learning, text, bytes.length, sound.samples.length, sound.rate, speed, force);
-    new Float64Array(x.memory.buffer, samples, sound.samples.length).set(sound.samples);
-    x.tribo_release(text);
+    const { length } = sound.samples;
+    const samples = lendText(x, name, (at, bytes) => x.learn_add(learning, at, bytes, length, sound.rate, speed, force));
+    doublesAt(x, samples, length).set(sound.samples);
   }
   const good = x.learn_run(learning, kHighpassHz) !== 0;
-  const text = new Uint8Array(x.memory.buffer, x.learn_text(learning));
-  const words = new TextDecoder().decode(text.slice(0, text.indexOf(0)));
+  const words = textAt(x, x.learn_text(learning));
   if (!good) return { wrong: words };
-  const learned = { ...voicesOf(new Float64Array(x.memory.buffer, x.learn_numbers(learning), x.learn_number_count(learning))), warnings: words };
-  const found = new Float64Array(x.memory.buffer, x.learn_found(learning), 5 * lessons.length);
+  const learned = { ...voicesOf(doublesAt(x, x.learn_numbers(learning), x.learn_number_count(learning))), warnings: words };
+  const found = doublesAt(x, x.learn_found(learning), 5 * lessons.length);
   lessons.forEach(({ name, sound }, i) => {
     const [model, seconds, peak, silent, clipped] = found.subarray(5 * i) as unknown as number[];
     learned.voices[model!]!.recordings.push({
@@ -111,17 +96,12 @@ export function learn(x: Exports, lessons: Lesson[]): Answer {
   return { learned };
 }
 
-let module: Promise<WebAssembly.Module> | undefined;
+let module: Promise<Compiled<LearnExports>> | undefined;
 
 async function answer(lessons: Lesson[]): Promise<Answer> {
-  module ??= fetch(new URL("./learn.wasm", import.meta.url)).then(async (response) => {
-    if (!response.ok) throw new Error(`learn.wasm: HTTP ${response.status}`);
-    return WebAssembly.compile(await response.arrayBuffer());
-  });
+  module ??= compile<LearnExports>("learn.wasm", import.meta.url);
   // A new instance each time: the memory of long recordings goes with it.
-  const { exports } = await WebAssembly.instantiate(await module, {});
-  (exports as unknown as Exports)._initialize();
-  return learn(exports as unknown as Exports, lessons);
+  return learn(await instantiate(await module), lessons);
 }
 
 self.onmessage = (event: MessageEvent<Lesson[]>) => {

@@ -1,24 +1,8 @@
 // SPDX-License-Identifier: MIT
 // touch.wasm on the page: one instance for all elements, loaded once, when the first element needs it.
-
-interface Exports {
-  memory: WebAssembly.Memory;
-  _initialize(): void;
-  tribo_allocate(bytes: number): number;
-  tribo_release(pointer: number): void;
-  sheet_create(width: number, height: number, spacingMm: number): number;
-  sheet_destroy(sheet: number): void;
-  sheet_set_material(sheet: number, stiffness: number, viscosity: number): void;
-  sheet_set_materials(sheet: number, levels: number, palette: number): void;
-  sheet_contacts(sheet: number): number;
-  sheet_press(sheet: number, count: number, point: number, published: number): void;
-  sheet_step(sheet: number, seconds: number, published: number): number;
-  sheet_reset(sheet: number): void;
-  sheet_changes(sheet: number): number;
-  sheet_heights(sheet: number): number;
-  sheet_stride(sheet: number): number;
-  sheet_small_relief(rgba: number, width: number, height: number, rmsSlope: number): void;
-}
+import type { TouchExports } from "@tribo/wasm/exports";
+import { bytesAt, doublesAt, floatsAt, lend } from "@tribo/wasm/memory";
+import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 
 /** What touches the sheet; mm from the image's top left corner, newton, seconds. */
 export interface Contact {
@@ -48,10 +32,10 @@ export class Sheet {
   readonly width: number;
   readonly height: number;
   readonly spacingMm: number;
-  #x: Exports;
+  #x: TouchExports;
   #handle: number;
 
-  constructor(exports: Exports, width: number, height: number, spacingMm: number) {
+  constructor(exports: TouchExports, width: number, height: number, spacingMm: number) {
     this.width = width;
     this.height = height;
     this.spacingMm = spacingMm;
@@ -70,18 +54,13 @@ export class Sheet {
 
   /** Levels: a byte a node; palette: stiffness and viscosity of each level. */
   setMaterials(levels: Uint8Array, palette: Float64Array): void {
-    const at = this.#x.tribo_allocate(levels.length + 8 * palette.length + 16);
-    const paletteAt = at + ((levels.length + 15) & ~15);
-    new Uint8Array(this.#x.memory.buffer, at).set(levels);
-    new Float64Array(this.#x.memory.buffer, paletteAt, palette.length).set(palette);
-    this.#x.sheet_set_materials(this.#handle, at, paletteAt);
-    this.#x.tribo_release(at);
+    lend(this.#x, levels, (levelsAt) => lend(this.#x, palette, (paletteAt) =>
+      this.#x.sheet_set_materials(this.#handle, levelsAt, paletteAt)));
   }
 
   press(contacts: Contact[], published: boolean, point = false): void {
     const count = Math.min(contacts.length, kMostContacts);
-    const at = this.#x.sheet_contacts(this.#handle);
-    const numbers = new Float64Array(this.#x.memory.buffer, at, kMostContacts * kContactDoubles);
+    const numbers = doublesAt(this.#x, this.#x.sheet_contacts(this.#handle), kMostContacts * kContactDoubles);
     for (let i = 0; i < count; ++i) {
       const c = contacts[i]!;
       numbers.set([c.x, c.y, c.halfWidth, c.halfHeight, 0, c.force, c.held], i * kContactDoubles);
@@ -120,12 +99,12 @@ export class Sheet {
   #values(x: number, y: number, rows: number): { stride: number; values: Float32Array } {
     const stride = this.#x.sheet_stride(this.#handle);
     const at = this.#x.sheet_heights(this.#handle) + 4 * (y * stride + x);
-    return { stride, values: new Float32Array(this.#x.memory.buffer, at, (rows - 1) * stride + this.width - x) };
+    return { stride, values: floatsAt(this.#x, at, (rows - 1) * stride + this.width - x) };
   }
 }
 
 export interface Engine {
-  module: WebAssembly.Module;
+  module: Compiled<TouchExports>;
   sheet(width: number, height: number, spacingMm: number): Sheet;
   /** Writes the slopes of the pixels' small relief over their red and green. */
   smallRelief(pixels: ImageData, rmsSlope: number): void;
@@ -136,22 +115,16 @@ export interface Engine {
 let loading: Promise<Engine> | undefined;
 
 async function load(): Promise<Engine> {
-  const response = await fetch(new URL("./touch.wasm", import.meta.url));
-  if (!response.ok) throw new Error(`touch.wasm: HTTP ${response.status}`);
-  // Not every server knows the MIME type that streaming compilation asks for.
-  const module = await WebAssembly.compile(await response.arrayBuffer());
-  const instance = await WebAssembly.instantiate(module, {});
-  const exports = instance.exports as unknown as Exports;
-  exports._initialize();
+  const module = await compile<TouchExports>("touch.wasm", import.meta.url);
+  const exports = await instantiate(module);
   return {
     module,
     sheet: (width, height, spacingMm) => new Sheet(exports, width, height, spacingMm),
     smallRelief({ data, width, height }, rmsSlope) {
-      const at = exports.tribo_allocate(data.length);
-      new Uint8Array(exports.memory.buffer, at).set(data);
-      exports.sheet_small_relief(at, width, height, rmsSlope);
-      data.set(new Uint8Array(exports.memory.buffer, at, data.length));
-      exports.tribo_release(at);
+      lend(exports, data, (at) => {
+        exports.sheet_small_relief(at, width, height, rmsSlope);
+        data.set(bytesAt(exports, at, data.length));
+      });
     },
     memoryBytes: () => exports.memory.buffer.byteLength,
   };

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The audio side: touch.wasm in an instance of its own, a friction voice for each element that has sound.
+import type { TouchExports } from "@tribo/wasm/exports";
+import { floatsAt, lend } from "@tribo/wasm/memory";
+import { instantiateNow, type Compiled } from "@tribo/wasm/module";
 import type { VoiceMessage } from "./audio.js";
-
-interface Exports {
-  memory: WebAssembly.Memory;
-  _initialize(): void;
-  tribo_allocate(bytes: number): number;
-  tribo_release(pointer: number): void;
-  voice_create(numbers: number, length: number, rate: number, seed: number, published: number): number;
-  voice_destroy(voice: number): void;
-  voice_set_target(voice: number, speed: number, force: number): void;
-  voice_render(voice: number, out: number, frames: number): void;
-}
 
 // What AudioWorkletGlobalScope has and TypeScript's page library does not know.
 declare const sampleRate: number;
@@ -35,15 +27,13 @@ const kMostFrames = 1024;
 const kTailQuanta = 40;
 
 class Friction extends AudioWorkletProcessor {
-  #x: Exports;
+  #x: TouchExports;
   #out: number;
   #voices = new Map<number, Playing>();
 
-  constructor(options: { processorOptions: { module: WebAssembly.Module } }) {
+  constructor(options: { processorOptions: { module: Compiled<TouchExports> } }) {
     super();
-    const instance = new WebAssembly.Instance(options.processorOptions.module, {});
-    this.#x = instance.exports as unknown as Exports;
-    this.#x._initialize();
+    this.#x = instantiateNow(options.processorOptions.module);
     this.#out = this.#x.tribo_allocate(4 * kMostFrames);
     this.port.onmessage = (event: MessageEvent<VoiceMessage>) => this.#take(event.data);
   }
@@ -53,10 +43,8 @@ class Friction extends AudioWorkletProcessor {
     if (message.kind === "add") {
       if (playing !== undefined) this.#x.voice_destroy(playing.voice);
       const { numbers } = message;
-      const at = this.#x.tribo_allocate(8 * numbers.length);
-      new Float64Array(this.#x.memory.buffer, at, numbers.length).set(numbers);
-      const voice = this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published));
-      this.#x.tribo_release(at);
+      const voice = lend(this.#x, numbers, (at) =>
+        this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published)));
       if (voice === 0) return;
       this.#voices.set(message.id, { voice, moving: false, tail: 0, pan: 0, panTarget: 0, gain: 1, gainTarget: 1 });
     } else if (playing !== undefined && message.kind === "target") {
@@ -84,7 +72,7 @@ class Friction extends AudioWorkletProcessor {
       if (p.tail === 0) continue;
       if (!p.moving) --p.tail;
       this.#x.voice_render(p.voice, this.#out, frames);
-      const mono = new Float32Array(this.#x.memory.buffer, this.#out, frames);
+      const mono = floatsAt(this.#x, this.#out, frames);
       const panStep = (p.panTarget - p.pan) / frames, gainStep = (p.gainTarget - p.gain) / frames;
       for (let i = 0; i < frames; ++i) {
         p.pan += panStep;

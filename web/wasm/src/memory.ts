@@ -16,10 +16,10 @@ export function textAt(x: AnyExports, at: Address): string {
 
 /** Puts data where `use` can point a function of the module at them. */
 export function lend<Result>(x: CommonExports, data: ArrayBufferView, use: (at: Address, length: number) => Result): Result {
-  const { buffer, byteOffset, byteLength } = data;
-  const at = x.tribo_allocate(byteLength);
-  bytesAt(x, at, byteLength).set(new Uint8Array(buffer, byteOffset, byteLength));
-  const result = use(at, byteLength);
+  const length = data.byteLength;
+  const at = x.tribo_allocate(length);
+  bytesAt(x, at, length).set(new Uint8Array(data.buffer, data.byteOffset, length));
+  const result = use(at, length);
   x.tribo_release(at);
   return result;
 }

@@ -26,10 +26,10 @@ function ready<Exports extends AnyExports>(instance: WebAssembly.Instance): Expo
 
 /** A new instance with a memory of its own. */
 export async function instantiate<Exports extends AnyExports>(module: Compiled<Exports>): Promise<Exports> {
-  return ready(await WebAssembly.instantiate(module, {}));
+  return ready(await WebAssembly.instantiate(module));
 }
 
 /** The same at once, where waiting is not possible: an audio worklet's constructor. */
 export function instantiateNow<Exports extends AnyExports>(module: Compiled<Exports>): Exports {
-  return ready(new WebAssembly.Instance(module, {}));
+  return ready(new WebAssembly.Instance(module));
 }

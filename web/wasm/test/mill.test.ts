@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The mill of a page in Node.js: the plate of the examples comes out as it does natively
+// (tests/session/live_plate_test.cpp), its sound has the line of its teeth, and wrong files are refused in words.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { expect, test } from "vitest";
+import { ROOT } from "../../tools/places.js";
+import type { MillExports, MillSoundExports } from "../src/exports.js";
+import { bytesAt, floatsAt, lend, lendText, textAt } from "../src/memory.js";
+import { load } from "./load.js";
+const SLOT = "G21 G90 S6000 F600\nG0 X-10 Y0 Z5\nG1 Z-2\nG1 X60\n";
+const RATE = 48000;
+const AS_MANY_AS_NEEDED = 0xffffffff;
+
+class Mill {
+  static async open(): Promise<Mill> {
+    return new Mill(await load<MillExports>("tribo"));
+  }
+  constructor(readonly x: MillExports) {}
+  said(): string {
+    return textAt(this.x, this.x.mill_text());
+  }
+  file(name: string, content: string | Uint8Array): void {
+    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
+    lendText(this.x, name, (...called) => lend(this.x, bytes, (...at) => this.x.mill_put_file(...called, ...at)));
+  }
+  /** Whether it takes the job or the program; said() tells why not. */
+  take(name: string, cell = 0): boolean {
+    return lendText(this.x, name, (...job) => lendText(this.x, "", (...part) => this.x.mill_open(...job, ...part, cell))) === 1;
+  }
+  /** Frames of a tick, as bytes. */
+  tick(seconds: number, looks: number): Uint8Array[] {
+    const length = this.x.mill_tick(seconds, looks);
+    expect(length, this.said()).toBeGreaterThanOrEqual(0);
+    const at = this.x.mill_frames(), view = new DataView(this.x.memory.buffer), frames: Uint8Array[] = [];
+    for (let n = 0; n < length; ) {
+      const bytes = view.getUint32(at + n, true);
+      frames.push(bytesAt(this.x, at + n + 8, bytes).slice());
+      n += 8 + 8 * Math.ceil(bytes / 8);
+    }
+    return frames;
+  }
+}
+
+/** FNV-1a, 64 bits. */
+function fnv(bytes: Uint8Array): bigint {
+  // In two halves: BigInt for every byte would take minutes.
+  let low = 0x84222325, high = 0xcbf29ce4;
+  for (const byte of bytes) {
+    low = (low ^ byte) >>> 0;
+    // times 0x100000001b3, modulo 2^64
+    const a = (low & 0xffff) * 0x1b3, b = (low >>> 16) * 0x1b3 + (a >>> 16);
+    const carry = Math.floor(((low >>> 16) * 0x1b3 + Math.floor(((low & 0xffff) * 0x1b3) / 65536)) / 65536);
+    high = (Math.imul(high, 0x1b3) + carry + (low << 8)) >>> 0;
+    low = (((b & 0xffff) << 16) | (a & 0xffff)) >>> 0;
+  }
+  return (BigInt(high) << 32n) | BigInt(low);
+}
+
+test("the plate comes out of the module as it does natively", async () => {
+  const mill = await Mill.open();
+  for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
+  expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
+  mill.x.mill_seek(1e9);
+  const chunks = new Map<string, bigint>(), sounds: Uint8Array[] = [];
+  for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
+    if (frame[0] === 2) chunks.set(new Int32Array(frame.buffer, 16, 3).join(), fnv(frame.subarray(28)));
+    if (frame[0] === 6) sounds.push(frame);
+  }
+  let sum = 0n;
+  for (const hash of chunks.values()) sum += hash;
+  const golden = readFileSync(join(ROOT, "tests/golden/plate.txt"), "utf8").trim();
+  expect(BigInt.asUintN(64, sum).toString(16).padStart(16, "0")).toBe(golden);
+  expect(sounds.length).toBeGreaterThan(10);
+});
+
+test("a second set-up mills on where the first one stopped", async () => {
+  const mill = await Mill.open();
+  const text = (lines: string[]) => lines.join("\n");
+  const rest = ['[cutter]', 'kind = "flat"', 'diameter_mm = 6', '[material]', 'name = "al7075-t6"', '[path]'];
+  mill.file("a.nc", text(["G21 G90 M3 S6000 F600", "G0 X-5 Y10 Z-2", "G1 X35"]));
+  mill.file("a.toml", text(["[stock]", "box_mm = [[0, 0, -10], [30, 20, 0]]", ...rest, 'gcode = "a.nc"']));
+  const second = (from: string) => text(["[stock]", `from = "${from}"`, ...rest, 'gcode = "a.nc"']);
+  mill.file("b.toml", second("a.toml"));
+  // The same slot again meets nothing: no row of a cut comes, which is frame 4.
+  const rows = (job: string) => {
+    expect(mill.take(job, 0.5), mill.said()).toBe(true);
+    mill.x.mill_seek(1e9);
+    return mill.tick(0, AS_MANY_AS_NEEDED).filter((frame) => frame[0] === 4).length;
+  };
+  expect(rows("a.toml")).toBeGreaterThan(0);
+  expect(rows("b.toml")).toBe(0);
+  for (const [from, words] of [["b.toml", /begins with the stock that it leaves itself/], ["gone.toml", /not here/], ["out", /a page takes the stock from a job alone/]] as const) {
+    mill.file("b.toml", second(from));
+    expect(mill.take("b.toml", 0.5)).toBe(false);
+    expect(mill.said()).toMatch(words);
+  }
+});
+
+// Amplitude of a tone in the left channel of what the ear gives.
+function tone(samples: number[], hz: number): number {
+  let re = 0, im = 0;
+  samples.forEach((v, n) => {
+    re += v * Math.cos((2 * Math.PI * hz * n) / RATE);
+    im -= v * Math.sin((2 * Math.PI * hz * n) / RATE);
+  });
+  return (2 * Math.hypot(re, im)) / samples.length;
+}
+
+// Seconds of a slot in the ear, the clock stopped after four of them. `alone`: without machine, chips and room.
+async function slotHeard(alone: boolean): Promise<number[]> {
+  const mill = await Mill.open();
+  mill.file("s.nc", SLOT);
+  expect(mill.take("s.nc"), mill.said()).toBe(true);
+  const ear = await load<MillSoundExports>("mill_sound");
+  expect(ear.sound_open(RATE)).toBe(1);
+  expect(ear.sound_open(8000)).toBe(0);
+  const heard: number[] = [];
+  const follow = (frames: Uint8Array[]) => {
+    for (const frame of frames) {
+      const view = new DataView(frame.buffer);
+      if (frame[0] === 10 && alone) frame.fill(0, 56, 68);
+      if (frame[0] === 6 || frame[0] === 10) {
+        lend(ear, frame, (at, length) => ear.sound_take(at, length));
+      } else if (frame[0] === 3) {
+        const flags = view.getUint32(frame.length - 4, true);
+        ear.sound_follow(view.getFloat64(8, true), view.getFloat32(80, true), flags & 2, 0);
+      }
+    }
+  };
+  const render = () => {
+    const samples = floatsAt(ear, ear.sound_render(800), 1600);
+    for (let n = 0; n < 800; ++n) heard.push(samples[2 * n]!);
+  };
+  follow(mill.tick(0, 1));
+  mill.x.mill_play(1);
+  for (let n = 0; n < 240; ++n) {
+    follow(mill.tick(1 / 60, AS_MANY_AS_NEEDED));
+    render();
+  }
+  mill.x.mill_play(0);
+  for (let n = 0; n < 60; ++n) {
+    follow(mill.tick(1 / 60, AS_MANY_AS_NEEDED));
+    render();
+  }
+  return heard;
+}
+
+test("a slot sounds at the frequency of its teeth, and stops where it is paused", async () => {
+  const alone = await slotHeard(true), second = alone.slice(3 * RATE, 4 * RATE);
+  const line = tone(second, 200);
+  expect(line).toBeGreaterThan(0.01);
+  for (const hz of [100, 150, 250, 300, 350]) expect(tone(second, hz), `${hz} Hz`).toBeLessThan(0.02 * line);
+  // By default there is a machine around it, whose noise is louder than its teeth.
+  const usual = await slotHeard(false), rms = (x: number[]) => Math.hypot(...x) / Math.sqrt(x.length);
+  const loud = rms(usual.slice(3 * RATE, 4 * RATE));
+  expect(loud).toBeGreaterThan(0.03);
+  expect(loud).toBeLessThan(0.3);
+  expect(tone(usual.slice(3 * RATE, 4 * RATE), 200)).toBeGreaterThan(1e-3);
+  for (const heard of [alone, usual]) expect(Math.max(...heard.slice(-24000).map(Math.abs))).toBe(0);
+});
+
+test("what is pressed into the part is pushed back", async () => {
+  const mill = await Mill.open();
+  mill.file("s.nc", SLOT);
+  expect(mill.take("s.nc", 0.5), mill.said()).toBe(true);
+  let felt: DataView = new DataView(new ArrayBuffer(64));
+  const tick = () => {
+    for (const frame of mill.tick(1 / 60, 100)) if (frame[0] === 7) felt = new DataView(frame.buffer);
+  };
+  mill.x.mill_finger(30, 0, 1, 1);
+  for (let n = 0; n < 30; ++n) tick();
+  expect(felt.getUint32(56, true) & 1, "contact above the part").toBe(0);
+  mill.x.mill_finger(30, 0, -1, 1);
+  for (let n = 0; n < 60; ++n) tick();
+  expect(felt.getUint32(56, true) & 1).toBe(1);
+  const force = felt.getFloat32(48, true), probe = felt.getFloat32(24, true);
+  expect(force).toBeGreaterThan(0.1);
+  // Held above where the hand wants it.
+  expect(probe).toBeGreaterThan(-1);
+  mill.x.mill_feel(0.01, 0.5, 1, 1, 1);
+  for (let n = 0; n < 10; ++n) tick();
+  expect(felt.getFloat32(48, true), "force while stopped").toBe(0);
+});
+
+test("wrong files are refused with their place", async () => {
+  const mill = await Mill.open();
+  const refused = (name: string, text: string, what: RegExp) => {
+    mill.file(name, text);
+    expect(mill.take(name)).toBe(false);
+    expect(mill.said()).toMatch(what);
+  };
+  refused("empty.toml", "", /^empty\.toml:1:1: error: the job is empty/);
+  refused("a.toml", "[stok]\n", /^a\.toml:1:2: error: unknown key 'stok'.*\[?stock/);
+  refused("a.nc", "G1 X[\n", /^a\.nc:1:/);
+  refused("a.csv", "x,y,z,i,j,k\n1,2,3\n", /^a\.csv:2:/);
+  refused("a.bin", "\0\0\0", /no job and no program/);
+  refused("a.apt", "GOTO/1,2\n", /^a\.apt:1:/);
+});
