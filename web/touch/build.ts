@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Builds dist/: the registering module, the class alone, the worklet, types, and touch.wasm beside them.
 import { execFileSync } from "node:child_process";
-import { copyFile, mkdir, readFile, rm } from "node:fs/promises";
+import { copyFile, mkdir, readdir, readFile, rm } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { gzipSync } from "node:zlib";
@@ -10,6 +10,19 @@ import { COMPONENT, MODULES } from "../tools/places.js";
 
 /** What a page may have to fetch for the component, packed. */
 const MOST_BYTES = 39_000;
+
+/** Of the declarations in a folder those that the entries import, by whatever way: a user has no use for the others. */
+async function keepReachable(folder: string, entries: string[]): Promise<void> {
+  const reached = new Set(entries);
+  for (const file of reached) {
+    const text = await readFile(join(folder, file), "utf8");
+    for (const [, from = ""] of text.matchAll(/from "(.*?)"/g)) {
+      if (!from.startsWith("./")) throw new Error(`${file} imports ${from}, which a user of the package does not have`);
+      reached.add(from.slice(2).replace(/\.js$/, ".d.ts"));
+    }
+  }
+  for (const file of await readdir(folder)) if (!reached.has(file)) await rm(join(folder, file));
+}
 
 const here = import.meta.dirname;
 const banner = "// Tribo, MIT licence";
@@ -23,6 +36,7 @@ for (const [name, entry] of Object.entries(entries)) {
 await copyFile(join(MODULES, "touch.wasm"), join(COMPONENT, "touch.wasm"));
 const compiler = join(dirname(createRequire(import.meta.url).resolve("typescript/package.json")), "bin/tsc");
 execFileSync(process.execPath, [compiler, "-p", here], { stdio: "inherit" });
+await keepReachable(join(COMPONENT, "types"), ["index.d.ts", "element.d.ts"]);
 
 let total = 0;
 for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) {

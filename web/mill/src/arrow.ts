@@ -3,7 +3,7 @@
 
 import { Color, ConeGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from "three";
 
-import type { Vec3 } from "./vec3.js";
+import type { Vec3 } from "@tribo/protocol/vec3";
 
 const Y = new Vector3(0, 1, 0);
 const SHAFT = new CylinderGeometry(1, 1, 1, 16).translate(0, 0.5, 0);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The line to the engine: frames in, commands out; found again when it is lost.
 
-import { decodeFrame } from "./frames.js";
-import type { Command, Listener, ServerInfo, Settings, Source } from "./source.js";
-
-export const SUBPROTOCOL = "tribo.live.1";
+import { decodeFrame } from "@tribo/protocol/frames";
+import { SUBPROTOCOL, type Command, type EngineMessage } from "@tribo/protocol/messages";
+import type { Listener, Source } from "./source.js";
 
 const RETRY_MS = [250, 500, 1000, 2000];
 
@@ -52,7 +51,7 @@ export class Connection implements Source {
     };
     socket.onmessage = ({ data }) => {
       if (data instanceof ArrayBuffer) this.tell((to) => to.frame(decodeFrame(data), data));
-      else this.take(JSON.parse(data as string));
+      else this.take(JSON.parse(data as string) as EngineMessage);
     };
     socket.onclose = ({ reason }) => {
       if (this.closed) return;
@@ -67,12 +66,12 @@ export class Connection implements Source {
     else this.waiting.push(what);
   }
 
-  private take(message: { op: string; why?: string; remedy?: string; resume?: string }): void {
+  private take(message: EngineMessage): void {
     if (message.op === "serverInfo") {
       this.resume = message.resume;
-      this.tell((to) => to.info(message as unknown as ServerInfo));
+      this.tell((to) => to.info(message));
     } else if (message.op === "settings") {
-      this.tell((to) => to.settings(message as unknown as Settings));
+      this.tell((to) => to.settings(message));
     } else if (message.op === "lost") {
       this.send({ op: "resync" });
     } else if (message.op === "refused") {

@@ -4,7 +4,7 @@
 
 import type { Scene } from "./scene.js";
 import type { Source } from "./source.js";
-import { vec3, type Vec3 } from "./vec3.js";
+import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 // How deep the hand wants to go where it presses, and how high it hovers; shares of the part's size.
 const PRESS = 0.012;

@@ -2,7 +2,7 @@
 // A scale of colours that rises evenly in lightness and that colour-blind eyes can read: from deep blue over
 // green to yellow (five stops of Viridis; van der Walt & Smith 2015).
 
-import { vec3, type Vec3 } from "./vec3.js";
+import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 const STOPS: Vec3[] = [
   [0.267, 0.005, 0.329],

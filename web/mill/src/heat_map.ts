@@ -2,10 +2,10 @@
 // What a point of the machined surface is coloured by: the cut that made it (force, chip), or how far it is
 // off the designed surface.
 
-import type { Cutter, Row } from "./frames.js";
+import type { Cutter, Row } from "@tribo/protocol/frames";
 import { heat } from "./heat.js";
 import type { SurfaceDistance } from "./surface_distance.js";
-import { vec3, type Vec3 } from "./vec3.js";
+import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 export type Colouring = "plain" | "force" | "chip" | "deviation" | "scallop";
 

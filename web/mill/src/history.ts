@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What plots are drawn from: the rows, and the newest pieces of the cut.
 
-import type { Piece, Row } from "./frames.js";
+import type { Piece, Row } from "@tribo/protocol/frames";
 
 const KEPT_PIECES = 4096;
 

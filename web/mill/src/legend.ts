@@ -4,7 +4,7 @@
 import { heat } from "./heat.js";
 import { diverging, OVERLOAD_SHARE, RUBBING_MM, type Colouring, type HeatMap } from "./heat_map.js";
 import { element } from "./page.js";
-import type { Vec3 } from "./vec3.js";
+import type { Vec3 } from "@tribo/protocol/vec3";
 
 function css(c: Vec3): string {
   return `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;

@@ -5,7 +5,7 @@ import * as drop from "./drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
 import { listed, order as orderOf } from "./examples.js";
 import { Finger } from "./finger.js";
-import type { CollisionFrame, Frame, StateFrame } from "./frames.js";
+import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import type { ChipMark, Colouring } from "./heat_map.js";
 import { History } from "./history.js";
 import { Keys } from "./keys.js";
@@ -17,11 +17,13 @@ import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
 import type { Plots } from "./plots.js";
 import { LineList, showServo, showState, showWarnings } from "./readout.js";
-import { readRecording, Recorder, Replay } from "./recording.js";
+import { readRecording, Recorder } from "@tribo/protocol/recording";
+import { Replay } from "./replay.js";
 import { Scene } from "./scene.js";
 import { Sound } from "./sound.js";
-import type { Listener, ServerInfo, Settings, Source } from "./source.js";
-import { vec3, type Vec3 } from "./vec3.js";
+import type { ServerInfo, Settings } from "@tribo/protocol/messages";
+import type { Listener, Source } from "./source.js";
+import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 import { Workshop, type JobFile, type Order } from "./workshop.js";
 
 const listener: Listener = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a viewer that comes now would be sent: the bytes that a recording begins with.
 
-import type { Frame } from "./frames.js";
+import type { Frame } from "@tribo/protocol/frames";
 
 const KEPT_SOUNDS = 64;
 

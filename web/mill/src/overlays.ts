@@ -20,9 +20,9 @@ import {
 } from "three";
 
 import { Arrow } from "./arrow.js";
-import type { FingerFrame, StateFrame, TextureFrame } from "./frames.js";
+import type { FingerFrame, StateFrame, TextureFrame } from "@tribo/protocol/frames";
 import type { Palette } from "./palette.js";
-import { vec3, type Vec3 } from "./vec3.js";
+import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 const UP = new Vector3(0, 0, 1);
 

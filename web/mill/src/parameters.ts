@@ -2,12 +2,10 @@
 // Sliders for what can be changed while it mills; what is set everybody who watches shares.
 
 import { element } from "./page.js";
-import type { Command, ServerInfo, Settings } from "./source.js";
-
-type Key = "feed_percent" | "spindle_percent" | "helix_deg" | "force_scale" | "jnd";
+import type { Command, ServerInfo, Setting, Settings } from "@tribo/protocol/messages";
 
 interface Parameter {
-  key: Key;
+  key: Setting;
   label: string;
   min: number;
   max: number;
@@ -26,7 +24,7 @@ const PARAMETERS: Parameter[] = [
 ];
 
 export class Parameters {
-  private readonly shown = new Map<Key, (value: number) => void>();
+  private readonly shown = new Map<Setting, (value: number) => void>();
   private readonly material = element<HTMLSelectElement>("material");
 
   constructor(private readonly send: (command: Command) => void) {

@@ -3,8 +3,8 @@
 
 import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments } from "three";
 
-import type { PathFrame, Row } from "./frames.js";
-import type { Vec3 } from "./vec3.js";
+import type { PathFrame, Row } from "@tribo/protocol/frames";
+import type { Vec3 } from "@tribo/protocol/vec3";
 
 // Rows whose time is this near follow one another, s.
 const SAME_CUT_S = 1e-6;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Peak force over the program as columns, one per pixel: the whole at a glance, and a place to click.
 
-import type { Row } from "./frames.js";
+import type { Row } from "@tribo/protocol/frames";
 
 export class Plot {
   private duration = 1;

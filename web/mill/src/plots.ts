@@ -5,7 +5,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
-import type { Row } from "./frames.js";
+import type { Row } from "@tribo/protocol/frames";
 import type { History } from "./history.js";
 import { heat } from "./heat.js";
 import type { Sound } from "./sound.js";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the tool does now in figures, places to look at, the servo, and what was assumed.
 
-import type { ServoFrame, StateFrame } from "./frames.js";
+import type { ServoFrame, StateFrame } from "@tribo/protocol/frames";
 import { element } from "./page.js";
 
 export function showState(state: StateFrame): void {

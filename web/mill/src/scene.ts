@@ -24,14 +24,14 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "./frames.js";
+import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
 import { HeatMap, type Colouring } from "./heat_map.js";
 import { Overlays } from "./overlays.js";
 import { PALETTES, type Palette } from "./palette.js";
 import { PathLines } from "./path_lines.js";
 import { SurfaceDistance } from "./surface_distance.js";
 import { Tool } from "./tool.js";
-import { vec3, type Axis, type Vec3 } from "./vec3.js";
+import { vec3, type Axis, type Vec3 } from "@tribo/protocol/vec3";
 
 const PIXEL_RATIO_CAP = 2;
 // A point this near to a side of the blank is on it; of the cell.

@@ -4,7 +4,7 @@
 
 import type { MillSoundExports } from "@tribo/wasm/exports";
 import { compile } from "@tribo/wasm/module";
-import type { StateFrame } from "./frames.js";
+import type { StateFrame } from "@tribo/protocol/frames";
 import workletUrl from "./sound_worklet.ts?worker&url";
 
 export type ToEar =

@@ -2,7 +2,7 @@
 // Signed distance to a triangle surface: how far a machined point is off the designed one. A grid of cells
 // holds the triangles; a point asks the cells around it, ring by ring.
 
-import { vec3, type Axis, type Vec3 } from "./vec3.js";
+import { vec3, type Axis, type Vec3 } from "@tribo/protocol/vec3";
 
 const CELLS_PER_SIDE = 48;
 

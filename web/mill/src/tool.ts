@@ -3,7 +3,7 @@
 
 import { Color, Group, InstancedMesh, LatheGeometry, Matrix4, Mesh, MeshStandardMaterial, Quaternion, Vector2, Vector3 } from "three";
 
-import type { Cutter, StateFrame } from "./frames.js";
+import type { Cutter, StateFrame } from "@tribo/protocol/frames";
 
 const CORNER_STEPS = 12;
 const POSITIONS = 10;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The force over a spindle turn and its spectrum, summed from the harmonics of a piece of the cut.
 
-import type { Piece } from "./frames.js";
-import type { Vec3 } from "./vec3.js";
+import type { Piece } from "@tribo/protocol/frames";
+import type { Vec3 } from "@tribo/protocol/vec3";
 
 export interface Turn {
   degrees: number[];

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The mill without an engine: tribo.wasm in a worker of this page.
 
-import { decodeFrame } from "./frames.js";
-import type { Command, Listener, Settings, Source } from "./source.js";
+import { decodeFrame } from "@tribo/protocol/frames";
+import type { Command, Settings } from "@tribo/protocol/messages";
+import type { Listener, Source } from "./source.js";
 
 export interface JobFile {
   name: string;

@@ -4,7 +4,7 @@
 import type { MillExports } from "@tribo/wasm/exports";
 import { lend, lendText, textAt } from "@tribo/wasm/memory";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
-import type { Command, Settings } from "./source.js";
+import type { Command, Settings } from "@tribo/protocol/messages";
 import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
 
 const TICK_MS = 1000 / 60;
@@ -74,7 +74,7 @@ class Mill {
     if (command.op === "play" || command.op === "pause") x.mill_play(Number(command.op === "play"));
     else if (command.op === "speed") x.mill_speed(command.value);
     else if (command.op === "seek") x.mill_seek(command.t_s);
-    else if (command.op === "finger") x.mill_finger(...(command.position_mm as [number, number, number]), Number(command.down));
+    else if (command.op === "finger") x.mill_finger(...command.position_mm, Number(command.down));
     else this.set(command);
   }
 
@@ -84,7 +84,7 @@ class Mill {
     else if (command.op === "mode") s.mode = command.value;
     else if (command.op === "force") s.force = command.value;
     else if (command.op === "material") s.material = command.value;
-    else if (command.op === "set" && command.key in s) (s as unknown as Record<string, number>)[command.key] = command.value;
+    else if (command.op === "set") s[command.key] = command.value;
     else return;
     const { x } = this;
     const cut = (a: Settings) => [a.feed_percent, a.spindle_percent, a.helix_deg, a.material].join();

@@ -3,7 +3,7 @@
 
 import { BoxGeometry, Color, Group, Mesh, MeshStandardMaterial, Vector3, type XRTargetRaySpace } from "three";
 
-import type { FingerFrame } from "./frames.js";
+import type { FingerFrame } from "@tribo/protocol/frames";
 import type { Finger } from "./finger.js";
 import type { Scene } from "./scene.js";
 

@@ -5,12 +5,13 @@ import { liveUrl } from "../src/connection.js";
 import { heat } from "../src/heat.js";
 import { sort, tooLarge } from "../src/drop.js";
 import { chip, chipVerdict, HeatMap } from "../src/heat_map.js";
-import { readRecording, Recorder, Replay } from "../src/recording.js";
+import { readRecording, Recorder } from "@tribo/protocol/recording";
+import { Replay } from "../src/replay.js";
 import type { Listener } from "../src/source.js";
 import { SurfaceDistance } from "../src/surface_distance.js";
 import { outline } from "../src/tool.js";
 import { spectrum, turn } from "../src/turn.js";
-import type { Vec3 } from "../src/vec3.js";
+import type { Vec3 } from "@tribo/protocol/vec3";
 
 describe("heat", () => {
   const lightness = ([r, g, b]: Vec3) => 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;

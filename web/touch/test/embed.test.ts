@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The example of docs/touch.md, word for word; the site's page; the package as npm would publish it.
-import { execFileSync } from "node:child_process";
-import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join } from "node:path";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { hasBrowser, launch } from "../../testing/browser.js";
@@ -42,7 +43,7 @@ test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable c
   await page.close();
 });
 
-test("the packed package installs from its tarball and imports on a server", async () => {
+test("the packed package installs from its tarball, imports on a server and knows its types", async () => {
   const folder = await mkdtemp(join(tmpdir(), "tribo-pack-"));
   try {
     const here = new URL("..", import.meta.url).pathname;
@@ -57,6 +58,10 @@ test("the packed package installs from its tarball and imports on a server", asy
     const said = execFileSync(process.execPath, ["--input-type=module", "-e", 'import { TriboTouch } from "@tribo/touch"; console.log(typeof TriboTouch)'],
       { cwd: folder, encoding: "utf8" });
     expect(said.trim()).toBe("function");
+    await writeFile(join(folder, "user.ts"), 'import { TriboTouch, type ContactDetail } from "@tribo/touch";\nexport const depth = (_: TriboTouch, { depth_mm }: ContactDetail): number => depth_mm;\n');
+    const compiler = join(dirname(createRequire(import.meta.url).resolve("typescript/package.json")), "bin/tsc");
+    const flags = ["--noEmit", "--strict", "--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler", "--types", ""];
+    expect(spawnSync(process.execPath, [compiler, ...flags, "user.ts"], { cwd: folder, encoding: "utf8" }).stdout).toBe("");
   } finally {
     await rm(folder, { recursive: true, force: true });
   }
