@@ -4,8 +4,8 @@
 
 #include "cuts.hpp"
 #include "harness.hpp"
-#include "milling/sweep.hpp"
-#include "motion/path.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/path.hpp"
 #include "openvdb_peer.hpp"
 
 namespace tribo::bench {

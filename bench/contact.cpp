@@ -14,9 +14,9 @@
 #endif
 
 #include "cuts.hpp"
-#include "haptics/field_contact.hpp"
+#include "haptics/contact/field_contact.hpp"
 #include "harness.hpp"
-#include "milling/sweep.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::bench {
 namespace {

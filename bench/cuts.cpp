@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 
 namespace tribo::bench {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "field/carved_field.hpp"
-#include "milling/coefficients.hpp"
-#include "milling/cutter.hpp"
-#include "motion/program.hpp"
-#include "session/mill_session.hpp"
+#include "field/carved/carved_field.hpp"
+#include "milling/tool/coefficients.hpp"
+#include "milling/tool/cutter.hpp"
+#include "motion/path/program.hpp"
+#include "session/cut/mill_session.hpp"
 
 namespace tribo::bench {
 

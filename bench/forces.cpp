@@ -5,8 +5,8 @@
 
 #include "cuts.hpp"
 #include "harness.hpp"
-#include "milling/edge_force.hpp"
-#include "milling/force.hpp"
+#include "milling/force/edge_force.hpp"
+#include "milling/force/force.hpp"
 
 namespace tribo::bench {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "harness.hpp"
-#include "noise/friction_voice.hpp"
-#include "noise/learning.hpp"
-#include "noise/noise_kernels.hpp"
+#include "noise/learn/learning.hpp"
+#include "noise/play/friction_voice.hpp"
+#include "noise/play/noise_kernels.hpp"
 
 #ifdef TRIBO_LIQUID
 #include <liquid/liquid.h>

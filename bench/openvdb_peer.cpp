@@ -10,7 +10,7 @@
 #include <tbb/global_control.h>
 
 #include "harness.hpp"
-#include "motion/path.hpp"
+#include "motion/path/path.hpp"
 #endif
 
 namespace tribo::bench {

@@ -6,7 +6,7 @@
 
 #include "cuts.hpp"
 #include "harness.hpp"
-#include "milling/sweep.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::bench {
 namespace {

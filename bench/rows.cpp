@@ -5,9 +5,9 @@
 
 #include "cuts.hpp"
 #include "harness.hpp"
-#include "milling/engagement_probe.hpp"
-#include "milling/force.hpp"
-#include "milling/sweep.hpp"
+#include "milling/engagement/engagement_probe.hpp"
+#include "milling/force/force.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::bench {
 namespace {

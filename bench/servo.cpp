@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The servo: the table of forces against even spacing and against the paper's other table, the whole tick,
 // the loop under load.
-#include "haptics/servo.hpp"
+#include "haptics/servo/servo.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -18,11 +18,11 @@
 
 #include "contact/jnd_profile.hpp"
 #include "cuts.hpp"
-#include "devices/servo_thread.hpp"
-#include "haptics/simulated_hand.hpp"
+#include "devices/servo/servo_thread.hpp"
+#include "haptics/servo/simulated_hand.hpp"
 #include "harness.hpp"
-#include "milling/force.hpp"
-#include "milling/force_grid.hpp"
+#include "milling/force/force.hpp"
+#include "milling/force/force_grid.hpp"
 
 namespace tribo::bench {
 namespace {

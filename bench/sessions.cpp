@@ -2,7 +2,7 @@
 // The finishing job, as a session in this process.
 #include "app/threads.hpp"
 #include "cuts.hpp"
-#include "field/contour.hpp"
+#include "field/contour/contour.hpp"
 #include "harness.hpp"
 
 namespace tribo::bench {

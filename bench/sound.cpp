@@ -9,8 +9,8 @@
 #include "contact/perceptual_table.hpp"
 #include "harness.hpp"
 #include "openal_peer.hpp"
-#include "sound/spatial_source.hpp"
-#include "sound/workshop.hpp"
+#include "sound/place/spatial_source.hpp"
+#include "sound/play/workshop.hpp"
 
 namespace tribo::bench {
 namespace {

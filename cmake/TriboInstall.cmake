@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(rooms)
-foreach(folder src src/io src/app)
+foreach(folder src src/files src/report src/app)
   get_property(targets DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} PROPERTY BUILDSYSTEM_TARGETS)
   list(APPEND rooms ${targets})
 endforeach()

@@ -16,11 +16,16 @@ target_compile_features(tribo_options INTERFACE cxx_std_23)
 target_include_directories(tribo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tribo>)
 
-# tribo_room(NAME LINKS room... [PRIVATE lib...]): all sources of src/NAME as the library tribo::NAME,
-# linking only the rooms that its row of the table in README.md allows.
+# tribo_room(NAME LINKS room... [PRIVATE lib...] [WASI_LEAVES stem...]): all sources of src/NAME as the library tribo::NAME,
+# linking only the rooms that its row of the table in README.md allows. WASI_LEAVES are sources that no page's module takes.
 function(tribo_room name)
-  cmake_parse_arguments(ROOM "" "" "LINKS;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  cmake_parse_arguments(ROOM "" "" "LINKS;PRIVATE;WASI_LEAVES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  if(WASI)
+    foreach(stem ${ROOM_WASI_LEAVES})
+      list(FILTER sources EXCLUDE REGEX "/${stem}\\.cpp$")
+    endforeach()
+  endif()
   if(NOT sources)
     return()
   endif()

@@ -6,16 +6,16 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/apt_reader.hpp"
+#include "readers/apt/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 20;
     if (size > largest) return 0;
-    formats::AptOptions options;
+    readers::AptOptions options;
     options.source_name = "fuzz.cl";
     options.default_feed_mm_per_min = 100;
-    const auto program = formats::read_apt({reinterpret_cast<const char*>(data), size}, options);
+    const auto program = readers::read_apt({reinterpret_cast<const char*>(data), size}, options);
     if (!program) {
         if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
         return 0;

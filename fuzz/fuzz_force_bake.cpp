@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/hash.hpp"
-#include "formats/force_bake.hpp"
+#include "readers/tables/force_bake.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (std::size_t n = 0; n < 8; ++n)
             bytes[checksum_at + n] = static_cast<char>(static_cast<unsigned char>(hash.value() >> (8 * n)));
     }
-    const auto read = formats::read_force_bake(bytes, nullptr, "force.bake");
+    const auto read = readers::read_force_bake(bytes, nullptr, "force.bake");
     if (!read) {
         if (read.error().cause.empty() || read.error().remedy.empty()) std::abort();
         return 0;

@@ -6,22 +6,22 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/gcode_reader.hpp"
+#include "readers/gcode/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 20;
     if (size > largest) return 0;
     for (const bool skip : {true, false}) {
-        formats::GcodeOptions options;
+        readers::GcodeOptions options;
         options.source_name = "fuzz.nc";
         options.skip_deletable_blocks = skip;
-        options.dialect = skip ? formats::GcodeDialect::linuxcnc : formats::GcodeDialect::fanuc;
+        options.dialect = skip ? readers::GcodeDialect::linuxcnc : readers::GcodeDialect::fanuc;
         options.tools = {{1, 6}};
         options.max_steps = 2'000;  // loops are no place to spend a fuzzer's time
         options.max_moves = 100'000;
         options.default_feed_mm_per_min = skip ? 100 : 0;
-        const auto program = formats::read_gcode({reinterpret_cast<const char*>(data), size}, options);
+        const auto program = readers::read_gcode({reinterpret_cast<const char*>(data), size}, options);
         if (!program) {
             if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
             continue;

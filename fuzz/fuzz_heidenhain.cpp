@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/heidenhain_reader.hpp"
+#include "readers/heidenhain/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
@@ -13,12 +13,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size > largest) return 0;
     static const motion::Machine machine = *motion::named_machine("xyzac-trt");
     for (const bool on_machine : {false, true}) {
-        formats::GcodeOptions options;
+        readers::GcodeOptions options;
         options.source_name = "fuzz.h";
         options.machine = on_machine ? &machine : nullptr;
         options.max_steps = 20'000;
         options.max_moves = 20'000;
-        const auto program = formats::read_heidenhain({reinterpret_cast<const char*>(data), size}, options);
+        const auto program = readers::read_heidenhain({reinterpret_cast<const char*>(data), size}, options);
         if (!program) {
             if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
             continue;

@@ -7,18 +7,19 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/hrir_file.hpp"
+#include "files/sound/hrir_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 16;
     if (size > largest) return 0;
-    const auto set = io::unpacked_hrirs({reinterpret_cast<const char*>(data), size});
+    const auto set = files::unpacked_hrirs({reinterpret_cast<const char*>(data), size});
     if (!set) {
         if (set.error().remedy.empty()) std::abort();
         return 0;
     }
-    if (io::packed_hrirs(*set) != std::string_view(reinterpret_cast<const char*>(data), size)) std::abort();
+    if (files::packed_hrirs(*set) != std::string_view(reinterpret_cast<const char*>(data), size))
+        std::abort();
     const auto head = sound::Head::measured(*set, 48000);
     if (!head) std::abort();
     sound::EarResponses heard;

@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/keyframes_csv.hpp"
+#include "readers/tables/keyframes_csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 20;
     if (size > largest) return 0;
-    const auto read = formats::read_keyframes({reinterpret_cast<const char*>(data), size});
+    const auto read = readers::read_keyframes({reinterpret_cast<const char*>(data), size});
     if (!read) {
         if (read.error().cause.empty() || read.error().remedy.empty()) std::abort();
         return 0;
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!is_finite(keyframe.pose.tip_mm) || std::abs(length(keyframe.pose.axis) - 1) > 1e-12)
             std::abort();
     }
-    auto again = formats::read_keyframes(formats::write_keyframes(*read));
+    auto again = readers::read_keyframes(readers::write_keyframes(*read));
     if (!again || again->size() != read->size()) std::abort();
     for (std::size_t i = 0; i < read->size(); ++i) {
         (*again)[i].line = (*read)[i].line;

@@ -7,19 +7,19 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/material_json.hpp"
-#include "noise/friction_voice.hpp"
+#include "material/material_json.hpp"
+#include "noise/play/friction_voice.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 17;
     if (size > largest) return 0;
-    const auto material = io::parse_material({reinterpret_cast<const char*>(data), size}, "fuzz.json");
+    const auto material = material::parse_material({reinterpret_cast<const char*>(data), size}, "fuzz.json");
     if (!material) {
         if (material.error().cause.empty() || material.error().remedy.empty()) std::abort();
         return 0;
     }
-    const auto again = io::parse_material(io::material_json(*material), "again.json");
+    const auto again = material::parse_material(material::material_json(*material), "again.json");
     if (!again || again->voices.models.size() != material->voices.models.size()) std::abort();
     if (material->voices.models.empty()) return 0;
     noise::FrictionVoice voice(material->voices);

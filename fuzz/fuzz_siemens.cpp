@@ -5,17 +5,17 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/siemens_text.hpp"
+#include "readers/siemens/siemens_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 16;
     if (size > largest) return 0;
-    formats::GcodeOptions options;
+    readers::GcodeOptions options;
     options.source_name = "fuzz.mpf";
     options.max_steps = 20'000;
     options.max_moves = 20'000;
-    const auto program = formats::read_siemens({reinterpret_cast<const char*>(data), size}, options);
+    const auto program = readers::read_siemens({reinterpret_cast<const char*>(data), size}, options);
     if (!program) {
         if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
         return 0;

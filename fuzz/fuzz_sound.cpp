@@ -6,14 +6,14 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "io/sound_file.hpp"
-#include "noise/learning.hpp"
+#include "files/sound/sound_file.hpp"
+#include "noise/learn/learning.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;
     constexpr std::size_t largest = 1 << 17;
     if (size > largest) return 0;
-    const auto sound = io::parse_sound({reinterpret_cast<const char*>(data), size}, "fuzz.wav");
+    const auto sound = files::parse_sound({reinterpret_cast<const char*>(data), size}, "fuzz.wav");
     if (!sound) {
         if (sound.error().cause.empty() || sound.error().remedy.empty()) std::abort();
         return 0;

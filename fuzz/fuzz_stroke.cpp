@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/stroke_csv.hpp"
+#include "readers/tables/stroke_csv.hpp"
 
 namespace {
 
@@ -29,7 +29,7 @@ void check(std::string_view bytes, Read read, Write write) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace tribo::formats;
+    using namespace tribo::readers;
     constexpr std::size_t largest = 1 << 20;
     if (size > largest) return 0;
     const std::string_view bytes{reinterpret_cast<const char*>(data), size};

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "formats/model.hpp"
+#include "readers/mesh/model.hpp"
 
-namespace tribo::formats {
+namespace tribo::readers {
 
 inline int check_model(const Result<Model>& model) {
     if (!model) {
@@ -39,4 +39,4 @@ inline int check_model(const std::uint8_t* data, std::size_t size, ModelFormat f
     return check_model(read_model(bytes, format, {.source_name = "fuzz"}));
 }
 
-}  // namespace tribo::formats
+}  // namespace tribo::readers

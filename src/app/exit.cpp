@@ -11,9 +11,9 @@ int report(const Error& error) {
     return kWrongInput;
 }
 
-int report(const io::Failure& failure) {
+int report(const FileFailure& failure) {
     report(static_cast<const Error&>(failure));
-    return failure.fault == io::Fault::input ? kWrongInput : kRefused;
+    return failure.fault == FileFault::input ? kWrongInput : kRefused;
 }
 
 void report(const Warnings& warnings, std::size_t most) {

@@ -2,7 +2,7 @@
 // How the program ends, and what it says then.
 #pragma once
 
-#include "io/files.hpp"
+#include "files/files.hpp"
 
 namespace tribo::app {
 
@@ -13,7 +13,7 @@ inline constexpr int kRefused = 3;     // a device, port or file system refused
 
 // Prints `file:line:column: error: what; remedy` to stderr and gives the code to exit with.
 int report(const Error& error);
-int report(const io::Failure& failure);
+int report(const FileFailure& failure);
 
 // Prints warnings to stderr, the first `most` of them and how many more there are.
 void report(const Warnings& warnings, std::size_t most = 20);

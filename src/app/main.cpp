@@ -7,7 +7,7 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
-#include "app/verbs.hpp"
+#include "app/verbs/verbs.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "field/mesh_distance.hpp"
+#include "field/mesh/mesh_distance.hpp"
 
 namespace tribo::surface {
 

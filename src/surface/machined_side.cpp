@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "field/surface_points.hpp"
+#include "field/shape/surface_points.hpp"
 
 namespace tribo::surface {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "contact/distance_field.hpp"
-#include "field/shape.hpp"
+#include "field/shape/shape.hpp"
 #include "surface/designed_surface.hpp"
 
 namespace tribo::surface {

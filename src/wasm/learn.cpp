@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/material.hpp"
-#include "noise/learning.hpp"
+#include "material/material.hpp"
+#include "noise/learn/learning.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -90,7 +90,7 @@ TRIBO_EXPORT(learn_run) std::uint32_t learn_run(Learning* l, double highpass_hz)
         return 0;
     }
     for (const Warning& w : learned->warnings) l->text += w.message() + '\n';
-    formats::round_digits(learned->voices);
+    material::round_digits(learned->voices);
     l->numbers = numbers_of(learned->voices);
     l->found.clear();
     for (const noise::LearnedRecording& r : learned->recordings) {

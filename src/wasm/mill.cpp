@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "milling/materials.hpp"
-#include "session/live_mill.hpp"
-#include "session/live_touch.hpp"
+#include "milling/tool/materials.hpp"
+#include "session/live/live_mill.hpp"
+#include "session/live/live_touch.hpp"
 #include "wasm/mill_files.hpp"
 #include "wasm/mill_job.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "io/file_names.hpp"
-#include "io/files.hpp"
+#include "base/file_names.hpp"
+#include "files/files.hpp"
 
 namespace tribo::wasm {
 namespace {
@@ -42,40 +42,40 @@ void forget_files() {
     files().clear();
 }
 
-Result<formats::Model> read_model(const formats::ModelFile& file) {
-    const auto bytes = io::read_file(file.path);
+Result<readers::Model> read_model(const readers::ModelFile& file) {
+    const auto bytes = files::read_file(file.path);
     if (!bytes) return std::unexpected(Error(bytes.error()));
-    formats::ModelOptions options;
+    readers::ModelOptions options;
     options.source_name = file.path;
     options.unit_mm = file.unit_mm;
     options.neighbours = [](std::string_view url, const std::string& from,
-                            std::uint64_t limit_bytes) -> Result<formats::ModelNeighbour> {
-        std::string name = io::file_beside(from, url);
-        auto neighbour = io::read_file(name, limit_bytes);
+                            std::uint64_t limit_bytes) -> Result<readers::ModelNeighbour> {
+        std::string name = file_beside(from, url);
+        auto neighbour = files::read_file(name, limit_bytes);
         if (!neighbour) return std::unexpected(Error(neighbour.error()));
-        return formats::ModelNeighbour{std::move(name), *std::move(neighbour)};
+        return readers::ModelNeighbour{std::move(name), *std::move(neighbour)};
     };
-    if (formats::detect_model_format(*bytes, file.path) == formats::ModelFormat::gltf) {
+    if (readers::detect_model_format(*bytes, file.path) == readers::ModelFormat::gltf) {
         return fail_at(file.path, 0, 0, "glTF models are not read in the page",
                        "save it as STL, OBJ, PLY or VRML, or use the program");
     }
-    return formats::read_model(*bytes, options);
+    return readers::read_model(*bytes, options);
 }
 
 }  // namespace tribo::wasm
 
-namespace tribo::io {
+namespace tribo::files {
 
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes) {
     const std::string* bytes = wasm::find(path);
     if (bytes == nullptr) {
-        return std::unexpected(Failure({path, 0, 0, "the file is not here",
-                                        "drop it into the window together with the file that names it"}));
+        return std::unexpected(FileFailure({path, 0, 0, "the file is not here",
+                                            "drop it into the window together with the file that names it"}));
     }
     if (bytes->size() > limit_bytes) {
-        return std::unexpected(Failure({path, 0, 0, "the file is too large for what it is", {}}));
+        return std::unexpected(FileFailure({path, 0, 0, "the file is too large for what it is", {}}));
     }
     return *bytes;
 }
 
-}  // namespace tribo::io
+}  // namespace tribo::files

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The files that a page has put into the module's memory, and the solids in them. What io/files.hpp and
-// io/model_file.hpp read from disk elsewhere.
+// The files that a page has put into the module's memory, and the solids in them. What files/files.hpp and
+// files/model/model_file.hpp read from disk elsewhere.
 #pragma once
 
 #include <string>
 
-#include "formats/job.hpp"
-#include "formats/model.hpp"
+#include "job/job.hpp"
+#include "readers/mesh/model.hpp"
 
 namespace tribo::wasm {
 
@@ -15,6 +15,6 @@ void put_file(std::string name, std::string bytes);
 void forget_files();
 
 // glTF is refused: its reader is not part of the module.
-Result<formats::Model> read_model(const formats::ModelFile& file);
+Result<readers::Model> read_model(const readers::ModelFile& file);
 
 }  // namespace tribo::wasm

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "base/decimal.hpp"
-#include "io/file_names.hpp"
-#include "io/job_toml.hpp"
-#include "io/program_file.hpp"
-#include "session/job_assumption.hpp"
-#include "session/job_completion.hpp"
-#include "session/job_stock.hpp"
-#include "session/live_mill.hpp"
-#include "session/memory_estimate.hpp"
-#include "session/part_in_stock.hpp"
+#include "base/file_names.hpp"
+#include "job/assumption.hpp"
+#include "job/completion.hpp"
+#include "job/program_file.hpp"
+#include "job/toml/job_toml.hpp"
+#include "session/cut/job_stock.hpp"
+#include "session/cut/memory_estimate.hpp"
+#include "session/cut/part_in_stock.hpp"
+#include "session/live/live_mill.hpp"
 #include "wasm/mill_files.hpp"
 
 namespace tribo::wasm {
@@ -21,29 +21,29 @@ namespace {
 // A module may hold 4 GB, and a phone's page much less.
 constexpr double kMostBytes = 1.2e9;
 
-Result<session::Solid> solid_of(const formats::JobSolid& solid) {
-    if (!solid.model) return session::box_solid(solid.box_mm);
+Result<job::Solid> solid_of(const job::JobSolid& solid) {
+    if (!solid.model) return job::box_solid(solid.box_mm);
     auto model = read_model(*solid.model);
     if (!model) return std::unexpected(model.error());
-    return session::mesh_solid(std::move(model->mesh), solid.model->path);
+    return job::mesh_solid(std::move(model->mesh), solid.model->path);
 }
 
 // Earlier jobs among the files in memory; folders of renders are not among them.
 session::JobFiles job_files() {
     session::JobFiles files;
-    files.job = [](const std::string& file) -> Result<formats::Job> {
-        auto job = io::read_job(file);
+    files.job = [](const std::string& file) -> Result<job::Job> {
+        auto job = job::read_job(file);
         if (!job) return std::unexpected(Error(job.error()));
         return *std::move(job);
     };
-    files.program = [](const formats::Job& job) -> Result<motion::Program> {
-        auto program = io::read_program(job);
+    files.program = [](const job::Job& job) -> Result<motion::Program> {
+        auto program = job::read_program(job);
         if (!program) return std::unexpected(Error(program.error()));
         return *std::move(program);
     };
     files.solid = solid_of;
     files.source = [](const std::string& path) -> Result<session::StockSource> {
-        if (io::extension_of(path) == ".toml") return session::StockSource{path, {}};
+        if (extension_of(path) == ".toml") return session::StockSource{path, {}};
         return fail("a page takes the stock from a job alone, not from '" + path + "'",
                     "name the earlier job (.toml) and drop it too, or use the program");
     };
@@ -51,21 +51,21 @@ session::JobFiles job_files() {
     return files;
 }
 
-Result<formats::Job> job_of(const std::string& name, bool& assumed) {
-    assumed = io::extension_of(name) != ".toml";
+Result<job::Job> job_of(const std::string& name, bool& assumed) {
+    assumed = extension_of(name) != ".toml";
     if (!assumed) {
-        auto job = io::read_job(name);
+        auto job = job::read_job(name);
         if (!job) return std::unexpected(Error(job.error()));
         return *std::move(job);
     }
-    const auto bytes = io::read_file(name);
+    const auto bytes = files::read_file(name);
     if (!bytes) return std::unexpected(Error(bytes.error()));
-    const auto kind = io::detect_program(*bytes, name);
+    const auto kind = job::detect_program(*bytes, name);
     if (!kind) {
         return fail_at(name, 0, 0, "this is no job and no program that is known here",
                        "drop a job (.toml) with its files, G-code, APT or keyframes (.csv)");
     }
-    return session::job_of_program(name, *kind);
+    return job::job_of_program(name, *kind);
 }
 
 Result<void> check_memory(const session::MillSetup& setup, const std::string& name) {
@@ -91,12 +91,12 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
     bool assumed = false;
     auto job = job_of(name, assumed);
     if (!job) return std::unexpected(job.error());
-    auto program = io::read_program(*job);
+    auto program = job::read_program(*job);
     if (!program) return std::unexpected(Error(program.error()));
     LoadedMill loaded;
     loaded.warnings = program->warnings;
-    if (assumed) session::assume_job(*job, *program, loaded.warnings);
-    if (auto done = session::complete_job(*job, *program, loaded.warnings); !done) {
+    if (assumed) job::assume_job(*job, *program, loaded.warnings);
+    if (auto done = job::complete_job(*job, *program, loaded.warnings); !done) {
         return std::unexpected(done.error());
     }
     session::MillInputs inputs;
@@ -106,12 +106,12 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
     inputs.blank = std::move(stock->blank);
     inputs.blank_volume_mm3 = stock->blank_volume_mm3;
     inputs.earlier = std::move(stock->earlier);
-    for (const formats::JobSolid& fixture : job->fixtures) {
+    for (const job::JobSolid& fixture : job->fixtures) {
         auto solid = solid_of(fixture);
         if (!solid) return std::unexpected(solid.error());
         inputs.fixtures.push_back(std::move(solid->shape));
     }
-    if (!part.empty()) job->part = formats::ModelFile{part, {}};
+    if (!part.empty()) job->part = readers::ModelFile{part, {}};
     if (job->part) {
         auto model = read_model(*job->part);
         if (!model) return std::unexpected(model.error());
@@ -119,7 +119,7 @@ Result<LoadedMill> load_mill(const std::string& name, const std::string& part,
         loaded.part = std::move(model->mesh);
     }
     loaded.material = job->material.name;
-    loaded.listening = session::listening_to(*job, inputs.blank->bounds_mm());
+    loaded.listening = job::listening_to(*job, inputs.blank->bounds_mm());
     auto setup = session::prepare_mill(*job, std::move(inputs), {cell_mm, {}, session::LiveMill::kPieceMm},
                                        loaded.warnings);
     if (!setup) {

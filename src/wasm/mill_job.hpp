@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "session/live_frame.hpp"
-#include "session/mill_setup.hpp"
+#include "protocol/live_frame.hpp"
+#include "session/cut/mill_setup.hpp"
 
 namespace tribo::wasm {
 
 struct LoadedMill {
     session::MillSetup setup;
-    session::Listening listening;
+    job::Listening listening;
     std::optional<TriangleMesh> part;  // the designed surface
     std::string material;              // its name, or nothing where the job has coefficients of its own
     Warnings warnings;

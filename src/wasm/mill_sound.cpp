@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "session/live_sound.hpp"
+#include "session/live/live_sound.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 

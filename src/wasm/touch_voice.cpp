@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "noise/friction_voice.hpp"
+#include "noise/play/friction_voice.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 

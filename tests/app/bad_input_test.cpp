@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
-#include "app/job_folder.hpp"
-#include "io/file_size_limit.hpp"
+#include "app/run/job_folder.hpp"
+#include "files/file_size_limit.hpp"
 
 namespace tribo::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "app/job_folder.hpp"
-#include "io/riff.hpp"
-#include "noise/fourier.hpp"
+#include "app/run/job_folder.hpp"
+#include "files/riff.hpp"
+#include "noise/model/fourier.hpp"
 
 namespace tribo::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {

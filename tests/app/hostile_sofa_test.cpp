@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "app/job_folder.hpp"
+#include "app/run/job_folder.hpp"
 
 namespace tribo::test {
 namespace {

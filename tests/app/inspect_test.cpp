@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "app/job_folder.hpp"
+#include "app/run/job_folder.hpp"
 
 namespace tribo::test {
 namespace {

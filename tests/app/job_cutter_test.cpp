@@ -5,7 +5,7 @@
 #include <complex>
 #include <gtest/gtest.h>
 
-#include "app/job_run.hpp"
+#include "app/run/job_run.hpp"
 #include "milling/force_reference.hpp"
 
 namespace tribo::test {

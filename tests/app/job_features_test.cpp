@@ -2,7 +2,7 @@
 // What a job file may ask for beyond a box, a cutter and a path, from the file to the numbers that come out.
 #include <gtest/gtest.h>
 
-#include "app/job_folder.hpp"
+#include "app/run/job_folder.hpp"
 
 namespace tribo::test {
 namespace {

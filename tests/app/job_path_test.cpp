@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "app/job_run.hpp"
+#include "app/run/job_run.hpp"
 
 namespace tribo::test {
 namespace {

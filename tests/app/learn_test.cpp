@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "app/program.hpp"
-#include "io/png.hpp"
-#include "io/riff.hpp"
+#include "app/run/program.hpp"
+#include "files/image/png.hpp"
+#include "files/riff.hpp"
 
 namespace tribo::test {
 namespace {
@@ -150,8 +150,8 @@ TEST_F(Learn, reports_silence_and_clipping_and_learns_from_the_rest) {
 
 TEST_F(Learn, takes_down_how_the_image_takes_the_light_and_no_more_than_was_said) {
     const std::vector<std::uint8_t> pixels(24, 90);
-    scratch.put("image.png", io::png_bytes({2, 3, pixels}));
-    scratch.put("map.png", io::png_bytes({2, 3, pixels}));
+    scratch.put("image.png", files::png_bytes({2, 3, pixels}));
+    scratch.put("map.png", files::png_bytes({2, 3, pixels}));
     const auto learned = [&](std::vector<std::string> more) {
         more.insert(more.end(), {"--recording", "40:slow.wav", "--order", "4", "--image", "image.png",
                                  "--out", "m.json"});
@@ -175,8 +175,8 @@ TEST_F(Learn, refuses_bad_calls_by_name_and_leaves_what_was_there) {
     scratch.put("short.wav", wav(kRate, rubbed(-20, 0.01, 1)));
     scratch.put("text.wav", "not a sound");
     const std::vector<std::uint8_t> pixels(24, 90);
-    scratch.put("image.png", io::png_bytes({2, 3, pixels}));
-    scratch.put("turned.png", io::png_bytes({3, 2, pixels}));
+    scratch.put("image.png", files::png_bytes({2, 3, pixels}));
+    scratch.put("turned.png", files::png_bytes({3, 2, pixels}));
     scratch.put("m.json", "old");
     const std::size_t before = scratch.entries();
     const auto refuses = [&](std::vector<std::string> more, const std::string& part) {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 #include "net/raw_client.hpp"
 
 namespace tribo::test {

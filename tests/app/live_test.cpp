@@ -5,7 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 #include "net/certificates.hpp"
 #include "net/raw_client.hpp"
 

@@ -3,9 +3,9 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 #include "field/self_intersection.hpp"
-#include "io/model_file.hpp"
+#include "files/model/model_file.hpp"
 
 namespace tribo::test {
 namespace {
@@ -18,7 +18,7 @@ TEST(PartMesh, of_every_example_is_closed_and_does_not_meet_itself) {
         const Outcome run = run_tribo({"render", kExamples + name + "/" + name + ".toml", "--out",
                                        scratch / "out", "--only", "mesh", "--resolution", "0.4"});
         ASSERT_EQ(run.code, 0) << run.err;
-        const auto model = io::read_model_file({scratch / "out/machined.stl", {}});
+        const auto model = files::read_model_file({scratch / "out/machined.stl", {}});
         ASSERT_TRUE(model.has_value());
         EXPECT_TRUE(is_closed(model->mesh)) << name;
         EXPECT_TRUE(SelfIntersections(model->mesh).pairs().empty()) << name;
@@ -40,7 +40,7 @@ TEST(PartMesh, is_stock_for_the_next_job) {
         const Outcome run = run_tribo({"render", scratch / (name + ".toml"), "--out", scratch / name,
                                        "--only", "mesh", "--resolution", "0.5"});
         EXPECT_EQ(run.code, 0) << run.err;
-        const auto model = io::read_model_file({scratch / (name + "/machined.stl"), {}});
+        const auto model = files::read_model_file({scratch / (name + "/machined.stl"), {}});
         EXPECT_TRUE(model.has_value());
         return model ? model->mesh : TriangleMesh{};
     };

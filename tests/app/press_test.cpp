@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 #include "base/hash.hpp"
 #include "elastic/colour_difference.hpp"
-#include "io/image_file.hpp"
+#include "files/image/image_file.hpp"
 
 namespace tribo::test {
 namespace {
@@ -114,19 +114,19 @@ TEST(Press, default_frames_do_not_depend_on_their_rate_and_never_rise) {
 
 TEST(Press, a_frame_before_the_touch_is_the_image_itself) {
     Scratch scratch;
-    io::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize)};
+    files::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize)};
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
         image.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : (i * i) % 256);
     }
-    scratch.put("image.png", io::png_bytes(image));
+    scratch.put("image.png", files::png_bytes(image));
     std::string with_image = material(1.4, 0.1);
     with_image.insert(with_image.size() - 1, R"(, "image": "image.png")");
     scratch.put("m.json", with_image);
     scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,30,30,0\n0.1,30,30,0\n0.101,30,30,3\n0.3,30,30,3\n");
     const Outcome run = press(scratch, {"--size", "48", "--fps", "20"});
     ASSERT_EQ(run.code, 0) << run.err;
-    const auto first = io::parse_image(scratch.get("out/frame_0000.png"), "first");
-    const auto last = io::parse_image(scratch.get("out/frame_0006.png"), "last");
+    const auto first = files::parse_image(scratch.get("out/frame_0000.png"), "first");
+    const auto last = files::parse_image(scratch.get("out/frame_0006.png"), "last");
     ASSERT_TRUE(first && last);
     EXPECT_EQ(first->rgba, image.rgba);
     EXPECT_NE(last->rgba, image.rgba);
@@ -138,14 +138,14 @@ TEST(Press, a_frame_before_the_touch_is_the_image_itself) {
 
 // A picture of its own with the keys in `more`, pressed and drawn at 48 x 48.
 std::string last_frame(const std::string& more, std::vector<std::string> flags,
-                       const io::Image* height_map = nullptr) {
+                       const files::Image* height_map = nullptr) {
     Scratch scratch;
-    io::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 255)};
+    files::Image image{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 255)};
     for (std::size_t i = 0; i < image.rgba.size(); ++i) {
         if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(80 + (i / 4 * 31 + i % 4 * 7) % 120);
     }
-    scratch.put("image.png", io::png_bytes(image));
-    if (height_map != nullptr) scratch.put("map.png", io::png_bytes(*height_map));
+    scratch.put("image.png", files::png_bytes(image));
+    if (height_map != nullptr) scratch.put("map.png", files::png_bytes(*height_map));
     std::string text = material(1.4, 0.1);
     text.insert(text.size() - 1, R"(, "image": "image.png")" + more);
     scratch.put("m.json", text);
@@ -153,7 +153,7 @@ std::string last_frame(const std::string& more, std::vector<std::string> flags,
     flags.insert(flags.end(), {"--size", "48", "--fps", "10"});
     const Outcome run = press(scratch, std::move(flags));
     EXPECT_EQ(run.code, 0) << run.err;
-    const auto frame = io::parse_image(scratch.get("out/frame_0005.png"), "frame");
+    const auto frame = files::parse_image(scratch.get("out/frame_0005.png"), "frame");
     EXPECT_TRUE(frame);
     return frame ? std::string(frame->rgba.begin(), frame->rgba.end()) : "";
 }
@@ -177,8 +177,8 @@ TEST(Press, half_a_newton_is_seen_on_two_percent_of_paper_and_ten_of_sponge) {
             run_tribo({"press", file, "--stroke", "s.csv", "--out", "out", "--fps", "10", "--size", "256"},
                       scratch.path());
         ASSERT_EQ(run.code, 0) << run.err;
-        const auto rest = io::parse_image(scratch.get("out/frame_0000.png"), "rest");
-        const auto pressed = io::parse_image(scratch.get("out/frame_0010.png"), "pressed");
+        const auto rest = files::parse_image(scratch.get("out/frame_0000.png"), "rest");
+        const auto pressed = files::parse_image(scratch.get("out/frame_0010.png"), "pressed");
         ASSERT_TRUE(rest && pressed);
         EXPECT_GE(elastic::share_seen(rest->rgba, pressed->rgba), share) << name;
     }
@@ -191,7 +191,7 @@ TEST(Press, lights_a_material_by_its_finish_and_its_height_map) {
     EXPECT_FALSE(last_frame(R"(, "roughness": 0.2)", {}) == usual);
     EXPECT_FALSE(last_frame(R"(, "relief_slope": 0.5)", {}) == usual);
     // A level map is no relief at all.
-    const io::Image level{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 128)};
+    const files::Image level{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 128)};
     EXPECT_TRUE(last_frame(R"(, "height_map": "map.png")", {}, &level) ==
                 last_frame(R"(, "relief_slope": 0)", {}));
 }
@@ -223,14 +223,14 @@ TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {
     expect_refusal({}, "gone.png");
     scratch.put("gone.png", "not a picture");
     expect_refusal({}, "gone.png");
-    const io::Image image{4, 3, std::vector<std::uint8_t>(48, 200)}, turned{3, 4, image.rgba};
-    scratch.put("gone.png", io::png_bytes(image));
+    const files::Image image{4, 3, std::vector<std::uint8_t>(48, 200)}, turned{3, 4, image.rgba};
+    scratch.put("gone.png", files::png_bytes(image));
     without_image.insert(without_image.size() - 1, R"(, "height_map": "map.png")");
     scratch.put("m.json", without_image);
     expect_refusal({}, "map.png");
     scratch.put("map.png", "no picture either");
     expect_refusal({}, "map.png");
-    scratch.put("map.png", io::png_bytes(turned));
+    scratch.put("map.png", files::png_bytes(turned));
     expect_refusal({}, "map.png: error: the height map has 3 x 4 pixels");
     expect_refusal({}, "4 x 3 pixels, as the image");
     scratch.put("m.json", "{\n\"schema\": \"tribo.material/1\",\n\"gloss\": NaN}");

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {

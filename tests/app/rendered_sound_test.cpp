@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "app/job_folder.hpp"
-#include "io/riff.hpp"
+#include "app/run/job_folder.hpp"
+#include "files/riff.hpp"
 
 namespace tribo::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "app/program.hpp"
-#include "io/sound_file.hpp"
-#include "io/wav.hpp"
-#include "noise/learning.hpp"
-#include "noise/sound_statistics.hpp"
+#include "app/run/program.hpp"
+#include "files/sound/sound_file.hpp"
+#include "files/sound/wav.hpp"
+#include "noise/learn/learning.hpp"
+#include "noise/learn/sound_statistics.hpp"
 
 namespace tribo::test {
 namespace {
@@ -63,14 +63,14 @@ std::vector<double> modulation_db(const std::vector<double>& x, double rate_hz) 
 class RubRecordings : public testing::TestWithParam<const char*> {
   protected:
     void put(const std::string& name, const std::vector<double>& x, double rate_hz) const {
-        auto wav = io::WavWriter::create(scratch / name,
-                                         {.sample_rate_hz = static_cast<int>(rate_hz), .channels = 1});
+        auto wav = files::WavWriter::create(scratch / name,
+                                            {.sample_rate_hz = static_cast<int>(rate_hz), .channels = 1});
         ASSERT_TRUE(wav);
         wav->write(std::vector<float>(x.begin(), x.end()));
         ASSERT_TRUE(wav->finish());
     }
     std::vector<double> sound(const std::string& name) const {
-        const auto file = io::read_sound(scratch / name);
+        const auto file = files::read_sound(scratch / name);
         return file ? file->samples : std::vector<double>{};
     }
     std::vector<double> rubbed(std::vector<std::string> more) const {
@@ -85,7 +85,7 @@ class RubRecordings : public testing::TestWithParam<const char*> {
 TEST_P(RubRecordings, have_the_modulation_kurtosis_and_spectrum_of_the_half_they_were_learned_from) {
     const std::string path = std::string(TRIBO_SOURCE_DIR "/../shared/data/audio/") + GetParam();
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-    const auto file = io::read_sound(path);
+    const auto file = files::read_sound(path);
     ASSERT_TRUE(file);
     const double rate = file->sample_rate_hz;
     const auto middle = file->samples.begin() + static_cast<std::ptrdiff_t>(file->samples.size() / 2);

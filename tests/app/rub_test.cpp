@@ -3,8 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "app/program.hpp"
-#include "io/riff.hpp"
+#include "app/run/program.hpp"
+#include "files/riff.hpp"
 
 namespace tribo::test {
 namespace {

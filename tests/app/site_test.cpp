@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {

@@ -2,7 +2,7 @@
 // What the program says to a wrong call, and how it ends then.
 #include <gtest/gtest.h>
 
-#include "app/program.hpp"
+#include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/audio_out.hpp"
+#include "devices/sound/audio_out.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "devices/force_dimension.hpp"
-#include "devices/openhaptics.hpp"
+#include "devices/arm/force_dimension.hpp"
+#include "devices/arm/openhaptics.hpp"
 #include "fakes/fake_arm.hpp"
 
 namespace tribo::devices {

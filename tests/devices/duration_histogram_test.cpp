@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/duration_histogram.hpp"
+#include "devices/servo/duration_histogram.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A force that a library of the user's gives: the example of docs/feel.md, and libraries that are none.
-#include "devices/force_plugin.hpp"
+#include "devices/arm/force_plugin.hpp"
 
 #include <fstream>
 #include <gtest/gtest.h>

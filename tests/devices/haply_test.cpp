@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The Inverse3 through a server that speaks the documented messages.
-#include "devices/haply.hpp"
+#include "devices/arm/haply.hpp"
 
 #include <atomic>
 #include <boost/asio/io_context.hpp>

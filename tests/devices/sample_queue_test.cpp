@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/sample_queue.hpp"
+#include "devices/sound/sample_queue.hpp"
 
 #include <gtest/gtest.h>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An arm at the other end of a pseudo-terminal, which speaks by the header that a firmware includes.
-#include "devices/serial_arm.hpp"
+#include "devices/arm/serial_arm.hpp"
 
 #include <array>
 #include <atomic>
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/noise_hash.hpp"
-#include "devices/serial_packets.h"
+#include "devices/arm/serial_packets.h"
 
 namespace tribo::devices {
 namespace {

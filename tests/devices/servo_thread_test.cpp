@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "devices/servo_thread.hpp"
+#include "devices/servo/servo_thread.hpp"
 
 #include <chrono>
 #include <gtest/gtest.h>

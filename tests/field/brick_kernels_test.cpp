@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "field/brick_kernels.hpp"
+#include "field/carved/brick_kernels.hpp"
 
 #include <algorithm>
 #include <array>

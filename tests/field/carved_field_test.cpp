@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The stock field against closed forms: volumes, heights of cusps, what a brick remembers.
-#include "field/carved_field.hpp"
+#include "field/carved/carved_field.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 #include <thread>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "test_shapes.hpp"
 
 namespace tribo::field {

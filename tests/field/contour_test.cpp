@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The mesh against the solids it was made from: closed, sharp, on the surface, few triangles on flats.
-#include "field/contour.hpp"
+#include "field/contour/contour.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "self_intersection.hpp"
 #include "test_shapes.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "field/field_reader.hpp"
+#include "field/carved/field_reader.hpp"
 
 #include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "test_shapes.hpp"
 
 namespace tribo::field {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "field/mesh_field.hpp"
+#include "field/mesh/mesh_field.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "base/noise_hash.hpp"
-#include "field/mesh_tree.hpp"
+#include "field/mesh/mesh_tree.hpp"
 
 namespace tribo::field {
 namespace {

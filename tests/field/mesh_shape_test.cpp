@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Distance to meshes: against every triangle in turn, against boxes and spheres, and the side at every kind
 // of edge and corner.
-#include "field/mesh_shape.hpp"
+#include "field/mesh/mesh_shape.hpp"
 
 #include <gtest/gtest.h>
 #include <limits>
 #include <rapidcheck/gtest.h>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "mesh_samples.hpp"
 
 namespace tribo::field {

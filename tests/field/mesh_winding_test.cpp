@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "field/mesh_tree.hpp"
+#include "field/mesh/mesh_tree.hpp"
 #include "mesh_samples.hpp"
 
 namespace tribo::field {

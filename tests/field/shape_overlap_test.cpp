@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Overlaps of solids against what boxes and balls say in closed form, and against a search of all points.
-#include "field/shape_overlap.hpp"
+#include "field/shape/shape_overlap.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "field/box_shape.hpp"
-#include "field/mesh_shape.hpp"
+#include "field/mesh/mesh_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "mesh_samples.hpp"
 #include "test_shapes.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "field/shape.hpp"
+#include "field/shape/shape.hpp"
 
 namespace tribo::field::test {
 

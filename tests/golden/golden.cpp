@@ -11,7 +11,7 @@ std::span<const Golden> goldens() {
                                           {"field", field},
                                           {"force", force},
                                           {"elastic", elastic},
-                                          {"formats", formats},
+                                          {"formats", readers},
                                           {"mill_three_axes", mill_three_axes},
                                           {"mill_five_axes", mill_five_axes}};
     return kGoldens;

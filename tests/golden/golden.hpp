@@ -23,7 +23,7 @@ std::uint64_t motion();
 std::uint64_t field();
 std::uint64_t force();
 std::uint64_t elastic();
-std::uint64_t formats();
+std::uint64_t readers();
 std::uint64_t mill_three_axes();
 std::uint64_t mill_five_axes();
 

@@ -3,9 +3,9 @@
 
 #include "base/hash.hpp"
 #include "base/noise_hash.hpp"
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
-#include "field/contour.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/contour/contour.hpp"
+#include "field/shape/box_shape.hpp"
 #include "golden/golden.hpp"
 
 namespace tribo::golden {

@@ -2,8 +2,8 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "golden/golden.hpp"
-#include "milling/force.hpp"
-#include "milling/materials.hpp"
+#include "milling/force/force.hpp"
+#include "milling/tool/materials.hpp"
 
 namespace tribo::golden {
 

@@ -4,9 +4,9 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "golden/golden.hpp"
-#include "motion/fitting.hpp"
-#include "motion/keyframe_motion.hpp"
-#include "motion/timing.hpp"
+#include "motion/curve/fitting.hpp"
+#include "motion/curve/keyframe_motion.hpp"
+#include "motion/path/timing.hpp"
 
 namespace tribo::golden {
 namespace {

@@ -6,19 +6,19 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "contact/contact_sample.hpp"
-#include "field/box_shape.hpp"
-#include "field/contour.hpp"
-#include "formats/gcode_reader.hpp"
+#include "field/contour/contour.hpp"
+#include "field/shape/box_shape.hpp"
 #include "golden/golden.hpp"
-#include "session/mill_setup.hpp"
-#include "sound/workshop.hpp"
+#include "readers/gcode/reader.hpp"
+#include "session/cut/mill_setup.hpp"
+#include "sound/play/workshop.hpp"
 
 namespace tribo::golden {
 namespace {
 
 // Mills the program out of a block and hashes everything that comes out: rows, sound, totals, stock, mesh. 0
 // when it is refused.
-std::uint64_t milled(const formats::Job& job, motion::Program program) {
+std::uint64_t milled(const job::Job& job, motion::Program program) {
     const Box3 block{{-12, -12, -8}, {12, 12, 0}};
     session::MillInputs inputs;
     inputs.program = std::move(program);
@@ -72,8 +72,8 @@ std::uint64_t milled(const formats::Job& job, motion::Program program) {
     return t.rows > 10 ? hash.value() : 0;
 }
 
-formats::Job job_with(const milling::Cutter& cutter) {
-    formats::Job job;
+job::Job job_with(const milling::Cutter& cutter) {
+    job::Job job;
     job.cutters = {cutter};
     job.material.name = "al7075-t6";
     job.process = {6000, 900};
@@ -100,7 +100,7 @@ G0 Z5
     cutter.diameter_mm = 6;
     cutter.flutes = 3;
     cutter.length_mm = 20;
-    auto program = formats::read_gcode(kProgram);
+    auto program = readers::read_gcode(kProgram);
     return program ? milled(job_with(cutter), std::move(*program)) : 0;
 }
 
@@ -111,7 +111,7 @@ std::uint64_t mill_five_axes() {
     cutter.corner_mm = 1;
     cutter.diameter_mm = 8;
     cutter.length_mm = 25;
-    const formats::Job job = job_with(cutter);
+    const job::Job job = job_with(cutter);
     std::vector<motion::Keyframe> keyframes;
     for (int i = 0; i <= 10; ++i) {
         const double x = 3.0 * i - 15, y = 6 * math::sin(0.4 * i);

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "base/allocation_count.hpp"
-#include "field/box_shape.hpp"
-#include "field/field_reader.hpp"
-#include "field/mesh_shape.hpp"
-#include "haptics/force_field.hpp"
-#include "milling/sweep.hpp"
+#include "field/carved/field_reader.hpp"
+#include "field/mesh/mesh_shape.hpp"
+#include "field/shape/box_shape.hpp"
+#include "haptics/contact/force_field.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/noise_hash.hpp"
-#include "haptics/field_contact.hpp"
-#include "haptics/probe_shape.hpp"
+#include "haptics/contact/field_contact.hpp"
+#include "haptics/contact/probe_shape.hpp"
 #include "milled_field.hpp"
 
 namespace tribo::haptics {

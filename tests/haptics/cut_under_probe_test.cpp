@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "field/box_shape.hpp"
-#include "field/field_reader.hpp"
-#include "haptics/field_contact.hpp"
-#include "milling/sweep.hpp"
+#include "field/carved/field_reader.hpp"
+#include "field/shape/box_shape.hpp"
+#include "haptics/contact/field_contact.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::haptics {
 namespace {

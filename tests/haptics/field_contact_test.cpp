@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/field_contact.hpp"
+#include "haptics/contact/field_contact.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

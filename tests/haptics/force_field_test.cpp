@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/force_field.hpp"
+#include "haptics/contact/force_field.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

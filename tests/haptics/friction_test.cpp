@@ -6,7 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "groove_field.hpp"
-#include "haptics/field_contact.hpp"
+#include "haptics/contact/field_contact.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Taps on a wall through a loop with delay: arm, line and encoder as they are, the servo as it is shipped.
 // What the hand gets back beyond what it put in is measured on the hand itself, and the wall stays a wall.
-#include "haptics/loop_delay.hpp"
+#include "haptics/servo/loop_delay.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "groove_field.hpp"
-#include "haptics/field_contact.hpp"
-#include "haptics/servo.hpp"
-#include "haptics/simulated_hand.hpp"
+#include "haptics/contact/field_contact.hpp"
+#include "haptics/servo/servo.hpp"
+#include "haptics/servo/simulated_hand.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
-#include "milling/sweep.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::haptics::test {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Scripted taps on a sampled wall, with positions as coarse as an encoder's: the energy that the hand gets
 // back beyond what it put in stays above a bound.
-#include "haptics/passivity.hpp"
+#include "haptics/servo/passivity.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "haptics/servo.hpp"
-#include "haptics/simulated_hand.hpp"
+#include "haptics/servo/servo.hpp"
+#include "haptics/servo/simulated_hand.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/noise_hash.hpp"
 #include "groove_field.hpp"
-#include "haptics/field_contact.hpp"
+#include "haptics/contact/field_contact.hpp"
 
 namespace tribo::haptics {
 namespace {

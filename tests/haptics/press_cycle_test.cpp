@@ -6,11 +6,11 @@
 #include <span>
 
 #include "base/noise_hash.hpp"
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
-#include "haptics/field_contact.hpp"
-#include "milling/sweep.hpp"
-#include "motion/moves.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/shape/box_shape.hpp"
+#include "haptics/contact/field_contact.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/probe_shape.hpp"
+#include "haptics/contact/probe_shape.hpp"
 
 #include <gtest/gtest.h>
 
-#include "haptics/field_contact.hpp"
+#include "haptics/contact/field_contact.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fault injection: each fault of docs/servo.md, with the outcome and the number of ticks that it promises.
-#include "haptics/safety.hpp"
+#include "haptics/servo/safety.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -8,10 +8,10 @@
 #include "base/counted_allocations.hpp"
 #include "base/counted_locks.hpp"
 #include "contact/force_table.hpp"
-#include "haptics/field_contact.hpp"
-#include "haptics/force_field.hpp"
-#include "haptics/servo.hpp"
-#include "haptics/simulated_hand.hpp"
+#include "haptics/contact/field_contact.hpp"
+#include "haptics/contact/force_field.hpp"
+#include "haptics/servo/servo.hpp"
+#include "haptics/servo/simulated_hand.hpp"
 
 namespace tribo::haptics {
 namespace {

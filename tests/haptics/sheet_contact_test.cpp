@@ -3,8 +3,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "field/mesh_field.hpp"
-#include "haptics/field_contact.hpp"
+#include "field/mesh/mesh_field.hpp"
+#include "haptics/contact/field_contact.hpp"
 
 namespace tribo::haptics {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/simulated_hand.hpp"
+#include "haptics/servo/simulated_hand.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "haptics/device_log.hpp"
-#include "haptics/servo.hpp"
+#include "haptics/device/device_log.hpp"
+#include "haptics/servo/servo.hpp"
 
 namespace tribo::haptics {
 namespace {

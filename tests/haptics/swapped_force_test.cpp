@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/swapped_force.hpp"
+#include "haptics/servo/swapped_force.hpp"
 
 #include <atomic>
 #include <gtest/gtest.h>

@@ -62,7 +62,7 @@ constexpr int kMostLines = 600;
 
 const std::vector<Room>& rooms() {
     const Names core{"base",  "contact", "motion",  "field", "surface", "milling",
-                     "noise", "elastic", "haptics", "sound", "formats"};
+                     "noise", "elastic", "haptics", "sound", "readers"};
     const auto with = [](Names names, const Names& more) {
         names.insert(more.begin(), more.end());
         return names;
@@ -78,17 +78,19 @@ const std::vector<Room>& rooms() {
         {"elastic", "base contact", {"base", "contact"}, true},
         {"haptics", "base contact noise", {"base", "contact", "noise"}, true},
         {"sound", "base contact noise", {"base", "contact", "noise"}, true},
-        {"formats",
-         "base contact motion surface milling noise",
-         {"base", "contact", "motion", "surface", "milling", "noise"},
-         true},
-        {"session", "all above", core, true},
-        {"io", "all above but session", core, false},
-        {"wasm", "session, and the readers of io that ask for files by name", with(core, {"session", "io"}),
+        {"readers", "base contact motion milling", {"base", "contact", "motion", "milling"}, true},
+        {"files", "base contact sound readers", {"base", "contact", "sound", "readers"}, false},
+        {"material", "base noise files", {"base", "noise", "files"}, false},
+        {"job", "the rooms down to files", with(core, {"files"}), true},
+        {"protocol", "the rooms down to job", with(core, {"files", "job"}), false},
+        {"session", "all above but files and material", with(core, {"job", "protocol"}), true},
+        {"report", "the rooms down to job", with(core, {"files", "material", "job"}), false},
+        {"wasm", "all above but report", with(core, {"files", "material", "job", "protocol", "session"}),
          true},
         {"net", "base", {"base"}, false},
         {"devices", "base contact haptics net", {"base", "contact", "haptics", "net"}, false},
-        {"app", "all above but wasm", with(core, {"session", "io", "net", "devices"}), false},
+        {"app", "all above but wasm",
+         with(core, {"files", "material", "job", "protocol", "session", "report", "net", "devices"}), false},
     };
     return table;
 }

@@ -80,10 +80,10 @@ TEST(HouseRules, an_edge_that_is_not_in_the_table_is_found) {
     EXPECT_EQ(include_complaints("src/field/a.cpp", "#include \"base/vec3.hpp\"\n#include \"field/b.hpp\"\n")
                   .size(),
               0u);
-    EXPECT_EQ(include_complaints("src/field/a.cpp", "\n#include \"io/files.hpp\"\n"),
-              std::vector<std::string>{"src/field/a.cpp:2: field/ may not include io/"});
+    EXPECT_EQ(include_complaints("src/field/a.cpp", "\n#include \"files/files.hpp\"\n"),
+              std::vector<std::string>{"src/field/a.cpp:2: field/ may not include files/"});
     EXPECT_EQ(include_complaints("src/base/a.cpp", "#  include \"contact/x.hpp\"").size(), 1u);
-    EXPECT_EQ(include_complaints("src/io/a.cpp", "#include \"session/mill.hpp\"").size(), 1u);
+    EXPECT_EQ(include_complaints("src/files/a.cpp", "#include \"session/mill.hpp\"").size(), 1u);
     EXPECT_EQ(include_complaints("src/app/a.cpp", "#include \"session/mill.hpp\"").size(), 0u);
     EXPECT_EQ(include_complaints("src/cellar/a.cpp", "").size(), 1u);
 }
@@ -99,7 +99,7 @@ TEST(HouseRules, what_differs_between_systems_is_found_in_hashed_rooms_alone) {
           "std::unordered_map<int, int> m;", "std::normal_distribution<> d;", "std::thread t;", "throw 1;",
           "#include <iostream>", "std::stod(text)"}) {
         EXPECT_EQ(same_bits_complaints("src/milling/a.cpp", code).size(), 1u) << code;
-        EXPECT_EQ(same_bits_complaints("src/io/a.cpp", code).size(), 0u) << code;
+        EXPECT_EQ(same_bits_complaints("src/files/a.cpp", code).size(), 0u) << code;
     }
     for (const char* code : {"math::sin(x)", "std::sqrt(x)", "std::abs(x)", "// std::sin(x) differs",
                              "retry(x)", "fail(\"bad\", \"try another\")", "'\"', x // catch", "std::logic"})

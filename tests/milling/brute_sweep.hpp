@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "milling/cutter.hpp"
-#include "motion/direction.hpp"
-#include "motion/program.hpp"
+#include "milling/tool/cutter.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/path/program.hpp"
 
 namespace tribo::milling {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the scout finds, against a look at every point of a fine net over the envelope.
-#include "milling/contact_scout.hpp"
+#include "milling/engagement/contact_scout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/math.hpp"
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/shape/box_shape.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "milling/cutter.hpp"
+#include "milling/tool/cutter.hpp"
 
 #include <cmath>
 #include <functional>

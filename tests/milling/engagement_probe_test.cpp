@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Engagement measured on stock of known shape, against the angles and areas that geometry gives.
-#include "milling/engagement_probe.hpp"
+#include "milling/engagement/engagement_probe.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/math.hpp"
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "milling/force_grid.hpp"
+#include "milling/force/force_grid.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "milling/force.hpp"
-#include "milling/materials.hpp"
+#include "milling/force/force.hpp"
+#include "milling/tool/materials.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "milling/force_peaks.hpp"
+#include "milling/force/force_peaks.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "milling/force.hpp"
+#include "milling/force/force.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {

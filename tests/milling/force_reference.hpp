@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "contact/force_spectrum.hpp"
-#include "milling/coefficients.hpp"
-#include "milling/cutter.hpp"
-#include "milling/engaged_edges.hpp"
-#include "milling/engagement.hpp"
+#include "milling/engagement/engaged_edges.hpp"
+#include "milling/engagement/engagement.hpp"
+#include "milling/tool/coefficients.hpp"
+#include "milling/tool/cutter.hpp"
 
 namespace reference {
 

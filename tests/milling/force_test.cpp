@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "milling/force.hpp"
+#include "milling/force/force.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "milling/engagement_probe.hpp"
+#include "milling/engagement/engagement_probe.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {

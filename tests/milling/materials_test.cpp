@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "milling/materials.hpp"
+#include "milling/tool/materials.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

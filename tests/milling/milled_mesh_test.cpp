@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <random>
 
-#include "field/box_shape.hpp"
-#include "field/contour.hpp"
-#include "field/mesh_shape.hpp"
+#include "field/contour/contour.hpp"
+#include "field/mesh/mesh_shape.hpp"
 #include "field/self_intersection.hpp"
-#include "milling/sweep.hpp"
-#include "motion/moves.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::milling {
 namespace {

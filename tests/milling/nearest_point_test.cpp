@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "base/noise_hash.hpp"
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
-#include "milling/sweep.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::milling {
 namespace {

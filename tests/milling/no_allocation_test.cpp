@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/counted_allocations.hpp"
-#include "milling/force.hpp"
+#include "milling/force/force.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {

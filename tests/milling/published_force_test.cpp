@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "milling/published_force.hpp"
+#include "milling/force/published_force.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "milling/force.hpp"
+#include "milling/force/force.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "milling/scallop.hpp"
+#include "milling/sweep/scallop.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "milling/force.hpp"
+#include "milling/force/force.hpp"
 #include "reference_cases.hpp"
 
 namespace tribo::milling {

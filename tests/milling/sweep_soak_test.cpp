@@ -8,7 +8,7 @@
 #include <random>
 
 #include "milling/brute_sweep.hpp"
-#include "milling/sweep.hpp"
+#include "milling/sweep/sweep.hpp"
 
 namespace tribo::milling {
 namespace {

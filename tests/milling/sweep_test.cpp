@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The swept volume against a brute force that knows nothing of its formulas: the tool is tried at very many
 // instants.
-#include "milling/sweep.hpp"
+#include "milling/sweep/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include <rapidcheck/gtest.h>
 
 #include "milling/brute_sweep.hpp"
-#include "milling/sweep_kernels.hpp"
-#include "motion/program.hpp"
+#include "milling/sweep/sweep_kernels.hpp"
+#include "motion/path/program.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "milling/swept_surface.hpp"
+#include "milling/sweep/swept_surface.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
-#include "milling/scallop.hpp"
-#include "motion/keyframe_motion.hpp"
+#include "milling/sweep/scallop.hpp"
+#include "motion/curve/keyframe_motion.hpp"
 
 using namespace tribo;
 using namespace tribo::milling;

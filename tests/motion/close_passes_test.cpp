@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "motion/close_passes.hpp"
+#include "motion/path/close_passes.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

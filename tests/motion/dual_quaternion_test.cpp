@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "motion/dual_quaternion.hpp"
+#include "motion/algebra/dual_quaternion.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "motion/direction.hpp"
+#include "motion/algebra/direction.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "motion/fitting.hpp"
+#include "motion/curve/fitting.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "motion/direction.hpp"
+#include "motion/algebra/direction.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

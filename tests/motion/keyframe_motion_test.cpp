@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "motion/keyframe_motion.hpp"
+#include "motion/curve/keyframe_motion.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "motion/direction.hpp"
-#include "motion/path.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/path/path.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

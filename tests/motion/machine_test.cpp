@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "motion/machine.hpp"
+#include "motion/machine/machine.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
-#include "motion/direction.hpp"
-#include "motion/kinematics.hpp"
-#include "motion/machine_path.hpp"
-#include "motion/path.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/machine/kinematics.hpp"
+#include "motion/machine/machine_path.hpp"
+#include "motion/path/path.hpp"
 
 using namespace tribo;
 using namespace tribo::motion;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "motion/moves.hpp"
+#include "motion/path/moves.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "motion/direction.hpp"
-#include "motion/keyframe_motion.hpp"
-#include "motion/path.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/curve/keyframe_motion.hpp"
+#include "motion/path/path.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

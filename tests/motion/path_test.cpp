@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moves cut into pieces run the same path: the pose at a length along the pieces is the pose at that length
 // along the whole.
-#include "motion/path.hpp"
+#include "motion/path/path.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "motion/program.hpp"
+#include "motion/path/program.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "motion/direction.hpp"
-#include "motion/path.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/path/path.hpp"
 
 using namespace tribo;
 using namespace tribo::motion;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "motion/dual_quaternion.hpp"
+#include "motion/algebra/dual_quaternion.hpp"
 
 namespace tribo::motion::testing {
 

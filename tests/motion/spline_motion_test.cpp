@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/bezier_motion.hpp"
-#include "motion/bspline_motion.hpp"
+#include "motion/curve/bezier_motion.hpp"
+#include "motion/curve/bspline_motion.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

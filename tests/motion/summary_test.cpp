@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "motion/summary.hpp"
+#include "motion/path/summary.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "motion/timing.hpp"
+#include "motion/path/timing.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "motion/direction.hpp"
-#include "motion/path.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/path/path.hpp"
 #include "random_poses.hpp"
 
 using namespace tribo;

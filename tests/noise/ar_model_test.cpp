@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "noise/ar_model.hpp"
+#include "noise/model/ar_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
-#include "noise/levinson.hpp"
+#include "noise/model/levinson.hpp"
 
 namespace tribo::noise {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "noise/band_noise.hpp"
+#include "noise/play/band_noise.hpp"
 
 #include <cmath>
 #include <complex>

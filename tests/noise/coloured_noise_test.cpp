@@ -7,11 +7,11 @@
 
 #include "base/math.hpp"
 #include "base/noise_hash.hpp"
-#include "noise/bass_noise.hpp"
-#include "noise/colour.hpp"
-#include "noise/fourier.hpp"
-#include "noise/learning.hpp"
-#include "noise/pink_noise.hpp"
+#include "noise/learn/learning.hpp"
+#include "noise/model/fourier.hpp"
+#include "noise/play/bass_noise.hpp"
+#include "noise/play/colour.hpp"
+#include "noise/play/pink_noise.hpp"
 
 namespace tribo::noise {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "noise/finger_motion.hpp"
+#include "noise/play/finger_motion.hpp"
 
 #include <cmath>
 #include <complex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "noise/friction_voice.hpp"
+#include "noise/play/friction_voice.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "noise/learning.hpp"
+#include "noise/learn/learning.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
 
-#include "noise/levinson.hpp"
-#include "noise/sound_statistics.hpp"
-#include "noise/voice_quality.hpp"
+#include "noise/learn/sound_statistics.hpp"
+#include "noise/learn/voice_quality.hpp"
+#include "noise/model/levinson.hpp"
 
 namespace tribo::noise {
 namespace {

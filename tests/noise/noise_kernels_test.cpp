@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "noise/noise_kernels.hpp"
+#include "noise/play/noise_kernels.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "noise/ar_model.hpp"
+#include "noise/model/ar_model.hpp"
 
 namespace tribo::noise {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "noise/slow_level.hpp"
+#include "noise/play/slow_level.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
 
-#include "noise/sound_statistics.hpp"
+#include "noise/learn/sound_statistics.hpp"
 
 namespace tribo::noise {
 namespace {

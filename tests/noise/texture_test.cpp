@@ -6,10 +6,10 @@
 #include <numbers>
 #include <random>
 
-#include "noise/learning.hpp"
-#include "noise/model_noise.hpp"
-#include "noise/sound_statistics.hpp"
-#include "noise/texture_excitation.hpp"
+#include "noise/learn/learning.hpp"
+#include "noise/learn/sound_statistics.hpp"
+#include "noise/play/model_noise.hpp"
+#include "noise/play/texture_excitation.hpp"
 
 namespace tribo::noise {
 namespace {

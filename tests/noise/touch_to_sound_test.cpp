@@ -5,8 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "noise/finger_motion.hpp"
-#include "noise/friction_voice.hpp"
+#include "noise/play/finger_motion.hpp"
+#include "noise/play/friction_voice.hpp"
 #include "noise/voices.hpp"
 
 namespace tribo::noise {

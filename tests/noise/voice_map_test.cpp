@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "noise/voice_map.hpp"
+#include "noise/model/voice_map.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the report's figures say of sounds whose truth is known.
-#include "noise/voice_quality.hpp"
+#include "noise/learn/voice_quality.hpp"
 
 #include <algorithm>
 #include <cmath>

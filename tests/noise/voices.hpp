@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "noise/material_voices.hpp"
+#include "noise/model/material_voices.hpp"
 
 namespace tribo::noise::test {
 

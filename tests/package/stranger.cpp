@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "base/math.hpp"
-#include "milling/force.hpp"
-#include "milling/materials.hpp"
+#include "milling/force/force.hpp"
+#include "milling/tool/materials.hpp"
 
 int main() {
     const auto material = tribo::milling::find_material("al7075-t6");

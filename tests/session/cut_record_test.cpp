@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "session/cut_record.hpp"
+#include "session/cut/cut_record.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
 
 namespace tribo::session {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
-#include "milling/force.hpp"
-#include "milling/materials.hpp"
-#include "sound/minimum_phase.hpp"
-#include "sound/soundtrack.hpp"
+#include "milling/force/force.hpp"
+#include "milling/tool/materials.hpp"
+#include "sound/place/minimum_phase.hpp"
+#include "sound/play/soundtrack.hpp"
 
 namespace tribo::session {
 namespace {

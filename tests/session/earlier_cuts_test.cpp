@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 // A job on the stock that another one left, against one job that does both, and against the volume counted by
 // chance (Monte Carlo).
-#include "session/earlier_cuts.hpp"
+#include "session/cut/earlier_cuts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "base/noise_hash.hpp"
-#include "milling/materials.hpp"
-#include "milling/sweep.hpp"
-#include "motion/moves.hpp"
-#include "session/mill_session.hpp"
-#include "session/solid.hpp"
+#include "job/solid.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/moves.hpp"
+#include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 namespace {
 
-using formats::WorkFrame;
 using milling::Cutter;
 using milling::CutterKind;
+using motion::WorkFrame;
 
 // Draws in the order of the calls.
 class Draw {
@@ -104,17 +104,17 @@ void add(MillSetup& setup, const Cutter& cutter, const std::vector<motion::Move>
     }
 }
 
-MillSetup setup_on(const Box3& blank, const WorkFrame& frame, double cell_mm) {
+MillSetup setup_on(const Box3& blank, const motion::WorkFrame& frame, double cell_mm) {
     MillSetup setup;
     setup.coefficients = milling::find_material("al7075-t6")->coefficients;
-    setup.blank = in_frame(box_solid(blank), frame);
+    setup.blank = in_frame(job::box_solid(blank), frame);
     setup.blank_volume_mm3 = blank.volume();
     setup.cell_mm = cell_mm;
     return setup;
 }
 
 // The cuts of a setup as the next one's earlier ones.
-EarlierCuts turned(EarlierCuts cuts, const WorkFrame& frame) {
+EarlierCuts turned(EarlierCuts cuts, const motion::WorkFrame& frame) {
     for (motion::Move& move : cuts.moves) move = in_frame(move, frame);
     return cuts;
 }
@@ -149,8 +149,8 @@ struct Matrix {
 };
 
 // All 24 turns by right angles.
-std::vector<WorkFrame> right_angles() {
-    std::vector<WorkFrame> frames;
+std::vector<motion::WorkFrame> right_angles() {
+    std::vector<motion::WorkFrame> frames;
     const Vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (const Vec3 x : axes) {
         for (const Vec3 z : axes) {
@@ -249,7 +249,7 @@ TEST(EarlierCuts, turned_by_right_angles_take_the_same_volume_where_the_grids_me
     const Box3 about = blank.inflated(3);
     std::uint64_t seed = 100;
     int compared = 0;
-    for (WorkFrame frame : right_angles()) {
+    for (motion::WorkFrame frame : right_angles()) {
         Draw draw(seed++);
         const Vec3 up = draw.direction();
         const Cutter first = random_cutter(draw), second = random_cutter(draw);
@@ -305,7 +305,7 @@ TEST(EarlierCuts, turned_anyhow_leave_the_volume_that_chance_finds) {
     constexpr int kPoints = 40'000;
     for (std::uint64_t seed = 200; seed < 208; ++seed) {
         Draw draw(seed);
-        WorkFrame frame;
+        motion::WorkFrame frame;
         frame.origin_mm = draw.point({{-100, -100, -100}, {100, 100, 100}});
         frame.z = draw.direction();
         frame.x = normalized(cross(frame.z, draw.direction()));
@@ -315,7 +315,7 @@ TEST(EarlierCuts, turned_anyhow_leave_the_volume_that_chance_finds) {
         const auto b = random_moves(draw, blank.inflated(3), frame.z, 3);
 
         // The second program is turned by a matrix, not by in_frame().
-        const WorkFrame& f = frame;
+        const motion::WorkFrame& f = frame;
         const Matrix turn{{{f.x.x, f.x.y, f.x.z}, {f.y.x, f.y.y, f.y.z}, {f.z.x, f.z.y, f.z.z}}, f.origin_mm};
         std::vector<motion::Move> own = b;
         for (motion::Move& move : own) {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "session/random_cut.hpp"
 
 namespace tribo::session {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "milling/coefficients.hpp"
-#include "milling/cutter.hpp"
-#include "motion/program.hpp"
+#include "milling/tool/coefficients.hpp"
+#include "milling/tool/cutter.hpp"
+#include "motion/path/program.hpp"
 
 namespace tribo::session {
 

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <optional>
 
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "motion/moves.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/moves.hpp"
+#include "session/cut/mill_session.hpp"
 #include "session/flute_stepping.hpp"
-#include "session/mill_session.hpp"
 
 namespace tribo::session {
 namespace {

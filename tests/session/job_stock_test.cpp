@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Jobs that begin with the stock of others, without any file: which jobs are read, what they leave, and what
 // is refused.
-#include "session/job_stock.hpp"
+#include "session/cut/job_stock.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
 
-#include "session/mill_setup.hpp"
+#include "session/cut/mill_setup.hpp"
 
 namespace tribo::session {
 namespace {
@@ -16,19 +16,21 @@ constexpr Box3 kBlank{{0, 0, -10}, {40, 30, 0}};
 
 // Jobs and folders by name; each job cuts one slot along x.
 struct Shelf {
-    std::map<std::string, formats::Job> jobs;
+    std::map<std::string, job::Job> jobs;
     std::map<std::string, motion::Program> programs;  // by job file
     std::map<std::string, StockSource> folders;
 
     JobFiles files() {
         JobFiles f;
-        f.job = [this](const std::string& file) -> Result<formats::Job> {
+        f.job = [this](const std::string& file) -> Result<job::Job> {
             const auto found = jobs.find(file);
             if (found == jobs.end()) return fail_at(file, 0, 0, "no such file", "write it");
             return found->second;
         };
-        f.program = [this](const formats::Job& job) -> Result<motion::Program> { return programs[job.file]; };
-        f.solid = [](const formats::JobSolid& solid) -> Result<Solid> { return box_solid(solid.box_mm); };
+        f.program = [this](const job::Job& job) -> Result<motion::Program> { return programs[job.file]; };
+        f.solid = [](const job::JobSolid& solid) -> Result<job::Solid> {
+            return job::box_solid(solid.box_mm);
+        };
         f.source = [this](const std::string& path) -> Result<StockSource> {
             if (const auto found = folders.find(path); found != folders.end()) return found->second;
             if (path == "nothing") return fail("'nothing' is not there", "name a job");
@@ -38,8 +40,8 @@ struct Shelf {
         return f;
     }
 
-    formats::Job& put(const std::string& file, double y, double z, double diameter = 6) {
-        formats::Job& job = jobs[file];
+    job::Job& put(const std::string& file, double y, double z, double diameter = 6) {
+        job::Job& job = jobs[file];
         job = {};
         job.file = file;
         job.cutters.resize(1);
@@ -56,11 +58,11 @@ struct Shelf {
         programs[file].moves = {slot};
         return job;
     }
-    formats::Job& put_after(const std::string& file, const std::string& from, double y, double z,
-                            double diameter = 6) {
-        formats::Job& job = put(file, y, z, diameter);
+    job::Job& put_after(const std::string& file, const std::string& from, double y, double z,
+                        double diameter = 6) {
+        job::Job& job = put(file, y, z, diameter);
         job.stock = {};
-        job.stock_from = formats::JobStockFrom{from, 3, 8};
+        job.stock_from = job::JobStockFrom{from, 3, 8};
         return job;
     }
     Result<JobStock> stock_of(const std::string& file) {
@@ -116,7 +118,7 @@ TEST(JobStock, is_turned_by_the_frame_of_each_job_in_between) {
     Shelf shelf;
     shelf.put("a.toml", 5, -2);
     // Turned over about x: the first job's bottom is the new top, its y runs backwards.
-    formats::WorkFrame over{{0, 30, -10}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    motion::WorkFrame over{{0, 30, -10}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     shelf.put_after("b.toml", "a.toml", 15, -3).setup = over;
     shelf.put_after("c.toml", "b.toml", 5, -2).setup = over;
     EXPECT_NEAR(shelf.totals_of("b.toml").removed_mm3, slot_mm3(6, 3), 0.5);
@@ -135,7 +137,7 @@ TEST(JobStock, may_be_turned_by_any_angle_of_a_box_or_a_mesh) {
     shelf.put("a.toml", 5, -2);
     const double c = std::cos(0.3), s = std::sin(0.3);
     shelf.put_after("b.toml", "a.toml", 100, -2).setup =
-        formats::WorkFrame{{}, {c, s, 0}, {-s, c, 0}, {0, 0, 1}};
+        motion::WorkFrame{{}, {c, s, 0}, {-s, c, 0}, {0, 0, 1}};
     const auto stock = shelf.stock_of("b.toml");
     ASSERT_TRUE(stock);
     const Box3 box = stock->blank->bounds_mm();
@@ -176,7 +178,7 @@ TEST(JobStock, of_a_folder_is_refused_once_its_job_has_changed) {
     shelf.put_after("a.toml", "z.toml", 5, -2);
     shelf.put_after("b.toml", "out", 25, -2);
     auto setup = shelf.setup_of("a.toml");
-    formats::StockRecord record = stock_record(*setup, shelf.stock_of("a.toml")->hash);
+    job::StockRecord record = stock_record(*setup, shelf.stock_of("a.toml")->hash);
     record.version = "0.9";
     shelf.folders["out"] = {"a.toml", record};
     EXPECT_EQ(shelf.refusal_of("b.toml"), "");
@@ -190,7 +192,7 @@ TEST(JobStock, of_a_folder_is_refused_once_its_job_has_changed) {
     says("its path");
     shelf.put_after("a.toml", "z.toml", 5, -2, 6.1);
     says("its cutters");
-    shelf.put_after("a.toml", "z.toml", 5, -2).setup = formats::WorkFrame{{0, 0, 1e-9}};
+    shelf.put_after("a.toml", "z.toml", 5, -2).setup = motion::WorkFrame{{0, 0, 1e-9}};
     says("the stock that it began with");
     shelf.put_after("a.toml", "z.toml", 5, -2);
     shelf.jobs["z.toml"].stock.box_mm.max.x += 1;
@@ -216,7 +218,7 @@ TEST(JobStock, is_refused_where_jobs_begin_with_each_others) {
     shelf.put_after("a.toml", "b.toml", 5, -2);
     shelf.put_after("b.toml", "c.toml", 5, -2);
     shelf.put_after("c.toml", "out", 5, -2);
-    shelf.folders["out"] = {"a.toml", formats::StockRecord{}};
+    shelf.folders["out"] = {"a.toml", job::StockRecord{}};
     EXPECT_EQ(shelf.refusal_of("x.toml"),
               "c.toml:3:8: error: the job begins with the stock that it leaves itself: "
               "a.toml -> b.toml -> c.toml -> a.toml; let the first of the jobs begin with box_mm or mesh");

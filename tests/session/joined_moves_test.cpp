@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Short moves that share a row: the same forces as of long ones, however the program is run.
-#include "milling/joined_moves.hpp"
+#include "milling/engagement/joined_moves.hpp"
 
 #include <gtest/gtest.h>
 
-#include "motion/path.hpp"
+#include "motion/path/path.hpp"
 #include "session/random_cut.hpp"
 
 namespace tribo::session {

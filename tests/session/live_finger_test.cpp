@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The finger of the live view: what a led hand feels of the blank, of the cut, and of its switches.
-#include "session/live_finger.hpp"
+#include "session/live/live_finger.hpp"
 
 #include <atomic>
 #include <bit>
@@ -10,12 +10,12 @@
 #include <thread>
 
 #include "base/math.hpp"
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "motion/path.hpp"
-#include "session/feel_ahead.hpp"
-#include "session/live_mill.hpp"
-#include "session/live_touch.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/path.hpp"
+#include "session/live/feel_ahead.hpp"
+#include "session/live/live_mill.hpp"
+#include "session/live/live_touch.hpp"
 
 namespace tribo::session {
 namespace {
@@ -94,12 +94,12 @@ class Bench {
 
   private:
     void take(std::span<const std::uint8_t> frame) {
-        if (frame[0] == static_cast<std::uint8_t>(LiveFrame::texture)) {
+        if (frame[0] == static_cast<std::uint8_t>(protocol::LiveFrame::texture)) {
             EXPECT_TRUE(frame.size() == 16 || frame.size() == 16 + 8 * 48);
             textures += frame.size() > 16 ? 1 : 0;
             return;
         }
-        ASSERT_EQ(frame[0], static_cast<std::uint8_t>(LiveFrame::finger));
+        ASSERT_EQ(frame[0], static_cast<std::uint8_t>(protocol::LiveFrame::finger));
         ASSERT_EQ(frame.size(), 60u);
         probe = vec3_at(frame, 0);
         proxy = vec3_at(frame, 12);
@@ -289,7 +289,7 @@ TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
         ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
         touch.lead(live->state().tool.tip_mm, true);
         touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
-            if (frame[0] == static_cast<std::uint8_t>(LiveFrame::texture)) {
+            if (frame[0] == static_cast<std::uint8_t>(protocol::LiveFrame::texture)) {
                 textures += frame.size() == 16 + 8 * 48 ? 1 : 0;
             } else {
                 most_n = std::max(most_n, length(vec3_at(frame, 24)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The live view against the session that it shows: its chunks make the part, its rows are the session's.
-#include "session/live_mill.hpp"
+#include "session/live/live_mill.hpp"
 
 #include <bit>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "motion/path.hpp"
-#include "session/live_memory.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/path.hpp"
+#include "session/live/live_memory.hpp"
 
 namespace tribo::session {
 namespace {
@@ -47,7 +47,7 @@ Result<MillSetup> slot() {
 // Reads frames as a viewer does, from their bytes alone.
 class Viewer {
   public:
-    FrameSink sink() {
+    protocol::FrameSink sink() {
         return [this](std::span<const std::uint8_t> frame) { take(frame); };
     }
     double part_volume_mm3() const {
@@ -72,32 +72,32 @@ class Viewer {
         frame_ = frame;
         at_ = 16;
         ASSERT_GE(frame.size(), 16u);
-        EXPECT_EQ(frame[1], kLiveFrameVersion);
+        EXPECT_EQ(frame[1], protocol::kLiveFrameVersion);
         EXPECT_EQ(frame.size() % 4, 0u);
-        switch (static_cast<LiveFrame>(frame[0])) {
-            case LiveFrame::job:
+        switch (static_cast<protocol::LiveFrame>(frame[0])) {
+            case protocol::LiveFrame::job:
                 job();
                 break;
-            case LiveFrame::path:
+            case protocol::LiveFrame::path:
                 path_points = u32();
                 at_ += 20 * path_points;
                 break;
-            case LiveFrame::chunk:
+            case protocol::LiveFrame::chunk:
                 chunk();
                 break;
-            case LiveFrame::state:
+            case protocol::LiveFrame::state:
                 state();
                 break;
-            case LiveFrame::rows:
+            case protocol::LiveFrame::rows:
                 rows();
                 break;
-            case LiveFrame::collision:
+            case protocol::LiveFrame::collision:
                 at_ += 20;
                 break;
-            case LiveFrame::sound:
+            case protocol::LiveFrame::sound:
                 sound();
                 break;
-            case LiveFrame::listening:
+            case protocol::LiveFrame::listening:
                 listener = vec3();
                 at_ += 56;
                 break;
@@ -294,7 +294,7 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer, latecomer;
     LiveMemory memory;
-    const FrameSink both = [&](std::span<const std::uint8_t> frame) {
+    const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
         memory.take(frame);
         viewer.sink()(frame);
     };
@@ -333,7 +333,7 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer;
     LiveMemory memory;
-    const FrameSink both = [&](std::span<const std::uint8_t> frame) {
+    const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
         memory.take(frame);
         viewer.sink()(frame);
     };

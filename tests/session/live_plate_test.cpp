@@ -6,10 +6,10 @@
 #include <map>
 #include <sstream>
 
-#include "field/box_shape.hpp"
-#include "formats/gcode_reader.hpp"
-#include "session/live_mill.hpp"
-#include "session/mill_setup.hpp"
+#include "field/shape/box_shape.hpp"
+#include "readers/gcode/reader.hpp"
+#include "session/cut/mill_setup.hpp"
+#include "session/live/live_mill.hpp"
 
 namespace tribo::session {
 namespace {
@@ -23,7 +23,7 @@ std::string file_text(const std::string& name) {
 
 // As examples/plate/plate.toml has it.
 Result<MillSetup> plate() {
-    formats::Job job;
+    job::Job job;
     job.file = "plate.toml";
     job.stock.box_mm = {{0, 0, -12}, {80, 60, 0}};
     milling::Cutter cutter;
@@ -35,12 +35,12 @@ Result<MillSetup> plate() {
     job.cutters = {cutter};
     job.material.name = "al6082-t6";
     job.process = {8000, 900};
-    job.path.kind = formats::PathKind::gcode;
-    formats::GcodeOptions options;
+    job.path.kind = job::PathKind::gcode;
+    readers::GcodeOptions options;
     options.source_name = "plate.nc";
     options.default_feed_mm_per_min = 900;
     options.tools.push_back({1, 8, {}});
-    auto program = formats::read_gcode(file_text("examples/plate/plate.nc"), options);
+    auto program = readers::read_gcode(file_text("examples/plate/plate.nc"), options);
     if (!program) return std::unexpected(program.error());
     MillInputs inputs;
     inputs.program = *std::move(program);
@@ -55,7 +55,7 @@ TEST(LivePlate, IsTheSameInThePage) {
     ASSERT_TRUE(live) << live.error().text();
     std::map<std::array<std::int32_t, 3>, std::uint64_t> chunks;
     const auto take = [&](std::span<const std::uint8_t> frame) {
-        if (frame[0] != static_cast<std::uint8_t>(LiveFrame::chunk)) return;
+        if (frame[0] != static_cast<std::uint8_t>(protocol::LiveFrame::chunk)) return;
         std::array<std::int32_t, 3> at{};
         for (std::size_t n = 0; n < 12; ++n)
             at[n / 4] |= static_cast<std::int32_t>(std::uint32_t{frame[16 + n]} << (8 * (n % 4)));

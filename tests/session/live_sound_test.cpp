@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The sound of a stream of frames against the soundtrack of the same cut, told directly.
-#include "session/live_sound.hpp"
+#include "session/live/live_sound.hpp"
 
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
-#include "sound/calibration.hpp"
+#include "sound/play/calibration.hpp"
 
 namespace tribo::session {
 namespace {
@@ -23,10 +23,10 @@ sound::SoundtrackOptions options() {
 }
 
 // A steady cut in pieces of 30 ms; the phase of its one tone at angle 0 is zero.
-std::vector<LiveSoundPiece> cut(double from_s, double to_s) {
-    std::vector<LiveSoundPiece> pieces;
+std::vector<protocol::LiveSoundPiece> cut(double from_s, double to_s) {
+    std::vector<protocol::LiveSoundPiece> pieces;
     for (double t = from_s; t < to_s - 1e-9; t += 0.03) {
-        LiveSoundPiece p;
+        protocol::LiveSoundPiece p;
         p.t_s = t;
         p.end_s = t + 0.03;
         p.spindle_angle_rad = kRadPerS * t;
@@ -60,8 +60,8 @@ class Player {
     explicit Player(double to_s = 3) : sound(options()) {
         const auto pieces = cut(0, to_s);
         for (std::size_t n = 0; n < pieces.size(); n += 20) {
-            write_sound_frame(std::span(pieces).subspan(n, std::min<std::size_t>(20, pieces.size() - n)),
-                              frame);
+            protocol::write_sound_frame(
+                std::span(pieces).subspan(n, std::min<std::size_t>(20, pieces.size() - n)), frame);
             sound.take(frame);
         }
     }
@@ -97,7 +97,7 @@ TEST(LiveSound, IsTheToneOfTheTeethInPhaseWithTheSpindle) {
     sound::Soundtrack direct(options());
     std::vector<float> told;
     const auto pieces = cut(0, 2.5);
-    for (const LiveSoundPiece& p : pieces) {
+    for (const protocol::LiveSoundPiece& p : pieces) {
         contact::ContactSample s;
         s.t_s = p.t_s;
         s.phase_rad = p.spindle_angle_rad;
@@ -160,7 +160,7 @@ TEST(LiveSound, DoesNotClick) {
 TEST(LiveSound, LeavesDamagedFramesAlone) {
     Player player;
     std::vector<std::uint8_t> frame;
-    write_sound_frame(cut(0, 0.3), frame);
+    protocol::write_sound_frame(cut(0, 0.3), frame);
     for (std::size_t cut_off = 0; cut_off < frame.size(); cut_off += 7)
         player.sound.take(std::span(frame).first(cut_off));
     frame[16] = frame[17] = frame[18] = frame[19] = 0xff;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/noise_hash.hpp"
-#include "noise/friction_voice.hpp"
-#include "sound/calibration.hpp"
-#include "sound/workshop.hpp"
+#include "noise/play/friction_voice.hpp"
+#include "sound/play/calibration.hpp"
+#include "sound/play/workshop.hpp"
 
 namespace tribo::session {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a program will take in memory against what its session takes.
-#include "session/memory_estimate.hpp"
+#include "session/cut/memory_estimate.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "motion/moves.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::session {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A rendered cut against what geometry and the closed forms of cutting force say: forces, volumes, chips,
 // heights.
-#include "session/mill_session.hpp"
+#include "session/cut/mill_session.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <thread>
 
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "milling/sweep.hpp"
-#include "motion/moves.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::session {
 namespace {

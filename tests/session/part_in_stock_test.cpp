@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "session/part_in_stock.hpp"
+#include "session/cut/part_in_stock.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "field/box_shape.hpp"
-#include "field/mesh_shape.hpp"
+#include "field/mesh/mesh_shape.hpp"
+#include "field/shape/box_shape.hpp"
 
 namespace tribo::session {
 namespace {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "base/noise_hash.hpp"
-#include "field/box_shape.hpp"
-#include "milling/materials.hpp"
-#include "motion/moves.hpp"
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::session {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "session/mill_session.hpp"
+#include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/rubbing.hpp"
+#include "session/touch/rubbing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace tribo::session {
 namespace {
 
-using formats::FingerPoint;
+using readers::FingerPoint;
 
 noise::MaterialVoices plain_voices() {
     noise::MaterialVoices voices;

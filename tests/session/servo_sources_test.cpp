@@ -5,14 +5,14 @@
 
 #include "base/counted_allocations.hpp"
 #include "base/counted_locks.hpp"
-#include "field/box_shape.hpp"
-#include "haptics/simulated_hand.hpp"
-#include "milling/materials.hpp"
-#include "motion/path.hpp"
-#include "session/feel_session.hpp"
-#include "session/live_finger.hpp"
-#include "session/live_mill.hpp"
-#include "session/stock_in_time.hpp"
+#include "field/shape/box_shape.hpp"
+#include "haptics/servo/simulated_hand.hpp"
+#include "milling/tool/materials.hpp"
+#include "motion/path/path.hpp"
+#include "session/cut/stock_in_time.hpp"
+#include "session/feel/feel_session.hpp"
+#include "session/live/live_finger.hpp"
+#include "session/live/live_mill.hpp"
 
 namespace tribo::session {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "contact/contact_sample.hpp"
-#include "sound/calibration.hpp"
-#include "sound/soundtrack.hpp"
+#include "sound/play/calibration.hpp"
+#include "sound/play/soundtrack.hpp"
 
 namespace tribo::sound::test {
 

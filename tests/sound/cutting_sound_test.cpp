@@ -5,8 +5,8 @@
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
+#include "sound/cut/partials.hpp"
 #include "sound/cuts.hpp"
-#include "sound/partials.hpp"
 
 namespace tribo::sound {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/ear_kernels.hpp"
+#include "sound/place/ear_kernels.hpp"
 
 #include <cmath>
 #include <cstring>

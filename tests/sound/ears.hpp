@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "sound/spatial_source.hpp"
+#include "sound/place/spatial_source.hpp"
 
 namespace tribo::sound::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/head.hpp"
+#include "sound/place/head.hpp"
 
 #include <algorithm>
 #include <cmath>

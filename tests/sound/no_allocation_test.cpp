@@ -4,7 +4,7 @@
 
 #include "base/counted_allocations.hpp"
 #include "sound/cuts.hpp"
-#include "sound/workshop.hpp"
+#include "sound/play/workshop.hpp"
 
 namespace tribo::sound {
 namespace {

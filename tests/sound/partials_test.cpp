@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/partials.hpp"
+#include "sound/cut/partials.hpp"
 
 #include <cmath>
 #include <complex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/recorded_voice.hpp"
+#include "sound/cut/recorded_voice.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/soundtrack.hpp"
+#include "sound/play/soundtrack.hpp"
 
 #include <bit>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <limits>
 #include <rapidcheck/gtest.h>
 
+#include "sound/cut/published_voice.hpp"
 #include "sound/cuts.hpp"
-#include "sound/limiter.hpp"
-#include "sound/published_voice.hpp"
+#include "sound/play/limiter.hpp"
 
 namespace tribo::sound {
 namespace {

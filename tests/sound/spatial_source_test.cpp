@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/spatial_source.hpp"
+#include "sound/place/spatial_source.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "sound/spindle_phase.hpp"
+#include "sound/cut/spindle_phase.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
-#include "sound/voice.hpp"
+#include "sound/cut/voice.hpp"
 
 namespace tribo::sound {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sound/waveform.hpp"
+#include "sound/cut/waveform.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What stands around a cut: machines, their spindles, and the room.
-#include "sound/workshop.hpp"
+#include "sound/play/workshop.hpp"
 
 #include <cmath>
 #include <complex>
@@ -9,10 +9,10 @@
 #include <rapidcheck/gtest.h>
 
 #include "base/math.hpp"
-#include "noise/pink_noise.hpp"
+#include "noise/play/pink_noise.hpp"
+#include "sound/cut/machine_voice.hpp"
 #include "sound/cuts.hpp"
-#include "sound/machine_voice.hpp"
-#include "sound/room.hpp"
+#include "sound/place/room.hpp"
 
 namespace tribo::sound {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <thread>
 
-#include "field/box_shape.hpp"
+#include "field/shape/box_shape.hpp"
 #include "grooves.hpp"
 #include "surface/height.hpp"
 

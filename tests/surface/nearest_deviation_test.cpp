@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "field/box_shape.hpp"
-#include "field/carved_field.hpp"
-#include "field/surface_points.hpp"
+#include "field/carved/carved_field.hpp"
+#include "field/shape/box_shape.hpp"
+#include "field/shape/surface_points.hpp"
 #include "surface/deviation.hpp"
 
 namespace tribo::surface {

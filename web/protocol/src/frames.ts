@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The binary frames of the live view (docs/live-protocol.md), decoded. Lengths in mm.
+// The binary frames of the live view (docs/live-protocol.md, src/protocol/live_frame.hpp), decoded. Lengths in mm.
 
 import type { Axis, Vec3 } from "./vec3.js";
 

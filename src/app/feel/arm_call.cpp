@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/feel/arm_call.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/options.hpp"
+#include "haptics/servo/loop_delay.hpp"
+
+namespace tribo::app {
+
+void add_arm_flags(CLI::App& verb, ArmCall& call) {
+    verb.add_option("--arm-at", call.at_mm,
+                    "Where an arm's own zero lies in the stock; the middle of its top if absent")
+        ->expected(3)
+        ->check(finite_number(-1e6, 1e6))
+        ->type_name("X Y Z");
+    verb.add_option("--arm-scale", call.scale,
+                    "Millimetres of the part per millimetre of the hand; 1 if absent")
+        ->check(finite_number(0, 1e3))
+        ->type_name("TIMES");
+    verb.add_option("--delay", call.delay_ms,
+                    "Of arm, driver and line, both ways together, 0 to 20; feel's simulated hand gets it")
+        ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))
+        ->type_name("MS");
+}
+
+double stable_stiffness(std::optional<double> asked, const haptics::DeviceLimits& limits, double rate_hz,
+                        const ArmCall& call, const std::string& file, Warnings& warnings) {
+    const double wanted = asked.value_or(0.5);
+    const double passive = haptics::passive_stiffness_n_per_mm(1 / rate_hz, call.delay_s());
+    const double most = std::min(limits.max_stiffness_n_per_mm, passive);
+    if (wanted <= most) return wanted;
+    char text[200];
+    if (passive < limits.max_stiffness_n_per_mm) {
+        std::snprintf(
+            text, sizeof text,
+            "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz: %.3g "
+            "stands in",
+            wanted, call.delay_ms, rate_hz, most);
+    } else {
+        std::snprintf(text, sizeof text,
+                      "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
+                      static_cast<int>(limits.name.size()), limits.name.data(), most);
+    }
+    // Only what was asked for is worth a word.
+    if (asked) warnings.push_back({file, 0, text});
+    return most;
+}
+
+devices::Mounting mounting(const ArmCall& call, const Box3& stock) {
+    const Vec3 middle = stock.centre();
+    const Vec3 at = call.at_mm.empty() ? Vec3{middle.x, middle.y, stock.max.z}
+                                       : Vec3{call.at_mm[0], call.at_mm[1], call.at_mm[2]};
+    return {at, call.scale};
+}
+
+}  // namespace tribo::app

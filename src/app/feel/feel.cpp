@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "app/feel/feel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "app/exit.hpp"
+#include "app/feel/feel_source.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/render/render_job.hpp"
+#include "devices/arm/device_search.hpp"
+#include "devices/arm/force_plugin.hpp"
+#include "devices/servo/servo_thread.hpp"
+#include "field/mesh/mesh_field.hpp"
+#include "files/model/model_file.hpp"
+#include "haptics/servo/simulated_hand.hpp"
+#include "readers/tables/feel_trace_csv.hpp"
+#include "readers/tables/stroke_csv.hpp"
+#include "report/feel_stats_json.hpp"
+#include "session/feel/feel_session.hpp"
+#include "session/live/live_mill.hpp"
+
+namespace tribo::app {
+namespace {
+
+// A row of the trace and its share of the text, bytes: what a run may hold.
+constexpr double kMostTicks = 20e6;
+// By the clock, the part in cut mode is milled on this often.
+constexpr std::chrono::milliseconds kMillEvery{5};
+
+report::DurationFigures figures_of(const devices::DurationHistogram& histogram) {
+    const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
+    return {us(histogram.quantile_ns(0.5)), us(histogram.quantile_ns(0.99)), us(histogram.quantile_ns(0.999)),
+            us(histogram.max_ns())};
+}
+
+FileResult<haptics::Stroke> read_stroke(const FeelCall& call) {
+    const auto bytes = files::read_file(call.stroke);
+    if (!bytes) return std::unexpected(bytes.error());
+    const auto points = readers::read_probe_stroke(*bytes, {call.stroke});
+    if (!points) return std::unexpected(FileFailure(points.error()));
+    const double seconds = points->back().t_s - points->front().t_s;
+    if (seconds * call.rate_hz > kMostTicks) {
+        return std::unexpected(FileFailure(
+            {call.stroke, 0, 0, "the stroke is too long for this rate", "lower --rate or split the stroke"}));
+    }
+    std::vector<haptics::StrokePoint> stroke;
+    for (const readers::ProbePoint& p : *points) stroke.push_back({p.t_s, p.position_mm});
+    return haptics::Stroke(std::move(stroke));
+}
+
+std::unique_ptr<haptics::Device> simulated_hand(const FeelCall& call, haptics::Stroke stroke) {
+    auto hand = std::make_unique<haptics::SimulatedHand>(std::move(stroke), 1 / call.rate_hz);
+    const auto ticks = static_cast<int>(std::round(call.arm.delay_s() * call.rate_hz));
+    if (ticks == 0) return hand;
+    return std::make_unique<haptics::DelayedHand>(std::move(hand), ticks);
+}
+
+Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, haptics::Stroke stroke,
+                                                     const Box3& blank) {
+    if (call.device == "playback")
+        return std::make_unique<haptics::PlaybackHand>(std::move(stroke), 1 / call.rate_hz);
+    if (call.device == "simulated") return simulated_hand(call, std::move(stroke));
+    return devices::open_arm(call.device, mounting(call.arm, blank));
+}
+
+// The servo over a whole stroke, and what is known of it afterwards.
+class Run {
+  public:
+    Run(haptics::Device& device, haptics::ForceSource& source, const haptics::SafetyLimits& limits,
+        double start_s, double end_s, double rate_hz, double delay_s)
+        : servo_(device, source, limits, delay_s),
+          start_s_(start_s),
+          rate_hz_(rate_hz),
+          count_(static_cast<std::size_t>(std::floor((end_s - start_s) * rate_hz + 1e-6)) + 1) {
+        trace_.resize(count_);
+    }
+
+    // Tick by tick as fast as it goes; time is counted, not measured.
+    bool count_through(FeelSource& felt, report::FeelStats& stats) {
+        devices::TickClock clock;
+        Progress progress;
+        while (done_ < count_) {
+            const double now_s = static_cast<double>(done_) / rate_hz_;
+            felt.mill_to(now_s);
+            clock.begin();
+            const haptics::ServoTick tick = servo_.tick(now_s);
+            clock.end();
+            keep(tick);
+            constexpr std::size_t look = 4096;
+            if (done_ % look != 0) continue;
+            if (interrupted()) return false;
+            progress.update("feeling", static_cast<double>(done_) / static_cast<double>(count_));
+        }
+        const auto period_ns = static_cast<std::uint64_t>(1e9 / rate_hz_);
+        stats.late = clock.wall().count_above(period_ns);
+        take(clock, stats);
+        return true;
+    }
+
+    // By the clock, on a thread of its own.
+    bool run_in_time(FeelSource& felt, report::FeelStats& stats) {
+        std::atomic<double> clock_s = 0;
+        std::atomic<bool> over = false;
+        devices::ServoThread thread({rate_hz_}, [&](double now_s) {
+            clock_s.store(now_s, std::memory_order_relaxed);
+            keep(servo_.tick(now_s));
+            return done_ < count_ && servo_.device_there() && !interrupted();
+        });
+        std::thread miller;
+        if (felt.mills_in_time()) {
+            miller = std::thread([&] {
+                while (!over.load(std::memory_order_relaxed)) {
+                    felt.mill_to(clock_s.load(std::memory_order_relaxed));
+                    std::this_thread::sleep_for(kMillEvery);
+                }
+            });
+        }
+        thread.join();
+        over = true;
+        if (miller.joinable()) miller.join();
+        stats.late = thread.late();
+        stats.lateness = figures_of(thread.lateness());
+        for (const std::string& note : {thread.granted().real_time, thread.granted().memory}) {
+            if (!note.empty()) stats.notes.push_back(note);
+        }
+        take(thread.clock(), stats);
+        trace_.resize(done_);
+        return !interrupted();
+    }
+
+    const std::vector<readers::FeelTraceRow>& trace() const { return trace_; }
+    bool device_there() const { return servo_.device_there(); }
+
+  private:
+    void keep(const haptics::ServoTick& tick) noexcept {
+        trace_[done_++] = {start_s_ + tick.now_s, tick.position_mm, tick.force_n, tick.touching};
+    }
+    void take(const devices::TickClock& clock, report::FeelStats& stats) const {
+        stats.ticks = servo_.ticks();
+        stats.rate_hz = rate_hz_;
+        stats.cpu = figures_of(clock.cpu());
+        stats.wall = figures_of(clock.wall());
+        stats.empty_cpu = figures_of(clock.empty_cpu());
+        stats.empty_wall = figures_of(clock.empty_wall());
+        stats.max_force_n = servo_.max_force_n();
+        stats.lowest_energy_nmm = servo_.passivity().lowest_energy_nmm();
+        for (int n = 1; n < haptics::kFaultKinds; ++n) {
+            const auto fault = static_cast<haptics::Fault>(n);
+            const std::uint32_t count = servo_.safety().count(fault);
+            if (count > 0) stats.faults.push_back({haptics::name(fault), count});
+        }
+    }
+
+    haptics::Servo servo_;
+    double start_s_, rate_hz_;
+    std::size_t count_, done_ = 0;
+    std::vector<readers::FeelTraceRow> trace_;
+};
+
+// What is to be felt: a job that is milled, or a model as it is.
+struct Part {
+    job::Job job;
+    std::optional<session::MillSetup> setup, in_time;
+    std::unique_ptr<const field::MeshField> surface;
+    Box3 bounds_mm;
+    Warnings warnings;
+};
+
+bool is_model(const std::string& file) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    constexpr std::string_view kEndings[] = {".wrl", ".vrml", ".stl", ".obj", ".ply", ".gltf", ".glb"};
+    return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
+}
+
+FileResult<void> read_model(const FeelCall& call, Part& part) {
+    const auto refuse = [&](std::string cause, std::string remedy) {
+        return std::unexpected(FileFailure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
+    };
+    if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
+    auto model = files::read_model_file({call.job, call.unit_mm});
+    if (!model) return std::unexpected(model.error());
+    part.warnings = std::move(model->warnings);
+    for (Point3f& p : model->mesh.positions) {
+        for (float& v : p) v = static_cast<float>(call.scale * static_cast<double>(v));
+    }
+    auto surface = field::MeshField::make(std::move(model->mesh));
+    if (!surface) return refuse(surface.error().cause, surface.error().remedy);
+    part.bounds_mm = (*surface)->bounds_mm();
+    if ((*surface)->is_sheet()) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "the surface is open: its front is where its normals point, its back %g mm behind",
+                      field::MeshField::kThicknessMm);
+        part.warnings.push_back({call.job, 0, text});
+    }
+    if (const double skin_mm = (*surface)->skin_mm(); skin_mm > 0) {
+        char text[200];
+        std::snprintf(
+            text, sizeof text,
+            "some triangles are turned over, so no side is the outside: the surface is felt from both "
+            "sides, as a skin of %.3g mm",
+            skin_mm);
+        part.warnings.push_back({call.job, 0, text});
+    }
+    part.surface = std::move(*surface);
+    return {};
+}
+
+FileResult<void> read_job(const FeelCall& call, Part& part) {
+    if (call.unit_mm || call.scale != 1) {
+        return std::unexpected(FileFailure({call.job, 0, 0, "a job says the unit of its models itself",
+                                            "set 'unit_mm' in the job, or give a model"}));
+    }
+    RenderCall render;
+    render.job = call.job;
+    render.resolution_mm = call.resolution_mm;
+    render.until_s = call.until_s;
+    render.only = {"summary"};  // nothing is heard
+    auto loaded = load_job(render);
+    if (!loaded) return std::unexpected(loaded.error());
+    if (auto fits = check_memory(render, *loaded); !fits) return std::unexpected(FileFailure(fits.error()));
+    part.bounds_mm = loaded->setup.blank->bounds_mm();
+    part.warnings = std::move(loaded->warnings);
+    part.job = std::move(loaded->job);
+    part.setup = std::move(loaded->setup);
+    if (call.mode != "cut") return {};
+    auto again = load_job(render, session::LiveMill::kPieceMm);
+    if (!again) return std::unexpected(again.error());
+    part.in_time = std::move(again->setup);
+    return {};
+}
+
+FileResult<void> write_trace(const std::string& path, const std::vector<readers::FeelTraceRow>& trace) {
+    auto file = files::FileWriter::create(path);
+    if (!file) return std::unexpected(file.error());
+    std::string text(readers::feel_trace_header);
+    for (const readers::FeelTraceRow& row : trace) {
+        readers::append_feel_trace_row(text, row);
+        constexpr std::size_t chunk = 1 << 16;
+        if (text.size() < chunk) continue;
+        file->write(text);
+        text.clear();
+    }
+    file->write(text);
+    return file->finish();
+}
+
+void print(const report::FeelStats& s, const std::vector<readers::FeelTraceRow>& trace,
+           const std::string& out) {
+    std::size_t touching = 0;
+    for (const readers::FeelTraceRow& row : trace) touching += row.contact ? 1 : 0;
+    std::printf("%-16s %llu at %g Hz, %zu in contact\n", "ticks", static_cast<unsigned long long>(s.ticks),
+                s.rate_hz, touching);
+    std::printf("%-16s at most %.3f N\n", "force", s.max_force_n);
+    std::printf("%-16s median %.2f us, 99.9 %% within %.2f us, %llu late\n", "tick", s.cpu.p50_us,
+                s.cpu.p999_us, static_cast<unsigned long long>(s.late));
+    for (const report::FeelStats::FaultCount& f : s.faults)
+        std::printf("%-16s %s, %u times\n", "fault", f.name.c_str(), f.count);
+    for (const std::string& note : s.notes) std::printf("%-16s %s\n", "note", note.c_str());
+    std::printf("%-16s %s\n", "trace", out.c_str());
+}
+
+}  // namespace
+
+int feel(const FeelCall& call) {
+    auto stroke = read_stroke(call);
+    if (!stroke) return report(stroke.error());
+    const double start_s = stroke->start_s(), end_s = stroke->end_s();
+    if (call.friction_kinetic.value_or(0) > call.friction_static.value_or(1e9)) {
+        return report(Error{call.job, 0, 0, "--friction-kinetic is above --friction", "exchange them"});
+    }
+    std::unique_ptr<devices::ForcePlugin> plugin;
+    if (!call.source.empty()) {
+        auto opened = devices::ForcePlugin::open(call.source, call.rate_hz);
+        if (!opened) return report(opened.error());
+        plugin = std::move(*opened);
+    }
+    Part part;
+    if (auto read = is_model(call.job) ? read_model(call, part) : read_job(call, part); !read)
+        return report(read.error());
+    auto device = open_device(call, std::move(*stroke), part.bounds_mm);
+    if (!device) {
+        report(device.error());
+        return kRefused;
+    }
+    const auto asked =
+        call.stiffness_n_per_mm ? call.stiffness_n_per_mm : part.job.haptics.stiffness_n_per_mm;
+    const double surface_n_per_mm =
+        stable_stiffness(asked, (*device)->limits(), call.rate_hz, call.arm, call.job, part.warnings);
+    report(part.warnings);
+    FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());
+    if (part.surface) {
+        felt.make(std::move(part.surface));
+    } else if (auto made = felt.make(std::move(*part.setup), std::move(part.in_time)); !made) {
+        return report(made.error());
+    }
+    if (interrupted()) return interrupted_exit_code();
+    if (plugin) plugin->set_inner(felt.source());
+    report::FeelStats stats;
+    stats.version = TRIBO_VERSION;
+    stats.device = call.device;
+    stats.mode = call.mode;
+    Run run(**device, plugin ? *plugin : felt.source(), session::safety_limits(**device, call.rate_hz),
+            start_s, end_s, call.rate_hz, call.arm.delay_s());
+    const bool by_clock = call.real_time || (*device)->has_motors();
+    if (!(by_clock ? run.run_in_time(felt, stats) : run.count_through(felt, stats)))
+        return interrupted_exit_code();
+    const std::string trouble = (*device)->trouble();
+    if (!trouble.empty()) stats.notes.push_back(trouble);
+    stats.table = felt.table_figures();
+    if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
+    if (!call.stats.empty()) {
+        if (auto done = files::write_file(call.stats, report::feel_stats_json(stats)); !done)
+            return report(done.error());
+    }
+    print(stats, run.trace(), call.out);
+    felt.print();
+    if (run.device_there()) return kDone;
+    report(Error{"", 0, 0, trouble.empty() ? "the arm is gone" : trouble, ""});
+    return kRefused;
+}
+
+}  // namespace tribo::app

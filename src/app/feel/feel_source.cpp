@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "app/feel/feel_source.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/threads.hpp"
+#include "files/mapped_file.hpp"
+#include "job/toml/jnd_profile_toml.hpp"
+#include "readers/tables/force_bake.hpp"
+
+namespace tribo::app {
+namespace {
+
+// Radius of a fingertip, where --probe-mm says no other.
+constexpr double kFingerMm = 8;
+
+}  // namespace
+
+FeelSource::FeelSource(const FeelCall& call, const job::Job& job, double surface_n_per_mm, double start_s,
+                       const haptics::DeviceLimits& limits)
+    : call_(call), job_(job), surface_n_per_mm_(surface_n_per_mm), start_s_(start_s) {
+    scaling_.gain = job.haptics.force_scale;
+    scaling_.law = call.compressive ? haptics::ScalingLaw::compressive : haptics::ScalingLaw::gain;
+    scaling_.limit_n = limits.max_force_n;
+}
+
+FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
+    contact::ForceTableOptions options;
+    options.hand_per_tool = scaling_.gain;
+    const std::string& profile = call_.profile.empty() ? job_.haptics.profile : call_.profile;
+    if (profile.empty()) return options;
+    auto read = job::read_jnd_profile(profile);
+    if (!read) return std::unexpected(read.error());
+    options.profile = *read;
+    return options;
+}
+
+std::optional<contact::ForceTable> FeelSource::baked(std::uint64_t key) const {
+    if (call_.bake.empty()) return std::nullopt;
+    auto file = files::MappedFile::open(call_.bake);
+    if (!file) return std::nullopt;  // not baked yet
+    auto bake = readers::read_force_bake((*file)->bytes(), *file, call_.bake);
+    if (!bake) {
+        report(Warnings{{call_.bake, 0, bake.error().cause + "; it is baked again"}});
+        return std::nullopt;
+    }
+    if (bake->key != key) {
+        report(Warnings{{call_.bake, 0, "baked from another job, profile or scale; it is baked again"}});
+        return std::nullopt;
+    }
+    return std::move(bake->table);
+}
+
+bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
+    Progress progress;
+    const auto milling = [&](const char* stage) {
+        return [&progress, stage](double fraction) {
+            progress.update(stage, fraction);
+            return !interrupted();
+        };
+    };
+    milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel, milling("earlier jobs"));
+    session::MillSinks sinks;
+    if (call_.mode == "cut") sinks.row = [this](const session::MillRow& row) { record_.add(row); };
+    sinks.progress = milling("milling");
+    return milled_->run(sinks);
+}
+
+haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) const {
+    haptics::ContactOptions contact;
+    contact.stiffness_n_per_mm = surface_n_per_mm_;
+    contact.probe_radius_mm = call_.probe_mm;
+    // A flag for one of the two is not mixed with the job's other one.
+    const bool called = call_.friction_static || call_.friction_kinetic;
+    const auto& friction_static = called ? call_.friction_static : job_.haptics.friction_static;
+    const auto& friction_kinetic = called ? call_.friction_kinetic : job_.haptics.friction_kinetic;
+    contact.friction_static = friction_static.value_or(0);
+    contact.friction_kinetic = friction_kinetic.value_or(contact.friction_static);
+    contact.friction_static = std::max(contact.friction_static, contact.friction_kinetic);
+    contact.tick_s = 1 / call_.rate_hz;
+    if (job_.haptics.probe == job::ProbeKind::ray) probe = haptics::ProbeShape::ray();
+    if (job_.haptics.probe == job::ProbeKind::cylinder) {
+        // The radius is the finger's, not that of the points on it.
+        probe = haptics::ProbeShape::cylinder(call_.probe_mm > 0 ? call_.probe_mm : kFingerMm);
+        contact.probe_radius_mm = 0;
+    }
+    return contact;
+}
+
+void FeelSource::inspect(const contact::DistanceField& surface) {
+    haptics::ProbeShape probe;
+    const haptics::ContactOptions contact = contact_options(probe);
+    source_ = std::make_unique<session::InspectSource>(surface, contact, std::move(probe));
+}
+
+void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
+    knots_ = table.table().knots();
+    table_bytes_ = table.bytes();
+    force_ = std::make_unique<session::TableForce>(std::move(table), scaling_, call_.rate_hz);
+    if (call_.texture && milled_)
+        textures_ = session::texture_map(record_.stretches(), milled_->stock(), parallel);
+    texture_records_ = textures_.records().size();
+    session::CutSourceOptions options;
+    options.start_s = start_s_;
+    options.finger_mm = call_.probe_mm;
+    options.tick_s = 1 / call_.rate_hz;
+    options.texture = call_.texture;
+    if (stock_) {
+        options.part = &stock_->reader();
+        options.contact = contact_options(options.probe);
+    }
+    source_ = std::make_unique<session::CutSource>(*track_, *force_, textures_, options);
+}
+
+FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<session::MillSetup> in_time) {
+    const ParallelFor parallel = parallel_for_over(call_.threads > 0 ? call_.threads : available_threads());
+    if (call_.mode != "cut") {
+        if (mill(std::move(setup), parallel)) inspect(milled_->stock());
+        return {};
+    }
+    const auto options = table_options();
+    if (!options) return std::unexpected(options.error());
+    const std::uint64_t key = session::bake_key(setup, *options);
+    track_ = std::make_unique<session::CutterTrack>(setup);
+    auto table = baked(key);
+    from_bake_ = table.has_value();
+    if (!table || call_.texture) {
+        if (!mill(std::move(setup), parallel)) return {};
+    }
+    if (!table) {
+        const auto stretches = session::force_stretches(record_, milled_->setup(), {}, parallel);
+        const contact::ForceFunction function = contact::force_function(stretches, *options);
+        table = contact::build_force_table(function, *options);
+        if (!call_.stats.empty() && !table->table().empty()) {
+            const contact::ErrorInJnd error = contact::force_error(*options);
+            figures_.emplace();
+            figures_->pieces = table->table().pieces().size();
+            figures_->knots = table->table().knots();
+            figures_->bytes = table->bytes();
+            figures_->worst_jnd = contact::worst_error_jnd(table->table(), function.dense, error);
+            figures_->uniform_knots = contact::uniform_knots(function.dense, error, options->most_jnd);
+        }
+        if (!call_.bake.empty()) {
+            auto written = files::replace_file(call_.bake, readers::write_force_bake(*table, key));
+            if (!written) return std::unexpected(written.error());
+        }
+    }
+    if (in_time) stock_ = std::make_unique<session::StockInTime>(std::move(*in_time), parallel, start_s_);
+    cut(std::move(*table), parallel);
+    return {};
+}
+
+void FeelSource::make(std::unique_ptr<const contact::DistanceField> surface) {
+    surface_ = std::move(surface);
+    inspect(*surface_);
+}
+
+void FeelSource::print() const {
+    if (call_.mode != "cut") return;
+    std::printf("%-16s %zu knots, %zu bytes%s\n", "force table", knots_, table_bytes_,
+                from_bake_ ? ", as baked" : "");
+    if (call_.texture) std::printf("%-16s %zu places of eight triangles\n", "texture", texture_records_);
+}
+
+}  // namespace tribo::app

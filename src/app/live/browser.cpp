@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "app/live/browser.hpp"
+
+#include <cstdio>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string_view>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace tribo::app {
+namespace {
+
+// Without a screen xdg-open would start a browser of text in this very terminal.
+bool has_screen() {
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+        const std::string_view text(*entry);
+        for (const std::string_view name : {"DISPLAY=", "WAYLAND_DISPLAY="}) {
+            if (text.starts_with(name) && text.size() > name.size()) return true;
+        }
+    }
+    return false;
+}
+
+void say_by_hand() {
+    std::fprintf(stderr, "no browser could be opened; open the address by hand\n");
+}
+
+}  // namespace
+
+void open_browser(const std::string& url) {
+    if (!has_screen()) return say_by_hand();
+    posix_spawn_file_actions_t quiet;
+    ::posix_spawn_file_actions_init(&quiet);
+    ::posix_spawn_file_actions_addopen(&quiet, 0, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
+    // In a group of its own: Ctrl-C ends the engine, not the browser.
+    posix_spawnattr_t apart;
+    ::posix_spawnattr_init(&apart);
+    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+    std::string program = "xdg-open", argument = url;
+    char* const arguments[] = {program.data(), argument.data(), nullptr};
+    pid_t child = 0;
+    const int failed = ::posix_spawnp(&child, program.c_str(), &quiet, &apart, arguments, environ);
+    ::posix_spawn_file_actions_destroy(&quiet);
+    ::posix_spawnattr_destroy(&apart);
+    if (failed != 0) return say_by_hand();
+    std::thread([child] {
+        int status = 0;
+        if (::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) != 0)
+            say_by_hand();
+    }).detach();
+}
+
+}  // namespace tribo::app

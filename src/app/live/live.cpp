@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "app/live/live.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/live/live_server.hpp"
+#include "app/live/live_show.hpp"
+#include "app/render/render_job.hpp"
+#include "app/threads.hpp"
+#include "devices/arm/device_search.hpp"
+#include "job/toml/jnd_profile_toml.hpp"
+
+namespace tribo::app {
+namespace {
+
+// The arm that the call names; null: the simulated hand, and where "auto" found no arm, why.
+Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const Box3& blank) {
+    if (call.device == "simulated") return nullptr;
+    auto arm = devices::open_arm(call.device, mounting(call.arm, blank));
+    if (!arm && call.device == "auto") return nullptr;
+    return arm;
+}
+
+LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
+                             const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
+    LiveShowOptions options;
+    options.info.version = TRIBO_VERSION;
+    options.info.job = call.job;
+    options.info.warnings = loaded.warnings;
+    options.profile = profile;
+    options.settings.helix_deg = loaded.setup.cutters.front().helix_deg;
+    options.settings.force_scale = loaded.job.haptics.force_scale;
+    options.settings.jnd = contact::ForceTableOptions{}.most_jnd;
+    options.settings.material = loaded.material.name;
+    const job::JobHaptics& h = loaded.job.haptics;
+    haptics::ContactOptions& contact = options.feel.contact;
+    options.feel.delay_s = call.arm.delay_s();
+    Warnings less;
+    contact.stiffness_n_per_mm =
+        stable_stiffness(h.stiffness_n_per_mm, limits, options.feel.rate_hz, call.arm, call.job, less);
+    report(less);
+    options.info.warnings.insert(options.info.warnings.end(), less.begin(), less.end());
+    contact.friction_kinetic = h.friction_kinetic.value_or(0);
+    contact.friction_static = std::max(h.friction_static.value_or(0), contact.friction_kinetic);
+    return options;
+}
+
+}  // namespace
+
+int live(const LiveCall& call) {
+    if (call.job.empty()) return live_without_job(call);
+    RenderCall render;
+    render.job = call.job;
+    render.resolution_mm = call.resolution_mm;
+    render.only = {"mesh"};
+    if (call.audio == "native") render.only.insert("sound");
+    auto first = load_job(render, session::LiveMill::kPieceMm);
+    if (!first) return report(first.error());
+    if (auto fits = check_memory(render, *first); !fits) return report(fits.error());
+    report(first->warnings);
+
+    const auto files = live_page(call);
+    if (!files) return report(files.error());
+
+    contact::JndProfile profile;
+    if (const std::string& file = first->job.haptics.profile; !file.empty()) {
+        const auto read = job::read_jnd_profile(file);
+        if (!read) return report(read.error());
+        profile = *read;
+    }
+    auto arm = open_device(call, first->setup.blank->bounds_mm());
+    if (!arm) {
+        report(arm.error());
+        return kRefused;
+    }
+    LiveShowOptions show_how =
+        show_options(call, *first, profile, *arm ? (*arm)->limits() : haptics::kSimulatedLimits);
+
+    std::unique_ptr<LiveAudio> audio;
+    show_how.info.audio = call.audio;
+    if (call.audio == "native") {
+        auto opened = LiveAudio::open(first->track);
+        if (opened) {
+            audio = *std::move(opened);
+            std::printf("sound: %s\n", audio->device().c_str());
+        } else {
+            report(Warnings{{"", 0, opened.error().cause + "; the page sounds instead"}});
+            show_how.info.audio = "browser";
+        }
+    }
+
+    session::LiveExtras extras;
+    extras.listening = job::listening_to(first->job, first->setup.blank->bounds_mm());
+    if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
+
+    // Set back, the program begins again as its files are by then.
+    const auto load_again = [render]() -> Result<session::MillSetup> {
+        auto again = load_job(render, session::LiveMill::kPieceMm);
+        if (!again) return std::unexpected(Error(again.error()));
+        return std::move(again->setup);
+    };
+    show_how.make_setup = load_again;
+    std::optional<session::MillSetup> ready = std::move(first->setup);
+    const auto make_setup = [&]() -> Result<session::MillSetup> {
+        if (ready) return *std::exchange(ready, std::nullopt);
+        return load_again();
+    };
+    auto mill = session::LiveMill::create(
+        make_setup, parallel_for_over(call.threads > 0 ? call.threads : available_threads()),
+        std::move(extras));
+    if (!mill) return report(mill.error());
+
+    LiveShow show(**mill, std::move(show_how), *std::move(arm), std::move(audio));
+    int exit_code = kDone;
+    auto server = open_live_server(call, call.job, show.handlers(*files), exit_code);
+    if (!server) return exit_code;
+    const auto done = show.run(*server);
+    server.reset();
+    if (!done) return report(done.error());
+    return interrupted_exit_code();
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The sound of `tribo live` out of this machine's own loudspeaker: the same frames that a page is sent,
+// rendered a little ahead on a thread of its own and handed to the device without a lock.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "devices/sound/audio_out.hpp"
+#include "devices/sound/sample_queue.hpp"
+#include "session/live/live_sound.hpp"
+
+namespace tribo::app {
+
+class LiveAudio {
+  public:
+    // Rendered ahead of the device: what the thread's scheduling may cost without a gap.
+    static constexpr std::size_t kAheadFrames = 1024;
+
+    // The error of a machine without a loudspeaker.
+    static Result<std::unique_ptr<LiveAudio>> open(const sound::SoundtrackOptions& options);
+    ~LiveAudio();
+    LiveAudio(const LiveAudio&) = delete;
+    LiveAudio& operator=(const LiveAudio&) = delete;
+
+    const std::string& device() const { return out_->device(); }
+    // One thread: every frame, and the clock at each picture.
+    void take(std::span<const std::uint8_t> frame);
+    void follow(double t_s, double speed, bool playing);
+
+  private:
+    struct Clock {
+        double t_s = 0, speed = 1;
+        bool playing = false, fresh = false;
+    };
+    explicit LiveAudio(const sound::SoundtrackOptions& options) : sound_(options) {}
+    void work();
+
+    session::LiveSound sound_;  // the thread's
+    devices::SampleQueue queue_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::vector<std::vector<std::uint8_t>> frames_;
+    Clock clock_;
+    bool stop_ = false;
+    std::unique_ptr<devices::AudioOut> out_;
+    std::thread thread_;
+};
+
+}  // namespace tribo::app

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "app/live/live_show.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "milling/tool/materials.hpp"
+
+namespace tribo::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kFrameTime = std::chrono::microseconds(16'667);
+// Of a frame's time, how much may go into milling: the rest is for the picture.
+constexpr auto kMillingTime = std::chrono::microseconds(9'000);
+// A clock that did not run for longer than this (a laptop asleep) jumps no further.
+constexpr double kLongestStepS = 0.1;
+// Pictures from one word about the servo to the next.
+constexpr int kServoEvery = 15;
+
+net::Bytes shared(std::span<const std::uint8_t> frame) {
+    return std::make_shared<const std::vector<std::uint8_t>>(frame.begin(), frame.end());
+}
+
+std::array<double, 4> figures_us(const devices::DurationHistogram& h) {
+    const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
+    return {us(h.quantile_ns(0.5)), us(h.quantile_ns(0.99)), us(h.quantile_ns(0.999)), us(h.max_ns())};
+}
+
+}  // namespace
+
+void LiveInbox::put(const Event& event) {
+    const std::lock_guard lock(mutex_);
+    events_.push_back(event);
+}
+
+std::deque<LiveInbox::Event> LiveInbox::take_all() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(events_, {});
+}
+
+LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm,
+                   std::unique_ptr<LiveAudio> audio)
+    : mill_(mill),
+      options_(std::move(options)),
+      settings_(options_.settings),
+      told_(settings_),
+      finger_(options_.feel, std::move(arm), mill.session().stock().blank().bounds_mm().max),
+      builder_(options_.make_setup),
+      audio_(std::move(audio)) {
+    for (const milling::Material& m : milling::materials()) options_.info.materials.push_back(m.name);
+    options_.info.device = std::string(finger_.limits().name);
+    options_.info.max_force_n = finger_.limits().max_force_n;
+    options_.info.rate_hz = options_.feel.rate_hz;
+    options_.info.arm = finger_.has_arm();
+    mill_.watch([this](session::MillSession* session) { finger_.feel().set_session(session); });
+    ask_for_force();
+    servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
+                                                    [this](double now_s) { return finger_.tick(now_s); });
+}
+
+LiveShow::~LiveShow() {
+    servo_.reset();
+    mill_.watch({});
+    finger_.feel().set_session(nullptr);
+}
+
+net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
+    using Event = LiveInbox::Event;
+    net::ServerHandlers h;
+    h.page = [&files](std::string_view path, net::Unpacks unpacks) { return files.page(path, unpacks); };
+    h.came = [this](net::ClientId id, const net::Arrival& arrival) {
+        inbox_.put({Event::Kind::came, id, {}, arrival});
+    };
+    h.lost = [this](net::ClientId id) { inbox_.put({Event::Kind::lost, id}); };
+    h.message = [this](net::ClientId id, std::string_view text) {
+        inbox_.put({Event::Kind::message, id, std::string(text)});
+    };
+    return h;
+}
+
+Result<void> LiveShow::run(net::Server& server) {
+    auto before = Clock::now(), next = before;
+    const auto frames = [&](std::span<const std::uint8_t> frame) {
+        memory_.take(frame);
+        server.send_all(shared(frame));
+        if (audio_) audio_->take(frame);
+    };
+    while (!interrupted()) {
+        for (const LiveInbox::Event& event : inbox_.take_all()) answer(event, server);
+        const auto now = Clock::now();
+        const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
+        before = now;
+        const auto may_go_on = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
+        if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
+        if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
+        take_built();
+        finger_.show(scene(), mill_.state().tool.tip_mm, frames);
+        if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
+        next = std::max(next + kFrameTime, Clock::now());
+        std::this_thread::sleep_until(next);
+    }
+    return {};
+}
+
+session::LiveScene LiveShow::scene() const {
+    session::LiveScene s;
+    s.program_s = mill_.clock_s();
+    s.pace = mill_.pace();
+    s.cut_mode = settings_.cut_mode;
+    s.cutting_force = settings_.cutting_force;
+    s.stopped = settings_.stopped;
+    return s;
+}
+
+void LiveShow::ask_for_force() {
+    contact::ForceTableOptions wanted;
+    wanted.profile = options_.profile;
+    wanted.hand_per_tool = settings_.force_scale;
+    wanted.most_jnd = settings_.jnd;
+    builder_.request(mill_.change(), wanted);
+}
+
+void LiveShow::use_force() {
+    haptics::ForceScaling scaling;
+    scaling.gain = settings_.force_scale;
+    scaling.limit_n = finger_.limits().max_force_n;
+    finger_.feel().set_force(table_, scaling);
+}
+
+void LiveShow::take_built() {
+    ForceBuilder::Built built = builder_.take();
+    if (built.textures) finger_.feel().set_textures(*std::move(built.textures));
+    if (!built.table) return;
+    table_ = *std::move(built.table);
+    use_force();
+}
+
+void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames) {
+    protocol::LiveServo servo = finger_.servo();
+    servo.late = static_cast<std::uint32_t>(servo_->late());
+    servo.lateness_us = figures_us(servo_->lateness());
+    servo.cpu_us = figures_us(servo_->clock().cpu());
+    protocol::write_servo_frame(mill_.clock_s(), servo, frame_);
+    frames(frame_);
+    if (std::string trouble = finger_.trouble(); trouble != trouble_) {
+        trouble_ = std::move(trouble);
+        if (!trouble_.empty()) {
+            report(Warnings{{"", 0, trouble_}});
+            server.send_text_all(protocol::live_refusal({"", 0, 0, trouble_, ""}));
+        }
+    }
+    if (servo_->running() || std::exchange(arm_gone_, true)) return;
+    server.send_text_all(protocol::live_refusal({"", 0, 0, "the arm is gone", "plug it in and start again"}));
+}
+
+void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
+    using Kind = LiveInbox::Event::Kind;
+    switch (event.kind) {
+        case Kind::came:
+            options_.info.resume = event.arrival.resume;
+            options_.info.resumed = event.arrival.resumed;
+            server.send_text(event.client, protocol::live_server_info(options_.info));
+            server.send_text(event.client, protocol::live_settings(settings_));
+            replay(event.client, server);
+            break;
+        case Kind::lost:
+            server.send_text(event.client, protocol::live_lost());
+            break;
+        case Kind::message: {
+            const auto command = protocol::parse_live_command(event.text);
+            if (!command) {
+                server.refuse(event.client, protocol::live_refusal(command.error()));
+            } else if (auto obeyed = obey(*command, event.client, server); !obeyed) {
+                server.send_text(event.client, protocol::live_refusal(obeyed.error()));
+            }
+            break;
+        }
+    }
+}
+
+void LiveShow::replay(net::ClientId to, net::Server& server) {
+    memory_.replay([&](std::span<const std::uint8_t> frame) { server.send(to, shared(frame)); });
+}
+
+// What changes the cut: the rows and the force are worked out again.
+Result<void> LiveShow::recut(const protocol::LiveSettings& wanted) {
+    session::CutChange change;
+    change.feed_factor = 0.01 * wanted.feed_percent;
+    change.speed_factor = 0.01 * wanted.spindle_percent;
+    if (wanted.helix_deg != options_.settings.helix_deg) change.helix_deg = wanted.helix_deg;
+    if (wanted.material != options_.settings.material) {
+        const auto material = milling::find_material(wanted.material);
+        if (!material) return std::unexpected(material.error());
+        change.coefficients = material->coefficients;
+    }
+    settings_ = wanted;
+    mill_.set_change(change);
+    ask_for_force();
+    return {};
+}
+
+Result<void> LiveShow::obey(const protocol::LiveCommand& command, net::ClientId from, net::Server& server) {
+    protocol::LiveSettings wanted = settings_;
+    Result<void> done;
+    switch (command.op) {
+        case protocol::LiveOp::play:
+            mill_.play(true);
+            break;
+        case protocol::LiveOp::pause:
+            mill_.play(false);
+            break;
+        case protocol::LiveOp::speed:
+            mill_.set_speed(command.value);
+            break;
+        case protocol::LiveOp::seek:
+            mill_.set_clock(command.value);
+            break;
+        case protocol::LiveOp::resync:
+            replay(from, server);
+            break;
+        case protocol::LiveOp::finger:
+            finger_.lead(command.position_mm, command.on);
+            break;
+        case protocol::LiveOp::mode:
+            settings_.cut_mode = command.word == "cut";
+            break;
+        case protocol::LiveOp::force:
+            settings_.cutting_force = command.on;
+            break;
+        case protocol::LiveOp::stop:
+        case protocol::LiveOp::release:
+            settings_.stopped = command.op == protocol::LiveOp::stop;
+            if (settings_.stopped) finger_.stop(scene());
+            break;
+        case protocol::LiveOp::set:
+            for (const protocol::LiveNumber& n : protocol::kLiveNumbers) {
+                if (n.key == command.word) wanted.*n.member = command.value;
+            }
+            done = recut(wanted);
+            use_force();
+            break;
+        case protocol::LiveOp::material:
+            wanted.material = command.word;
+            done = recut(wanted);
+            break;
+    }
+    if (settings_ != told_) {
+        told_ = settings_;
+        server.send_text_all(protocol::live_settings(settings_));
+    }
+    return done;
+}
+
+}  // namespace tribo::app

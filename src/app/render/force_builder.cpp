@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/force_builder.hpp"
+
+#include <utility>
+
+namespace tribo::app {
+
+ForceBuilder::ForceBuilder(std::function<Result<session::MillSetup>()> make_setup)
+    : thread_([this, make = std::move(make_setup)] { work(make); }) {}
+
+ForceBuilder::~ForceBuilder() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void ForceBuilder::request(const session::CutChange& change, const contact::ForceTableOptions& options) {
+    {
+        const std::lock_guard lock(mutex_);
+        request_ = {change, options};
+    }
+    wake_.notify_one();
+}
+
+ForceBuilder::Built ForceBuilder::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(built_, {});
+}
+
+void ForceBuilder::work(const std::function<Result<session::MillSetup>()>& make_setup) {
+    auto setup = make_setup();
+    // What cannot be set up was refused where it is shown.
+    if (!setup) return;
+    // One thread: the others are the picture's.
+    session::FeelAhead ahead(*std::move(setup), serial_for);
+    const auto may_go_on = [this] {
+        const std::lock_guard lock(mutex_);
+        return !stop_;
+    };
+    if (!ahead.run(may_go_on)) return;
+    auto textures = std::optional(ahead.textures());
+    for (;;) {
+        std::unique_lock lock(mutex_);
+        if (textures) built_.textures = std::exchange(textures, std::nullopt);
+        wake_.wait(lock, [this] { return stop_ || request_.has_value(); });
+        if (stop_) return;
+        const Request request = *std::exchange(request_, std::nullopt);
+        lock.unlock();
+        auto table = ahead.table(request.change, request.options);
+        lock.lock();
+        built_.table = std::move(table);
+    }
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/listening.hpp"
+
+#include "files/sound/hrir_file.hpp"
+#include "files/sound/sound_file.hpp"
+#include "material/material_json.hpp"
+
+namespace tribo::app {
+
+namespace {
+
+FileResult<std::shared_ptr<const sound::Recording>> recording(const std::string& path, double rpm) {
+    auto file = files::read_sound(path);
+    if (!file) return std::unexpected(file.error());
+    auto recording = std::make_shared<sound::Recording>();
+    recording->samples.assign(file->samples.begin(), file->samples.end());
+    recording->sample_rate_hz = file->sample_rate_hz;
+    recording->spindle_rpm = rpm;
+    if (auto ok = sound::check_recording(*recording); !ok) {
+        return std::unexpected(FileFailure({path, 0, 0, ok.error().cause, ok.error().remedy}));
+    }
+    return recording;
+}
+
+}  // namespace
+
+using Heard = std::shared_ptr<const sound::Head>;
+
+FileResult<Heard> head_of(const job::JobSound& sound, int sample_rate_hz, const std::string& job_file,
+                          Warnings& warnings) {
+    const double rate = sample_rate_hz;
+    const job::SoundMode mode = sound.mode.value_or(job::SoundMode::hrtf);
+    if (mode == job::SoundMode::pan) return sound::Head::panning(rate);
+    if (mode == job::SoundMode::sphere) return sound::Head::sphere(rate);
+    auto set = sound.hrtf.empty() ? files::builtin_hrirs()
+                                  : files::read_hrirs(sound.hrtf, "/proc/self/exe", kReadSofaVerb);
+    if (set) {
+        const std::string file = sound.hrtf.empty() ? job_file : sound.hrtf;
+        switch (sound::ear_order(*set)) {
+            case sound::EarOrder::right:
+                break;
+            case sound::EarOrder::exchanged:
+                sound::exchange_ears(*set);
+                warnings.push_back(
+                    {file, 0,
+                     "the head responses name the left ear right: a source at the side is earlier "
+                     "and louder in the other ear; they are exchanged"});
+                break;
+            case sound::EarOrder::unclear:
+                warnings.push_back(
+                    {file, 0,
+                     "the head responses do not tell left from right: neither ear is both earlier "
+                     "and louder on the side of the source; they are taken as the file names them"});
+        }
+        auto head = sound::Head::measured(
+            *set, rate, sound.as_measured ? sound::Equalization::none : sound::Equalization::diffuse);
+        if (head) return std::move(*head);
+        return std::unexpected(FileFailure(head.error()));
+    }
+    if (!sound.hrtf.empty() || sound.mode) return std::unexpected(set.error());
+    warnings.push_back({job_file, 0,
+                        "the built-in head responses cannot be read (" + set.error().text() +
+                            "): a sphere stands in for the head"});
+    return sound::Head::sphere(rate);
+}
+
+FileResult<void> read_voices(const job::JobSound& sound, sound::SoundtrackOptions& track) {
+    track.recording_share = sound.recording_share;
+    if (!sound.recording.empty()) {
+        auto read = recording(sound.recording, sound.recording_rpm);
+        if (!read) return std::unexpected(read.error());
+        track.recording = std::move(*read);
+    }
+    if (!sound.idle_recording.empty()) {
+        auto read = recording(sound.idle_recording, sound.idle_recording_rpm);
+        if (!read) return std::unexpected(read.error());
+        track.idle = std::move(*read);
+    }
+    if (!sound.chips.empty()) {
+        auto material = material::read_material(sound.chips);
+        if (!material) return std::unexpected(material.error());
+        if (material->voices.models.empty()) {
+            return std::unexpected(FileFailure({sound.chips, 0, 0, "the material has no voice",
+                                                "learn one from a recorded cut with tribo learn"}));
+        }
+        const noise::VoiceModel& voice = material->voices.models.front();
+        track.chips.learned = voice.spectrum;
+        if (voice.bass) track.chips.learned_bass = *voice.bass;
+    }
+    return {};
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/render.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
+#include "app/render/job_files.hpp"
+#include "app/render/render_outputs.hpp"
+#include "app/threads.hpp"
+#include "base/decimal.hpp"
+#include "files/memory.hpp"
+
+namespace tribo::app {
+namespace {
+
+constexpr double kMegabyte = 1e6;
+
+report::Summary summary_of(const RenderCall& call, const LoadedJob& loaded,
+                           const session::MillSession& session) {
+    const session::MillTotals& t = session.totals();
+    report::Summary s;
+    s.job = call.job;
+    s.version = TRIBO_VERSION;
+    s.duration_s = t.duration_s;
+    s.cutting_s = t.cutting_s;
+    s.path_mm = t.path_mm;
+    s.removed_mm3 = t.removed_mm3;
+    s.remaining_mm3 = t.remaining_mm3;
+    s.mean_force_n = t.mean_force_n;
+    s.peak_force_n = t.peak_force_n;
+    s.peak_torque_nm = 1e-3 * t.peak_torque_nmm;
+    s.peak_power_w = t.peak_power_w;
+    s.force_low_factor = loaded.material.spread_low;
+    s.force_high_factor = loaded.material.spread_high;
+    if (t.rows > 0) s.tooth_passing_hz = t.tooth_passing_hz;
+    s.work_j = t.work_j;
+    s.energy_balance = t.energy_balance;
+    s.resolution_mm = session.setup().cell_mm;
+    s.stock_record = session::stock_record(session.setup(), loaded.stock_hash);
+    s.as_published = call.as_published;
+    s.warnings = loaded.warnings;
+    if (t.removed_mm3 == 0) {
+        s.warnings.push_back(
+            {call.job, 0,
+             "nothing was cut: the tool never meets the stock; check the path's units and zero, "
+             "and the stock's place"});
+        report(Warnings{s.warnings.back()});
+    }
+    constexpr double kBalanced = 0.01;
+    if (t.energy_balance && std::abs(*t.energy_balance - 1) > kBalanced) {
+        s.warnings.push_back(
+            {call.job, 0,
+             "the spindle's work is " + format_decimal(std::round(1000 * *t.energy_balance) / 1000) +
+                 " of what the metal removed asks for: the force is off by about as much; try a "
+                 "finer --resolution"});
+        report(Warnings{s.warnings.back()});
+    }
+    for (const session::MillCollision& c : t.collisions) {
+        s.collisions.push_back({c.line, c.t_s, milling::name(c.kind), c.tip_mm});
+    }
+    return s;
+}
+
+void print(const report::Summary& s, const files::OutputFolder& folder) {
+    std::printf("%-16s %.1f s, cutting %.1f s\n", "time", s.duration_s, s.cutting_s);
+    std::printf("%-16s %.1f mm\n", "path", s.path_mm);
+    std::printf("%-16s %.1f mm3 of %.1f mm3\n", "removed", s.removed_mm3, s.removed_mm3 + s.remaining_mm3);
+    std::printf("%-16s mean %.1f N, peak %.1f N (%.2g to %.2g times that)\n", "force", s.mean_force_n,
+                s.peak_force_n, s.force_low_factor, s.force_high_factor);
+    std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm, s.peak_power_w);
+    if (s.tooth_passing_hz) std::printf("%-16s %.1f Hz\n", "tooth passing", *s.tooth_passing_hz);
+    if (s.scallop_max_mm)
+        std::printf("%-16s gouge %.3f mm, rest %.3f mm, scallop %.3f mm\n", "deviation", *s.gouge_max_mm,
+                    *s.rest_max_mm, *s.scallop_max_mm);
+    if (s.triangles)
+        std::printf("%-16s %llu triangles\n", "part", static_cast<unsigned long long>(*s.triangles));
+    std::printf("%-16s %zu collisions, %zu warnings\n", "findings", s.collisions.size(), s.warnings.size());
+    std::printf("%-16s %.2f s, %.0f MB\n", "took", s.seconds, s.peak_memory_mb);
+    std::printf("%-16s %s\n", "files", folder.path().c_str());
+}
+
+}  // namespace
+
+int render(const RenderCall& call) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto loaded = load_job(call);
+    if (!loaded) return report(loaded.error());
+    if (auto fits = check_memory(call, *loaded); !fits) return report(fits.error());
+    auto folder = files::OutputFolder::open(call.out);
+    if (!folder) return report(folder.error());
+    const auto& sources = loaded->stock_folders;
+    if (std::find(sources.begin(), sources.end(), folder->path()) != sources.end()) {
+        return report(Error{call.out, 0, 0,
+                            "the job begins with the stock of this folder, which it would replace",
+                            "name another folder, or let [stock] from name the earlier job itself"});
+    }
+    report(loaded->warnings);
+
+    const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
+    const Box3 blank = loaded->setup.blank->bounds_mm();
+    std::optional<Progress> progress(std::in_place);
+    const auto milling = [&](const char* stage) {
+        return [&progress, stage](double fraction) {
+            progress->update(stage, fraction);
+            return !interrupted();
+        };
+    };
+    session::MillSession session(std::move(loaded->setup), parallel, milling("earlier jobs"));
+    RenderOutputs outputs(call, *loaded, *folder, parallel);
+    if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
+    session::MillSinks sinks;
+    if (outputs.needs_rows()) {
+        sinks.row = [&](const session::MillRow& row) { outputs.add(row, session.setup()); };
+    }
+    sinks.progress = milling("milling");
+    if (!session.run(sinks)) return interrupted_exit_code();
+    progress.reset();
+    report::Summary summary = summary_of(call, *loaded, session);
+    summary.stock_record->job = relative_to(folder->path(), call.job);
+    if (auto done = outputs.finish(session, summary); !done) return report(done.error());
+    if (interrupted()) return interrupted_exit_code();
+    summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    summary.peak_memory_mb = static_cast<double>(files::peak_memory_bytes()) / kMegabyte;
+    if (auto done = files::write_file(folder->file("summary.json"), report::summary_json(summary)); !done) {
+        return report(done.error());
+    }
+    if (auto done = folder->commit(); !done) return report(done.error());
+    print(summary, *folder);
+    return kDone;
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "app/render/render_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "field/contour/contour.hpp"
+#include "field/shape/surface_points.hpp"
+#include "files/model/gltf.hpp"
+#include "job/listening.hpp"
+#include "readers/mesh/stl.hpp"
+#include "report/picture.hpp"
+#include "surface/deviation.hpp"
+
+namespace tribo::app {
+namespace {
+
+// A cut that is shallower than this looks like the blank's own face.
+constexpr double kOnFaceMm = 1e-3;
+constexpr std::size_t kVerticesAtOnce = 4096;
+
+// What the sound is made of, and that not all of it is measured.
+std::string sound_of(const job::Job& job) {
+    const sound::Workshop w = job::listening_to(job, {}).workshop;
+    std::string what(sound::machines()[w.machine].what);
+    if (w.room > 0) what += ", " + std::string(sound::rooms()[w.room].what);
+    if (!job.sound.recording.empty() || !job.sound.chips.empty() || !job.sound.idle_recording.empty())
+        what += "; with recordings";
+    if (w.machine > 0) what += "; chips, spindle and room are made up, not measured";
+    return what;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded, bool sound) {
+    const milling::Material& m = loaded.material;
+    char k[200], band[200];
+    const milling::CuttingCoefficients& c = m.coefficients;
+    std::snprintf(k, sizeof k, "Ktc %.4g, Krc %.4g, Kac %.4g N/mm2; Kte %.4g, Kre %.4g, Kae %.4g N/mm", c.ktc,
+                  c.krc, c.kac, c.kte, c.kre, c.kae);
+    std::snprintf(band, sizeof band, "forces may really be %.2g to %.2g times what stands here", m.spread_low,
+                  m.spread_high);
+    std::vector<std::pair<std::string, std::string>> facts{
+        {"Material", std::string(m.name) + ": " + std::string(m.what)},
+        {"Source", std::string(m.source)},
+        {"Coefficients", k},
+        {"Band", band},
+    };
+    if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
+    if (sound) facts.emplace_back("Sound", sound_of(loaded.job));
+    facts.emplace_back("Not modelled", "chatter, deflection of tool and part, heat, wear");
+    return facts;
+}
+
+}  // namespace
+
+FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
+    if (call_.wants("forces")) {
+        auto file = ForceFile::create(folder_.file("forces.csv"));
+        if (!file) return std::unexpected(file.error());
+        forces_.emplace(std::move(*file));
+        if (call_.as_published) {
+            auto published = PublishedForceFile::create(folder_.file("published_forces.csv"));
+            if (!published) return std::unexpected(published.error());
+            published_.emplace(std::move(*published));
+        }
+    }
+    if (call_.wants("sound")) {
+        SoundFileOptions options;
+        options.track = loaded_.track;
+        options.format.sample_rate_hz = options.track.sample_rate_hz = call_.sample_rate_hz;
+        options.format.bits = loaded_.job.sound.bits;
+        job::apply(job::listening_to(loaded_.job, blank), options.track);
+        options.track.as_published = call_.as_published;
+        auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
+        if (!file) return std::unexpected(file.error());
+        sound_.emplace(std::move(*file));
+    }
+    return {};
+}
+
+void RenderOutputs::add(const session::MillRow& row, const session::MillSetup& setup) {
+    if (forces_) forces_->add(row);
+    if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
+    if (sound_) sound_->add(row, setup.cutters[row.cutter].flutes);
+    if (call_.wants("report")) report_.add(row);
+}
+
+FileResult<void> RenderOutputs::finish(const session::MillSession& session, report::Summary& summary) {
+    if (forces_) {
+        if (auto done = forces_->finish(); !done) return done;
+    }
+    if (published_) {
+        if (auto done = published_->finish(); !done) return done;
+    }
+    if (sound_) {
+        if (auto done = sound_->finish(session.totals().duration_s); !done) return done;
+    }
+    TriangleMesh mesh;
+    if (call_.wants("mesh") || call_.wants("report")) {
+        mesh = field::contour(session.stock(), parallel_);
+        summary.triangles = mesh.triangles.size();
+    }
+    if (call_.wants("mesh")) {
+        if (auto done = write_mesh(mesh, session.stock().blank()); !done) return done;
+    }
+    if (loaded_.part) {
+        if (auto done = compare(session, summary); !done) return done;
+    }
+    if (call_.wants("report")) return write_report(session, summary, std::move(mesh));
+    return {};
+}
+
+FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const field::Shape& blank) {
+    auto stl = files::FileWriter::create(folder_.file("machined.stl"));
+    if (!stl) return std::unexpected(stl.error());
+    readers::write_stl(mesh, [&](std::string_view bytes) {
+        stl->write(bytes);
+        return true;
+    });
+    if (auto done = stl->finish(); !done) return done;
+    return files::write_glb(folder_.file("machined.glb"), mesh, [&](const Triangle& t) {
+        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
+            return std::abs(blank.distance_mm(mesh.position(corner))) <= kOnFaceMm;
+        });
+    });
+}
+
+FileResult<void> RenderOutputs::compare(const session::MillSession& session, report::Summary& summary) {
+    auto designed = surface::DesignedSurface::make(std::move(loaded_.part->mesh));
+    if (!designed) {
+        Error error = designed.error();
+        error.file = loaded_.job.part->path;
+        return std::unexpected(FileFailure(error));
+    }
+    surface::DeviationOptions options;
+    options.pass_width_mm = 0;
+    for (const milling::Cutter& c : session.setup().cutters) {
+        options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
+    }
+    options.blank = &session.stock().blank();
+    // Cusps are sharpened from the samples: a cell apart is enough to find them.
+    options.spacing_mm = std::max(
+        session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
+    const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel_);
+    options.machined_mm = points;
+    const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
+    designed_.emplace(*std::move(designed));
+    summary.gouge_max_mm = d.gouge.mm;
+    summary.rest_max_mm = d.rest.mm;
+    summary.scallop_max_mm = d.scallop.mm;
+    return {};
+}
+
+report::ReportPart RenderOutputs::report_part(const session::MillSession& session,
+                                              const report::Summary& summary,
+                                              const TriangleMesh& mesh) const {
+    report::ReportPart part;
+    const field::Shape& blank = session.stock().blank();
+    part.untouched.resize(mesh.positions.size());
+    parallel_((mesh.positions.size() + kVerticesAtOnce - 1) / kVerticesAtOnce, [&](std::size_t piece) {
+        const std::size_t end = std::min(mesh.positions.size(), (piece + 1) * kVerticesAtOnce);
+        for (std::size_t n = piece * kVerticesAtOnce; n < end; ++n) {
+            const double off = blank.distance_mm(mesh.position(static_cast<std::uint32_t>(n)));
+            part.untouched[n] = std::abs(off) <= kOnFaceMm ? 1 : 0;
+        }
+    });
+    part.mesh = report::with_fewer_vertices(mesh, report::kMostPartVertices, part.untouched);
+    if (!designed_) return part;
+    // The colours end at what was found where passes were; what was never reached is beyond them.
+    const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));
+    part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kOnFaceMm);
+    part.deviation_mm = surface::deviations_of(part.mesh, *designed_, parallel_);
+    return part;
+}
+
+FileResult<void> RenderOutputs::write_report(const session::MillSession& session,
+                                             const report::Summary& summary, TriangleMesh mesh) {
+    report::ReportData data;
+    data.title = call_.job;
+    data.subtitle = std::string(loaded_.material.name) + ", " +
+                    std::to_string(session.setup().cutters.size()) +
+                    (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
+    data.summary = summary;
+    data.picture_png = files::png_bytes(report::draw_part(mesh));
+    data.part = report_part(session, summary, mesh);
+    mesh = {};
+    data.rows = report::thin_rows(report_.rows, 4000);
+    data.turn = report_.turn(session.setup());
+    if (sound_) {
+        data.sound = sound_->for_report();
+        data.sound->waves = report_.waves(session.setup(), sound_->options());
+    }
+    data.facts = facts_of(loaded_, call_.wants("sound") && !call_.as_published);
+    return files::write_file(folder_.file("report.html"), report::report_html(data));
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The files of one render, in the order in which they are made.
+#pragma once
+
+#include <optional>
+
+#include "app/render/render_job.hpp"
+#include "app/render/render_sinks.hpp"
+#include "base/parallel.hpp"
+#include "files/output_folder.hpp"
+#include "report/summary_json.hpp"
+#include "surface/designed_surface.hpp"
+
+namespace tribo::app {
+
+class RenderOutputs {
+  public:
+    // All of them outlive this object.
+    RenderOutputs(const RenderCall& call, LoadedJob& loaded, files::OutputFolder& folder,
+                  const ParallelFor& parallel)
+        : call_(call), loaded_(loaded), folder_(folder), parallel_(parallel) {}
+
+    // Before the session runs.
+    FileResult<void> open(double duration_s, const Box3& blank);
+    bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
+    void add(const session::MillRow& row, const session::MillSetup& setup);
+    // After it; `summary` gains what comes out here. Takes the designed part's mesh.
+    FileResult<void> finish(const session::MillSession& session, report::Summary& summary);
+
+  private:
+    FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
+    FileResult<void> compare(const session::MillSession& session, report::Summary& summary);
+    report::ReportPart report_part(const session::MillSession& session, const report::Summary& summary,
+                                   const TriangleMesh& mesh) const;
+    FileResult<void> write_report(const session::MillSession& session, const report::Summary& summary,
+                                  TriangleMesh mesh);
+
+    const RenderCall& call_;
+    LoadedJob& loaded_;
+    files::OutputFolder& folder_;
+    const ParallelFor& parallel_;
+    std::optional<ForceFile> forces_;
+    std::optional<PublishedForceFile> published_;
+    std::optional<SoundFile> sound_;
+    ReportRows report_;
+    std::optional<surface::DesignedSurface> designed_;  // once compared
+};
+
+}  // namespace tribo::app

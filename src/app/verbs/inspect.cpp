@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// `tribo inspect FILE`: what a program, a model or a job holds.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/exit.hpp"
+#include "app/verbs/verbs.hpp"
+#include "files/gzip.hpp"
+#include "files/model/model_file.hpp"
+#include "job/completion.hpp"
+#include "job/program_file.hpp"
+#include "job/toml/job_toml.hpp"
+#include "job/toml/machine_file.hpp"
+#include "material/material_json.hpp"
+#include "report/facts.hpp"
+#include "report/picture.hpp"
+
+namespace tribo::app {
+namespace {
+
+// Counts times where a program says no feed at all, so that it can be looked at without a job.
+constexpr double kAssumedFeedMmPerMin = 1000;
+// Points along a curved move in a picture.
+constexpr int kPicturePoints = 16;
+
+struct Call {
+    std::string file;
+    bool json = false;
+    std::string picture;
+    std::string machine;
+};
+
+// What was found: facts to print and something to draw.
+struct Found {
+    report::Facts facts;
+    TriangleMesh mesh;
+    std::vector<report::PictureLine> lines;
+    std::vector<readers::Rgb8> colours = {};  // of the triangles, or none
+};
+
+// Looks at moves as they go by: a long program is never held whole.
+class PathWatcher final : public readers::MoveSink {
+  public:
+    explicit PathWatcher(bool draws) : draws_(draws) { line_.colours = {{0.12F, 0.44F, 0.55F}}; }
+
+    void take(const motion::Move& move) override {
+        meter.add(move);
+        if (!draws_ || move.kind != motion::MoveKind::feed) return;
+        const int points = move.arc || move.quadratic ? kPicturePoints : 1;
+        if (line_.points_mm.empty()) line_.points_mm.push_back(move.start.tip_mm);
+        for (int i = 1; i <= points; ++i) {
+            line_.points_mm.push_back(motion::pose_at(move, static_cast<double>(i) / points).tip_mm);
+        }
+    }
+    report::PictureLine take_line() { return std::move(line_); }
+
+    motion::ProgramMeter meter;
+
+  private:
+    bool draws_;
+    report::PictureLine line_;
+};
+
+// Points without triangles: the picture leaves room for the lines that run through them.
+void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
+    for (const Vec3 p : points) {
+        mesh.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+}
+
+Found found_program(const motion::Program& program, PathWatcher& path, job::PathKind kind,
+                    double rapid_mm_per_min) {
+    Found found{report::describe(program, path.meter, kind, rapid_mm_per_min), {}, {path.take_line()}};
+    make_room(found.mesh, found.lines[0].points_mm);
+    return found;
+}
+
+FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job::PathKind kind) {
+    job::JobMachine machine;
+    if (!call.machine.empty()) {
+        FileResult<job::JobMachine> named = job::read_machine_named(call.machine);
+        if (!named) return std::unexpected(named.error());
+        machine = *std::move(named);
+    }
+    job::ProgramFileOptions options;
+    if (machine.kinematics) options.machine = &*machine.kinematics;
+    const bool draws = !call.picture.empty();
+    PathWatcher path(draws);
+    const Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
+    if (program) return found_program(*program, path, kind, machine.rapid_mm_per_min);
+    // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
+    options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
+    PathWatcher again(draws);
+    const Result<motion::Program> with_feed = job::parse_program(bytes, call.file, kind, options, again);
+    if (!with_feed) return std::unexpected(FileFailure(program.error()));
+    return found_program(*with_feed, again, kind, machine.rapid_mm_per_min);
+}
+
+FileResult<Found> inspect_model(const std::string& file) {
+    FileResult<readers::Model> model = files::read_model_file({file, std::nullopt});
+    if (!model) return std::unexpected(model.error());
+    report::Facts facts = report::describe(*model);
+    return Found{std::move(facts), std::move(model->mesh), {}, std::move(model->colours)};
+}
+
+FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
+    FileResult<job::Job> job = job::parse_job(bytes, file);
+    if (!job) return std::unexpected(job.error());
+    FileResult<motion::Program> program = job::read_program(*job);
+    if (!program) return std::unexpected(program.error());
+    if (auto done = job::complete_job(*job, *program, program->warnings); !done) {
+        return std::unexpected(FileFailure(done.error()));
+    }
+    PathWatcher path(true);
+    for (const motion::Move& move : program->moves) path.take(move);
+    Found found = found_program(*program, path, job->path.kind, job->machine.rapid_mm_per_min);
+    std::optional<report::Facts> part;
+    if (job->part) {
+        FileResult<readers::Model> model = files::read_model_file(*job->part);
+        if (!model) return std::unexpected(model.error());
+        part = report::describe(*model);
+        found.mesh = std::move(model->mesh);
+        make_room(found.mesh, found.lines[0].points_mm);
+    }
+    found.facts = report::describe(*job, &found.facts, part ? &*part : nullptr);
+    return found;
+}
+
+FileResult<Found> inspect_file(const Call& call) {
+    const std::string& file = call.file;
+    const FileResult<std::string> bytes = files::read_file(file);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (std::filesystem::path(file).extension() == ".toml") return inspect_job(*bytes, file);
+    if (files::is_gzip(*bytes)) return inspect_model(file);
+    if (material::looks_like_material(*bytes)) {
+        const Result<material::Material> material = material::parse_material(*bytes, file);
+        if (!material) return std::unexpected(FileFailure(material.error()));
+        return Found{report::describe(*material), {}, {}};
+    }
+    const std::optional<job::PathKind> program = job::detect_program(*bytes, file);
+    if (readers::detect_model_format(*bytes, file) && !program) return inspect_model(file);
+    if (program) return inspect_program(*bytes, call, *program);
+    return std::unexpected(FileFailure(
+        {file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
+         "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl), "
+         "a job (.toml) or a material (.json)"}));
+}
+
+int inspect(const Call& call) {
+    const FileResult<Found> found = inspect_file(call);
+    if (!found) return report(found.error());
+    if (!call.picture.empty()) {
+        report::PictureOptions options;
+        options.triangle_colours = found->colours;
+        const files::Image image = report::draw_part(found->mesh, found->lines, options);
+        if (const auto written = files::write_png(call.picture, image); !written)
+            return report(written.error());
+    }
+    if (call.json) {
+        std::fputs(found->facts.json.c_str(), stdout);
+    } else {
+        std::printf("%s\n%s", call.file.c_str(), report::aligned(found->facts.lines).c_str());
+        for (const Warning& warning : found->facts.warnings) std::printf("%s\n", warning.message().c_str());
+    }
+    return std::fflush(stdout) == 0
+               ? kDone
+               : report(files::system_failure("standard output", "write", errno).error());
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& program, int& exit_code) {
+    const auto call = std::make_shared<Call>();
+    CLI::App* verb =
+        program.add_subcommand("inspect", "Say what a program, a model or a job holds, with warnings");
+    verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model, a job or a material")->required();
+    verb->add_flag("--json", call->json, "Print one JSON object");
+    verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
+    verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")
+        ->type_name("NAME|F.toml");
+    verb->callback([call, &exit_code] { exit_code = inspect(*call); });
+}
+
+}  // namespace tribo::app

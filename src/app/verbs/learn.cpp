@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// `tribo learn --recording MM_PER_S:FILE ... --out M.json`: recordings of friction to a material.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/exit.hpp"
+#include "app/options.hpp"
+#include "app/verbs/verbs.hpp"
+#include "base/decimal.hpp"
+#include "files/image/image_file.hpp"
+#include "files/sound/sound_file.hpp"
+#include "material/material_json.hpp"
+#include "noise/learn/learning.hpp"
+#include "report/learning_report.hpp"
+
+namespace tribo::app {
+namespace {
+
+struct Call {
+    std::vector<std::string> recordings;
+    std::string out, image, name, note, method = "yule-walker";
+    double width_mm = 0, stiffness = 4, viscosity = 0.3;
+    std::string height_map;
+    double relief_slope = material::Material{}.relief_slope, gloss = material::Material{}.gloss,
+           roughness = material::Material{}.roughness;
+    double highpass_hz = noise::LearningOptions{}.highpass_hz;
+    int order = 0;
+    bool report = false;
+};
+
+struct Source {
+    double speed_mm_per_s = 0, force_n = 1;
+    std::string file;
+};
+
+// SPEED[@FORCE]:FILE
+Result<Source> parse_source(const std::string& text) {
+    const auto refuse = [&](std::string cause) {
+        return fail("--recording '" + text + "': " + std::move(cause),
+                    "write SPEED:FILE or SPEED@FORCE:FILE, such as 120:slow.wav or 120@0.5:light.wav");
+    };
+    Source source;
+    std::string_view rest = text;
+    const auto number = [&](double& value) {
+        const std::size_t length = parse_decimal(rest, value);
+        rest.remove_prefix(length);
+        return length > 0 && value > 0 && std::isfinite(value);
+    };
+    if (!number(source.speed_mm_per_s)) return refuse("the speed is not a number of mm/s above 0");
+    if (rest.starts_with('@')) {
+        rest.remove_prefix(1);
+        if (!number(source.force_n)) return refuse("the force is not a number of newtons above 0");
+    }
+    if (!rest.starts_with(':') || rest.size() < 2) return refuse("no file is named");
+    source.file = rest.substr(1);
+    return source;
+}
+
+struct Sounds {
+    std::vector<noise::Recording> recordings;
+    std::vector<material::RecordingSource> sources;
+    Warnings warnings;
+};
+
+FileResult<Sounds> read_sounds(const Call& call) {
+    Sounds sounds;
+    for (const std::string& text : call.recordings) {
+        const Result<Source> source = parse_source(text);
+        if (!source) return std::unexpected(FileFailure(source.error()));
+        FileResult<files::SoundFile> file = files::read_sound(source->file);
+        if (!file) return std::unexpected(file.error());
+        sounds.warnings.insert(sounds.warnings.end(), file->warnings.begin(), file->warnings.end());
+        material::RecordingSource from;
+        from.file = std::filesystem::path(source->file).filename().string();
+        from.sample_rate_hz = file->sample_rate_hz;
+        from.channels = file->channels;
+        from.bits = file->bits;
+        sounds.sources.push_back(std::move(from));
+        sounds.recordings.push_back({source->file, source->speed_mm_per_s, source->force_n,
+                                     file->sample_rate_hz, std::move(file->samples)});
+    }
+    return sounds;
+}
+
+// `image` as seen from the material file.
+std::string image_beside(const std::string& image, const std::string& out) {
+    std::error_code error;
+    const auto folder = std::filesystem::absolute(out, error).parent_path();
+    const auto relative = std::filesystem::relative(std::filesystem::absolute(image, error), folder, error);
+    return relative.empty() ? image : relative.generic_string();
+}
+
+double rounded(double value, double step) {
+    return std::round(value / step) / std::round(1 / step);
+}
+
+material::Material material_of(const Call& call, const noise::Learned& learned, const Sounds& sounds) {
+    material::Material m;
+    m.name = call.name.empty() ? std::filesystem::path(call.out).stem().string() : call.name;
+    m.note = call.note;
+    m.stiffness_n_per_mm = call.stiffness;
+    m.viscosity_n_s_per_mm = call.viscosity;
+    m.width_mm = call.width_mm;
+    if (!call.image.empty()) m.image = image_beside(call.image, call.out);
+    if (!call.height_map.empty()) m.height_map = image_beside(call.height_map, call.out);
+    m.relief_slope = call.relief_slope;
+    m.gloss = call.gloss;
+    m.roughness = call.roughness;
+    m.method = call.method;
+    m.highpass_hz = call.highpass_hz;
+    m.voices = learned.voices;
+    material::round_digits(m.voices);
+    m.sources.resize(m.voices.models.size());
+    for (std::size_t n = 0; n < sounds.sources.size(); ++n) {
+        const noise::LearnedRecording& r = learned.recordings[n];
+        material::RecordingSource source = sounds.sources[n];
+        source.seconds = rounded(r.seconds, 1e-3);
+        source.peak_db = rounded(r.peak_db, 0.01);
+        source.silent_share = rounded(r.silent_share, 1e-4);
+        source.clipped_share = r.clipped_share;
+        m.sources[static_cast<std::size_t>(r.model)].push_back(std::move(source));
+    }
+    return m;
+}
+
+void print(const material::Material& m, const noise::Learned& learned) {
+    std::printf("%s: %zu voice%s of order %d\n", m.name.c_str(), m.voices.models.size(),
+                m.voices.models.size() == 1 ? "" : "s", learned.order);
+    for (const noise::VoiceModel& v : m.voices.models) {
+        std::printf("  %8.4g mm/s  %5.3g N  %6.1f dB\n", v.speed_mm_per_s, v.force_n, v.level_db);
+    }
+    std::printf("  level law %.1f dB at 100 mm/s and 1 N, %+.1f dB per decade of speed, %+.1f of force\n",
+                m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
+}
+
+// One voice for each model, by the first recording that it was learned from.
+FileResult<void> write_report(const Call& call, const material::Material& m, const noise::Learned& learned,
+                              const Sounds& sounds) {
+    std::vector<report::ReportedVoice> voices(m.voices.models.size());
+    for (std::size_t n = learned.recordings.size(); n-- > 0;) {
+        const auto model = static_cast<std::size_t>(learned.recordings[n].model);
+        const auto prepared = noise::prepare(sounds.recordings[n], call.highpass_hz);
+        if (!prepared) return std::unexpected(FileFailure(prepared.error()));
+        if (prepared->sample_rate_hz != m.voices.models[model].spectrum.sample_rate_hz) continue;
+        voices[model] = {sounds.recordings[n].name, m.voices.models[model],
+                         noise::quality_of(m.voices.models[model], *prepared, call.highpass_hz)};
+    }
+    const std::string file = std::filesystem::path(call.out).replace_extension(".html").string();
+    return files::write_file(file, report::learning_report(m, learned, voices));
+}
+
+FileResult<void> check_height_map(const Call& call) {
+    const FileResult<files::Image> image = files::read_image(call.image);
+    if (!image) return std::unexpected(image.error());
+    const auto map = files::read_height_map(call.height_map, *image);
+    if (!map) return std::unexpected(map.error());
+    return {};
+}
+
+int learn(const Call& call) {
+    FileResult<Sounds> sounds = read_sounds(call);
+    if (!sounds) return report(sounds.error());
+    if (!call.image.empty() && !std::filesystem::is_regular_file(call.image)) {
+        return report(Error{call.image, 0, 0, "is no file", "give the image of the material"});
+    }
+    if (!call.height_map.empty()) {
+        if (const auto checked = check_height_map(call); !checked) return report(checked.error());
+    }
+    noise::LearningOptions options;
+    options.method = call.method == "burg" ? noise::Method::burg : noise::Method::yule_walker;
+    options.highpass_hz = call.highpass_hz;
+    if (call.order > 0) options.order = call.order;
+    const Result<noise::Learned> learned = noise::learn(sounds->recordings, options);
+    if (!learned) return report(learned.error());
+    report(sounds->warnings);
+    report(learned->warnings);
+    const material::Material material = material_of(call, *learned, *sounds);
+    if (const auto written = files::write_file(call.out, material::material_json(material)); !written) {
+        return report(written.error());
+    }
+    if (call.report) {
+        if (const auto written = write_report(call, material, *learned, *sounds); !written) {
+            return report(written.error());
+        }
+    }
+    print(material, *learned);
+    return kDone;
+}
+
+}  // namespace
+
+void add_learn(CLI::App& program, int& exit_code) {
+    const auto call = std::make_shared<Call>();
+    CLI::App* verb = program.add_subcommand("learn", "Learn a material from recordings of friction");
+    verb->add_option("--recording", call->recordings,
+                     "Speed of the finger in mm/s, force in N (1 if absent), WAV or FLAC file; once for each")
+        ->required()
+        ->type_name("SPEED[@FORCE]:FILE");
+    verb->add_option("--out", call->out, "Material file")->required()->type_name("M.json");
+    CLI::Option* image = verb->add_option("--image", call->image, "Picture of the material")->type_name("F");
+    verb->add_option("--height-map", call->height_map,
+                     "Its heights, white is high; its own brightness stands for them if absent")
+        ->needs(image)
+        ->type_name("F");
+    // A range lets NaN pass.
+    verb->add_option("--relief-slope", call->relief_slope,
+                     "Root mean square slope of its small relief: 0.2 if absent, 0 for a smooth one")
+        ->check(CLI::Range(0.0, 1.0))
+        ->check(finite_number(-1, 1))
+        ->type_name("S");
+    verb->add_option("--gloss", call->gloss, "Share of light that it mirrors: 0.04 if absent")
+        ->check(CLI::Range(0.0, 1.0))
+        ->check(finite_number(-1, 1))
+        ->type_name("G");
+    verb->add_option("--roughness", call->roughness, "0.05 polished to 1 matt: 0.5 if absent")
+        ->check(CLI::Range(material::kLeastRoughness, 1.0))
+        ->check(finite_number(0, 1))
+        ->type_name("R");
+    verb->add_option("--width-mm", call->width_mm, "Width of the image as the finger feels it")
+        ->check(finite_number(0, 1e5))
+        ->type_name("W");
+    verb->add_option("--stiffness", call->stiffness, "K in N/mm: 4 if absent")
+        ->check(finite_number(0, 1e6))
+        ->type_name("K");
+    verb->add_option("--viscosity", call->viscosity, "nu in N s/mm: 0.3 if absent")
+        ->check(CLI::Range(0.0, 1e6))
+        ->type_name("NU");
+    verb->add_option("--method", call->method, "How the models are fitted: yule-walker or burg")
+        ->check(one_of({"yule-walker", "burg"}))
+        ->type_name("HOW");
+    verb->add_option("--order", call->order, "Poles of a model; chosen by held-out sound if absent")
+        ->check(CLI::Range(1, noise::kLargestOrder))
+        ->type_name("N");
+    verb->add_option("--highpass", call->highpass_hz,
+                     "Remove sound below: 50 Hz if absent, 0 for the mean alone")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->type_name("HZ");
+    verb->add_flag("--report", call->report,
+                   "Write a page beside the material (M.html): spectra, measures, both sounds to compare");
+    verb->add_option("--name", call->name, "The file's name if absent")->type_name("TEXT");
+    verb->add_option("--note", call->note, "Anything that readers of the file should know")
+        ->type_name("TEXT");
+    verb->callback([call, &exit_code] { exit_code = learn(*call); });
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// `tribo read-sofa FILE`: what the program asks of a copy of itself, where a crash harms nobody.
+#include <memory>
+#include <string>
+
+#include "app/render/listening.hpp"
+#include "app/verbs/verbs.hpp"
+#include "files/sound/hrir_file.hpp"
+
+namespace tribo::app {
+
+void add_read_sofa(CLI::App& program, int& exit_code) {
+    const auto file = std::make_shared<std::string>();
+    CLI::App* verb = program.add_subcommand(kReadSofaVerb, "Read head responses for another process");
+    verb->group("");  // not in the help
+    verb->add_option("FILE", *file, "SOFA file")->required();
+    verb->callback([file, &exit_code] { exit_code = files::serve_hrirs(*file); });
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The result of a call that reads or writes a file: a value, or an error that says whether the caller named
+// something wrong or the system refused. The two end the program with different exit codes.
+#pragma once
+
+#include <utility>
+
+#include "base/result.hpp"
+
+namespace tribo {
+
+enum class FileFault {
+    input,   // what was asked for is wrong: no such file, a folder, too long, not ours to replace
+    system,  // the file system refused: no right, no room, a broken disk
+};
+
+struct FileFailure : Error {
+    FileFault fault = FileFault::input;
+
+    FileFailure(Error error, FileFault whose = FileFault::input) : Error(std::move(error)), fault(whose) {}
+};
+
+template <class T>
+using FileResult = std::expected<T, FileFailure>;
+
+}  // namespace tribo

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "devices/arm/haply.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/hand_over.hpp"
+#include "devices/servo/tick_clock.hpp"
+#include "net/websocket_client.hpp"
+
+namespace tribo::devices {
+namespace {
+
+using haptics::DeviceState;
+using Json = nlohmann::json;
+
+constexpr double kMmPerM = 1e3;
+constexpr std::uint64_t kServoSilentNs = 5'000'000;
+constexpr int kReplyMs = 100;  // that one reply may take before the loop looks whether it should end
+constexpr int kRepliesMissed = 50;
+
+bool read_triple(const Json& parent, const char* key, Vec3& out) {
+    const auto found = parent.find(key);
+    if (found == parent.end() || !found->is_object()) return false;
+    Vec3 v;
+    int n = 0;
+    for (const char* axis : {"x", "y", "z"}) {
+        const auto number = found->find(axis);
+        if (number == found->end() || !number->is_number()) return false;
+        v[n++] = number->get<double>();
+    }
+    if (!is_finite(v)) return false;
+    out = v;
+    return true;
+}
+
+// The z axis of a unit quaternion's frame.
+void read_grip(const Json& grip, HaplyState& state) {
+    const auto inner = grip.find("state");
+    if (inner == grip.end() || !inner->is_object()) return;
+    const auto q = inner->find("orientation");
+    if (q != inner->end() && q->is_object()) {
+        const double w = q->value("w", 1.0), x = q->value("x", 0.0), y = q->value("y", 0.0),
+                     z = q->value("z", 0.0);
+        state.stylus = normalized({2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)});
+    }
+    const auto buttons = inner->find("buttons");
+    if (buttons != inner->end() && buttons->is_object()) {
+        state.buttons = 0;
+        unsigned bit = 1;
+        for (const char* name : {"a", "b", "c"}) {
+            if (buttons->value(name, false)) state.buttons |= bit;
+            bit <<= 1;
+        }
+    }
+}
+
+bool read_state(const Json& json, HaplyState& state) {
+    const auto arms = json.find("inverse3");
+    if (arms == json.end() || !arms->is_array() || arms->empty()) return false;
+    for (const char* key : {"wireless_verse_grip", "verse_grip"}) {
+        const auto grips = json.find(key);
+        if (grips != json.end() && grips->is_array() && !grips->empty() && grips->front().is_object())
+            read_grip(grips->front(), state);
+    }
+    for (const Json& arm : *arms) {
+        if (!arm.is_object()) continue;
+        const std::string id = arm.value("device_id", std::string());
+        if (id.empty() || (!state.id.empty() && id != state.id)) continue;
+        const auto inner = arm.find("state");
+        if (inner == arm.end() || !inner->is_object() ||
+            !read_triple(*inner, "cursor_position", state.position_m))
+            return false;
+        read_triple(*inner, "cursor_velocity", state.velocity_m_per_s);
+        state.id = id;
+        return true;
+    }
+    return false;
+}
+
+struct Command {
+    Vec3 force;
+    std::uint64_t sent_ns = 0;
+};
+
+class Haply final : public haptics::Device {
+  public:
+    Haply(std::unique_ptr<net::WebSocketClient> client, HaplyState first, const HaplyOptions& options)
+        : client_(std::move(client)), state_(std::move(first)), mounting_(options.mounting) {
+        publish();
+        thread_ = std::thread([this] { loop(); });
+    }
+    ~Haply() override {
+        closing_.store(true, std::memory_order_relaxed);
+        thread_.join();
+        client_->send(haply_force_command(state_.id, {}));
+    }
+
+    const haptics::DeviceLimits& limits() const override { return limits_; }
+    DeviceState read(haptics::HandReading& reading) noexcept override {
+        if (gone_.load(std::memory_order_acquire)) return DeviceState::gone;
+        const haptics::HandReading& newest = readings_.read();
+        if (newest.sequence == reading.sequence) return DeviceState::silent;
+        reading = newest;
+        return DeviceState::ready;
+    }
+    DeviceState write(Vec3 force_n) noexcept override {
+        commands_.back() = {kRightAwayUp.from_stock(force_n), wall_ns()};
+        commands_.publish();
+        return DeviceState::ready;
+    }
+    std::string trouble() const override {
+        return gone_.load(std::memory_order_acquire)
+                   ? "the service has closed the connection or fallen silent"
+                   : "";
+    }
+
+  private:
+    void publish() {
+        haptics::HandReading& r = readings_.back();
+        r.position_mm =
+            mounting_.origin_mm + mounting_.scale * kMmPerM * kRightAwayUp.to_stock(state_.position_m);
+        r.velocity_mm_per_s = mounting_.scale * kMmPerM * kRightAwayUp.to_stock(state_.velocity_m_per_s);
+        r.stylus = kRightAwayUp.to_stock(state_.stylus);
+        r.buttons = state_.buttons;
+        r.sequence = ++sequence_;
+        readings_.publish();
+    }
+    void loop() {
+        std::string text;
+        int missed = 0;
+        bool answered = true;
+        while (!closing_.load(std::memory_order_relaxed) && missed < kRepliesMissed) {
+            if (answered) {
+                const Command& c = commands_.read();
+                const bool fresh = wall_ns() - c.sent_ns < kServoSilentNs;
+                if (!client_->send(haply_force_command(state_.id, fresh ? c.force : Vec3{}))) break;
+            }
+            const auto got = client_->receive(text);
+            if (got == net::WebSocketClient::Got::closed) break;
+            answered = got == net::WebSocketClient::Got::message;
+            missed = answered ? 0 : missed + 1;
+            if (answered && read_haply_state(text, state_)) publish();
+        }
+        gone_.store(true, std::memory_order_release);
+    }
+
+    std::unique_ptr<net::WebSocketClient> client_;
+    HaplyState state_;
+    Mounting mounting_;
+    haptics::DeviceLimits limits_ = haptics::limits_of("Inverse3");
+    std::uint64_t sequence_ = 0;
+    Snapshot<haptics::HandReading> readings_;
+    Snapshot<Command> commands_;
+    std::atomic<bool> closing_{false}, gone_{false};
+    std::thread thread_;
+};
+
+}  // namespace
+
+bool read_haply_state(std::string_view text, HaplyState& state) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object()) return false;
+    try {
+        return read_state(json, state);
+    } catch (const Json::exception&) {  // a value of another type than documented
+        return false;
+    }
+}
+
+std::string haply_force_command(const std::string& id, Vec3 f) {
+    Json command;
+    command["inverse3"] = Json::array(
+        {{{"device_id", id},
+          {"commands", {{"set_cursor_force", {{"values", {{"x", f.x}, {"y", f.y}, {"z", f.z}}}}}}}}});
+    return command.dump();
+}
+
+Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options) {
+    auto client = net::WebSocketClient::connect({options.host, options.port},
+                                                std::min(options.timeout_ms, kReplyMs * 10));
+    if (!client) {
+        Error error = client.error();
+        error.remedy = "install and start Haply's Inverse Service, version 3.5 or later";
+        return std::unexpected(error);
+    }
+    const std::uint64_t end = wall_ns() + static_cast<std::uint64_t>(options.timeout_ms) * 1'000'000;
+    std::string text;
+    HaplyState state;
+    bool spoke = false;
+    while (wall_ns() < end) {
+        const auto got = (*client)->receive(text);
+        if (got == net::WebSocketClient::Got::closed) break;
+        if (got == net::WebSocketClient::Got::late) continue;
+        spoke = true;
+        if (read_haply_state(text, state))
+            return std::make_unique<Haply>(std::move(*client), std::move(state), options);
+        if (text.find("inverse3") == std::string::npos) {
+            return fail("the service does not speak of an inverse3: it is another version",
+                        "install Haply's Inverse Service 3.5 or later");
+        }
+    }
+    if (spoke)
+        return fail("the service knows of no Inverse3", "plug it in, switch it on and let it calibrate");
+    return fail("the service says nothing", "plug the Inverse3 in, and restart the service");
+}
+
+}  // namespace tribo::devices

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "devices/arm/serial_arm.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <span>
+#include <termios.h>
+#include <unistd.h>
+
+#include "devices/arm/serial_packets.h"
+
+namespace tribo::devices {
+namespace {
+
+using haptics::DeviceState;
+using Clock = std::chrono::steady_clock;
+
+// Asked again so often until the board has started.
+constexpr std::chrono::milliseconds kAskEvery{200};
+constexpr std::size_t kLongestLine = 400;
+constexpr double kMnPerN = 1e3, kMostMn = 32767;
+// The speed is taken over so many ticks of the arm.
+constexpr std::size_t kSpeedTicks = 8;
+
+struct Rate {
+    int baud;
+    speed_t code;
+};
+constexpr Rate kRates[] = {{115'200, B115200},   {230'400, B230400}, {460'800, B460800},
+                           {500'000, B500000},   {921'600, B921600}, {1'000'000, B1000000},
+                           {2'000'000, B2000000}};
+
+class Port {
+  public:
+    explicit Port(int handle) : handle_(handle) {}
+    Port(Port&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}
+    Port& operator=(Port&&) = delete;
+    ~Port() {
+        if (handle_ >= 0) ::close(handle_);
+    }
+
+    // What has come: a count, 0 for nothing, -1 where the port is gone.
+    int read(std::span<std::uint8_t> into) noexcept {
+        const ssize_t count = ::read(handle_, into.data(), into.size());
+        if (count > 0) return static_cast<int>(count);
+        return count < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : -1;
+    }
+    // False where the port is gone. What does not fit is lost: the next force is newer.
+    bool write(std::span<const std::uint8_t> bytes) noexcept {
+        return ::write(handle_, bytes.data(), bytes.size()) >= 0 || errno == EAGAIN || errno == EINTR;
+    }
+    bool wait(std::chrono::milliseconds most) const {
+        pollfd poll{handle_, POLLIN, 0};
+        return ::poll(&poll, 1, static_cast<int>(most.count())) > 0;
+    }
+
+  private:
+    int handle_;
+};
+
+class SerialArm final : public haptics::Device {
+  public:
+    SerialArm(Port port, SerialArmFacts facts, const Mounting& mounting)
+        : port_(std::move(port)), facts_(std::move(facts)), limits_(facts_.limits), mounting_(mounting) {
+        limits_.name = facts_.name;
+    }
+    ~SerialArm() override { (void)write({}); }
+
+    const haptics::DeviceLimits& limits() const override { return limits_; }
+
+    DeviceState read(haptics::HandReading& reading) noexcept override {
+        bool any = false;
+        for (int count = 1; count > 0;) {
+            count = port_.read(std::span(bytes_).subspan(held_));
+            if (count < 0) {
+                gone_ = true;
+                return DeviceState::gone;
+            }
+            held_ += static_cast<std::size_t>(count);
+            any = take_packets() || any;
+        }
+        if (!any) return DeviceState::silent;
+        reading.position_mm = mounting_.origin_mm + mounting_.scale * place_;
+        reading.velocity_mm_per_s = mounting_.scale * speed();
+        reading.buttons = buttons_;
+        reading.sequence = ++sequence_;
+        return DeviceState::ready;
+    }
+
+    DeviceState write(Vec3 force_n) noexcept override {
+        tribo_force_mn force{};
+        for (int i = 0; i < 3; ++i) {
+            const double mn = std::clamp(kMnPerN * force_n[i], -kMostMn, kMostMn);
+            force.mn[i] = static_cast<std::int16_t>(std::lround(mn));
+        }
+        std::array<std::uint8_t, TRIBO_FORCE_BYTES> packet{};
+        tribo_write_force(&force, packet.data());
+        if (!port_.write(packet)) gone_ = true;
+        return gone_ ? DeviceState::gone : DeviceState::ready;
+    }
+
+    std::string trouble() const override {
+        return gone_ ? "the serial arm is gone: its port has closed" : std::string();
+    }
+
+  private:
+    // The newest place among what has come. Whether there is one.
+    bool take_packets() noexcept {
+        bool any = false;
+        std::size_t at = 0;
+        while (held_ - at >= TRIBO_PLACE_BYTES) {
+            tribo_place place;
+            if (tribo_read_place(&bytes_[at], &place) == 0) {
+                ++at;  // in the middle of one, or a damaged one: on to the next mark
+                continue;
+            }
+            at += TRIBO_PLACE_BYTES;
+            take(place);
+            any = true;
+        }
+        held_ -= at;
+        std::memmove(bytes_.data(), &bytes_[at], held_);
+        return any;
+    }
+    void take(const tribo_place& place) noexcept {
+        const double step = facts_.limits.resolution_mm;
+        place_ = step * Vec3{static_cast<double>(place.step[0]), static_cast<double>(place.step[1]),
+                             static_cast<double>(place.step[2])};
+        buttons_ = place.buttons;
+        past_[taken_ % past_.size()] = {place_, place.sequence};
+        ++taken_;
+    }
+    // Over the ticks that the arm says have passed, so that a packet that was lost does not count as speed.
+    Vec3 speed() const noexcept {
+        if (taken_ < 2) return {};
+        const Past& last = past_[(taken_ - 1) % past_.size()];
+        const Past& first = past_[taken_ <= past_.size() ? 0 : taken_ % past_.size()];
+        const auto ticks = static_cast<std::uint8_t>(last.sequence - first.sequence);
+        return ticks > 0 ? (facts_.rate_hz / ticks) * (last.place - first.place) : Vec3{};
+    }
+
+    struct Past {
+        Vec3 place;
+        std::uint8_t sequence = 0;
+    };
+    Port port_;
+    SerialArmFacts facts_;
+    haptics::DeviceLimits limits_;
+    Mounting mounting_;
+    std::array<std::uint8_t, 512> bytes_{};
+    std::size_t held_ = 0, taken_ = 0;
+    std::array<Past, kSpeedTicks + 1> past_;
+    Vec3 place_;
+    unsigned buttons_ = 0;
+    std::uint64_t sequence_ = 0;
+    std::atomic<bool> gone_{false};
+};
+
+Result<Port> open_port(const SerialArmOptions& options) {
+    const Rate* rate = std::ranges::find(kRates, options.baud, &Rate::baud);
+    if (rate == std::end(kRates)) {
+        return fail("a serial line has no " + std::to_string(options.baud) + " baud here",
+                    "take 115200, 230400, 460800, 500000, 921600, 1000000 or 2000000");
+    }
+    const int handle = ::open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    if (handle < 0) {
+        const int error = errno;
+        return fail(options.port + ": " + std::strerror(error),
+                    error == EACCES
+                        ? "give yourself the right to use it: join the group 'dialout', or add a udev rule"
+                        : "plug the arm in, and see which /dev/ttyACM* or /dev/ttyUSB* comes");
+    }
+    Port port(handle);
+    termios how{};
+    if (::tcgetattr(handle, &how) != 0)
+        return fail(options.port + " is not a serial port", "name the arm's /dev/ttyACM* or /dev/ttyUSB*");
+    ::cfmakeraw(&how);
+    how.c_cflag |= CLOCAL | CREAD;
+    how.c_cc[VMIN] = 1;  // nothing there is not the end
+    how.c_cc[VTIME] = 0;
+    ::cfsetspeed(&how, rate->code);
+    if (::tcsetattr(handle, TCSANOW, &how) != 0)
+        return fail(options.port + " does not take " + std::to_string(options.baud) + " baud", "");
+    return port;
+}
+
+// The line that begins with the hello, among what else may come.
+Result<std::string> ask(Port& port, const SerialArmOptions& options) {
+    const auto end = Clock::now() + std::chrono::milliseconds(options.timeout_ms);
+    auto next = Clock::now();
+    std::string text;
+    while (Clock::now() < end) {
+        if (Clock::now() >= next) {
+            const std::uint8_t question = TRIBO_ARM_ASK;
+            if (!port.write({&question, 1})) break;
+            next += kAskEvery;
+        }
+        (void)port.wait(std::chrono::milliseconds(20));
+        std::array<std::uint8_t, 256> bytes;
+        const int count = port.read(bytes);
+        if (count < 0) continue;  // a board that starts anew
+        for (int n = 0; n < count; ++n) text.push_back(static_cast<char>(bytes[static_cast<std::size_t>(n)]));
+        const std::size_t from = text.find(TRIBO_ARM_HELLO);
+        if (from != std::string::npos) {
+            const std::size_t to = text.find('\n', from);
+            if (to != std::string::npos) return text.substr(from, to - from);
+        } else if (text.size() > 2 * kLongestLine) {
+            text.erase(0, text.size() - kLongestLine);
+        }
+    }
+    return fail("nobody on " + options.port + " answers as a Tribo arm",
+                "load examples/serial_arm onto it, and see that both have the same baud rate (here " +
+                    std::to_string(options.baud) + ")");
+}
+
+}  // namespace
+
+Result<SerialArmFacts> read_serial_arm_facts(std::string_view line) {
+    constexpr std::string_view kHello = TRIBO_ARM_HELLO;
+    if (!line.starts_with(kHello))
+        return fail("the line does not begin with '" + std::string(kHello) + "'", "");
+    SerialArmFacts facts;
+    struct Number {
+        std::string_view key;
+        double& value;
+        double least, most;
+    };
+    const Number numbers[] = {
+        {"max_n", facts.limits.max_force_n, 0.01, 32},
+        {"max_n_per_mm", facts.limits.max_stiffness_n_per_mm, 1e-3, 100},
+        {"max_ns_per_mm", facts.limits.max_damping_n_s_per_mm, 0, 1},
+        {"resolution_mm", facts.limits.resolution_mm, 1e-4, 1},
+        {"rate_hz", facts.rate_hz, 100, 20'000},
+    };
+    line.remove_prefix(kHello.size());
+    while (!line.empty()) {
+        const std::string_view fact = line.substr(0, line.find(';'));
+        line.remove_prefix(std::min(line.size(), fact.size() + 1));
+        const std::size_t equals = fact.find('=');
+        const std::string_view key = fact.substr(0, equals),
+                               value = equals == fact.npos ? "" : fact.substr(equals + 1);
+        if (key == "name") {
+            facts.name.clear();
+            for (const char c : value.substr(0, 40)) facts.name.push_back(c >= ' ' && c < 127 ? c : '?');
+        }
+        for (const Number& n : numbers) {
+            if (key != n.key) continue;
+            double v = 0;
+            const auto read = std::from_chars(value.data(), value.data() + value.size(), v);
+            if (read.ec != std::errc() || read.ptr != value.data() + value.size() ||
+                !(v >= n.least && v <= n.most)) {
+                return fail(
+                    "the arm says '" + std::string(fact.substr(0, 60)) + "', which is no " + std::string(key),
+                    "correct its firmware");
+            }
+            n.value = v;
+        }
+    }
+    return facts;
+}
+
+Result<std::unique_ptr<haptics::Device>> open_serial_arm(const SerialArmOptions& options) {
+    if (options.port.empty()) {
+        return fail("no port is named for the serial arm",
+                    "name it: --device serial:/dev/ttyACM0, with @115200 behind it for another baud rate "
+                    "than 1000000");
+    }
+    auto port = open_port(options);
+    if (!port) return std::unexpected(port.error());
+    auto line = ask(*port, options);
+    if (!line) return std::unexpected(line.error());
+    auto facts = read_serial_arm_facts(*line);
+    if (!facts) return std::unexpected(facts.error());
+    return std::make_unique<SerialArm>(std::move(*port), std::move(*facts), options.mounting);
+}
+
+}  // namespace tribo::devices

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "devices/sound/audio_out.hpp"
+
+#include <RtAudio.h>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tribo::devices {
+namespace {
+
+constexpr unsigned kStereo = 2;
+
+// While it lives, what anybody prints to stderr is lost: libasound and JACK complain there of cards that are
+// not.
+class QuietStderr {
+  public:
+    QuietStderr() : kept_(dup(STDERR_FILENO)) {
+        const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+        if (nowhere >= 0) close(nowhere);
+    }
+    ~QuietStderr() {
+        if (kept_ < 0) return;
+        dup2(kept_, STDERR_FILENO);
+        close(kept_);
+    }
+    QuietStderr(const QuietStderr&) = delete;
+    QuietStderr& operator=(const QuietStderr&) = delete;
+
+  private:
+    int kept_;
+};
+
+std::unexpected<Error> no_sound(const std::string& why) {
+    return fail("no sound: " + why, "go on without, or connect a sound card (tribo devices lists them)");
+}
+
+}  // namespace
+
+struct AudioOut::Stream {
+    RtAudio audio;
+    AudioRender render;
+    std::atomic<std::int64_t> busy_ns{0}, frames{0}, underruns{0};
+
+    static int play(void* out, void*, unsigned frames, double, RtAudioStreamStatus status, void* self) {
+        using Clock = std::chrono::steady_clock;
+        Stream& s = *static_cast<Stream*>(self);
+        if (status & RTAUDIO_OUTPUT_UNDERFLOW) s.underruns.fetch_add(1, std::memory_order_relaxed);
+        const auto start = Clock::now();
+        s.render({static_cast<float*>(out), kStereo * std::size_t{frames}});
+        const auto took = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
+        s.busy_ns.fetch_add(took.count(), std::memory_order_relaxed);
+        s.frames.fetch_add(frames, std::memory_order_relaxed);
+        return 0;
+    }
+};
+
+std::vector<AudioDevice> audio_devices() {
+    const QuietStderr quiet;
+    std::vector<AudioDevice> devices;
+    try {
+        RtAudio audio;
+        audio.showWarnings(false);
+        for (unsigned n = 0; n < audio.getDeviceCount(); ++n) {
+            const RtAudio::DeviceInfo info = audio.getDeviceInfo(n);
+            if (!info.probed || info.outputChannels < kStereo) continue;
+            AudioDevice device{info.name, {}, info.isDefaultOutput};
+            for (const unsigned rate : info.sampleRates)
+                device.sample_rates_hz.push_back(static_cast<int>(rate));
+            devices.push_back(std::move(device));
+        }
+    } catch (const RtAudioError&) {
+        devices.clear();
+    }
+    return devices;
+}
+
+AudioOut::AudioOut() = default;
+
+AudioOut::~AudioOut() {
+    if (!stream_) return;
+    const QuietStderr quiet;
+    try {
+        if (stream_->audio.isStreamRunning()) stream_->audio.abortStream();
+        if (stream_->audio.isStreamOpen()) stream_->audio.closeStream();
+    } catch (const RtAudioError&) {
+        // The device has gone already.
+    }
+}
+
+Result<std::unique_ptr<AudioOut>> AudioOut::open(const AudioOutOptions& options, AudioRender render) {
+    if (options.sample_rate_hz < 8000 || options.sample_rate_hz > 192000 || options.buffer_frames < 16 ||
+        options.buffer_frames > 8192) {
+        return no_sound("a sample rate or buffer length that no device has");
+    }
+    const QuietStderr quiet;
+    auto out = std::unique_ptr<AudioOut>(new AudioOut);
+    try {
+        out->stream_ = std::make_unique<Stream>();
+        Stream& s = *out->stream_;
+        s.render = std::move(render);
+        s.audio.showWarnings(false);
+        if (s.audio.getDeviceCount() == 0) return no_sound("there is no sound card");
+        RtAudio::StreamParameters parameters;
+        parameters.deviceId = s.audio.getDefaultOutputDevice();
+        parameters.nChannels = kStereo;
+        const RtAudio::DeviceInfo info = s.audio.getDeviceInfo(parameters.deviceId);
+        if (!info.probed || info.outputChannels < kStereo) return no_sound("no device plays stereo");
+        out->device_ = info.name;
+        auto frames = static_cast<unsigned>(options.buffer_frames);
+        RtAudio::StreamOptions how;
+        how.flags = RTAUDIO_MINIMIZE_LATENCY | RTAUDIO_SCHEDULE_REALTIME;
+        how.numberOfBuffers = 2;
+        how.streamName = "tribo";
+        s.audio.openStream(&parameters, nullptr, RTAUDIO_FLOAT32,
+                           static_cast<unsigned>(options.sample_rate_hz), &frames, &Stream::play, &s, &how);
+        out->buffer_frames_ = static_cast<int>(frames);
+        out->sample_rate_hz_ = static_cast<int>(s.audio.getStreamSampleRate());
+        if (out->sample_rate_hz_ != options.sample_rate_hz) {
+            return no_sound(info.name + " plays " + std::to_string(out->sample_rate_hz_) + " Hz only");
+        }
+        s.audio.startStream();
+    } catch (const RtAudioError& error) {
+        return no_sound(error.getMessage());
+    }
+    return out;
+}
+
+double AudioOut::latency_s() const {
+    const long told = stream_->audio.getStreamLatency();
+    return static_cast<double>(std::max<long>(told, 2L * buffer_frames_)) / sample_rate_hz_;
+}
+
+double AudioOut::load() {
+    const auto frames = static_cast<double>(stream_->frames.exchange(0, std::memory_order_relaxed));
+    const auto busy = static_cast<double>(stream_->busy_ns.exchange(0, std::memory_order_relaxed));
+    return frames > 0 ? 1e-9 * busy * sample_rate_hz_ / frames : 0;
+}
+
+std::int64_t AudioOut::underruns() const {
+    return stream_->underruns.load(std::memory_order_relaxed);
+}
+
+}  // namespace tribo::devices

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// For every processor: SSE2 on x86, whatever the target's baseline is elsewhere.
+#include "field/carved/brick_kernels.inl"
+
+namespace tribo::field {
+
+const BrickKernels* brick_kernels_sse2() {
+    return &kKernels;
+}
+
+const BrickKernels& brick_kernels() {
+    static const BrickKernels& chosen = brick_kernels_v3() ? *brick_kernels_v3() : kKernels;
+    return chosen;
+}
+
+}  // namespace tribo::field

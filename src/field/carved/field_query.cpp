@@ -1,0 +1,511 @@
+// SPDX-License-Identifier: MIT
+#include "field/carved/field_query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace tribo::field {
+namespace {
+
+// Distances at nodes are floats: off by less than this share of a cell.
+constexpr double kRounding = 1e-3;
+// Nearer by less than this is not nearer, mm.
+constexpr double kOnSurface = 2e-5;
+// Bricks on each side that a look for clear air goes through, and one for the nearest surface.
+constexpr int kMostRings = 3, kMostReach = 6;
+constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// Sides of the surface whose normals' product is less are two. Distances that rise by this much of the way
+// are of one side.
+constexpr double kOneWay = 0.5, kOneSlope = 0.97;
+// Nearest places this far apart are two, mm; and how much farther than the nearest others are looked for.
+constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
+// What a node stands for: surface so far around it, which bulges by no more than this; in cells.
+constexpr double kAround = 0.87, kBulge = 0.1;
+// Steps of a search along the surface, in cells.
+constexpr double kLongestCells = 2;
+
+// How the distances rise at a node, by their differences, in mm a cell.
+Vec3 slope_at(const Brick& brick, int a, int b, int c) {
+    const auto at = [&](int i, int j, int k) {
+        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
+    };
+    const auto up = [](int n) { return std::min(n + 1, kBrickCells); };
+    const auto down = [](int n) { return std::max(n - 1, 0); };
+    return {(at(up(a), b, c) - at(down(a), b, c)) / (up(a) - down(a)),
+            (at(a, up(b), c) - at(a, down(b), c)) / (up(b) - down(b)),
+            (at(a, b, up(c)) - at(a, b, down(c))) / (up(c) - down(c))};
+}
+
+Vec3 clamped(const Box3& box, Vec3 p) {
+    return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
+            std::clamp(p.z, box.min.z, box.max.z)};
+}
+
+// The material as the brick around a point makes it, and as one certain brick does where that one is air or
+// there is none: what is far from the surface still has a distance then.
+class NearBrick final : public contact::DistanceField {
+  public:
+    NearBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
+    double distance_mm(Vec3 p) const override { return field_.exact(around(p), p).distance_mm; }
+    Vec3 normal(Vec3 p) const override { return sample(p).normal; }
+    contact::SurfaceSample sample(Vec3 p) const override {
+        const FieldQuery::Exact e = field_.exact(around(p), p);
+        return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
+                e.shape};
+    }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return field_.sample_piece(piece, p);
+    }
+
+  private:
+    BrickRef around(Vec3 p) const {
+        const BrickCoord b = field_.brick_at(p);
+        const BrickRef ref = field_.bricks.contains(b) ? field_.bricks.get(b) : kAir;
+        return ref == kAir ? ref_ : ref;
+    }
+    const FieldQuery& field_;
+    BrickRef ref_;
+};
+
+}  // namespace
+
+FieldQuery::NearNode FieldQuery::nearest_node(BrickCoord b, Vec3 p) const {
+    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
+    const auto nearest = [](double v) {
+        return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
+    };
+    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+    return {node_index(i, j, k),
+            q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+}
+
+FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
+    if (ref == kUntouched) return {blank().distance_mm(p), 0};
+    if (ref == kAir) return {kClearCells * cell_mm, 0};
+    const Brick& brick = (*pool)[ref];
+    Exact best{-near_mm, 0};
+    const auto measure = [&](ShapeId id) {
+        const double d = id == 0 ? blank().distance_mm(p) : -shape(id).distance_below(p, -best.distance_mm);
+        if (d > best.distance_mm) best = {d, id};
+    };
+    // The shape that gives the distance at the nearest node most likely gives it here; the others need only
+    // show that they do not.
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
+    for (std::size_t n = 0; n < brick.shapes.size() && !(any_air && best.distance_mm > 0); ++n) {
+        if (n != likely) measure(brick.shapes[n]);
+    }
+    return best;
+}
+
+double FieldQuery::distance_mm(Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return std::max(blank().distance_mm(p), kClearCells * cell_mm);
+    return exact(bricks.get(b), p).distance_mm;
+}
+
+contact::SurfaceSample FieldQuery::sample(Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b))
+        return {std::max(blank().distance_mm(p), kClearCells * cell_mm), blank().gradient(p), 0};
+    const Exact e = exact(bricks.get(b), p);
+    return {e.distance_mm, outward(e.shape, p), e.shape};
+}
+
+double FieldQuery::clear_of_nodes(const Brick& brick, Vec3 p) const {
+    const NearNode near = nearest_node(brick.coord, p);
+    return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]) -
+           cell_mm * (length(near.off_cells) + kRounding);
+}
+
+// In a brick that is all `alike` (air or untouched): how far all bricks around are, at least `clear_mm`.
+// Beyond the grid they count as alike.
+double FieldQuery::clear_among(BrickRef alike, BrickCoord b, Vec3 p, double clear_mm,
+                               double enough_mm) const {
+    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
+    const auto to_face = [](double v) { return std::min(v, kBrickCells - v); };
+    const double face_mm = cell_mm * std::min({to_face(q.x), to_face(q.y), to_face(q.z)});
+    const double brick_mm = kBrickCells * cell_mm;
+    double clear = std::max(clear_mm, face_mm);
+    for (int ring = 1; ring <= kMostRings && clear < enough_mm; ++ring) {
+        for (int k = b.k - ring; k <= b.k + ring; ++k) {
+            for (int j = b.j - ring; j <= b.j + ring; ++j) {
+                const bool edge = k == b.k - ring || k == b.k + ring || j == b.j - ring || j == b.j + ring;
+                for (int i = b.i - ring; i <= b.i + ring; i += edge ? 1 : 2 * ring) {
+                    if (bricks.contains({i, j, k}) && bricks.get({i, j, k}) != alike) return clear;
+                }
+            }
+        }
+        clear = std::max(clear, face_mm + ring * brick_mm);
+    }
+    return clear;
+}
+
+// In a brick of air: how far it is to the nearest brick that may hold material, or to the nearest node's
+// ball.
+double FieldQuery::clear_in_air(BrickCoord b, Vec3 p, double enough_mm) const {
+    const double node = cell_mm * (kClearCells - length(nearest_node(b, p).off_cells));
+    return clear_among(kAir, b, p, node, enough_mm);
+}
+
+double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return std::max(blank().distance_mm(p), kRounding * cell_mm);
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return clear_in_air(b, p, enough_mm);
+    if (ref == kUntouched) {
+        const double of_blank = blank().distance_mm(p);
+        if (of_blank >= 0) return of_blank;
+        const double enough = std::min(enough_mm, -of_blank);
+        return -std::min(-of_blank, clear_among(kUntouched, b, p, 0, enough));
+    }
+    const Brick& brick = (*pool)[ref];
+    const NearNode near = nearest_node(brick.coord, p);
+    const auto at_node = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]);
+    const double off = cell_mm * (length(near.off_cells) + kRounding);
+    // Nearer to the surface than this the measure is worth its cost.
+    constexpr double kSureCells = 0.3;
+    if (at_node - off > kSureCells * cell_mm) return at_node - off;
+    if (at_node + off < -kSureCells * cell_mm) return at_node + off;
+    return exact(ref, p, true).distance_mm;
+}
+
+double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return blank().distance_mm(p);
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return clear_in_air(b, p, enough_mm);
+    if (ref == kUntouched) return blank().distance_mm(p);
+    const double nodes = clear_of_nodes((*pool)[ref], p);
+    if (nodes >= enough_mm) return nodes;
+    return std::max(nodes, exact(ref, p).distance_mm);
+}
+
+// Whether one shape of the brick alone shows that nothing of its material is within the radius.
+bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
+    if (ref == kUntouched) return blank().distance_mm(p) >= radius_mm;
+    const Brick& brick = (*pool)[ref];
+    const auto clears = [&](ShapeId id) {
+        return id == 0 ? blank().distance_mm(p) >= radius_mm
+                       : shape(id).distance_below(p, -radius_mm) < -radius_mm;
+    };
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted && clears(brick.shapes[likely])) return true;
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely && clears(brick.shapes[n])) return true;
+    }
+    return false;
+}
+
+// The nearest surface point that was found, and how far the next other one is.
+class NearestPlace {
+  public:
+    explicit NearestPlace(double within_mm) : best_{within_mm, {0, 0, 1}, 0}, others_mm_(within_mm) {}
+
+    const contact::SurfaceSample& best() const { return best_; }
+    double others_mm() const { return others_mm_; }
+    void put(const contact::SurfaceSample& s, Vec3 at) {
+        const bool nearer = s.distance_mm < best_.distance_mm;
+        if (distance(at, at_mm_) > kSameFoot)
+            others_mm_ = std::min(others_mm_, nearer ? best_.distance_mm : s.distance_mm);
+        if (!nearer) return;
+        best_ = s;
+        at_mm_ = at;
+    }
+
+  private:
+    contact::SurfaceSample best_;
+    Vec3 at_mm_{1e300, 0, 0};
+    double others_mm_;
+};
+
+// The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
+class FieldQuery::Candidates {
+  public:
+    Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
+        const double brick_mm = kBrickCells * field.cell_mm;
+        const Vec3 corner = field.lattice(here).node(0, 0, 0);
+        const auto low = [&](double from, double at) {
+            return std::max(-kMostReach, static_cast<int>(std::floor((at - bound_mm - from) / brick_mm)));
+        };
+        const auto high = [&](double from, double at) {
+            return std::min(kMostReach, static_cast<int>(std::floor((at + bound_mm - from) / brick_mm)));
+        };
+        const auto gap = [&](double from, int n, double at) {
+            return std::max({0.0, from + n * brick_mm - at, at - from - (n + 1) * brick_mm});
+        };
+        const auto face = [&](double from, double at) { return std::min(at - from, from + brick_mm - at); };
+        seen_mm_ =
+            kMostReach * brick_mm + std::min({face(corner.x, p.x), face(corner.y, p.y), face(corner.z, p.z)});
+        const double most = bound_mm * bound_mm;
+        for (int k = low(corner.z, p.z); k <= high(corner.z, p.z); ++k) {
+            const double z = gap(corner.z, k, p.z), zz = z * z;
+            if (zz >= most) continue;
+            for (int j = low(corner.y, p.y); j <= high(corner.y, p.y); ++j) {
+                const double y = gap(corner.y, j, p.y), yz = zz + y * y;
+                if (yz >= most) continue;
+                for (int i = low(corner.x, p.x); i <= high(corner.x, p.x); ++i) {
+                    const double x = gap(corner.x, i, p.x), square = yz + x * x;
+                    if (square >= most) continue;
+                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
+                    if (field.bricks.contains(b) && field.bricks.get(b) != kAir) put({square, b});
+                }
+            }
+        }
+    }
+    // The nearest that was not taken yet, if there is one within `bound_mm`.
+    bool take(double bound_mm, BrickCoord& b, double& distance_mm) {
+        std::size_t least = count_;
+        double square = bound_mm * bound_mm;
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (all_[n].square < square) {
+                square = all_[n].square;
+                least = n;
+            }
+        }
+        if (least == count_) return false;
+        b = all_[least].brick;
+        distance_mm = std::sqrt(square);
+        all_[least] = all_[--count_];
+        return true;
+    }
+    // Up to here nothing is unseen.
+    double seen_mm() const { return seen_mm_; }
+
+  private:
+    struct One {
+        double square;
+        BrickCoord brick;
+    };
+    void put(const One& one) {
+        if (count_ < all_.size()) {
+            all_[count_++] = one;
+            return;
+        }
+        const auto farthest = std::max_element(
+            all_.begin(), all_.end(), [](const One& a, const One& b) { return a.square < b.square; });
+        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest->square, one.square)));
+        if (one.square < farthest->square) *farthest = one;
+    }
+    std::array<One, 64> all_;
+    std::size_t count_ = 0;
+    double seen_mm_ = 0;
+};
+
+// The surface near a node, and which way it faces there: by the grid, and near corners by the shape that
+// gives the distance.
+FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c, Vec3 node) const {
+    const auto index = static_cast<std::size_t>(node_index(a, b, c));
+    const auto d = static_cast<double>(brick.distance_mm[index]);
+    Vec3 rise = slope_at(brick, a, b, c);
+    const double steep = length(rise);
+    if (steep > kOneSlope * cell_mm) {
+        rise = (1 / steep) * rise;
+    } else {
+        const std::uint16_t shape = brick.winner[index];
+        rise = outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], node);
+    }
+    return {node - d * rise, rise};
+}
+
+// Whether the surface about a place, as far as the place stands for it, stays further from a point than that.
+bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
+    const Vec3 way = p - place.at;
+    const double over = dot(way, place.normal), aside = length(way - over * place.normal);
+    const double side = std::max(0.0, aside - kAround * cell_mm), up = std::max(0.0, over - kBulge * cell_mm);
+    return side * side + up * up >= than_mm * than_mm;
+}
+
+// The node of a brick at which the surface is close that is nearest to a point: so near that a point of the
+// surface less than `within_mm` away may be there, and further than two cells from each of `but`. Whether
+// there is one.
+bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
+                              Seen& place) const {
+    // What faces another way is the other side of a corner.
+    const auto is_seen = [&](const Seen& s) {
+        return std::any_of(but.begin(), but.end(), [&](const Seen& other) {
+            return squared_length(other.at - s.at) < 4 * cell_mm * cell_mm &&
+                   dot(other.normal, s.normal) > kOneWay;
+        });
+    };
+    const BrickRef ref = bricks.get(where);
+    if (ref == kUntouched) {
+        const Vec3 at = clamped(box(where), p);
+        place = {at, blank().gradient(at)};
+        return !is_seen(place);
+    }
+    const Brick& brick = (*pool)[ref];
+    const Lattice nodes = lattice(where);
+    const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
+    // Nothing of the surface is further from every node.
+    const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
+    double least = reach * reach;
+    const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
+    const auto high = [&](double at) {
+        return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
+    };
+    bool any = false;
+    for (int c = low(q.z); c <= high(q.z); ++c) {
+        for (int b = low(q.y); b <= high(q.y); ++b) {
+            const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
+            if (yz >= least) continue;
+            for (int a = low(q.x); a <= high(q.x); ++a) {
+                const double d =
+                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
+                const double square = yz + (a - q.x) * (a - q.x);
+                if (d > close || d < -close || square >= least) continue;
+                const double beyond = within_mm + std::abs(d) + kAround * cell_mm;
+                if (square * cell_mm * cell_mm >= beyond * beyond) continue;
+                const Seen here = surface_by(brick, a, b, c, nodes.node(a, b, c));
+                if (none_nearer(here, p, within_mm) || is_seen(here)) continue;
+                least = square;
+                place = here;
+                any = true;
+            }
+        }
+    }
+    return any;
+}
+
+contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+    // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
+    // a smooth piece does.
+    const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
+    contact::SurfaceSample lower{0, {0, 0, 1}, 0};
+    for (const BrickCoord b : {here, there}) {
+        if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
+        const Exact e = exact(bricks.get(b), p);
+        const contact::SurfaceSample s{e.distance_mm, outward(e.shape, p), e.shape};
+        if (s.distance_mm >= within_mm) return s;
+        if (s.distance_mm <= 0) {
+            if (b == here) return s;
+            continue;
+        }
+        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kOnSurface) return s;
+        if (s.distance_mm > lower.distance_mm) lower = s;
+        if (here == there) break;
+    }
+    // At a cusp: the nearest surface point of each brick that may hold one.
+    NearestPlace found(within_mm);
+    const contact::SurfaceSample& best = found.best();
+    Vec3 refuted{1e300, 0, 0};  // the last foot that was none
+    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
+        for (int tries = 0; tries < 2; ++tries) {
+            const NearBrick brick(*this, ref);
+            const contact::SurfaceSample s = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
+            const Vec3 foot = p - s.distance_mm * s.normal;
+            const contact::SurfaceSample at_foot = sample(foot);
+            if (std::abs(at_foot.distance_mm) <= kOnSurface) {
+                found.put(s, foot);
+                return foot;
+            }
+            // What one brick's shapes leave may be air by another's: on from the surface that there is.
+            if (squared_length(foot - refuted) < kOnSurface * kOnSurface) break;
+            refuted = foot;
+            from = foot - at_foot.distance_mm * at_foot.normal;
+            const BrickCoord b = brick_at(from);
+            if (!bricks.contains(b) || bricks.get(b) == kAir) break;
+            ref = bricks.get(b);
+        }
+        return std::nullopt;
+    };
+    const auto search_at = [&](Vec3 from) {
+        const BrickCoord b = brick_at(from);
+        if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
+    };
+    const auto shown_beyond = [&](double mm) { return best.distance_mm - mm <= kOnSurface; };
+    search_at(hint.at_mm);
+    if (shown_beyond(lower.distance_mm)) return best;
+    // Where material only goes, what was farther away not long ago still is.
+    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
+    // In a corner of the material both sides are near.
+    if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
+    if (shown_beyond(lower.distance_mm)) return best;
+    hint.others_mm = 0;
+    bool doubt = false;
+    // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
+    const auto reach = [&] { return std::min(best.distance_mm + kMarginCells * cell_mm, within_mm); };
+    Candidates bricks_near(*this, here, p, reach());
+    const double proven = bricks_near.seen_mm();
+    BrickCoord b;
+    double way = 0;
+    int searches = 0;
+    bool all_looked = true;
+    Seen seen[2 * kMostSearches + 2];  // places from where and to where the searches went
+    std::size_t count = 0;
+    if (best.distance_mm < within_mm) seen[count++] = {p - best.distance_mm * best.normal, best.normal};
+    contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
+    for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
+        const BrickRef ref = bricks.get(b);
+        if (looked == kMostLooked) {
+            all_looked = false;
+            break;
+        }
+        if (is_clear(ref, p, reach())) continue;
+        if (way < nearest_box.distance_mm)
+            nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
+        // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
+        Seen start;
+        for (int n = 0; near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
+            if (n == kMostStarts) {
+                all_looked = false;
+                break;
+            }
+            if (++searches > kMostSearches) break;
+            const std::optional<Vec3> foot = search(ref, start.at);
+            if (!foot) {
+                doubt = true;
+                break;  // as would be the others of this brick
+            }
+            seen[count++] = start;
+            seen[count++] = {*foot, normalized(p - *foot, {0, 0, 1})};
+        }
+        if (searches > kMostSearches) {
+            all_looked = false;
+            break;
+        }
+    }
+    // A search without result where something was found may be of what other bricks' shapes took away.
+    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) {
+        if (all_looked && !doubt && best.distance_mm < within_mm) {
+            hint.proved_at_mm = p;
+            hint.others_mm = std::min({found.others_mm(), reach(), proven});
+        }
+        return best;
+    }
+    // Not shown to be the nearest: what is known of the distance.
+    if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
+    if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)
+        lower = {proven, lower.normal, lower.piece};
+    const double outside = blank().distance_mm(p);
+    if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
+    return lower;
+}
+
+bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return false;
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir) return false;
+    if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
+    const Brick& brick = (*pool)[ref];
+    const NearNode near = nearest_node(b, p);
+    const auto node = static_cast<std::size_t>(near.index);
+    const double way = cell_mm * length(near.off_cells);
+    // What the node says holds as far around it as its distance, less rounding.
+    const double d = static_cast<double>(brick.distance_mm[node]);
+    if (d > way + kRounding * cell_mm) return false;
+    if (d < -way - kRounding * cell_mm - skin_mm) return true;
+    const auto in_material = [&](ShapeId id) {
+        return id == 0 ? blank().distance_mm(p) < -skin_mm : shape(id).distance_below(p, skin_mm) >= skin_mm;
+    };
+    const std::uint16_t likely = brick.winner[node];
+    if (likely != Brick::kUnlisted && !in_material(brick.shapes[likely])) return false;
+    for (std::size_t n = brick.shapes.size(); n-- > 0;) {
+        if (n != likely && !in_material(brick.shapes[n])) return false;
+    }
+    return true;
+}
+
+}  // namespace tribo::field

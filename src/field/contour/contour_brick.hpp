@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The part of a contour's vertices that belongs to one brick: one for each piece of the surface in a cell,
+// and one on faces between cells where the surface would otherwise not pass through them as it should.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/mesh.hpp"
+#include "field/contour/contour.hpp"
+#include "field/contour/contour_pieces.hpp"
+
+namespace tribo::field {
+
+inline constexpr int kCells = kBrickCells * kBrickCells * kBrickCells;
+
+constexpr int cell_index(int a, int b, int c) {
+    return a + kBrickCells * (b + kBrickCells * c);
+}
+
+// A crossing, as much of it as the polygon around it needs.
+struct EdgePoint {
+    std::uint16_t edge;    // lattice nodes x axis + lower node
+    std::uint8_t ordinal;  // 1: the second of its edge
+    bool inside;           // the lower node is
+    float along;           // from the lower node, in cells
+};
+
+struct BrickSurface {
+    static constexpr std::uint16_t kNone = 0xffff, kSeveral = 0xfffe;
+
+    // Vertices of a cell in which the surface has several pieces, by edge and crossing.
+    struct SeveralPieces {
+        std::uint16_t cell;
+        std::array<std::array<std::uint16_t, 2>, kCellEdges> vertex;
+    };
+    // The lower face of a cell along an axis where the surface passes more than once, and where it passes.
+    struct CrowdedFace {
+        std::uint16_t face;  // 3 cell + axis
+        FaceSegments segments;
+        std::array<Point3f, 4> middle;
+    };
+    // A vertex on the lower face of a cell along an axis: at the crossing of an edge of that face as in
+    // FaceSegment.
+    struct OnFace {
+        std::uint16_t key;
+        std::uint32_t vertex;  // in the whole mesh
+    };
+    static constexpr std::uint16_t key(int face, int edge, int ordinal) {
+        return static_cast<std::uint16_t>((face * 4 + edge) * 2 + ordinal);
+    }
+
+    BrickCoord coord;
+    bool flat = false;                   // one vertex stands for all cells
+    std::uint32_t first_vertex = 0;      // in the whole mesh
+    std::vector<std::uint16_t> cell;     // vertex of each cell, kNone or kSeveral; empty for a flat brick
+    std::vector<SeveralPieces> several;  // by cell
+    std::vector<CrowdedFace> crowded;    // by face
+    std::vector<OnFace> on_faces;        // by key
+    std::vector<EdgePoint> edges;        // by edge and ordinal; of a flat brick those on its lower faces
+    std::vector<Point3f> vertices;
+
+    // How often an edge is crossed, and the first of its crossings.
+    int crossings(int axis, int node, const EdgePoint*& first) const;
+    // Where the end of a segment of a face lies, mm.
+    Vec3 on_face(const Lattice& lattice, int node, int axis, FaceSegment::End end) const;
+};
+
+inline Point3f to_float(Vec3 p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+inline Vec3 to_double(const Point3f& p) {
+    return {p[0], p[1], p[2]};
+}
+
+// Where the crossing lies, a little off the ends of its edge, mm.
+Vec3 edge_point(const Lattice& lattice, const EdgePoint& e);
+
+// How far vertices stay off the border of what they may move in, in cells, so that rounding to single
+// precision does not take them across it.
+double contour_margin(const CarvedField& field);
+
+// Empty where there is no surface.
+BrickSurface find_surface(const CarvedField& field, BrickCoord coord, const ContourOptions& options);
+
+}  // namespace tribo::field

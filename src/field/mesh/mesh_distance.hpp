@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Distance to a triangle mesh, with the side.
+#pragma once
+
+#include "field/mesh/mesh_normals.hpp"
+
+namespace tribo::field {
+
+struct MeshPoint {
+    Vec3 point_mm;           // on the mesh
+    Vec3 normal;             // pseudo-normal there, unit
+    double distance_mm = 0;  // exact; negative behind the surface: inside, where the mesh is closed
+    std::uint32_t triangle = 0;
+    bool on_border = false;  // at the edge of an open mesh, beyond which sides mean nothing
+};
+
+// Built once (about 1.5 us and 120 bytes for each triangle), then asked from any number of threads without
+// allocation. The same bits on every machine, whatever was asked before.
+class MeshDistance {
+  public:
+    // At least one triangle. Edges are found by vertex numbers: equal positions must be one vertex
+    // (weld_exactly) where the mesh is to hang together.
+    explicit MeshDistance(TriangleMesh mesh);
+
+    MeshPoint closest(Vec3 point_mm) const { return describe(point_mm, tree_.nearest(point_mm)); }
+    // The same, faster where `guess` is the triangle of an answer near by.
+    MeshPoint closest(Vec3 point_mm, std::uint32_t guess) const {
+        return describe(point_mm, tree_.nearest(point_mm, guess));
+    }
+
+    // As of MeshTree.
+    int winding(Vec3 point_mm) const { return tree_.winding(point_mm); }
+
+    const TriangleMesh& mesh() const { return mesh_; }
+    const MeshNormals& normals() const { return normals_; }
+    Box3 bounds_mm() const { return tree_.bounds_mm(); }
+
+  private:
+    MeshPoint describe(Vec3 point_mm, const MeshTree::Nearest& nearest) const;
+
+    TriangleMesh mesh_;
+    MeshTree tree_;
+    MeshNormals normals_;
+};
+
+}  // namespace tribo::field

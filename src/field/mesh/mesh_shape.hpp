@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A closed triangle mesh as a solid: a blank or a fixture that was read from a file.
+#pragma once
+
+#include <memory>
+
+#include "base/result.hpp"
+#include "field/mesh/mesh_distance.hpp"
+#include "field/shape/shape.hpp"
+
+namespace tribo::field {
+
+// distance_mm is the exact distance to the mesh.
+class MeshShape final : public Shape {
+  public:
+    // Refused: a mesh that is not closed (after equal positions were made one vertex, where that helps), that
+    // has turned-over triangles or encloses nothing. One that is inside out is turned.
+    static Result<std::unique_ptr<MeshShape>> make(TriangleMesh mesh);
+
+    Box3 bounds_mm() const override { return distance_.bounds_mm(); }
+    double distance_mm(Vec3 point_mm) const override { return distance_.closest(point_mm).distance_mm; }
+    Vec3 gradient(Vec3 point_mm) const override;
+    void sample(const Lattice& lattice, float* out) const override;
+
+    const TriangleMesh& mesh() const { return distance_.mesh(); }
+
+  private:
+    explicit MeshShape(TriangleMesh mesh) : distance_(std::move(mesh)) {}
+
+    MeshDistance distance_;
+};
+
+}  // namespace tribo::field

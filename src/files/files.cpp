@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "files/files.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "files/file_beside.hpp"
+
+namespace tribo::files {
+namespace {
+
+constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
+constexpr std::size_t kReadStepBytes = std::size_t{1} << 20;  // of a pipe, whose length nobody knows
+
+// Closes a descriptor at the end of its scope.
+struct Closing {
+    int descriptor;
+    ~Closing() { ::close(descriptor); }
+};
+
+const char* remedy_for(int error_number, bool reading) {
+    switch (error_number) {
+        case ENOENT:
+        case ENOTDIR:
+            if (!reading) return "make the folder first, or try another";
+            return "try the path again: it is taken from the folder in which the program runs, or from the "
+                   "job file's";
+        case EACCES:
+        case EPERM:
+            return "try another place, or change the permissions";
+        case ENOSPC:
+        case EDQUOT:
+            return "free some space or try another disk";
+        case EFBIG:
+            return "raise the limit on file sizes (ulimit -f) or write less with --only or a coarser "
+                   "--resolution";
+        case EROFS:
+            return "try a place that can be written to";
+        default:
+            return "";
+    }
+}
+
+bool names_something_wrong(int error_number) {
+    switch (error_number) {
+        case ENOENT:
+        case ENOTDIR:
+        case EISDIR:
+        case ENAMETOOLONG:
+        case ELOOP:
+        case EINVAL:
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::unexpected<FileFailure> too_long(const std::string& path, std::uint64_t limit_bytes) {
+    const std::string limit = limit_bytes >= (std::uint64_t{1} << 20)
+                                  ? std::to_string(limit_bytes >> 20) + " MB"
+                                  : std::to_string(limit_bytes) + " bytes";
+    return std::unexpected(
+        FileFailure({path, 0, 0, "is longer than the " + limit + " that this kind of file may have", ""}));
+}
+
+// Reads until the end or until `bytes` is full; returns 0 or the error number.
+int read_some(int descriptor, std::string& bytes, std::size_t& filled) {
+    while (filled < bytes.size()) {
+        const ssize_t got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return errno;
+        if (got == 0) break;
+        filled += static_cast<std::size_t>(got);
+    }
+    return 0;
+}
+
+}  // namespace
+
+std::unexpected<FileFailure> system_failure(const std::string& file, const char* doing, int error_number) {
+    const FileFault fault = names_something_wrong(error_number) ? FileFault::input : FileFault::system;
+    return std::unexpected(
+        FileFailure({file, 0, 0, std::string("cannot ") + doing + ": " + std::strerror(error_number),
+                     remedy_for(error_number, std::string_view(doing) == "read")},
+                    fault));
+}
+
+FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes) {
+    if (path.empty()) return std::unexpected(FileFailure({"", 0, 0, "a file name is empty", "name a file"}));
+    if (path.find('\0') != std::string::npos) {
+        return std::unexpected(FileFailure({"", 0, 0, "a file name holds a zero byte", "name a file"}));
+    }
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return system_failure(path, "read", errno);
+    const Closing closing{descriptor};
+    struct stat status = {};
+    if (::fstat(descriptor, &status) != 0) return system_failure(path, "read", errno);
+    if (S_ISDIR(status.st_mode)) {
+        return std::unexpected(FileFailure({path, 0, 0, "is a folder, not a file", "name a file in it"}));
+    }
+    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode)) {
+        return std::unexpected(FileFailure({path, 0, 0, "is a device, not a file", "name a file"}));
+    }
+    const std::uint64_t told = S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
+    if (told > limit_bytes) return too_long(path, limit_bytes);
+
+    // One byte more than told: a file that is still growing, or whose length the system does not know, shows.
+    std::string bytes;
+    std::size_t filled = 0;
+    for (std::uint64_t wanted = told + 1;; wanted = filled + kReadStepBytes) {
+        bytes.resize(static_cast<std::size_t>(std::min(wanted, limit_bytes + 1)));
+        if (const int error = read_some(descriptor, bytes, filled))
+            return system_failure(path, "read", error);
+        if (filled > limit_bytes) return too_long(path, limit_bytes);
+        if (filled < bytes.size()) break;
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
+FileWriter::FileWriter(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {
+    buffer_.reserve(kWriteBufferBytes);
+}
+
+FileWriter::FileWriter(FileWriter&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      removable_(other.removable_),
+      error_number_(other.error_number_),
+      buffer_(std::move(other.buffer_)) {}
+
+FileWriter::~FileWriter() {
+    if (descriptor_ < 0) return;
+    ::close(descriptor_);
+    if (removable_) ::unlink(name_beside(path_).c_str());
+}
+
+FileResult<FileWriter> FileWriter::create(const std::string& path) {
+    const FileResult<FileBeside> file = open_beside(path);
+    if (!file) return std::unexpected(file.error());
+    FileWriter writer(path, file->descriptor);
+    writer.removable_ = file->beside;
+    return writer;
+}
+
+void FileWriter::flush(std::string_view bytes) {
+    while (!bytes.empty() && error_number_ == 0) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        if (written < 0) {
+            if (errno != EINTR) error_number_ = errno;
+        } else if (written == 0) {
+            error_number_ = ENOSPC;
+        } else {
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+}
+
+void FileWriter::write(std::string_view bytes) {
+    if (buffer_.size() + bytes.size() > kWriteBufferBytes) {
+        flush(buffer_);
+        buffer_.clear();
+        if (bytes.size() > kWriteBufferBytes) return flush(bytes);
+    }
+    buffer_.append(bytes);
+}
+
+FileResult<void> FileWriter::finish() {
+    flush(buffer_);
+    buffer_.clear();
+    const int descriptor = std::exchange(descriptor_, -1);
+    if (::close(descriptor) != 0 && error_number_ == 0 && errno != EINTR) error_number_ = errno;
+    if (error_number_ == 0 && removable_) error_number_ = take_name(path_);
+    if (error_number_ == 0) return {};
+    if (removable_) ::unlink(name_beside(path_).c_str());
+    return system_failure(path_, "write", error_number_);
+}
+
+FileResult<void> write_file(const std::string& path, std::string_view bytes) {
+    FileResult<FileWriter> writer = FileWriter::create(path);
+    if (!writer) return std::unexpected(std::move(writer).error());
+    writer->write(bytes);
+    return writer->finish();
+}
+
+}  // namespace tribo::files

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// One object of a JSON file, read key by key with types and ranges checked, as TomlSection does with TOML.
+// The first thing wrong is kept, named by its path ("voices[2].speed_mm_per_s"); whatever is read after it
+// comes back empty. It brings in the JSON library.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "files/json/json.hpp"
+
+namespace tribo::files {
+
+// Both ends belong to the range unless `above` says that the lower one does not.
+struct JsonRange {
+    double min = 0, max = 0;
+    bool above = false;
+};
+
+// Parses with line and column where it is not JSON, and refuses doubled keys. Never throws.
+Result<Json> parse_json(std::string_view text, const std::string& file);
+
+inline constexpr std::size_t kLongestTable = 256;
+
+class JsonSection {
+  public:
+    // `path` is how messages call the object; empty for the whole file. `keys` are all that it may hold.
+    // `error` collects for all sections of a file.
+    JsonSection(const Json& object, std::string path, std::span<const std::string_view> keys,
+                std::optional<Error>& error, const std::string& file);
+
+    bool has(std::string_view key) const;
+    double number(std::string_view key, JsonRange range, std::optional<double> otherwise = {});
+    std::string text(std::string_view key, std::optional<std::string> otherwise = {},
+                     std::size_t longest = 10'000);
+    std::vector<double> numbers(std::string_view key, JsonRange range, std::size_t most);
+    // An array of arrays of numbers, each as numbers() takes them with kLongestTable for `most`.
+    std::vector<std::vector<double>> tables(std::string_view key, JsonRange range, std::size_t most);
+    // The objects under a key; none where it is absent.
+    std::vector<const Json*> objects(std::string_view key, std::size_t most);
+    // The object under a key; null where it is absent.
+    const Json* object(std::string_view key);
+
+    void fail(std::string_view key, std::string cause, std::string remedy);
+    std::string path_of(std::string_view key) const;
+
+  private:
+    const Json* find(std::string_view key) const;
+    bool in_range(std::string_view key, const Json& value, JsonRange range);
+    std::vector<double> numbers_of(const std::string& key, const Json& value, JsonRange range,
+                                   std::size_t most);
+
+    const Json& object_;
+    std::string path_;
+    std::optional<Error>& error_;
+    const std::string& file_;
+};
+
+}  // namespace tribo::files

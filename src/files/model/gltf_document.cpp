@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "files/model/gltf_document.hpp"
+
+#include <cstdint>
+
+#include "files/json/json.hpp"
+
+namespace tribo::files {
+namespace {
+
+// Real files nest a dozen levels; this many are far from the end of any stack.
+constexpr int kDeepest = 100;
+constexpr std::size_t kMostBuffers = 1000;
+
+// The JSON chunk of a binary file, the whole of a text one; nothing where the file ends before it should.
+std::string_view json_of(std::string_view bytes) {
+    constexpr std::size_t kHeaders = 20;
+    if (!bytes.starts_with("glTF")) return bytes;
+    if (bytes.size() < kHeaders) return {};
+    std::uint32_t length = 0;
+    for (std::size_t k = 4; k-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[12 + k]);
+    return length <= bytes.size() - kHeaders ? bytes.substr(kHeaders, length) : std::string_view();
+}
+
+}  // namespace
+
+Result<void> check_gltf_document(std::string_view bytes, const std::string& source_name) {
+    const auto refused = [&](std::string cause, const char* remedy) {
+        return fail_at(source_name, 0, 0, std::move(cause), remedy);
+    };
+    const std::string_view text = json_of(bytes);
+    if (text.empty()) return refused("the glTF file is cut off", "export or copy it again");
+    bool too_deep = false;
+    const auto buffers_only = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        too_deep = too_deep || depth > kDeepest;
+        return !too_deep &&
+               (depth != 1 || event != nlohmann::json::parse_event_t::key || parsed == "buffers");
+    };
+    const nlohmann::json document = nlohmann::json::parse(text, buffers_only, false);
+    if (too_deep) return refused("the glTF file nests too deeply", "export the model again");
+    if (!document.is_object()) {
+        return refused("the glTF file is not the JSON that it should be", "export or copy it again");
+    }
+    const auto buffers = document.find("buffers");
+    if (buffers == document.end() || !buffers->is_array()) return {};
+    std::size_t in_chunk = 0;
+    for (const nlohmann::json& buffer : *buffers) {
+        const auto uri = buffer.is_object() ? buffer.find("uri") : buffer.end();
+        if (uri == buffer.end()) {
+            ++in_chunk;
+        } else if (!uri->is_string() || !uri->get_ref<const std::string&>().starts_with("data:")) {
+            const std::string name = uri->is_string() ? uri->get<std::string>().substr(0, 80) : "?";
+            return refused("the glTF file has its data in another file, " + name,
+                           "export the model as one .glb file");
+        }
+    }
+    if (in_chunk > 1 || buffers->size() > kMostBuffers) {
+        return refused("the glTF file has more buffers than it has data",
+                       "export the model again as one .glb file");
+    }
+    return {};
+}
+
+}  // namespace tribo::files

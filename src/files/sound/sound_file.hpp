@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Recordings in: WAV and FLAC at any rate and depth (libsndfile decodes).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "files/files.hpp"
+
+namespace tribo::files {
+
+struct SoundFile {
+    double sample_rate_hz = 0;
+    int channels = 0;
+    int bits = 0;                 // 0: floating point or compressed
+    std::vector<double> samples;  // of the channel with the most energy; full scale 1
+    Warnings warnings;
+};
+
+// 22 minutes at 48 kHz, mono. More is refused before memory is taken for it.
+inline constexpr std::int64_t kMostSoundSamples = std::int64_t{1} << 26;
+inline constexpr double kLeastSoundHz = 4000, kMostSoundHz = 384000;
+
+// Refuses other containers, rates out of range, samples that are no numbers, files that hold nothing; a file
+// that ends before its header says is read as far as it goes, with a warning. Never throws.
+Result<SoundFile> parse_sound(std::string_view bytes, const std::string& source_name);
+FileResult<SoundFile> read_sound(const std::string& path);
+
+}  // namespace tribo::files

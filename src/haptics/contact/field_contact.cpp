@@ -1,0 +1,542 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/contact/field_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace tribo::haptics {
+namespace {
+
+// A proxy within this of the surface is on it, mm. No shorter step is worth taking.
+constexpr double kSkin = 1e-6;
+// The proxy has settled when its way along the surface is below this share of the penetration: the share of
+// the force's direction that is still wrong.
+constexpr double kSettled = 2e-3;
+// Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
+constexpr double kOneSide = 0.95;
+// A surface that faces away like this is the other side of a wall, or of a slot.
+constexpr double kOtherSide = -0.5;
+// A step that ends this share of its length above the surface has gone over an edge, that far below it into
+// what tells nothing of the surface between.
+constexpr double kOff = 0.5;
+// A step gains at least this share of what its length promises; one over an edge goes no farther than this
+// beyond the probe.
+constexpr double kGain = 0.1, kBeyond = 1.25;
+// A refused step is followed by one of this share, a taken one allows one longer by its inverse.
+constexpr double kShorter = 0.25;
+// The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
+constexpr double kTouches = 0.01;
+constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
+// In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
+// radius.
+constexpr double kNear = 0.02, kNearBall = 0.1;
+// A flight along a surface rises by this share of the way to go.
+constexpr double kLift = 0.1;
+// At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
+constexpr double kPeek = 1e-5, kGrazing = 0.1;
+// So far a corner is looked into behind its sides, mm.
+constexpr double kLook = 1e-3;
+// A step along a corner has left a side, or passed it, by this share of its length.
+constexpr double kLeft = 1e-3;
+// A landing this much (of the step's length) off the trial is looked at again, so often.
+constexpr double kLeap = 0.02;
+constexpr int kMostLandings = 3;
+constexpr int kMostLinks = 24;  // of a chain of balls
+// A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
+// the probe is in air.
+constexpr double kCreeping = 0.02, kStuckS = 3e-3;
+// Queries that a step may need before it can be taken back.
+constexpr int kStepQueries = 6;
+
+contact::HalfSpace side_of(Vec3 normal) {
+    return {-normal, 0, 0};
+}
+
+Vec3 limited(Vec3 v, double most) {
+    const double l = length(v);
+    return l > most ? (most / l) * v : v;
+}
+
+}  // namespace
+
+FieldContact::FieldContact(const contact::DistanceField& field, const ContactOptions& options)
+    : field_(&field) {
+    set_options(options);
+    (void)gap_.set_balls(std::array{Vec3{}});
+}
+
+void FieldContact::set_options(const ContactOptions& o) {
+    assert(o.stiffness_n_per_mm > 0 && o.probe_radius_mm >= 0 && o.tick_s > 0);
+    assert(o.friction_kinetic >= 0 && o.friction_static >= o.friction_kinetic);
+    options_ = o;
+    if (o.probe_radius_mm != gap_.radius_mm()) reset();
+    gap_.set_radius(o.probe_radius_mm);
+}
+
+void FieldContact::reset() {
+    phase_ = Phase::begin;
+    gap_.forget();
+}
+
+Contact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
+    // What was free for the probe as it was turned is so for the turned one less what that moved.
+    const double turned_mm = gap_.set_balls(balls_mm);
+    anchor_.radius -= turned_mm;
+    return tick(probe, turned_mm > 0);
+}
+
+Contact FieldContact::update(Vec3 probe) noexcept {
+    return tick(probe, false);
+}
+
+Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
+    queries_ = 0;
+    if (!is_finite(probe)) return {};
+    if (phase_ == Phase::begin) {
+        at_.proxy = probe;
+        sticking_ = true;
+        phase_ = Phase::climb;
+    }
+    last_proxy_ = at_.proxy;
+    settled_ = braced_ = moved_ = looked_ = false;
+    last_step_.known = false;
+    stride_mm_ = std::max(stride_mm_, kLowest);
+    if (phase_ == Phase::touching && stuck_s_ >= kStuckS) let_go_of_the_stuck(probe);
+    if (turned && phase_ == Phase::touching) (void)push_out();
+    if (phase_ == Phase::touching) renew_anchor();
+    for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
+        switch (phase_) {
+            case Phase::begin:
+            case Phase::climb:
+                next = climb();
+                break;
+            case Phase::free:
+                next = fly(probe);
+                break;
+            case Phase::touching:
+                next = slide(probe);
+                break;
+        }
+    }
+    if (phase_ == Phase::touching && !settled_) (void)push_out();
+    const bool stuck = phase_ == Phase::touching && !settled_ && gap_.radius_mm() > 0 &&
+                       distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
+    stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
+    sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
+    return answer(probe);
+}
+
+// A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
+// probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
+void FieldContact::let_go_of_the_stuck(Vec3 probe) {
+    stuck_s_ = 0;
+    const double room = measure(probe).gap_mm;
+    if (room <= kSkin) return;
+    Vec3 centre = at_.proxy;
+    for (int links = 0;; ++links) {
+        const double way = distance(probe, centre), free = clearance_mm(centre, way) + gap_.radius_mm();
+        if (way <= free) break;
+        if (free < kSkin || links == kMostLinks || !budget(1)) return;
+        centre += (free / way) * (probe - centre);
+    }
+    anchor_ = {probe, room};
+    at_.proxy = last_proxy_ = probe;
+    phase_ = Phase::free;
+}
+
+// Out of the material along its normals, until there is air.
+FieldContact::Next FieldContact::climb() {
+    const ProbeGap::Gap g = measure(at_.proxy);
+    if (g.gap_mm > kSkin) {
+        last_proxy_ = at_.proxy;
+        anchor_ = {at_.proxy, g.gap_mm};
+        phase_ = Phase::free;
+        return Next::more;
+    }
+    // A little more than the distance, so that the proxy comes to stand in air.
+    at_.proxy += (2 * kSkin - g.gap_mm) * g.normal;
+    return Next::more;
+}
+
+// From the anchor straight to the probe, through balls that hold no material.
+FieldContact::Next FieldContact::fly(Vec3 probe) {
+    // Further away a ball's nearest place is not measured.
+    const double near = gap_.radius_mm() > 0 ? kNearBall * gap_.radius_mm() : 1e30;
+    Anchor a = anchor_;
+    for (;;) {
+        const double way = distance(probe, a.at);
+        if (way <= a.radius + kSkin) {
+            anchor_ = a;
+            at_.proxy = probe;
+            settled_ = true;
+            return Next::nothing;
+        }
+        if (a.radius < std::max(kSkin, std::min(kNear * way, near))) {
+            // A surface along which or away from which the probe goes does not hold it.
+            const ProbeGap::Gap g = measure(a.at);
+            if (a.radius < kSkin || dot(probe - a.at, g.normal) < 0) {
+                touch_down(probe, a, g);
+                return Next::more;
+            }
+            lift(a, g.normal, kLift * way);
+        }
+        anchor_ = a;
+        at_.proxy = a.at;
+        if (!budget(kStepQueries)) return Next::nothing;
+        a.at += (a.radius / way) * (probe - a.at);
+        a.radius = clearance_mm(a.at, distance(probe, a.at));
+    }
+}
+
+// Along a surface there is only room for small balls; a little above it the next ones are larger.
+void FieldContact::lift(Anchor& a, Vec3 up, double height) {
+    const Vec3 at = a.at + height * up;
+    const Anchor above{at, clearance_mm(at, height)};
+    if (above.radius > a.radius && height <= a.radius + above.radius) a = above;
+}
+
+// At the surface that was seen next to a ball, or what is left of one, that reaches there.
+void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
+    Vec3 seen_at = from.at;
+    const Vec3 ahead = normalized(probe - last_proxy_, -g.normal),
+               next_to = from.at + (g.gap_mm + kPeek) * ahead;
+    const ProbeGap::Gap beyond = measure(next_to);
+    // At a convex edge it is the face that the probe goes along, not the one that ends there.
+    if (beyond.gap_mm >= -2 * kSkin && std::abs(dot(beyond.normal, ahead)) < kGrazing) {
+        g = beyond;
+        seen_at = next_to;
+    }
+    at_ = {};
+    at_.proxy = seen_at - g.gap_mm * g.normal;
+    at_.normal = g.normal;
+    at_.ball = g.ball;
+    at_.sides.put(side_of(g.normal), kOneSide);
+    // In a corner the side that was nearest may not be the one that holds.
+    if (dot(probe - at_.proxy, g.normal) >= 0 && beyond.gap_mm < 0 &&
+        dot(probe - next_to, beyond.normal) < 0) {
+        at_.proxy = next_to;
+        (void)correct(at_, beyond);
+    }
+    if (from.radius > anchor_.radius) anchor_ = from;
+    phase_ = Phase::touching;
+    sticking_ = true;
+    ease_ = 1;
+    height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
+    stride_mm_ = 1e30;
+    moved_ = false;
+    looked_sides_ = 0;
+    last_step_.known = false;
+    (void)tie(at_);
+}
+
+FieldContact::Split FieldContact::split(const Place& place, Vec3 probe) const {
+    const Vec3 way = probe - place.proxy;
+    Split s;
+    s.rest = place.sides.nearest(way);
+    s.press = way - s.rest;
+    s.rest_mm = length(s.rest);
+    s.press_mm = length(s.press);
+    return s;
+}
+
+// The step that would settle it, were the surface to bend on as it did over the last step (Barzilai and
+// Borwein 1988).
+Vec3 FieldContact::step_for(const Split& way) {
+    if (last_step_.known) {
+        const Vec3 change = way.rest - last_step_.rest;
+        const double up = -dot(last_step_.way, change), down = squared_length(change);
+        // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
+        ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
+    }
+    const double goal = std::max(0.0, 1 - options_.friction_kinetic * way.press_mm / way.rest_mm);
+    return limited(ease_ * goal * way.rest, stride_mm_);
+}
+
+// Puts a place onto the surface that was seen from it: down to a side that it stands on alone, into the
+// corner of all its sides otherwise. Whether its sides have stayed.
+bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
+    const Vec3 landed = place.proxy - seen.gap_mm * seen.normal;
+    const bool bends = place.sides.count <= 1 && dot(seen.normal, place.normal) > kOneSide;
+    if (bends) {
+        place.proxy = landed;
+        place.sides = {};
+    } else {
+        contact::HalfSpaces corner = place.sides;
+        for (int i = 0; i < corner.count; ++i) {
+            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+            h.offset = dot(h.normal, place.proxy);
+        }
+        corner.put({-seen.normal, -dot(seen.normal, landed), 0}, kOneSide);
+        place.proxy = corner.nearest(place.proxy);
+    }
+    place.sides.put(side_of(seen.normal), kOneSide);
+    place.normal = seen.normal;
+    place.ball = seen.ball;
+    place.leap_mm = std::abs(seen.gap_mm);
+    return bends;
+}
+
+// A step along the surface, and down onto it.
+FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to) {
+    const double size = length(step);
+    const Vec3 trial = from.proxy + step;
+    ProbeGap::Gap g = measure(trial);
+    const bool alone = from.sides.count == 1;
+    const double alike = dot(g.normal, from.normal);
+    if (alone && (alike < kOtherSide || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
+    to = from;
+    if (g.gap_mm > kOff * size + kSkin) {
+        to.proxy = trial;
+        return Landing::over_edge;
+    }
+    if (alone && (g.gap_mm >= -kSkin || alike > kOneSide)) {
+        to.proxy = trial;
+        to.sides = {};
+        to.normal = g.normal;
+        (void)correct(to, g);
+        // After a leap in height what was nearest from the trial may not be so where it lands.
+        for (int k = 0; k < kMostLandings && to.leap_mm > kLeap * size + kSkin && budget(kStepQueries); ++k) {
+            g = measure(to.proxy);
+            to.sides = {};
+            to.normal = g.normal;
+            (void)correct(to, g);
+        }
+        return Landing::on_surface;
+    }
+    if (g.gap_mm < -kSkin) {
+        // Another side is in the way: the proxy stands where all of them meet.
+        contact::HalfSpaces corner = from.sides;
+        for (int i = 0; i < corner.count; ++i) {
+            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
+            h.offset = dot(h.normal, from.proxy);
+        }
+        corner.put({-g.normal, -dot(g.normal, trial - g.gap_mm * g.normal), 0}, kOneSide);
+        to.proxy = corner.nearest(trial);
+        // Not between here and the trial: the far side of a wall.
+        if (distance(to.proxy, trial) > size + kSkin) return Landing::none;
+    } else {
+        // Along a corner: a side that the step has left is not there, nor one behind which there is air.
+        to.proxy = trial - g.gap_mm * g.normal;
+        to.sides = {};
+        for (int i = 0; i < from.sides.count; ++i) {
+            const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
+            if (dot(h.normal, step) > -kLeft * size && dot(h.normal, to.proxy - from.proxy) < kLeft * size)
+                to.sides.put(h, kOneSide);
+        }
+    }
+    to.sides.put(side_of(g.normal), kOneSide);
+    to.normal = g.normal;
+    to.ball = g.ball;
+    to.leap_mm = std::abs(g.gap_mm);
+    return Landing::on_surface;
+}
+
+// One step along the surface, or the look that ends them.
+FieldContact::Next FieldContact::slide(Vec3 probe) {
+    const Split way = split(at_, probe);
+    if (way.press_mm <= 0) return take_off();  // nothing holds the probe
+    const double friction = moved_ ? options_.friction_kinetic : hold();
+    if (way.rest_mm <= (friction + kSettled) * way.press_mm + kSkin) return come_to_rest(way);
+    return take_step(probe, way);
+}
+
+FieldContact::Next FieldContact::take_off() {
+    phase_ = Phase::free;
+    return Next::more;
+}
+
+// Held: is there still a surface? In a corner: do all its sides hold?
+FieldContact::Next FieldContact::come_to_rest(const Split& way) {
+    settled_ = moved_ && at_.sides.count == 1 && at_.leap_mm <= kLeap * way.press_mm + kSkin;
+    if (settled_) return Next::nothing;
+    const ProbeGap::Gap g = measure(at_.proxy);
+    at_.ball = g.ball;
+    settled_ = std::abs(g.gap_mm) <= 2 * kSkin;
+    if (settled_) return look_behind_a_side();
+    if (g.gap_mm > 0 && !moved_) return take_off();
+    Place corrected = at_;
+    (void)correct(corrected, g);
+    moved_ = true;
+    if (!tie(corrected)) return Next::nothing;
+    at_ = corrected;
+    return Next::more;
+}
+
+// In a corner, one side after the other, a tick each: where a little way along the others there is no
+// material behind it, it was that of a step too low to hold, or was left.
+FieldContact::Next FieldContact::look_behind_a_side() {
+    contact::HalfSpaces& sides = at_.sides;
+    if (moved_) looked_sides_ = 0;
+    if (sides.count < 2 || looked_sides_ >= sides.count) return Next::nothing;
+    contact::HalfSpaces others;
+    for (int n = 0; n < sides.count; ++n) {
+        if (n != looked_sides_) others.put(sides.side[static_cast<std::size_t>(n)], kOneSide);
+    }
+    const Vec3 along = others.nearest(sides.side[static_cast<std::size_t>(looked_sides_)].normal);
+    ++looked_sides_;
+    if (measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * length(along)) return Next::nothing;
+    sides = others;
+    settled_ = false;
+    moved_ = true;
+    return Next::more;
+}
+
+FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
+    const Vec3 step = step_for(way);
+    const double size = length(step);
+    Place to;
+    const Landing landing = land(at_, step, to);
+    chained_mm_ = 0;
+    bool nearer = true;
+    if (landing == Landing::over_edge && size <= kBeyond * way.rest_mm) {
+        if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) return take_off();
+    } else if (landing == Landing::on_surface) {
+        const bool more_sides = to.sides.count > at_.sides.count;
+        const bool in_corner = more_sides && distance(to.proxy, at_.proxy) <= kSkin;
+        const double gain = squared_length(probe - at_.proxy) - squared_length(probe - to.proxy);
+        nearer = gain >= (more_sides ? 0 : kGain * size * way.rest_mm);
+        if (in_corner || (nearer && tie(to))) {
+            const bool bends =
+                at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) > kOneSide;
+            last_step_ = {way.rest, to.proxy - at_.proxy, bends};
+            if (!bends) ease_ = std::min(ease_, 1.0);
+            at_ = to;
+            moved_ = true;
+            stride_mm_ = std::max(stride_mm_, size / kShorter);
+            return Next::more;
+        }
+    } else if (!looked_) {
+        // From a place in material every landing is one.
+        looked_ = true;
+        if (push_out()) return Next::more;
+    }
+    // Refused: no longer than a chain of free balls came, and a little into what stopped it.
+    const bool stopped = chained_mm_ > kSkin && chained_mm_ < 0.9 * size;
+    stride_mm_ = stopped ? std::min(1.02 * chained_mm_ + kLowest, 0.9 * size) : kShorter * size;
+    last_step_.known = false;
+    if (stride_mm_ >= kSkin) return Next::more;
+    // Where the shortest step comes no nearer, the proxy is as near as it can come.
+    settled_ = braced_ = !nearer;
+    return Next::nothing;
+}
+
+// Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
+// along the normals; where that does not do, to the air that it is tied to. Whether it stood there.
+bool FieldContact::push_out() {
+    for (int n = 0; n < kMostLandings; ++n) {
+        const ProbeGap::Gap g = measure(at_.proxy);
+        if (g.gap_mm >= -2 * kSkin) return n > 0;
+        at_.proxy -= g.gap_mm * g.normal;
+        at_.normal = g.normal;
+        at_.ball = g.ball;
+        at_.sides = {};
+        at_.sides.put(side_of(g.normal), kOneSide);
+    }
+    anchor_.radius = measure(anchor_.at).gap_mm;
+    phase_ = anchor_.radius > kSkin ? Phase::free : Phase::climb;
+    if (phase_ == Phase::free) at_.proxy = anchor_.at;
+    return true;
+}
+
+// Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
+bool FieldContact::chain(const Anchor& to) {
+    if (to.radius < kSkin) return false;
+    Anchor a = anchor_;
+    for (int links = 0;; ++links) {
+        const double way = distance(to.at, a.at);
+        if (way <= a.radius + to.radius) {
+            anchor_ = to;
+            return true;
+        }
+        chained_mm_ = distance(a.at, anchor_.at);
+        if (a.radius < kSkin || links == kMostLinks || !budget(1)) return false;
+        a.at += (a.radius / way) * (to.at - a.at);
+        a.radius = clearance_mm(a.at, distance(to.at, a.at));
+    }
+}
+
+// An anchor that a turn of the probe has taken the room from is looked at again, and given up for the ball
+// over the proxy where nothing is left of it: a probe that turns has no other way to it.
+void FieldContact::renew_anchor() {
+    if (anchor_.radius > kSkin) return;
+    anchor_.radius = clearance_mm(anchor_.at, kHighest);
+    const Vec3 up = up_from(at_);
+    for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
+        const Vec3 at = at_.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height)};
+        if (a.radius > (1 - kTouches) * height) anchor_ = a;
+    }
+}
+
+Vec3 FieldContact::up_from(const Place& place) {
+    Vec3 up;
+    for (int n = 0; n < place.sides.count; ++n) up -= place.sides.side[static_cast<std::size_t>(n)].normal;
+    return normalized(up, place.normal);
+}
+
+// Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
+bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
+    for (;;) {
+        const double left = distance(ball.at, proxy);
+        if (left <= ball.radius + tolerance_mm) return true;
+        if (ball.radius <= 0.1 * left || !budget(1)) return false;
+        ball.at += (ball.radius / left) * (proxy - ball.at);
+        ball.radius = clearance_mm(ball.at, distance(ball.at, proxy));
+    }
+}
+
+// Finds an anchor that touches the proxy and that the present anchor leads to, where that does not still
+// touch.
+bool FieldContact::tie(const Place& to) {
+    if (distance(to.proxy, anchor_.at) <= (1 + kTouches) * anchor_.radius) return true;
+    const Vec3 up = up_from(to);
+    const double step = distance(to.proxy, at_.proxy);
+    double height = std::clamp(std::max(1.5 * step, 0.5 * height_), kLowest, kHighest);
+    for (int tries = 0; tries < 3 && budget(2); ++tries) {
+        const Vec3 at = to.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height)};
+        if (reaches_down(a, to.proxy, kTouches * height)) {
+            height_ = height;
+            return chain(a);
+        }
+        height = std::max(kLowest, 0.25 * height);
+    }
+    height_ = height;
+    return false;
+}
+
+Contact FieldContact::answer(Vec3 probe) {
+    Contact c;
+    c.proxy_mm = at_.proxy;
+    c.settled = settled_;
+    c.normal = at_.normal;
+    c.slip_mm_per_s = (at_.proxy - last_proxy_) / options_.tick_s;
+    const Vec3 way = probe - at_.proxy;
+    if (phase_ != Phase::touching) {
+        // On its way through the air: nothing is felt of it unless the probe is in material. As deep as it is
+        // there it is pushed back, out of the surface or, where that is the far side of a wall, to the proxy.
+        if (settled_ || phase_ == Phase::climb) return c;
+        const ProbeGap::Gap g = measure(probe);
+        if (g.gap_mm >= 0) return c;
+        c.in_contact = true;
+        c.penetration_mm = std::min(-g.gap_mm, length(way));
+        c.normal = dot(g.normal, way) < 0 ? g.normal : -1 * normalized(way, -at_.normal);
+        c.force_n = options_.stiffness_n_per_mm * c.penetration_mm * c.normal;
+        return c;
+    }
+    const Split s = split(at_, probe);
+    c.penetration_mm = s.press_mm;
+    if (!(s.press_mm > 0)) return c;
+    c.in_contact = true;
+    c.sliding = !sticking_;
+    if (at_.sides.count > 1) c.normal = -1 / s.press_mm * s.press;
+    // What friction does not hold is the way that a proxy which has settled does not go.
+    const double drag = options_.friction_static * s.press_mm;
+    const Vec3 held = settled_ && !braced_ && s.rest_mm > drag ? (drag / s.rest_mm) * s.rest : s.rest;
+    c.force_n = -options_.stiffness_n_per_mm * (s.press + held);
+    c.lever_mm = gap_.offset_mm(at_.ball) - gap_.radius_mm() * at_.normal;
+    return c;
+}
+
+}  // namespace tribo::haptics

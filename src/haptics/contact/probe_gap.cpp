@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "haptics/contact/probe_gap.hpp"
+
+#include <cassert>
+
+namespace tribo::haptics {
+
+double ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
+    assert(!offsets_mm.empty() && offsets_mm.size() <= kMostBalls);
+    double most = 0;
+    if (offsets_mm.size() != count_) {
+        forget();
+        most = 1e30;
+    }
+    count_ = offsets_mm.size();
+    if (last_ >= count_) last_ = 0;
+    for (std::size_t n = 0; n < count_; ++n) {
+        most = std::max(most, distance(ball_[n].offset, offsets_mm[n]));
+        ball_[n].offset = offsets_mm[n];
+    }
+    return most;
+}
+
+void ProbeGap::forget() {
+    for (Ball& ball : ball_) {
+        ball.seen_gap = -1e30;
+        ball.touch = ball.room = {};
+    }
+}
+
+ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, Ball::Near& near,
+                                     Vec3 at) {
+    ++queries_;
+    contact::SurfaceSample s;
+    if (radius_ > 0) {
+        // Beyond this nothing is asked exactly: a lower bound serves.
+        const double within = 2 * radius_;
+        near.hint.at_mm = at + near.foot;
+        s = field.nearest(at, within, near.hint);
+        near.foot = -s.distance_mm * s.normal;
+    } else {
+        s = field.sample(at);
+    }
+    ball.seen_at = at;
+    ball.seen_gap = s.distance_mm - radius_;
+    return {ball.seen_gap, s.normal, s.piece, 0};
+}
+
+// The last nearest ball first, then all that might be nearer than what `most` has become.
+template <class Ask>
+void ProbeGap::nearest_first(Vec3 position_mm, double most, const Ask& ask) {
+    const std::size_t first = last_;
+    most = ask(first, most);
+    for (std::size_t n = 0; n < count_; ++n) {
+        if (n != first && ball_[n].bound(position_mm + ball_[n].offset) < most) most = ask(n, most);
+    }
+}
+
+ProbeGap::Gap ProbeGap::measure(const contact::DistanceField& field, Vec3 position_mm) {
+    Gap least;
+    least.gap_mm = 1e30;
+    nearest_first(position_mm, 1e30, [&](std::size_t n, double) {
+        const Gap gap = measure_ball(field, ball_[n], ball_[n].touch, position_mm + ball_[n].offset);
+        if (gap.gap_mm < least.gap_mm) {
+            least = gap;
+            least.ball = n;
+        }
+        return least.gap_mm;
+    });
+    last_ = least.ball;
+    return least;
+}
+
+double ProbeGap::clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm) {
+    double least = 1e30;
+    nearest_first(position_mm, 1e30, [&](std::size_t n, double) {
+        Ball& ball = ball_[n];
+        const Vec3 at = position_mm + ball.offset;
+        ++queries_;
+        double clear = field.clearance_mm(at, enough_mm + radius_) - radius_;
+        if (clear < enough_mm && radius_ > 0)
+            clear = std::max(clear, measure_ball(field, ball, ball.room, at).gap_mm);
+        if (clear < least) {
+            least = clear;
+            last_ = n;
+        }
+        ball.seen_at = at;
+        ball.seen_gap = clear;
+        return least;
+    });
+    return least;
+}
+
+}  // namespace tribo::haptics

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "job/completion.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "base/decimal.hpp"
+
+namespace tribo::job {
+namespace {
+
+// The first that is declared: tables stand before what the program says itself.
+const motion::DeclaredTool* declared_tool(const motion::Program& program, int number) {
+    for (const motion::DeclaredTool& tool : program.tools) {
+        if ((tool.number == number || number == 0) && tool.diameter_mm > 0) return &tool;
+    }
+    return nullptr;
+}
+
+milling::Cutter cutter_of(const motion::DeclaredTool& tool, int number) {
+    milling::Cutter cutter;
+    cutter.number = number;
+    cutter.diameter_mm = tool.diameter_mm;
+    if (tool.flutes > 0) cutter.flutes = tool.flutes;
+    if (2 * tool.corner_mm >= tool.diameter_mm) {
+        cutter.kind = milling::CutterKind::ball;
+    } else if (tool.corner_mm > 0) {
+        cutter.kind = milling::CutterKind::bull;
+        cutter.corner_mm = tool.corner_mm;
+    }
+    return cutter;
+}
+
+std::string description(const milling::Cutter& cutter, const motion::DeclaredTool& tool) {
+    constexpr const char* kinds[] = {"flat", "ball", "bull nose"};
+    std::string text =
+        std::string(kinds[static_cast<std::size_t>(cutter.kind)]) + " D" + format_decimal(cutter.diameter_mm);
+    if (cutter.kind == milling::CutterKind::bull) text += " corner " + format_decimal(cutter.corner_mm);
+    text += tool.flutes > 0 ? ", " + std::to_string(cutter.flutes) + " flutes; " : "; ";
+    if (tool.flutes == 0) text += std::to_string(cutter.flutes) + " flutes, ";
+    return text + "helix " + format_decimal(cutter.helix_deg) + " deg and " +
+           format_decimal(cutter.length_mm) + " mm of edge are assumed";
+}
+
+void add_cutter(job::Job& job, const motion::Program& program, int number, Warnings& warnings) {
+    const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
+                                       [&](const milling::Cutter& c) { return c.number == number; });
+    const motion::DeclaredTool* tool = described ? nullptr : declared_tool(program, number);
+    if (tool == nullptr) return;
+    const milling::Cutter cutter = cutter_of(*tool, number);
+    const std::string name = number > 0 ? "tool T" + std::to_string(number) : "the tool";
+    const bool from_table = !tool->table.empty();
+    warnings.push_back({from_table ? tool->table : program.source, tool->line,
+                        name + " is taken from the " + (from_table ? "tool table" : "program") + ": " +
+                            description(cutter, *tool)});
+    job.cutters.push_back(cutter);
+}
+
+}  // namespace
+
+Result<void> complete_job(job::Job& job, const motion::Program& program, Warnings& warnings) {
+    if (!job.stock_from && job.stock.box_mm.empty() && !job.stock.model) {
+        if (!program.stock) {
+            return fail_at(job.file, 0, 0, "the job has no [stock], and the program declares none",
+                           "add [stock] with box_mm or mesh");
+        }
+        job.stock.box_mm = program.stock->box_mm;
+        warnings.push_back(
+            {program.source, program.stock->line, "the stock is taken from the program (BLK FORM)"});
+    }
+    const bool one_for_all = job.cutters.size() == 1 && job.cutters[0].number == 0;
+    if (!one_for_all) {
+        int last = -1;
+        for (const motion::Move& move : program.moves) {
+            if (std::exchange(last, move.tool) != move.tool) add_cutter(job, program, move.tool, warnings);
+        }
+    }
+    if (!job.cutters.empty()) return {};
+    return fail_at(job.file, 0, 0,
+                   "the job has no [cutter], and neither tool table nor program describes a tool",
+                   "add [cutter] with kind and diameter_mm");
+}
+
+}  // namespace tribo::job

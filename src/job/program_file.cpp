@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "job/program_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/file_names.hpp"
+#include "readers/apt/reader.hpp"
+#include "readers/gcode/reader.hpp"
+#include "readers/heidenhain/reader.hpp"
+#include "readers/siemens/siemens_text.hpp"
+#include "readers/tables/keyframes_csv.hpp"
+#include "readers/tables/tool_table.hpp"
+
+namespace tribo::job {
+namespace {
+
+using job::PathKind;
+
+constexpr std::size_t kLookedAt = 4096;  // characters from the start
+
+struct Extension {
+    std::string_view text;
+    PathKind kind;
+};
+constexpr std::array kExtensions{
+    Extension{".ngc", PathKind::gcode},     Extension{".nc", PathKind::gcode},
+    Extension{".gcode", PathKind::gcode},   Extension{".gc", PathKind::gcode},
+    Extension{".tap", PathKind::gcode},     Extension{".cnc", PathKind::gcode},
+    Extension{".mpf", PathKind::gcode},     Extension{".eia", PathKind::gcode},
+    Extension{".min", PathKind::gcode},     Extension{".h", PathKind::gcode},
+    Extension{".spf", PathKind::gcode},     Extension{".hnc", PathKind::gcode},
+    Extension{".apt", PathKind::apt},       Extension{".cls", PathKind::apt},
+    Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
+    Extension{".aptsource", PathKind::apt}, Extension{".csv", PathKind::keyframes},
+};
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return out;
+}
+
+// A line that begins like a block of G-code: an optional N word, then G or M and a digit.
+bool begins_like_gcode(std::string_view line) {
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto skip_blanks = [&] {
+        while (!line.empty() && (line[0] == ' ' || line[0] == '\t')) line.remove_prefix(1);
+    };
+    skip_blanks();
+    if (line.starts_with("n")) {
+        line.remove_prefix(1);
+        while (!line.empty() && digit(line[0])) line.remove_prefix(1);
+        skip_blanks();
+    }
+    return line.size() >= 2 && (line[0] == 'g' || line[0] == 'm') && digit(line[1]);
+}
+
+std::optional<PathKind> detect_by_content(std::string_view bytes) {
+    const std::string text = lower(bytes.substr(0, kLookedAt));
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+        const std::string_view line = std::string_view(text).substr(at, end - at);
+        if (line.starts_with("x,y,z,i,j,k")) return PathKind::keyframes;
+        if (line.starts_with("goto") || line.starts_with("partno") || line.starts_with("multax"))
+            return PathKind::apt;
+        if (begins_like_gcode(line) || line.find("begin pgm") < 8) return PathKind::gcode;
+        at = end + 1;
+    }
+    return {};
+}
+
+Result<motion::Program> parse_keyframes(std::string_view bytes, const std::string& path,
+                                        const ProgramFileOptions& options) {
+    const auto keyframes = readers::read_keyframes(bytes, {.source_name = path, .unit_mm = options.unit_mm});
+    if (!keyframes) return std::unexpected(keyframes.error());
+    motion::KeyframeOptions motion_options;
+    motion_options.interpolation = options.interpolation;
+    auto moves = motion::keyframe_moves(*keyframes, options.default_feed_mm_per_min, motion_options);
+    if (!moves) {
+        Error error = moves.error();
+        error.file = path;
+        return std::unexpected(std::move(error));
+    }
+    motion::Program program;
+    program.source = path;
+    program.moves = *std::move(moves);
+    return program;
+}
+
+Result<motion::Program> parse_apt(std::string_view bytes, const std::string& path,
+                                  const ProgramFileOptions& options) {
+    readers::AptOptions apt;
+    apt.source_name = path;
+    apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    return readers::read_apt(bytes, apt);
+}
+
+// Moves go to the sink, or into the program where there is none.
+Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& path,
+                                    const ProgramFileOptions& options, readers::MoveSink* sink) {
+    readers::GcodeOptions gcode;
+    gcode.source_name = path;
+    gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    gcode.machine = options.machine;
+    // The last of a number wins there, the first of it here.
+    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
+        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
+    }
+    const std::optional<readers::Dialect> told =
+        options.dialect ? options.dialect : readers::detect_dialect(bytes);
+    const readers::Dialect dialect = told.value_or(readers::Dialect::linuxcnc);
+    if (dialect == readers::Dialect::heidenhain) {
+        return sink != nullptr ? readers::read_heidenhain(bytes, gcode, *sink)
+                               : readers::read_heidenhain(bytes, gcode);
+    }
+    if (dialect == readers::Dialect::siemens) {
+        return sink != nullptr ? readers::read_siemens(bytes, gcode, *sink)
+                               : readers::read_siemens(bytes, gcode);
+    }
+    if (dialect == readers::Dialect::fanuc) gcode.dialect = readers::GcodeDialect::fanuc;
+    auto program =
+        sink != nullptr ? readers::read_gcode(bytes, gcode, *sink) : readers::read_gcode(bytes, gcode);
+    if (program) program->dialect = readers::name_of(dialect);
+    return program;
+}
+
+}  // namespace
+
+std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path) {
+    const std::string extension = lower(extension_of(path));
+    for (const Extension& known : kExtensions) {
+        if (extension == known.text) return known.kind;
+    }
+    return detect_by_content(bytes);
+}
+
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
+                                      const ProgramFileOptions& options) {
+    switch (kind) {
+        case PathKind::keyframes:
+            return parse_keyframes(bytes, path, options);
+        case PathKind::apt:
+            return parse_apt(bytes, path, options);
+        case PathKind::gcode:
+            break;
+    }
+    return parse_gcode(bytes, path, options, nullptr);
+}
+
+Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
+                                      const ProgramFileOptions& options, readers::MoveSink& sink) {
+    if (kind == PathKind::gcode) return parse_gcode(bytes, path, options, &sink);
+    auto program = parse_program(bytes, path, kind, options);
+    if (!program) return program;
+    for (const motion::Move& move : program->moves) sink.take(move);
+    program->moves.clear();
+    return program;
+}
+
+FileResult<motion::Program> read_program(const job::Job& job) {
+    const FileResult<std::string> bytes = files::read_file(job.path.file);
+    if (!bytes) return std::unexpected(bytes.error());
+    ProgramFileOptions options;
+    options.default_feed_mm_per_min = job.process.feed_mm_per_min;
+    options.unit_mm = job.path.unit_mm;
+    options.interpolation = job.path.interpolation;
+    options.dialect = job.path.dialect;
+    if (job.machine.kinematics) options.machine = &*job.machine.kinematics;
+    readers::ToolTable table;
+    if (!job.path.tools.empty()) {
+        const FileResult<std::string> text = files::read_file(job.path.tools);
+        if (!text) return std::unexpected(text.error());
+        auto read = readers::read_tool_table(*text, {.source_name = job.path.tools});
+        if (!read) return std::unexpected(FileFailure(read.error()));
+        table = *std::move(read);
+    }
+    // The job's diameters before the table's.
+    for (const milling::Cutter& cutter : job.cutters) {
+        motion::DeclaredTool tool;
+        tool.number = cutter.number;
+        tool.diameter_mm = cutter.diameter_mm;
+        for (const motion::DeclaredTool& other : table.tools) {
+            if (other.number == tool.number) tool.length_mm = other.length_mm;
+        }
+        options.tools.push_back(tool);
+    }
+    options.tools.insert(options.tools.end(), table.tools.begin(), table.tools.end());
+    auto program = parse_program(*bytes, job.path.file, job.path.kind, options);
+    if (!program) return std::unexpected(FileFailure(program.error()));
+    program->tools.insert(program->tools.begin(), table.tools.begin(), table.tools.end());
+    program->warnings.insert(program->warnings.end(), table.warnings.begin(), table.warnings.end());
+    return *std::move(program);
+}
+
+}  // namespace tribo::job

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "job/solid.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "base/hash.hpp"
+#include "field/mesh/mesh_shape.hpp"
+#include "field/shape/box_shape.hpp"
+#include "job/turned_shape.hpp"
+
+namespace tribo::job {
+namespace {
+
+bool is_along_an_axis(Vec3 unit) {
+    return std::abs(unit.x) == 1 || std::abs(unit.y) == 1 || std::abs(unit.z) == 1;
+}
+
+// Of a mesh by its vertices, of a box by its corners.
+Box3 bounds_in_frame(const Solid& solid, const motion::WorkFrame& frame) {
+    Box3 bounds;
+    if (solid.mesh) {
+        for (const Triangle& t : solid.mesh->triangles) {
+            for (const std::uint32_t corner : t)
+                bounds.include(frame.from_stock(solid.mesh->position(corner)));
+        }
+        return bounds;
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto side = [&](int axis) {
+            return (corner >> axis & 1) != 0 ? solid.box_mm.max[axis] : solid.box_mm.min[axis];
+        };
+        bounds.include(frame.from_stock({side(0), side(1), side(2)}));
+    }
+    return bounds;
+}
+
+}  // namespace
+
+Solid box_solid(const Box3& box_mm) {
+    Solid solid;
+    solid.shape = std::make_unique<field::BoxShape>(box_mm);
+    solid.volume_mm3 = box_mm.volume();
+    solid.box_mm = box_mm;
+    Hash hash;
+    hash.add(box_mm.min);
+    hash.add(box_mm.max);
+    solid.hash = hash.value();
+    return solid;
+}
+
+Result<Solid> mesh_solid(TriangleMesh mesh, const std::string& file) {
+    auto shape = field::MeshShape::make(std::move(mesh));
+    if (!shape) {
+        Error error = shape.error();
+        error.file = file;
+        return std::unexpected(std::move(error));
+    }
+    Solid solid;
+    solid.mesh = &(*shape)->mesh();
+    solid.volume_mm3 = volume_mm3(*solid.mesh);
+    Hash hash;
+    for (const auto& p : solid.mesh->positions) {
+        for (const float v : p) hash.add(v);
+    }
+    for (const Triangle& t : solid.mesh->triangles) {
+        for (const auto v : t) hash.add(v);
+    }
+    solid.hash = hash.value();
+    solid.shape = *std::move(shape);
+    return solid;
+}
+
+std::unique_ptr<const field::Shape> in_frame(Solid solid, const motion::WorkFrame& frame) {
+    const bool same = frame.origin_mm == Vec3{} && frame.x == Vec3{1, 0, 0} && frame.y == Vec3{0, 1, 0} &&
+                      frame.z == Vec3{0, 0, 1};
+    if (same) return std::move(solid.shape);
+    const Box3 bounds = bounds_in_frame(solid, frame);
+    if (!solid.mesh && is_along_an_axis(frame.x) && is_along_an_axis(frame.z)) {
+        return std::make_unique<field::BoxShape>(bounds);
+    }
+    return std::make_unique<TurnedShape>(std::move(solid.shape), frame, bounds);
+}
+
+}  // namespace tribo::job

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+
+#include "job/toml/sections.hpp"
+
+namespace tribo::job {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv, "corner_mm"sv,
+                                 "flutes"sv,     "helix_deg"sv, "length_mm"sv,   "runout_mm"sv,
+                                 "runout_deg"sv, "pitch_deg"sv, "holder"sv,      "core_mm"sv};
+constexpr std::array kKindWords{"flat"sv, "ball"sv, "bull"sv};
+constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
+constexpr int kLargestToolNumber = 999'999;
+
+// Steps from the bottom up: [[holder]] tables with one step each, or one [holder] whose keys are lists.
+std::vector<milling::HolderStep> read_holder(TomlSection& owner) {
+    std::vector<milling::HolderStep> steps;
+    for (const toml::table* table : owner.tables("holder")) {
+        TomlSection holder(owner.file(), *table, "[holder]", kHolderKeys);
+        for (const std::string_view key : kHolderKeys) {
+            if (!holder.has(key)) holder.missing(key);
+        }
+        const auto diameters = holder.numbers("diameter_mm", kPositive);
+        const auto lengths = holder.numbers("length_mm", kPositive);
+        if (!diameters || !lengths) continue;
+        if (diameters->size() != lengths->size()) {
+            holder.fail("length_mm",
+                        "a holder of " + std::to_string(diameters->size()) + " diameters has " +
+                            std::to_string(lengths->size()) + " lengths",
+                        "give each step one of both, from the bottom up");
+            continue;
+        }
+        for (std::size_t i = 0; i < diameters->size(); ++i) steps.push_back({(*diameters)[i], (*lengths)[i]});
+    }
+    return steps;
+}
+
+// milling::check names the key that is wrong; the message goes to the line of that key.
+void check_cutter(TomlSection& section, const milling::Cutter& cutter) {
+    const Result<void> checked = milling::check(cutter);
+    if (checked || !section.file().ok()) return;
+    std::string_view culprit = "kind";
+    std::size_t earliest = std::string::npos;
+    for (const std::string_view key : kCutterKeys) {
+        const std::size_t at = checked.error().cause.find(key);
+        if (at < earliest && key != "kind" && key != "number") {
+            earliest = at;
+            culprit = key;
+        }
+    }
+    section.fail(culprit, checked.error().cause, checked.error().remedy);
+}
+
+milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std::string& label) {
+    TomlSection section(file, table, label, kCutterKeys);
+    milling::Cutter cutter;
+    cutter.number = section.integer("number", 1, kLargestToolNumber).value_or(0);
+    if (!section.has("kind")) section.missing("kind");
+    cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kKindWords).value_or(0));
+    cutter.diameter_mm = section.required_number("diameter_mm");
+    if (cutter.kind == milling::CutterKind::bull) {
+        cutter.corner_mm = section.required_number("corner_mm");
+    } else if (section.has("corner_mm")) {
+        section.fail("corner_mm",
+                     "a " + std::string(kKindWords[static_cast<std::size_t>(cutter.kind)]) +
+                         " cutter has no 'corner_mm'",
+                     "remove it or write kind = \"bull\"");
+    }
+    cutter.flutes = section.integer("flutes", 1, 64).value_or(cutter.flutes);
+    cutter.helix_deg = section.number("helix_deg").value_or(cutter.helix_deg);
+    cutter.core_mm = section.number("core_mm").value_or(0);
+    cutter.length_mm = section.number("length_mm").value_or(cutter.length_mm);
+    cutter.runout_mm = section.number("runout_mm").value_or(0);
+    cutter.runout_deg = section.number("runout_deg").value_or(0);
+    cutter.pitch_deg = section.numbers("pitch_deg").value_or(std::vector<double>());
+    cutter.holder = read_holder(section);
+    check_cutter(section, cutter);
+    return cutter;
+}
+
+}  // namespace
+
+std::vector<milling::Cutter> read_cutters(TomlSection& job) {
+    const std::vector<const toml::table*> tables = job.tables("cutter");
+    const std::string label = tables.size() > 1 ? "[[cutter]]" : "[cutter]";
+    std::vector<milling::Cutter> cutters;
+    for (const toml::table* table : tables) {
+        const milling::Cutter cutter = read_cutter(job.file(), *table, label);
+        if (tables.size() > 1 && cutter.number == 0) {
+            job.file().fail(table->source(), "one of several cutters has no 'number'",
+                            "add number = T, the tool number by which the program calls it");
+        }
+        for (const milling::Cutter& other : cutters) {
+            if (other.number != cutter.number || cutter.number == 0) continue;
+            job.file().fail(table->get("number")->source(),
+                            "two cutters have the number " + std::to_string(cutter.number),
+                            "give each its own");
+        }
+        cutters.push_back(cutter);
+    }
+    const std::vector<milling::HolderStep> common = read_holder(job);
+    for (milling::Cutter& cutter : cutters) {
+        if (cutter.holder.empty()) cutter.holder = common;
+    }
+    return cutters;
+}
+
+}  // namespace tribo::job

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "job/toml/jnd_profile_toml.hpp"
+
+#include <array>
+
+#include "base/math.hpp"
+#include "job/toml/toml_section.hpp"
+
+namespace tribo::job {
+namespace {
+
+using namespace std::string_view_literals;
+
+// Beyond these a difference is not noticeable but overwhelming.
+constexpr Range kFraction{0, 1, true};
+constexpr Range kDegrees{0, 90, true};
+constexpr Range kDecibels{0, 20, true};
+constexpr Range kFloorNewtons{0, 10, true};
+
+}  // namespace
+
+Result<contact::JndProfile> parse_jnd_profile(std::string_view text, const std::string& name) {
+    static constexpr std::array keys{"force_magnitude"sv,     "force_direction_deg"sv,
+                                     "vibration_amplitude"sv, "vibration_frequency"sv,
+                                     "sound_level_db"sv,      "pitch"sv,
+                                     "force_floor_n"sv,       "vibration_floor_n"sv};
+    const Result<toml::table> parsed = parse_toml(text, name);
+    if (!parsed) return std::unexpected(parsed.error());
+    TomlFile file(name);
+    TomlSection section(file, *parsed, "", keys);
+    contact::JndProfile p;
+    const auto read = [&](std::string_view key, Range range, double& value) {
+        value = section.number(key, range).value_or(value);
+    };
+    double direction_deg = p.force_direction_rad / math::kRadPerDeg;
+    read("force_magnitude", kFraction, p.force_magnitude);
+    read("force_direction_deg", kDegrees, direction_deg);
+    read("vibration_amplitude", kFraction, p.vibration_amplitude);
+    read("vibration_frequency", kFraction, p.vibration_frequency);
+    read("sound_level_db", kDecibels, p.sound_level_db);
+    read("pitch", kFraction, p.pitch);
+    read("force_floor_n", kFloorNewtons, p.force_floor_n);
+    read("vibration_floor_n", kFloorNewtons, p.vibration_floor_n);
+    p.force_direction_rad = direction_deg * math::kRadPerDeg;
+    if (!file.ok()) return std::unexpected(file.error());
+    return p;
+}
+
+FileResult<contact::JndProfile> read_jnd_profile(const std::string& path) {
+    const FileResult<std::string> text = files::read_file(path, kLargestJobBytes);
+    if (!text) return std::unexpected(text.error());
+    const auto profile = parse_jnd_profile(*text, path);
+    if (!profile) return std::unexpected(FileFailure(profile.error()));
+    return *profile;
+}
+
+}  // namespace tribo::job

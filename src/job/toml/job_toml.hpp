@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Reads a job file (TOML; docs/job.md) and checks all that can be checked without opening the files
+// that it names.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "files/files.hpp"
+#include "job/job.hpp"
+
+namespace tribo::job {
+
+// `file` is the job's own name: errors carry it, and paths in the job count from its folder. A machine file
+// that the job names is read too.
+FileResult<job::Job> parse_job(std::string_view text, const std::string& file);
+
+FileResult<job::Job> read_job(const std::string& path);
+
+}  // namespace tribo::job

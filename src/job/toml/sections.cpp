@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "job/toml/sections.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "milling/tool/materials.hpp"
+#include "sound/cut/machine.hpp"
+#include "sound/place/room.hpp"
+#include "sound/play/workshop.hpp"
+
+namespace tribo::job {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kPartKeys{"surface"sv, "unit_mm"sv};
+constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
+                                      "kte_n_per_mm"sv,  "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
+                                   "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
+constexpr std::array kPathKinds{"keyframes"sv, "gcode"sv, "apt"sv};
+constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
+                               "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
+constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
+constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
+constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
+constexpr std::array kSoundKeys{"listener_mm"sv,
+                                "distance_factor"sv,
+                                "reference_distance_m"sv,
+                                "gain_db"sv,
+                                "bits"sv,
+                                "hrtf"sv,
+                                "mode"sv,
+                                "recording"sv,
+                                "recording_rpm"sv,
+                                "recording_share"sv,
+                                "idle_recording"sv,
+                                "chips"sv,
+                                "idle_recording_rpm"sv,
+                                "equalize"sv,
+                                "machine"sv,
+                                "room"sv,
+                                "cut_db"sv,
+                                "spindle_db"sv,
+                                "chips_db"sv,
+                                "room_db"sv};
+constexpr std::array kSoundModes{"hrtf"sv, "sphere"sv, "pan"sv};
+constexpr std::array kEqualizations{"diffuse"sv, "none"sv};
+constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "probe"sv,
+                                  "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
+constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
+
+constexpr double kLargestGainDb = 120;
+constexpr double kLargestFriction = 10;
+
+}  // namespace
+
+readers::ModelFile read_part(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[part]", kPartKeys);
+    return {section.required_path("surface"), read_unit_mm(section)};
+}
+
+job::JobMaterial read_material(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[material]", kMaterialKeys);
+    job::JobMaterial material;
+    std::string_view present;
+    for (const std::string_view key : kCoefficientKeys) {
+        if (present.empty() && section.has(key)) present = key;
+    }
+    if (section.has("name") && !present.empty()) {
+        section.fail(present, "[material] has both a name and coefficients of its own",
+                     "keep the name or the six coefficients");
+    } else if (section.has("name")) {
+        material.name = section.text("name").value_or("");
+        const Result<milling::Material> known = milling::find_material(material.name);
+        if (!known) section.fail("name", known.error().cause, known.error().remedy);
+    } else if (!present.empty()) {
+        milling::CuttingCoefficients k;
+        double* const values[] = {&k.ktc, &k.krc, &k.kac, &k.kte, &k.kre, &k.kae};
+        for (std::size_t i = 0; i < kCoefficientKeys.size(); ++i) {
+            *values[i] = section.required_number(kCoefficientKeys[i]);
+        }
+        const Result<void> checked = milling::check(k);
+        if (!checked) {  // the message begins with the coefficient's letters
+            const std::string letters = checked.error().cause.substr(0, 3);
+            const auto key = std::find_if(kCoefficientKeys.begin(), kCoefficientKeys.end(),
+                                          [&](std::string_view name) { return name.starts_with(letters); });
+            section.fail(key == kCoefficientKeys.end() ? present : *key, checked.error().cause,
+                         checked.error().remedy);
+        }
+        material.coefficients = k;
+    } else {
+        section.fail("", "[material] has no name and no coefficients",
+                     "write name = \"al7075-t6\" or ktc_n_per_mm2, krc_, kac_, kte_n_per_mm, kre_ and kae_");
+    }
+    return material;
+}
+
+job::JobProcess read_process(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[process]", kProcessKeys);
+    return {section.number("spindle_rpm", kPositive).value_or(0),
+            section.number("feed_mm_per_min", kPositive).value_or(0)};
+}
+
+job::JobPath read_path(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[path]", kPathKeys);
+    job::JobPath path;
+    std::string_view kind;
+    for (std::size_t i = 0; i < kPathKinds.size(); ++i) {
+        if (!section.has(kPathKinds[i])) continue;
+        if (!kind.empty()) {
+            section.fail(
+                kPathKinds[i],
+                "[path] has both '" + std::string(kind) + "' and '" + std::string(kPathKinds[i]) + "'",
+                "keep one of them");
+            return path;
+        }
+        kind = kPathKinds[i];
+        path.kind = static_cast<job::PathKind>(i);
+        path.file = section.required_path(kind);
+    }
+    if (kind.empty()) {
+        section.fail("", "[path] names no program",
+                     "write keyframes = \"F.csv\", gcode = \"F.ngc\" or apt = \"F.apt\"");
+    }
+    for (const std::string_view key : {"interpolation"sv, "unit_mm"sv}) {
+        if (path.kind != job::PathKind::keyframes && section.has(key)) {
+            section.fail(key, "'" + std::string(key) + "' belongs to keyframes",
+                         "remove it: the program says it itself");
+        }
+    }
+    if (path.kind != job::PathKind::gcode && section.has("machine")) {
+        section.fail("machine", "'machine' belongs to G-code: other paths hold the tool's axis already",
+                     "remove it");
+    }
+    if (path.kind == job::PathKind::keyframes && section.has("tools")) {
+        section.fail("tools", "'tools' belongs to a program: keyframes call no tool",
+                     "describe it as [cutter]");
+    }
+    path.tools = section.path("tools").value_or("");
+    if (path.kind != job::PathKind::gcode && section.has("dialect")) {
+        section.fail("dialect", "'dialect' belongs to G-code", "remove it");
+    }
+    if (const auto dialect = section.word("dialect", kDialectWords)) {
+        path.dialect = static_cast<readers::Dialect>(*dialect);
+    }
+    path.interpolation =
+        static_cast<motion::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
+    path.machine = section.text("machine").value_or("");
+    if (is_machine_file(path.machine)) {
+        path.machine = file.beside(path.machine);
+    } else if (!path.machine.empty()) {
+        const Result<motion::Machine> known = motion::named_machine(path.machine);
+        if (!known) section.fail("machine", known.error().cause, known.error().remedy);
+    }
+    path.unit_mm = read_unit_mm(section).value_or(1);
+    return path;
+}
+
+job::JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[engagement]", kEngagementKeys);
+    job::JobEngagement engagement;
+    engagement.entry_deg = section.required_number("entry_deg", {0, 360});
+    engagement.exit_deg = section.required_number("exit_deg", {0, 360});
+    engagement.axial_depth_mm = section.required_number("axial_depth_mm", kPositive);
+    if (engagement.exit_deg <= engagement.entry_deg) {
+        section.fail("exit_deg", "'exit_deg' is not behind 'entry_deg'",
+                     "angles run clockwise from the left of the feed: up-milling starts at 0, down-milling "
+                     "ends at 180");
+    }
+    return engagement;
+}
+
+template <class Named>
+std::vector<std::string_view> names_of(std::span<const Named> all) {
+    std::vector<std::string_view> names;
+    for (const Named& n : all) names.push_back(n.name);
+    return names;
+}
+
+job::JobSound read_sound(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[sound]", kSoundKeys);
+    job::JobSound sound;
+    sound.listener_mm = section.point("listener_mm");
+    sound.distance_factor = section.number("distance_factor", kPositive).value_or(sound.distance_factor);
+    sound.reference_distance_m =
+        section.number("reference_distance_m", {0.05, 100}).value_or(sound.reference_distance_m);
+    sound.gain_db = section.number("gain_db", {-kLargestGainDb, kLargestGainDb}).value_or(sound.gain_db);
+    sound.bits = section.integer("bits", 16, 32).value_or(sound.bits);
+    if (sound.bits != 16 && sound.bits != 24 && sound.bits != 32) {
+        section.fail("bits", "'bits' is " + std::to_string(sound.bits), "try 16, 24 or 32");
+    }
+    if (const auto mode = section.word("mode", kSoundModes)) sound.mode = static_cast<job::SoundMode>(*mode);
+    sound.hrtf = section.path("hrtf").value_or("");
+    if (!sound.hrtf.empty() && sound.mode && *sound.mode != job::SoundMode::hrtf) {
+        section.fail("hrtf", "'hrtf' names a file, but the mode does not use it",
+                     "write mode = \"hrtf\" or remove it");
+    }
+    sound.as_measured = section.word("equalize", kEqualizations).value_or(0) == 1;
+    if (section.has("equalize") && sound.mode.value_or(job::SoundMode::hrtf) != job::SoundMode::hrtf) {
+        section.fail("equalize", "'equalize' is for measured heads, but the mode uses none",
+                     "write mode = \"hrtf\" or remove it");
+    }
+    sound.recording = section.path("recording").value_or("");
+    sound.idle_recording = section.path("idle_recording").value_or("");
+    sound.chips = section.path("chips").value_or("");
+    // The speed at which something was recorded belongs to the recording, and the other way round.
+    const auto recorded_rpm = [&](std::string_view file, std::string_view key, bool there) {
+        if (there) return section.required_number(key, kPositive);
+        if (section.has(key)) {
+            section.fail(key, "'" + std::string(key) + "' belongs to '" + std::string(file) + "'",
+                         "name the recording, or remove it");
+        }
+        return 0.0;
+    };
+    sound.recording_rpm = recorded_rpm("recording", "recording_rpm", !sound.recording.empty());
+    sound.idle_recording_rpm =
+        recorded_rpm("idle_recording", "idle_recording_rpm", !sound.idle_recording.empty());
+    if (sound.recording.empty() && section.has("recording_share")) {
+        section.fail("recording_share", "'recording_share' belongs to 'recording'",
+                     "name the recording, or remove it");
+    }
+    sound.recording_share = section.number("recording_share", {0, 1}).value_or(sound.recording_share);
+    if (const auto n = section.word("machine", names_of(sound::machines())))
+        sound.machine = sound::machines()[*n].name;
+    // Force and vibration alone have no room around them, unless one is asked for.
+    if (sound.machine == sound::machines()[0].name) sound.room = sound::rooms()[0].name;
+    if (const auto n = section.word("room", names_of(sound::rooms()))) sound.room = sound::rooms()[*n].name;
+    const auto level = [&](std::string_view key) {
+        return section.number(key, {-sound::kLargestLevelDb, sound::kLargestLevelDb}).value_or(0);
+    };
+    sound.cut_db = level("cut_db");
+    sound.spindle_db = level("spindle_db");
+    sound.chips_db = level("chips_db");
+    sound.room_db = level("room_db");
+    return sound;
+}
+
+job::JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[haptics]", kHapticsKeys);
+    job::JobHaptics haptics;
+    haptics.force_scale = section.number("force_scale", kPositive).value_or(haptics.force_scale);
+    haptics.profile = section.path("profile").value_or("");
+    haptics.probe = static_cast<job::ProbeKind>(section.word("probe", kProbeWords).value_or(0));
+    haptics.friction_static = section.number("friction_static", {0, kLargestFriction});
+    haptics.friction_kinetic = section.number("friction_kinetic", {0, kLargestFriction});
+    if (haptics.friction_static && haptics.friction_kinetic &&
+        *haptics.friction_kinetic > *haptics.friction_static) {
+        section.fail("friction_kinetic", "'friction_kinetic' is above 'friction_static'", "exchange them");
+    }
+    haptics.stiffness_n_per_mm = section.number("stiffness_n_per_mm", kPositive);
+    return haptics;
+}
+
+}  // namespace tribo::job

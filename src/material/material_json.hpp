@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Material files: JSON, described in docs/material.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "base/result.hpp"
+#include "files/files.hpp"
+#include "material/material.hpp"
+
+namespace tribo::material {
+
+inline constexpr const char* kMaterialSchema = "tribo.material/1";
+inline constexpr std::uint64_t kLargestMaterialBytes = std::uint64_t{16} << 20;
+
+// Strict: every key is known, every number in range, models in order and stable. Never throws.
+Result<material::Material> parse_material(std::string_view text, const std::string& source_name);
+
+// Reads a file; `image` stays relative to it.
+FileResult<material::Material> read_material(const std::string& path);
+
+// The text that parse_material reads back to the same material. Ends with a line end.
+std::string material_json(const material::Material& material);
+
+// Whether text that is JSON claims to be a material, right or wrong in its rest.
+bool looks_like_material(std::string_view text);
+
+}  // namespace tribo::material

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "milling/engagement/contact_scout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "milling/tool/material_arcs.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// So many even rows at most, none shorter than this share of a cell; the first and the last are halved so
+// often.
+constexpr int kRows = 32;
+constexpr double kLeastCells = 1;
+constexpr int kHalvings = 5;
+constexpr double kColumnRad = math::kTwoPi / 64;
+
+}  // namespace
+
+ContactScout::ContactScout(const Cutter& cutter)
+    : profile_(cutter), radius_mm_(cutter.radius_mm()), length_mm_(cutter.length_mm) {
+    const std::size_t most = kRows + 2 * kHalvings + 1;
+    borders_.reserve(most);
+    windows_.reserve(most);
+    engaged_.reserve(most);
+}
+
+void ContactScout::set_rows(double s0, double s1, double cell) {
+    const int even = std::clamp(static_cast<int>(std::ceil((s1 - s0) / (kLeastCells * cell))), 4, kRows);
+    const double height = (s1 - s0) / even;
+    borders_.clear();
+    borders_.push_back(s0);
+    for (int n = kHalvings; n > 0; --n) borders_.push_back(s0 + std::ldexp(height, -n));
+    for (int n = 1; n < even; ++n) borders_.push_back(s0 + n * height);
+    for (int n = 1; n <= kHalvings; ++n) borders_.push_back(s1 - std::ldexp(height, -n));
+    borders_.push_back(s1);
+}
+
+void ContactScout::set_windows(const CutPose& pose) {
+    const std::size_t rows = borders_.size() - 1;
+    windows_.assign(rows, 0);
+    const bool cylinder = borders_.front() >= profile_.corner_end();
+    const bool alike = !pose.travel.turns() && (pose.travel.down_mm == 0 || cylinder);
+    for (std::size_t row = 0; row < rows; ++row) {
+        if (alike && row > 0) {
+            windows_[row] = windows_[0];
+            continue;
+        }
+        const TurnWindow w = moving_outward(pose, profile_.at(middle(static_cast<int>(row))), length_mm_);
+        if (w.empty()) continue;
+        front_ = 0.5 * (w.from_rad + w.to_rad) / kColumnRad;
+        const int first = static_cast<int>(std::floor(w.from_rad / kColumnRad - 0.5)) + 1;
+        const int last = static_cast<int>(std::ceil(w.to_rad / kColumnRad - 0.5)) - 1;
+        for (int column = first; column <= last; ++column)
+            windows_[row] |= std::uint64_t{1} << (column & (kColumns - 1));
+    }
+}
+
+void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, Patch p) {
+    const auto known = [&](int row) { return engaged_[static_cast<std::size_t>(row)] != 0; };
+    while (p.row0 < p.row1 && known(p.row0)) ++p.row0;
+    while (p.row0 < p.row1 && known(p.row1 - 1)) --p.row1;
+    if (p.row0 == p.row1) return;
+    const int columns = p.column1 - p.column0;
+    const std::uint64_t all = columns == kColumns ? ~std::uint64_t{0} : (std::uint64_t{1} << columns) - 1;
+    const std::uint64_t mask = all << p.column0;
+    std::uint64_t outward = 0;
+    for (int row = p.row0; row < p.row1; ++row) outward |= windows_[static_cast<std::size_t>(row)];
+    if ((outward & mask) == 0) return;
+
+    // No cell's middle is further from the patch's than along the meridian and then around the axis.
+    const double s0 = middle(p.row0), s1 = middle(p.row1 - 1);
+    const double widest = std::min(radius_mm_, s1);
+    const double half_s = 0.5 * (s1 - s0), half_turn = 0.5 * (columns - 1) * kColumnRad * widest;
+    const double reach = std::sqrt(half_s * half_s + half_turn * half_turn);
+    if (reach < radius_mm_) {
+        const ProfilePoint at = profile_.at(0.5 * (s0 + s1));
+        const AxisCircle circle{pose.on_axis(at.height_mm), at.radius_mm * pose.frame.x,
+                                at.radius_mm * pose.frame.y, at.radius_mm};
+        // The middle of the columns, in places.
+        constexpr int kPlaces = kTurnPlaces / kColumns;
+        static_assert(kPlaces == 2);
+        const double way =
+            stock.clear_way_mm(circle.at_place(p.column0 + p.column1), 1.01 * reach + kSkin) + kSkin;
+        if (way > reach || (reach == 0 && way >= 0)) return;
+        if (way < -reach) {
+            for (int row = p.row0; row < p.row1; ++row) {
+                const auto n = static_cast<std::size_t>(row);
+                if ((windows_[n] & mask) != 0) engaged_[n] = 1;
+            }
+            return;
+        }
+    }
+    Patch low = p, high = p;
+    if (half_s > half_turn) {
+        low.row1 = high.row0 = (p.row0 + p.row1) / 2;
+    } else {
+        low.column1 = high.column0 = (p.column0 + p.column1) / 2;
+    }
+    // First where the envelope moves outward fastest, as there most often is material, and a row counts once.
+    const auto off = [&](const Patch& part) {
+        const double turn = (0.5 * (part.column0 + part.column1) - front_) / kColumns;
+        return std::abs(turn - std::floor(turn + 0.5));
+    };
+    if (off(high) < off(low)) std::swap(low, high);
+    search(stock, pose, low);
+    search(stock, pose, high);
+}
+
+void ContactScout::look(const field::CarvedView& stock, const CutPose& pose, double s0, double s1,
+                        std::vector<MeridianStretch>& out) {
+    set_rows(s0, s1, stock.field().cell_mm());
+    set_windows(pose);
+    const std::size_t rows = windows_.size();
+    engaged_.assign(rows, 0);
+    search(stock, pose, {0, static_cast<int>(rows), 0, kColumns});
+    for (std::size_t n = 0; n < rows; ++n) {
+        const bool before = n > 0 && engaged_[n - 1], after = n + 1 < rows && engaged_[n + 1];
+        if (engaged_[n] && before) {
+            out.back().s1_mm = borders_[n + 1];
+        } else if (engaged_[n] || before || after) {
+            out.push_back({borders_[n], borders_[n + 1], engaged_[n] != 0});
+        }
+    }
+}
+
+}  // namespace tribo::milling

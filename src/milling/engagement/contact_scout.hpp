@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Finds the stretches of a cutter's meridian on which it meets material.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "field/carved/carved_view.hpp"
+#include "milling/tool/cut_pose.hpp"
+#include "milling/tool/cutter_profile.hpp"
+
+namespace tribo::milling {
+
+// From s0 to s1 along the meridian, mm.
+struct MeridianStretch {
+    double s0_mm = 0, s1_mm = 0;
+    bool engaged = false;
+};
+
+// Divides a part of the envelope into rows along the meridian, finer towards its ends, and 64 columns around
+// the axis. Material counts where it holds the middle of a cell that moves outward. Whole patches of cells
+// are decided at once where no border can be near, so that few cells are looked at; the answer depends on the
+// material alone. Keeps scratch space: not for several threads at once; no allocation once warm.
+class ContactScout {
+  public:
+    explicit ContactScout(const Cutter& cutter);
+
+    // Appends the engaged stretches between s0 and s1, in order, and the row without contact before and
+    // after each. The part must lie on one side of the profile's corner ends.
+    void look(const field::CarvedView& stock, const CutPose& pose, double s0_mm, double s1_mm,
+              std::vector<MeridianStretch>& out);
+
+  private:
+    static constexpr int kColumns = 64;
+    struct Patch {
+        int row0, row1, column0, column1;
+    };
+    void set_rows(double s0, double s1, double cell);
+    void set_windows(const CutPose& pose);
+    void search(const field::CarvedView& stock, const CutPose& pose, Patch patch);
+    double middle(int row) const {
+        const auto n = static_cast<std::size_t>(row);
+        return 0.5 * (borders_[n] + borders_[n + 1]);
+    }
+
+    CutterProfile profile_;
+    double radius_mm_, length_mm_;
+    std::vector<double> borders_;         // of the rows, one more than these
+    std::vector<std::uint64_t> windows_;  // by row: the columns that move outward
+    std::vector<char> engaged_;           // by row
+    double front_ = 0;                    // column in the middle of the last window
+};
+
+}  // namespace tribo::milling

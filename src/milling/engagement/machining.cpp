@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+#include "milling/engagement/machining.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "field/shape/shape_overlap.hpp"
+#include "milling/engagement/joined_moves.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// An overlap of shank, holder or fixture counts from this depth on: a shank as thick as its cutter slides
+// along the wall that the cutter left.
+constexpr double kClearance = 0.05;  // mm
+// Steps and rows that are looked at together, and how many earlier sweeps of the same run may stand in the
+// way of one: with more it is cheaper to carve them first.
+constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
+// Rows are shared out in so many parts, each with probes of its own.
+constexpr std::size_t kShares = 16;
+// What cuts of a row in which contact begins or ends is divided into so many rows.
+constexpr int kTurnParts = 4;
+// Around a sweep, for what rounding makes of a point on its border.
+constexpr double kMargin = 1e-3;  // mm
+
+// A rapid that takes less than this has only brushed a surface that was cut before.
+constexpr double kBrush = 1e-4;  // mm3
+
+motion::Move raised(motion::Move move, double height) {
+    move.start.tip_mm += height * move.start.axis;
+    move.end.tip_mm += height * move.end.axis;
+    if (move.quadratic) move.quadratic->tip_control_mm += height * move.quadratic->axis_control;
+    if (move.arc) move.arc->centre_mm += height * move.start.axis;
+    return move;
+}
+
+// Where a path bends more sharply than the cutter is wide, earlier parts of the move itself cut ahead of it.
+bool meets_itself(const motion::Move& move, const Cutter& cutter) {
+    constexpr double kSharp = 0.5;  // of the cutter's radius over the path's
+    return (move.arc || move.quadratic) && motion::max_curvature_per_mm(move) * cutter.radius_mm() > kSharp;
+}
+
+}  // namespace
+
+const char* name(CollisionKind kind) {
+    switch (kind) {
+        case CollisionKind::rapid_through_stock:
+            return "rapid-through-stock";
+        case CollisionKind::shank:
+            return "shank-in-stock";
+        case CollisionKind::holder:
+            return "holder-in-stock";
+        case CollisionKind::tool_in_fixture:
+            return "tool-in-fixture";
+        case CollisionKind::holder_in_fixture:
+            return "holder-in-fixture";
+    }
+    return "";
+}
+
+// One step of shank or holder: a cylinder whose lower end stands `height_mm` above the tip.
+struct Machining::Cylinder {
+    CollisionKind in_stock;
+    Cutter solid;
+    double height_mm = 0;
+};
+
+// One step of the run that is going on.
+struct Machining::Sweep {
+    Step step;
+    const field::Shape* shape = nullptr;  // null for a dwell
+    Box3 bounds_mm;
+    std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut where this one comes
+    double from = 0, to = 1;                   // of the pass that it belongs to
+    double contact = 0;                        // of a rapid: where it first meets stock
+    std::vector<Collision> collisions;
+
+    bool is_rapid() const { return step.move->kind == motion::MoveKind::rapid; }
+};
+
+Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
+                     std::span<const std::unique_ptr<const field::Shape>> fixtures, MachiningOptions options,
+                     ParallelFor parallel)
+    : stock_(stock),
+      cutters_(cutters),
+      fixtures_(fixtures),
+      options_(options),
+      parallel_(std::move(parallel)),
+      probes_(kShares) {
+    for (const Cutter& cutter : cutters_) {
+        for (auto& share : probes_) share.emplace_back(cutter);
+        std::vector<HolderStep> steps = cutter.holder;
+        if (steps.empty()) steps.push_back({cutter.diameter_mm, 2 * cutter.length_mm});
+        std::vector<Cylinder>& body = bodies_.emplace_back();
+        double height = cutter.length_mm;
+        for (const HolderStep& step : steps) {
+            Cylinder& part = body.emplace_back();
+            const bool shank = step.diameter_mm <= cutter.diameter_mm * (1 + 1e-9);
+            part.in_stock = shank ? CollisionKind::shank : CollisionKind::holder;
+            part.solid.kind = CutterKind::flat;
+            part.solid.diameter_mm = step.diameter_mm;
+            part.solid.length_mm = step.length_mm;
+            part.height_mm = height;
+            height += step.length_mm;
+        }
+    }
+}
+
+Machining::~Machining() = default;
+
+std::size_t Machining::pass_end(std::size_t first) const {
+    std::size_t end = first + 1;
+    while (end < sweeps_.size() && sweeps_[end].step.joins) ++end;
+    return end;
+}
+
+motion::ToolPose Machining::pose_at(std::size_t pass, double at) const {
+    std::size_t n = pass;
+    while (at > sweeps_[n].to && n + 1 < sweeps_.size()) ++n;
+    const Sweep& sweep = sweeps_[n];
+    return motion::pose_at(*sweep.step.move, (at - sweep.from) / (sweep.to - sweep.from));
+}
+
+double Machining::length_mm(std::size_t pass, double to) const {
+    double sum = 0;
+    for (std::size_t n = pass;; ++n) {
+        const Sweep& sweep = sweeps_[n];
+        if (to <= sweep.to) {
+            return sum +
+                   motion::path_length_mm(*sweep.step.move, (to - sweep.from) / (sweep.to - sweep.from));
+        }
+        sum += motion::path_length_mm(*sweep.step.move);
+    }
+}
+
+// The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
+CutPose Machining::pose_between(std::size_t pass, double from, double to, Vec3& last_x) const {
+    const motion::ToolPose mid = pose_at(pass, 0.5 * (from + to));
+    const motion::ToolPose first = pose_at(pass, from), last = pose_at(pass, to);
+    const Vec3 travel = last.tip_mm - first.tip_mm, turn = last.axis - first.axis;
+    CutPose pose{mid.tip_mm, tool_frame(mid.axis, travel, last_x), {}};
+    last_x = pose.frame.x;
+    pose.travel = {std::max(0.0, dot(travel, pose.frame.x)), -dot(travel, pose.frame.z),
+                   dot(turn, pose.frame.x), dot(turn, pose.frame.y)};
+    return pose;
+}
+
+void Machining::add_pass(std::size_t first, Machined& out) {
+    const std::size_t end = pass_end(first);
+    const Cutter& cutter = cutters_[sweeps_[first].step.cutter];
+    double way = 0, path = 0;
+    for (std::size_t n = first; n < end; ++n) {
+        way += row_way_mm(*sweeps_[n].step.move, cutter);
+        path += motion::path_length_mm(*sweeps_[n].step.move);
+    }
+    double from = 0, travelled = 0;
+    for (std::size_t n = first; n < end; ++n) {
+        travelled += motion::path_length_mm(*sweeps_[n].step.move);
+        sweeps_[n].from = from;
+        sweeps_[n].to = from = n + 1 < end ? travelled / path : 1;
+    }
+    const auto count = static_cast<std::size_t>(rows_of(way, cutter));
+    if (out.rows.size() < out.row_count + count) out.rows.resize(out.row_count + count);
+    travelled = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        CutRow& row = out.rows[out.row_count++];
+        row.step = first;
+        row.from = static_cast<double>(n) / static_cast<double>(count);
+        row.to = static_cast<double>(n + 1) / static_cast<double>(count);
+        const double so_far = length_mm(first, row.to);
+        row.length_mm = so_far - travelled;
+        travelled = so_far;
+        row.pose = pose_between(first, row.from, row.to, last_x_);
+    }
+}
+
+field::CarvedView Machining::before(const Sweep& sweep) const {
+    return {stock_, sweep.earlier};
+}
+
+void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
+                             Machined& out) const {
+    for (std::size_t n = first; n < last; ++n) {
+        CutRow& row = out.rows[n];
+        const Sweep& sweep = sweeps_[row.step];
+        const Cutter& cutter = cutters_[sweep.step.cutter];
+        EngagementProbe& probe = probes[sweep.step.cutter];
+        if (row.from > 0 && sweep.to == 1 && meets_itself(*sweep.step.move, cutter)) {
+            const auto gone = make_sweep(cutter, motion::first_part(*sweep.step.move, row.from));
+            std::vector<field::PendingShape> earlier = sweep.earlier;
+            earlier.push_back({gone.get(), gone->bounds_mm().inflated(kMargin)});
+            probe.measure({stock_, earlier}, row.pose, row.engagement);
+        } else {
+            probe.measure(before(sweep), row.pose, row.engagement);
+        }
+        row.chip_mm3 = chip_mm3(cutter, row.engagement, row.pose.travel);
+    }
+}
+
+bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
+    constexpr double kAround = 1e-4;  // of the pass: for the direction of travel
+    const Sweep& sweep = sweeps_[turn.step];
+    Vec3 x = turn.x;
+    const CutPose pose = pose_between(turn.step, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
+    return probes[sweep.step.cutter].touches(before(sweep), pose);
+}
+
+// A row is judged by its middle. Where one cuts and the next does not, contact turned between their middles.
+// Of two passes only the later one is divided, so that nothing depends on how many are run at once; the end
+// of a pass is one more middle if it cuts, as that of a plunge may.
+void Machining::find_turns(const Machined& out) {
+    turns_.clear();
+    std::size_t row = 0;
+    for (std::size_t step = 0, next_step; step < sweeps_.size(); step = next_step) {
+        next_step = pass_end(step);
+        const Sweep& sweep = sweeps_[step];
+        // Another tool, or one that jumps, comes out of the air like one that comes fast.
+        const bool goes_on = sweep.step.cutter == end_.cutter &&
+                             distance(sweep.step.move->start.tip_mm, end_.tip_mm) < kMargin;
+        Turn last{step, {}, 0, 0, end_.in_cut && goes_on && !sweep.is_rapid()};
+        const std::size_t first = row;
+        for (; row < out.row_count && out.rows[row].step == step; ++row) {
+            const CutRow& r = out.rows[row];
+            Turn next{step, r.pose.frame.x, last.after, 0.5 * (r.from + r.to), !r.engagement.empty()};
+            if (next.into != last.into) turns_.push_back(next);
+            last = next;
+        }
+        if (row > first && !last.into && touches(last, 1, probes_.front())) {
+            last = {step, last.x, last.after, 1, true};
+            turns_.push_back(last);
+        }
+        end_ = {last.into, sweep.step.cutter, sweeps_[next_step - 1].step.move->end.tip_mm};
+    }
+    parallel_(kShares, [&](std::size_t n) {
+        constexpr int kHalvings = 9;
+        for (std::size_t at = turns_.size() * n / kShares; at < turns_.size() * (n + 1) / kShares; ++at) {
+            Turn& turn = turns_[at];
+            for (int k = 0; k < kHalvings; ++k) {
+                const double middle = 0.5 * (turn.before + turn.after);
+                (touches(turn, middle, probes_[n]) == turn.into ? turn.after : turn.before) = middle;
+            }
+        }
+    });
+}
+
+// Divides the rows in which contact turns there, and what cuts of them in parts.
+void Machining::divide_rows_at_turns(Machined& out) {
+    find_turns(out);
+    if (turns_.empty()) return;
+    divided_.clear();
+    fresh_.clear();
+    auto turn = turns_.begin();
+    for (std::size_t n = 0; n < out.row_count; ++n) {
+        CutRow& whole = out.rows[n];
+        Vec3 x = whole.pose.frame.x;
+        const auto add = [&](double from, double to, bool cuts) {
+            const int parts = cuts ? kTurnParts : 1;
+            for (int k = 0; k < parts && to > from; ++k) {
+                fresh_.push_back(divided_.size());
+                CutRow& part = divided_.emplace_back();
+                part.step = whole.step;
+                part.from = from + (to - from) * k / parts;
+                part.to = from + (to - from) * (k + 1) / parts;
+                part.length_mm = length_mm(part.step, part.to) - length_mm(part.step, part.from);
+                part.pose = pose_between(part.step, part.from, part.to, x);
+            }
+        };
+        double from = whole.from;
+        bool is_divided = false, cuts = false;
+        for (; turn != turns_.end() && turn->step == whole.step && turn->after <= whole.to; ++turn) {
+            add(from, turn->after, !turn->into);
+            from = turn->after;
+            is_divided = true;
+            cuts = turn->into;
+        }
+        if (is_divided) {
+            add(from, whole.to, cuts);
+        } else {
+            divided_.push_back(std::move(whole));
+        }
+    }
+    out.rows.swap(divided_);
+    out.row_count = out.rows.size();
+    parallel_(kShares, [&](std::size_t n) {
+        for (std::size_t at = fresh_.size() * n / kShares; at < fresh_.size() * (n + 1) / kShares; ++at)
+            measure_rows(fresh_[at], fresh_[at] + 1, probes_[n], out);
+    });
+}
+
+void Machining::find_contact(std::size_t number, Sweep& sweep) const {
+    if (!stock_.blank().bounds_mm().overlaps(sweep.bounds_mm)) return;
+    const motion::Move& move = *sweep.step.move;
+    const double length = motion::path_length_mm(move);
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(length / options_.rapid_row_mm)));
+    EngagementProbe probe(cutters_[sweep.step.cutter]);
+    Engagement engagement;
+    Vec3 x = any_perpendicular(move.start.axis);
+    for (std::size_t n = 0; n < count; ++n) {
+        const double from = static_cast<double>(n) / static_cast<double>(count);
+        const double to = static_cast<double>(n + 1) / static_cast<double>(count);
+        probe.measure(before(sweep), pose_between(number, from, to, x), engagement);
+        if (engagement.empty()) continue;
+        sweep.contact = from;
+        return;
+    }
+}
+
+void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
+    const motion::Move& move = *sweep.step.move;
+    const auto report = [&](CollisionKind kind, Vec3 place) {
+        // The fraction of the move at which the tip is nearest to the place: where to look in a picture.
+        double best = 0, nearest = 1e300;
+        for (int n = 0; n <= 16; ++n) {
+            const double d = distance(motion::pose_at(move, n / 16.0).tip_mm, place);
+            if (d < nearest) nearest = d, best = n / 16.0;
+        }
+        sweep.collisions.push_back({number, kind, best, motion::pose_at(move, best).tip_mm});
+    };
+    for (const auto& fixture : fixtures_) {
+        if (const auto place = field::shared_place(*sweep.shape, *fixture, kClearance))
+            report(CollisionKind::tool_in_fixture, *place);
+    }
+    for (const Cylinder& part : bodies_[sweep.step.cutter]) {
+        const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
+        // The shank follows the cutter: what this move and those before it take away is not in its way.
+        std::vector<field::PendingShape> gone;
+        const Box3 reach = solid->bounds_mm();
+        for (std::size_t n = 0; n <= number; ++n) {
+            if (sweeps_[n].shape && sweeps_[n].bounds_mm.overlaps(reach))
+                gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
+        }
+        if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
+            report(part.in_stock, *place);
+        for (const auto& fixture : fixtures_) {
+            if (const auto place = field::shared_place(*solid, *fixture, kClearance))
+                report(CollisionKind::holder_in_fixture, *place);
+        }
+    }
+}
+
+bool Machining::add_sweep(const Step& step) {
+    Sweep sweep;
+    sweep.step = step;
+    if (step.move->kind == motion::MoveKind::dwell) {
+        sweeps_.push_back(std::move(sweep));
+        return true;
+    }
+    auto shape = make_sweep(cutters_[step.cutter], *step.move);
+    sweep.shape = shape.get();
+    sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
+    // What joins is measured with the first step of its pass.
+    for (const Sweep& other : sweeps_) {
+        if (step.joins) break;
+        if (!other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
+        if (sweep.earlier.size() == kMostPending) return false;
+        sweep.earlier.push_back({other.shape, other.bounds_mm});
+    }
+    shapes_.push_back(std::move(shape));
+    sweeps_.push_back(std::move(sweep));
+    return true;
+}
+
+std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
+    sweeps_.clear();
+    shapes_.clear();
+    out.row_count = 0;
+    out.collisions.clear();
+    std::size_t pass = 0;
+    for (const Step& step : steps) {
+        if (!step.joins && (sweeps_.size() >= kMostSteps || out.row_count >= kMostRows)) break;
+        if (!add_sweep(step)) break;
+        if (!step.joins) pass = sweeps_.size() - 1;
+        const bool ends = &step == &steps.back() || !(&step + 1)->joins;
+        if (ends && step.move->kind == motion::MoveKind::feed) add_pass(pass, out);
+    }
+    // Rows in shares, then what concerns whole steps.
+    const std::size_t count = sweeps_.size();
+    parallel_(kShares + count, [&](std::size_t n) {
+        if (n < kShares) {
+            measure_rows(out.row_count * n / kShares, out.row_count * (n + 1) / kShares, probes_[n], out);
+            return;
+        }
+        Sweep& sweep = sweeps_[n - kShares];
+        if (!sweep.shape) return;
+        if (sweep.is_rapid()) find_contact(n - kShares, sweep);
+        if (options_.collisions) find_collisions(n - kShares, sweep);
+    });
+    divide_rows_at_turns(out);
+    removed_.resize(shapes_.size());
+    stock_.carve(shapes_, removed_);
+
+    out.removed_mm3.assign(count, 0);
+    std::size_t shape = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        const Sweep& sweep = sweeps_[n];
+        if (!sweep.shape) continue;
+        out.removed_mm3[n] = removed_[shape++];
+        if (sweep.is_rapid() && out.removed_mm3[n] > kBrush) {
+            out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,
+                                      motion::pose_at(*sweep.step.move, sweep.contact).tip_mm});
+        }
+        out.collisions.insert(out.collisions.end(), sweep.collisions.begin(), sweep.collisions.end());
+    }
+    reconcile(out);
+    return count;
+}
+
+// Chips are reconciled with what the stock lost in their pass. The grid knows the volume to some cells only:
+// kRoughCells more stand on both sides, so that the factor of a short pass tends to 1. Up to kSlack the
+// difference is left to the grid's rounding. Each pass is reconciled alone, so that nothing depends on how
+// many are run at once.
+void Machining::reconcile(Machined& out) const {
+    constexpr double kRoughCells = 100;
+    constexpr double kSlack = 0.005;
+    // Beyond these the engagement missed what was cut, and no factor makes a force of it.
+    constexpr double kLeast = 0.5, kMost = 2;
+    const double cell = stock_.cell_mm(), rough = kRoughCells * cell * cell * cell;
+    for (std::size_t first = 0; first < out.row_count;) {
+        const std::size_t step = out.rows[first].step;
+        std::size_t last = first;
+        double chips = 0, lost = 0;
+        for (std::size_t n = step; n < pass_end(step); ++n) lost += out.removed_mm3[n];
+        for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
+        const double ratio = std::clamp((lost + rough) / (chips + rough), kLeast, kMost);
+        const double off = std::max(std::abs(ratio - 1) - kSlack, 0.0);
+        for (; first < last; ++first) {
+            CutRow& row = out.rows[first];
+            row.removed_mm3 = ratio * row.chip_mm3;
+            row.reconciled = ratio > 1 ? 1 + off : 1 - off;
+        }
+    }
+}
+
+}  // namespace tribo::milling

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Tool moves against the stock: what the teeth meet, what is lost, what runs into what.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "field/carved/carved_view.hpp"
+#include "milling/engagement/engagement_probe.hpp"
+#include "milling/tool/cutter.hpp"
+#include "motion/path/program.hpp"
+
+namespace tribo::milling {
+
+// One elementary move (motion::to_elementary) of one of the cutters. The move must outlive the run.
+struct Step {
+    const motion::Move* move;
+    std::size_t cutter;
+    bool joins = false;  // makes one pass with the step before it (JoinedMoves)
+};
+
+// A stretch of a pass short enough for one engagement. A pass is one step with those that join it.
+struct CutRow {
+    std::size_t step = 0;     // the first one of the pass
+    double from = 0, to = 0;  // fractions of the elementary move; of the path where others join it
+    double length_mm = 0;     // of the tip path
+    CutPose pose;             // in the middle; its travel is that of the whole row
+    Engagement engagement;    // in the middle
+    double chip_mm3 = 0;      // what the engagement says is cut
+    double removed_mm3 = 0;   // this row's share of what the stock lost
+    double reconciled = 1;    // what chips are multiplied by so that they fill what the stock lost
+};
+
+enum class CollisionKind { rapid_through_stock, shank, holder, tool_in_fixture, holder_in_fixture };
+const char* name(CollisionKind kind);  // as in summary.json
+
+struct Collision {
+    std::size_t step;
+    CollisionKind kind;
+    double at = 0;  // fraction of the elementary move
+    Vec3 tip_mm;
+};
+
+// What a run of steps gives. Rows beyond row_count are room that a later run may use.
+struct Machined {
+    std::vector<CutRow> rows;
+    std::size_t row_count = 0;
+    std::vector<Collision> collisions;
+    std::vector<double> removed_mm3;  // by step
+};
+
+struct MachiningOptions {
+    double rapid_row_mm = 2;  // how far apart a rapid that touched stock is searched for the place
+    bool collisions = true;
+};
+
+class Machining {
+  public:
+    // The field, the cutters and the fixtures must outlive it. Fixtures are only ever tested, never cut.
+    Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
+              std::span<const std::unique_ptr<const field::Shape>> fixtures, MachiningOptions options = {},
+              ParallelFor parallel = serial_for);
+    ~Machining();
+
+    // Runs the first of the steps: as many, at least one pass, as are worth looking at together, on all
+    // threads. Gives their number. What comes out depends on the steps alone, not on the threads. The first
+    // step joins no other, and all that join the last one are there.
+    std::size_t run(std::span<const Step> steps, Machined& out);
+
+  private:
+    struct Cylinder;
+    struct Sweep;
+    // False where too many earlier sweeps of this run stand in the step's way.
+    bool add_sweep(const Step& step);
+    // Ends the pass that begins with that sweep and goes on to the last one.
+    void add_pass(std::size_t first, Machined& out);
+    std::size_t pass_end(std::size_t first) const;
+    // On the pass that begins with that sweep.
+    motion::ToolPose pose_at(std::size_t pass, double at) const;
+    double length_mm(std::size_t pass, double to) const;
+    CutPose pose_between(std::size_t pass, double from, double to, Vec3& last_x) const;
+    void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
+                      Machined& out) const;
+    field::CarvedView before(const Sweep& sweep) const;
+    // A place on a pass where contact begins (`into`) or ends, between two fractions of it; `x` stands in for
+    // the direction of travel.
+    struct Turn {
+        std::size_t step = 0;  // the first one of the pass
+        Vec3 x;
+        double before = 0, after = 0;
+        bool into = false;
+    };
+    bool touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const;
+    void find_turns(const Machined& out);
+    void divide_rows_at_turns(Machined& out);
+    void find_contact(std::size_t number, Sweep& sweep) const;
+    void find_collisions(std::size_t number, Sweep& sweep) const;
+    void reconcile(Machined& out) const;
+
+    field::CarvedField& stock_;
+    std::span<const Cutter> cutters_;
+    std::span<const std::unique_ptr<const field::Shape>> fixtures_;
+    MachiningOptions options_;
+    ParallelFor parallel_;
+    std::vector<std::vector<EngagementProbe>> probes_;  // by share of the work, then by cutter
+    std::vector<std::vector<Cylinder>> bodies_;
+    Vec3 last_x_{1, 0, 0};  // stock +x until the tool has moved across its axis
+    // At the end of what was run before.
+    struct End {
+        bool in_cut = false;
+        std::size_t cutter = 0;
+        Vec3 tip_mm;
+    } end_;
+    // Of the run that is going on.
+    std::vector<Sweep> sweeps_;
+    std::vector<std::unique_ptr<const field::Shape>> shapes_;
+    std::vector<double> removed_;  // by shape
+    std::vector<Turn> turns_;
+    std::vector<CutRow> divided_;
+    std::vector<std::size_t> fresh_;  // of the divided rows, those to be measured
+};
+
+}  // namespace tribo::milling

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "milling/force/edge_force.hpp"
+
+#include <cmath>
+
+#include "base/math.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// Taylor series, good to 1e-16 up to here; most pieces of an edge turn less.
+constexpr double kSeriesRad = 0.5;
+
+void sinc_and_cos(double x, double& sinc, double& cosine) {
+    if (x > kSeriesRad) {
+        double sine;
+        math::sincos(x, sine, cosine);
+        sinc = sine / x;
+        return;
+    }
+    const double z = x * x;
+    sinc = 1 - z * (1.0 / 6) *
+                   (1 - z * (1.0 / 20) *
+                            (1 - z * (1.0 / 42) *
+                                     (1 - z * (1.0 / 72) * (1 - z * (1.0 / 110) * (1 - z * (1.0 / 156))))));
+    cosine = 1 - z * (1.0 / 2) *
+                     (1 - z * (1.0 / 12) *
+                              (1 - z * (1.0 / 30) *
+                                       (1 - z * (1.0 / 56) *
+                                                (1 - z * (1.0 / 90) *
+                                                         (1 - z * (1.0 / 132) * (1 - z * (1.0 / 182)))))));
+}
+
+}  // namespace
+
+TurnWindow window_above(const TurnLaw& law, double least) {
+    const double slope = math::hypot(law.sine, law.cosine), base = law.constant - least;
+    if (!(slope + base > 0)) return {};
+    if (base >= slope) return {0, math::kTwoPi};
+    const double border = math::asin(-base / slope);
+    const double from = border - math::atan2(law.cosine, law.sine);
+    const double start = from - math::kTwoPi * std::floor(from / math::kTwoPi);
+    return {start, start + math::kPi - 2 * border};
+}
+
+TurnLaw normal_travel(const ToolTravel& travel, const ProfilePoint& at) {
+    // The normal is (sin kappa sin phi, sin kappa cos phi, -cos kappa).
+    const double arm = at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa;
+    return {travel.across_mm * at.sin_kappa + travel.turn_x_rad * arm, travel.turn_y_rad * arm,
+            travel.down_mm * at.cos_kappa};
+}
+
+TurnLaw thickness(const Chip& chip, const ProfilePoint& at) {
+    TurnLaw h = normal_travel(chip.travel, at);
+    h.constant += chip.offset_mm * at.sin_kappa;
+    return h;
+}
+
+EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const ProfilePoint& at) {
+    const TurnLaw h = thickness(chip, at);
+    const auto law = [&](double shear, double edge) {
+        return TurnLaw{shear * h.sine, shear * h.cosine, shear * h.constant + edge};
+    };
+    const double s = at.sin_kappa, c = at.cos_kappa, radius = at.radius_mm;
+    return {.t = law(k.ktc, k.kte),
+            .r = law(k.krc * s + k.kac * c, k.kre * s + k.kae * c),
+            .a = law(k.krc * c - k.kac * s, k.kre * c - k.kae * s),
+            .m = law(radius * k.ktc, radius * k.kte)};
+}
+
+EdgeLoad bottom_load(const CuttingCoefficients& k, const ToolTravel& travel, double r0_mm, double r1_mm) {
+    const double width = r1_mm - r0_mm, middle = 0.5 * (r0_mm + r1_mm);
+    const double first = width * middle;                                                // integral of r
+    const double second = width * (r0_mm * r0_mm + r0_mm * r1_mm + r1_mm * r1_mm) / 3;  // of r^2
+    // `of_one` and `of_r` are the integrals that the constant and the turning part of the chip are
+    // multiplied by.
+    const auto law = [&](double shear, double edge, double of_one, double of_r) {
+        return TurnLaw{shear * travel.turn_x_rad * of_r, shear * travel.turn_y_rad * of_r,
+                       (shear * travel.down_mm + edge) * of_one};
+    };
+    return {.t = law(k.ktc, k.kte, width, first),
+            .r = law(-k.kac, -k.kae, width, first),
+            .a = law(k.krc, k.kre, width, first),
+            .m = law(k.ktc, k.kte, first, second)};
+}
+
+contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, double cos_phi) {
+    const auto at = [&](const TurnLaw& law) {
+        return law.sine * sin_phi + law.cosine * cos_phi + law.constant;
+    };
+    const double t = at(load.t), r = at(load.r);
+    return {{-t * cos_phi - r * sin_phi, t * sin_phi - r * cos_phi, at(load.a)}, at(load.m)};
+}
+
+contact::ToolForce segment_force(const EdgeLoad& load, double phi_low, double phi_high, double height_mm) {
+    double sin_mid, cos_mid;
+    math::sincos(0.5 * (phi_low + phi_high), sin_mid, cos_mid);
+    double q, cos_half;  // sin(d/2) / (d/2), cos(d/2)
+    sinc_and_cos(0.5 * (phi_high - phi_low), q, cos_half);
+    const double s = q * cos_half;  // sin d / d
+    // Means of sin, cos, sin cos, sin^2 and cos^2 over the piece.
+    const double sine = q * sin_mid, cosine = q * cos_mid, sin_cos = s * sin_mid * cos_mid;
+    const double sin2 = 0.5 * (1 - s * (1 - 2 * sin_mid * sin_mid)), cos2 = 1 - sin2;
+    const TurnLaw &t = load.t, &r = load.r;
+    const double b = height_mm;
+    return {{-b * (t.sine * sin_cos + t.cosine * cos2 + t.constant * cosine + r.sine * sin2 +
+                   r.cosine * sin_cos + r.constant * sine),
+             b * (t.sine * sin2 + t.cosine * sin_cos + t.constant * sine - r.sine * sin_cos -
+                  r.cosine * cos2 - r.constant * cosine),
+             b * (load.a.sine * sine + load.a.cosine * cosine + load.a.constant)},
+            b * (load.m.sine * sine + load.m.cosine * cosine + load.m.constant)};
+}
+
+contact::ToolForce flute_segment_force(const CuttingCoefficients& k, double radius_mm,
+                                       double feed_per_tooth_mm, double phi_low, double phi_high,
+                                       double height_mm) {
+    const Chip chip{{.across_mm = feed_per_tooth_mm}};
+    return segment_force(edge_load(k, chip, {.radius_mm = radius_mm}), phi_low, phi_high, height_mm);
+}
+
+}  // namespace tribo::milling

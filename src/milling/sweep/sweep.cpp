@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include "milling/sweep/sweep.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "base/simd.hpp"
+#include "milling/sweep/sweep_kernels.hpp"
+#include "milling/sweep/sweep_lines.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/path/program.hpp"
+
+namespace tribo::milling {
+namespace {
+
+using namespace simd;
+
+using field::kLatticeEdge;
+
+// Each builds on the one before.
+// clang-format off
+#include "milling/sweep/sweep_search.inl"
+#include "milling/sweep/sweep_distance.inl"
+#include "milling/sweep/sweep_curved.inl"
+// clang-format on
+
+// The tool at one pose, cap included.
+Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {
+    const double r = tool.radius_mm;
+    const auto reach = [r](double u) { return r * std::sqrt(std::max(0.0, 1 - u * u)); };
+    const Vec3 disc{reach(axis.x), reach(axis.y), reach(axis.z)};
+    Box3 box;
+    for (const Vec3 centre : {tip, tip + tool.length_mm * axis}) {
+        box.include(centre - disc);
+        box.include(centre + disc);
+    }
+    return box;
+}
+
+// Calls f with the kind as a constant, so that each formula is compiled for its profile.
+template <class F>
+auto by_kind(CutterKind kind, const F& f) {
+    switch (kind) {
+        case CutterKind::ball:
+            return f.template operator()<CutterKind::ball>();
+        case CutterKind::bull:
+            return f.template operator()<CutterKind::bull>();
+        case CutterKind::flat:
+            break;
+    }
+    return f.template operator()<CutterKind::flat>();
+}
+
+// How the profile's distance grows with rho and with z: unit.
+struct ProfileNormal {
+    double by_rho, by_z;
+};
+ProfileNormal profile_normal(const ToolProfile& tool, double rho, double z) {
+    const double side = rho - (tool.radius_mm - tool.corner_mm), under = tool.corner_mm - z;
+    const double out = length({std::max(side, 0.0), std::max(under, 0.0), 0});
+    if (out > 0) return {std::max(side, 0.0) / out, -std::max(under, 0.0) / out};
+    return side >= under ? ProfileNormal{1, 0} : ProfileNormal{0, -1};
+}
+
+// The tool at one instant as a point sees it.
+struct ToolView {
+    Vec3 axis, radial;  // unit; radial zero on the axis
+    double rho, z, drho, dz;
+};
+ToolView view(const CurvedLine& c, Vec3 point, double t) {
+    const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
+    const Vec3 raw = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
+    const double size = length(raw);
+    ToolView v;
+    v.axis = raw / size;
+    const Vec3 axis_rate = (turning - dot(turning, v.axis) * v.axis) / size;
+    v.z = dot(d, v.axis);
+    const Vec3 radial = d - v.z * v.axis;
+    v.rho = length(radial);
+    v.radial = normalized(radial, {0, 0, 0});
+    v.dz = dot(d, axis_rate) - dot(velocity, v.axis);
+    v.drho = -dot(v.radial, velocity) - v.z * dot(v.radial, axis_rate);
+    return v;
+}
+
+// Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet,
+// the edge makes the surface: across its travel, between the two normals.
+Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
+    constexpr double kEdge = 1e-5;  // mm; many times what the search settles at
+    if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz > 0 &&
+        std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
+        const double side = std::abs(v.dz), bottom = std::abs(v.drho);
+        return normalized(side * v.radial - bottom * v.axis);
+    }
+    const ProfileNormal n = profile_normal(tool, v.rho, v.z);
+    return normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis);
+}
+
+class StraightSweep final : public field::Shape {
+  public:
+    StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis) : tool_(tool), start_(from) {
+        double rise = dot(travel, axis);
+        Vec3 across = travel - rise * axis;
+        // Below this share the part along or across the axis is rounding of the axis itself.
+        constexpr double kRounding = 1e-12;
+        if (std::abs(rise) < kRounding * length(across)) rise = 0;
+        if (length(across) < kRounding * std::abs(rise)) across = {};
+        frame_.z = axis;
+        frame_.x = normalized(across, any_perpendicular(axis));
+        frame_.y = cross(frame_.z, frame_.x);
+        line_ = StraightLine(length(across), rise);
+    }
+
+    Box3 bounds_mm() const override {
+        Box3 box = tool_box(tool_, start_, frame_.z);
+        box.include(tool_box(tool_, start_ + travel(), frame_.z));
+        return box;
+    }
+
+    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
+
+    double distance_below(Vec3 point, double bound) const override {
+        const Vec3 q = frame_.into(point - start_);
+        const Profile<double> p(tool_);
+        const Line<double> l(line_);
+        // No tool comes nearer than the cylinder around its path, nor than the lowest plane of its tip, nor a
+        // ball below its centres than the nearest of these.
+        const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
+        const double lowest = std::min(line_.rise, 0.0);
+        if (lowest - q.z >= bound) return bound;
+        const double below =
+            tool_.kind == CutterKind::ball ? std::max(lowest + tool_.radius_mm - q.z, 0.0) : 0;
+        if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
+        return by_kind(tool_.kind, [&]<CutterKind kind>() {
+            return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
+                                   : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
+        });
+    }
+
+    Vec3 gradient(Vec3 point) const override {
+        const Vec3 q = frame_.into(point - start_);
+        const Profile<double> p(tool_);
+        const Line<double> l(line_);
+        const auto nearest = by_kind(tool_.kind, [&]<CutterKind kind>() {
+            if (line_.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
+            const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
+            return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
+        });
+        if (q.z - std::max(line_.rise, 0.0) - tool_.length_mm > nearest.distance) return frame_.z;
+        const Vec3 across{q.x - nearest.t * line_.across, q.y, 0};
+        ToolView v;
+        v.axis = {0, 0, 1};
+        v.radial = normalized(across, {0, 0, 0});
+        v.rho = length(across);
+        v.z = q.z - nearest.t * line_.rise;
+        v.drho = -v.radial.x * line_.across;
+        v.dz = -line_.rise;
+        return frame_.out_of(swept_normal(tool_, v, nearest.t));
+    }
+
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sample_near(lattice, kNever, out);
+    }
+
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sweep_kernels().straight(tool_, line_, frame_, start_, lattice, near_mm, out);
+    }
+
+  private:
+    Vec3 travel() const { return line_.across * frame_.x + line_.rise * frame_.z; }
+
+    ToolProfile tool_;
+    Vec3 start_;
+    Frame frame_;
+    StraightLine line_;
+};
+
+class ArcSweep final : public field::Shape {
+  public:
+    ArcSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool) {
+        const motion::Arc& arc = *move.arc;
+        const Vec3 axis = move.start.axis;
+        const Vec3 from_centre = move.start.tip_mm - arc.centre_mm;
+        const Vec3 radial = from_centre - dot(from_centre, axis) * axis;
+        centre_ = move.start.tip_mm - radial;
+        line_.radius = length(radial);
+        frame_.z = axis;
+        frame_.x = normalized(radial, any_perpendicular(axis));
+        frame_.y = cross(frame_.z, frame_.x);
+        // Turning to the right is turning to the left with y mirrored; the formula never sees the difference.
+        const double turn = arc.turn_rad * (dot(arc.normal, axis) < 0 ? -1 : 1);
+        if (turn < 0) frame_.y = -frame_.y;
+        assert(std::abs(turn) <= math::kPi + 1e-9);
+        math::sincos(std::abs(turn), line_.end_y, line_.end_x);
+        line_.end_y = std::max(line_.end_y, 0.0);
+    }
+
+    Box3 bounds_mm() const override {
+        Box3 box;
+        const Box3 tool = tool_box(tool_, {}, frame_.z);
+        // The path's extremes: its ends, and where its tangent has no part along a coordinate.
+        const auto include = [&](Vec3 radial) {
+            const Vec3 tip = centre_ + line_.radius * radial;
+            box.include(Box3{tip + tool.min, tip + tool.max});
+        };
+        include(frame_.x);
+        include(line_.end_x * frame_.x + line_.end_y * frame_.y);
+        for (int k = 0; k < 3; ++k) {
+            for (const double sign : {1.0, -1.0}) {
+                const Vec3 toward = normalized({sign * frame_.x[k], sign * frame_.y[k], 0}, {1, 0, 0});
+                if (toward.y >= 0 && toward.x * line_.end_y - toward.y * line_.end_x >= 0)
+                    include(toward.x * frame_.x + toward.y * frame_.y);
+            }
+        }
+        return box;
+    }
+
+    double distance_mm(Vec3 point) const override {
+        const Vec3 q = frame_.into(point - centre_);
+        const Profile<double> p(tool_);
+        const Round<double> a(line_);
+        return by_kind(tool_.kind,
+                       [&]<CutterKind kind>() { return arc_distance<kind>(p, a, q.x, q.y, q.z); });
+    }
+
+    Vec3 gradient(Vec3 point) const override {
+        const Vec3 q = frame_.into(point - centre_);
+        const Vec3 start{line_.radius, 0, 0}, end = line_.radius * Vec3{line_.end_x, line_.end_y, 0};
+        const Vec3 level{q.x, q.y, 0};
+        Vec3 nearest = squared_length(level - start) < squared_length(level - end) ? start : end;
+        if (std::min(q.y, q.x * line_.end_y - q.y * line_.end_x) >= 0) {
+            nearest = line_.radius * normalized(level, {1, 0, 0});
+        }
+        const Vec3 radial = level - nearest;
+        const double rho = length(radial);
+        const Profile<double> p(tool_);
+        const double cap = q.z - tool_.length_mm;
+        if (cap > by_kind(tool_.kind,
+                          [&]<CutterKind kind>() { return profile_distance<kind>(p, rho * rho, q.z); })) {
+            return frame_.z;
+        }
+        const ProfileNormal n = profile_normal(tool_, rho, q.z);
+        return frame_.out_of(
+            normalized(n.by_rho * normalized(radial, {0, 0, 0}) + Vec3{0, 0, n.by_z}, {0, 0, -1}));
+    }
+
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sweep_kernels().arc(tool_, line_, frame_, centre_, lattice, out);
+    }
+
+  private:
+    ToolProfile tool_;
+    Vec3 centre_;  // at the height of the tip
+    Frame frame_;
+    ArcLine line_;
+};
+
+class CurvedSweep final : public field::Shape {
+  public:
+    CurvedSweep(const ToolProfile& tool, const motion::Move& move)
+        : tool_(tool), start_(move.start.tip_mm), line_(line_of(move)), instants_(line_) {}
+
+    Box3 bounds_mm() const override {
+        // A point of the tool leaves the chord between two of the poses by at most a share of the square of
+        // their spacing.
+        constexpr int kPoses = 17;
+        const double turn = length(line_.axis1) + 2 * length(line_.axis2);
+        const double bend = 2 * length(line_.tip2) +
+                            (tool_.length_mm + tool_.radius_mm) * (2 * length(line_.axis2) + 2 * turn * turn);
+        Box3 box;
+        for (int n = 0; n < kPoses; ++n) {
+            const double t = n / (kPoses - 1.0);
+            box.include(tool_box(tool_, start_ + tip_at(line_, t), axis_at(line_, t)));
+        }
+        return box.inflated(bend / (8.0 * (kPoses - 1) * (kPoses - 1)));
+    }
+
+    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
+
+    double distance_below(Vec3 point, double bound) const override {
+        const Vec3 d = point - start_;
+        // Longer than this, too many instants matter for one to tell.
+        constexpr double kShort = 0.25;
+        if (bound < kNever && line_.bounds.speed < kShort * tool_.radius_mm) {
+            const Profile<double> p(tool_);
+            const double least =
+                by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });
+            if (least >= bound) return bound;
+        }
+        Floors floors;
+        sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
+        return std::max(nearest(floors, d, bound).distance,
+                        static_cast<double>(floors.lowest) - tool_.length_mm);
+    }
+
+    bool is_searched() const override { return true; }
+
+    Vec3 gradient(Vec3 point) const override {
+        const Vec3 d = point - start_;
+        Floors floors;
+        sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
+        const Least<double> least = nearest(floors, d, kNever);
+        if (static_cast<double>(floors.lowest) - tool_.length_mm <= least.distance)
+            return swept_normal(tool_, view(line_, d, least.t), least.t);
+        double lowest = kNever;
+        Vec3 top = line_.axis0;
+        for (int k = 0; k < CurvedInstants::kCount; ++k) {
+            const double t = static_cast<double>(k) / (CurvedInstants::kCount - 1);
+            const Vec3 axis = axis_at(line_, t);
+            const double height = dot(d - tip_at(line_, t), axis);
+            if (height < lowest) lowest = height, top = axis;
+        }
+        return top;
+    }
+
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sample_near(lattice, kNever, out);
+    }
+
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, out);
+    }
+
+  private:
+    static CurvedLine line_of(const motion::Move& move) {
+        const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
+        const Vec3 a = move.start.axis, b = move.end.axis;
+        const Vec3 tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm),
+                   axis1 = 2 * (middle.axis_control - a);
+        return {tip1, move.end.tip_mm - move.start.tip_mm - tip1, a, axis1, b - a - axis1};
+    }
+    // A straight tip and an axis that turns along the great circle at an even pace, to the fifth order.
+    static motion::Quadratic even_turn(const motion::Move& move) {
+        const motion::ToolPose middle = motion::pose_at(move, 0.5);
+        const double half = 0.5 * motion::angle_rad(move.start.axis, move.end.axis);
+        const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
+        return {middle.tip_mm, (2 * size) * middle.axis - 0.5 * (move.start.axis + move.end.axis)};
+    }
+    Least<double> nearest(const Floors& floors, Vec3 d, double bound) const {
+        const Profile<double> p(tool_);
+        return by_kind(tool_.kind,
+                       [&]<CutterKind kind>() { return curved_nearest<kind>(p, line_, floors, d, bound); });
+    }
+
+    ToolProfile tool_;
+    Vec3 start_;
+    CurvedLine line_;
+    CurvedInstants instants_;
+};
+
+// One stretch must be short enough that each part of the tool comes nearest at most once over it. More are
+// cheap: a brick looks at those few that may hold its nearest instants, and short ones take fewer looks.
+int stretches_needed(const CurvedLine& c) {
+    const Vec3 leaving = c.tip1 + 2 * c.tip2;
+    const double speed = std::max(length(c.tip1), length(leaving));
+    const double turn = std::max(length(c.axis1), length(c.axis1 + 2 * c.axis2));
+    const double bend = speed > 0 ? 2 * length(c.tip2) / speed : 0;
+    constexpr double kFirst = 0.04;  // rad
+    const double bow = std::max(turn, 0.5 * bend);
+    return bow < kFirst ? 1 : bow < 2 * kFirst ? 4 : SeenFrame::kMostStretches;
+}
+
+// The control points of the Bezier form bound a polynomial.
+TravelBounds bounds_of(const CurvedLine& c) {
+    TravelBounds b;
+    b.middle = tip_at(c, 0.5);
+    const Vec3 tips[3] = {{}, 0.5 * c.tip1, c.tip1 + c.tip2};
+    const Vec3 axes[3] = {c.axis0, c.axis0 + 0.5 * c.axis1, c.axis0 + c.axis1 + c.axis2};
+    const Vec3 rates[2] = {c.axis1, c.axis1 + 2 * c.axis2};
+    const Vec3 along = normalized(axes[0] + axes[2]);
+    double least_size = 1, turned = 0;
+    for (int k = 0; k < 3; ++k) {
+        b.spread = std::max(b.spread, length(tips[k] - b.middle));
+        least_size = std::min(least_size, dot(axes[k], along));
+        turned = std::max(turned, length(cross(2 * c.axis2, axes[k])));
+    }
+    least_size = std::max(least_size, 0.1);
+    b.speed = std::max(length(c.tip1), length(c.tip1 + 2 * c.tip2));
+    b.tip_bend = 2 * length(c.tip2);
+    b.turn = std::max(length(rates[0]), length(rates[1])) / least_size;
+    // Of axis . axis', half the rate of its square.
+    const double growth =
+        std::max(std::max(std::abs(dot(axes[0], rates[0])), std::abs(dot(axes[2], rates[1]))),
+                 std::max(std::abs(dot(axes[0], rates[1]) + 2 * dot(axes[1], rates[0])),
+                          std::abs(2 * dot(axes[1], rates[1]) + dot(axes[2], rates[0]))) /
+                     3);
+    b.turn_rate = (turned + 2 * b.turn * growth) / (least_size * least_size);
+    return b;
+}
+
+}  // namespace
+
+CurvedLine::CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 axis_2)
+    : tip1(tip_1), tip2(tip_2), axis0(axis_0), axis1(axis_1), axis2(axis_2) {
+    stretches = stretches_needed(*this);
+    bounds = bounds_of(*this);
+}
+
+CurvedInstants::CurvedInstants(const CurvedLine& line) {
+    for (int k = 0; k < kCount; ++k) {
+        const double t = static_cast<double>(k) / (kCount - 1);
+        const Vec3 at = tip_at(line, t), velocity = line.tip1 + 2 * t * line.tip2;
+        const Vec3 raw = line.axis0 + t * (line.axis1 + t * line.axis2),
+                   turning = line.axis1 + 2 * t * line.axis2;
+        const double per = 1 / length(raw);
+        const Vec3 unit = per * raw, rate = per * (turning - dot(turning, unit) * unit);
+        for (int n = 0; n < 3; ++n) {
+            tip[n][k] = static_cast<float>(at[n]);
+            axis[n][k] = static_cast<float>(unit[n]);
+            tip_rate[n][k] = static_cast<float>(velocity[n]);
+            axis_rate[n][k] = static_cast<float>(rate[n]);
+        }
+    }
+}
+
+std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& move) {
+    const ToolProfile tool(cutter);
+    if (move.arc) return std::make_unique<ArcSweep>(tool, move);
+    if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);
+    return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm,
+                                           move.start.axis);
+}
+
+}  // namespace tribo::milling

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// The kernels of sweep_kernels.hpp; included by sweep_kernels_sse2.cpp and sweep_kernels_v3.cpp.
+#include "base/simd.hpp"
+#include "milling/sweep/sweep_kernels.hpp"
+
+namespace tribo::milling {
+namespace {
+
+using namespace simd;
+using field::kLatticeEdge;
+
+// Each builds on the one before.
+// clang-format off
+#include "milling/sweep/sweep_search.inl"
+#include "milling/sweep/sweep_distance.inl"
+#include "milling/sweep/sweep_curved.inl"
+// clang-format on
+
+// Node coordinates relative to the reference, float only after the subtraction; node n along each axis.
+struct Offsets {
+    F8 x;
+    float y[kLatticeEdge], z[kLatticeEdge];
+    float centre[3], radius;  // of a ball around all nodes
+
+    Offsets(const field::Lattice& lattice, Vec3 reference) {
+        float along_x[kLatticeEdge];
+        for (int n = 0; n < kLatticeEdge; ++n) {
+            const Vec3 d = lattice.node(n, n, n) - reference;
+            along_x[n] = static_cast<float>(d.x);
+            y[n] = static_cast<float>(d.y);
+            z[n] = static_cast<float>(d.z);
+        }
+        x = load(along_x);
+        const double half = 0.5 * (kLatticeEdge - 1) * lattice.cell_mm;
+        const Vec3 middle = lattice.node(0, 0, 0) - reference + Vec3{half, half, half};
+        for (int k = 0; k < 3; ++k) centre[k] = static_cast<float>(middle[k]);
+        radius = static_cast<float>(1.7321 * half);
+    }
+};
+
+// Rows all of whose nodes lie beyond `near` of the surface, as the slope of at most 1 tells from a row beside
+// them: what is above near bounds the distance from below, what is under -near from above.
+struct FarRows {
+    F8 near, step;
+
+    FarRows(double near_mm, double cell_mm)
+        : near(broadcast<F8>(near_mm)), step(broadcast<F8>(cell_mm + 2 * kProven<F8>)) {}
+
+    // Whether row b of layer c is one, and is filled now. `out` has all rows before it.
+    TRIBO_LANES bool fills(int b, int c, float* out) const {
+        return (b > 0 && fills(load(out - kLatticeEdge), out)) ||
+               (c > 0 && fills(load(out - kLatticeEdge * kLatticeEdge), out));
+    }
+
+  private:
+    TRIBO_LANES bool fills(F8 beside, float* out) const {
+        const F8 above = beside - step, below = beside + step;
+        if (any(both(above<near, below> - near))) return false;
+        store(out, select(above >= near, above, below));
+        return true;
+    }
+};
+
+// No row is skipped where a distance costs less than to tell.
+struct NoFarRows {
+    TRIBO_LANES bool fills(int /*b*/, int /*c*/, float* /*out*/) const { return false; }
+};
+
+// Calls distance(x, y, z) with the coordinates in the frame of each row of nodes that is not far.
+template <class Far, class F>
+TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, const Far& far, float* out,
+                           const F& distance) {
+    const auto part = [](double u) { return static_cast<float>(u); };
+    const F8 along_x = at.x * splat(part(frame.x.x)), along_y = at.x * splat(part(frame.y.x)),
+             along_z = at.x * splat(part(frame.z.x));
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        const float z[3] = {at.z[c] * part(frame.x.z), at.z[c] * part(frame.y.z), at.z[c] * part(frame.z.z)};
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            if (far.fills(b, c, out)) continue;
+            const float y = at.y[b];
+            store(out, distance(along_x + splat(y * part(frame.x.y) + z[0]),
+                                along_y + splat(y * part(frame.y.y) + z[1]),
+                                along_z + splat(y * part(frame.z.y) + z[2])));
+        }
+    }
+}
+
+template <CutterKind kind>
+void straight_of(const ToolProfile& tool, const StraightLine& line, const Frame& frame, const Offsets& at,
+                 const FarRows& far, float* out) {
+    const Profile<F8> p(tool);
+    const Line<F8> l(line);
+    if (line.rise == 0) {
+        over_rows(at, frame, NoFarRows(), out,
+                  [&](F8 x, F8 y, F8 z) { return level_distance<kind>(p, l, x, y, z); });
+    } else if constexpr (kind == CutterKind::bull) {
+        over_rows(at, frame, far, out,
+                  [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z, far.near); });
+    } else {
+        over_rows(at, frame, NoFarRows(), out,
+                  [&](F8 x, F8 y, F8 z) { return ramp_distance<kind>(p, l, x, y, z, far.near); });
+    }
+}
+
+void straight(const ToolProfile& tool, const StraightLine& line, const Frame& frame, Vec3 reference,
+              const field::Lattice& lattice, double near_mm, float* out) {
+    const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return straight_of<CutterKind::flat>(tool, line, frame, at, far, out);
+        case CutterKind::ball:
+            return straight_of<CutterKind::ball>(tool, line, frame, at, far, out);
+        case CutterKind::bull:
+            return straight_of<CutterKind::bull>(tool, line, frame, at, far, out);
+    }
+}
+
+template <CutterKind kind>
+void arc_of(const ToolProfile& tool, const ArcLine& line, const Frame& frame, const Offsets& at, float* out) {
+    const Profile<F8> p(tool);
+    const Round<F8> a(line);
+    over_rows(at, frame, NoFarRows(), out,
+              [&](F8 x, F8 y, F8 z) { return arc_distance<kind>(p, a, x, y, z); });
+}
+
+void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 reference,
+         const field::Lattice& lattice, float* out) {
+    const Offsets at(lattice, reference);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return arc_of<CutterKind::flat>(tool, line, frame, at, out);
+        case CutterKind::ball:
+            return arc_of<CutterKind::ball>(tool, line, frame, at, out);
+        case CutterKind::bull:
+            return arc_of<CutterKind::bull>(tool, line, frame, at, out);
+    }
+}
+
+// The tool where it stands at one instant; the same bits as SeenFrame's nodes.
+template <CutterKind kind>
+TRIBO_LANES void standing(const Profile<F8>& p, const CurvedLine& line, double t, const Offsets& at,
+                          float* out) {
+    const SeenAxes axes(line, t);
+    F8 along_x[3];
+    float constant[3], by_y[3], by_z[3];
+    for (int k = 0; k < 3; ++k) {
+        constant[k] = static_cast<float>(axes.rows[k].constant);
+        along_x[k] = at.x * splat(static_cast<float>(axes.rows[k].axis.x));
+        by_y[k] = static_cast<float>(axes.rows[k].axis.y);
+        by_z[k] = static_cast<float>(axes.rows[k].axis.z);
+    }
+    const F8 zero = splat(0.0f);
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        float layer[3];
+        for (int k = 0; k < 3; ++k) layer[k] = constant[k] + at.z[c] * by_z[k];
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            F8 seen[3];
+            for (int k = 0; k < 3; ++k) seen[k] = splat(layer[k] + at.y[b] * by_y[k]) + along_x[k];
+            store(
+                out,
+                instant<kind>(p, seen[0] * seen[0] + seen[1] * seen[1], zero, seen[2], zero, zero).distance);
+        }
+    }
+}
+
+template <CutterKind kind>
+void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants,
+               const Offsets& at, const FarRows& far, float* out) {
+    const Profile<F8> p(tool);
+    const Part part = nearest_part<kind>(p, instants, line.bounds, at.centre, at.radius);
+    if (part.from == part.to) return standing<kind>(p, line, part.to, at, out);
+    const SeenFrame frame(line, part);
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            if (far.fills(b, c, out)) continue;
+            PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
+            bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
+            SeenRow seen(frame, at.x, at.y[b], at.z[c]);
+            store(out, curved_row<kind>(p, seen, bounds, far.near));
+        }
+    }
+}
+
+void curved(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants, Vec3 reference,
+            const field::Lattice& lattice, double near_mm, float* out) {
+    const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return curved_of<CutterKind::flat>(tool, line, instants, at, far, out);
+        case CutterKind::ball:
+            return curved_of<CutterKind::ball>(tool, line, instants, at, far, out);
+        case CutterKind::bull:
+            return curved_of<CutterKind::bull>(tool, line, instants, at, far, out);
+    }
+}
+
+void floors(const ToolProfile& tool, const CurvedInstants& at, const TravelBounds& travel, Vec3 point,
+            Floors& out) {
+    const Profile<F8> p(tool);
+    const float seen[3] = {static_cast<float>(point.x), static_cast<float>(point.y),
+                           static_cast<float>(point.z)};
+    switch (tool.kind) {
+        case CutterKind::flat:
+            return curved_floors<CutterKind::flat>(p, at, travel, seen, out);
+        case CutterKind::ball:
+            return curved_floors<CutterKind::ball>(p, at, travel, seen, out);
+        case CutterKind::bull:
+            return curved_floors<CutterKind::bull>(p, at, travel, seen, out);
+    }
+}
+
+constexpr SweepKernels kKernels{straight, arc, curved, floors};
+
+}  // namespace
+}  // namespace tribo::milling

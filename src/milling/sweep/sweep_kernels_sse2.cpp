@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// For every processor: SSE2 on x86, whatever the target's baseline is elsewhere.
+#include "milling/sweep/sweep_kernels.inl"
+
+namespace tribo::milling {
+
+const SweepKernels* sweep_kernels_sse2() {
+    return &kKernels;
+}
+
+const SweepKernels& sweep_kernels() {
+    static const SweepKernels& chosen = sweep_kernels_v3() ? *sweep_kernels_v3() : kKernels;
+    return chosen;
+}
+
+}  // namespace tribo::milling

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The three kinds of elementary travel that sweeps are computed for, in their own frames.
+#pragma once
+
+#include "base/vec3.hpp"
+#include "milling/tool/cutter.hpp"
+
+namespace tribo::milling {
+
+// What the distance formulas know of a cutter: a cylinder with a rounded bottom edge.
+struct ToolProfile {
+    CutterKind kind = CutterKind::flat;
+    double radius_mm = 0, corner_mm = 0, length_mm = 0;
+
+    explicit ToolProfile(const Cutter& c)
+        : kind(c.kind), radius_mm(c.radius_mm()), corner_mm(c.corner_radius_mm()), length_mm(c.length_mm) {}
+};
+
+// Orthonormal axes of a frame in stock coordinates.
+struct Frame {
+    Vec3 x, y, z;
+    Vec3 into(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+    Vec3 out_of(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+// Travel (across, 0, rise) in a frame whose z is the tool axis.
+struct StraightLine {
+    double across = 0, rise = 0, per_across = 0, per_length_squared = 0;  // 0 where there is no way
+
+    StraightLine() = default;
+    StraightLine(double a, double r) : across(a), rise(r) {
+        if (a > 0) per_across = 1 / a;
+        if (a > 0 || r != 0) per_length_squared = 1 / (a * a + r * r);
+    }
+};
+
+// Travel about the frame's z (the tool axis or its opposite is parallel to it) from (radius, 0) to the left
+// by at most half a turn.
+struct ArcLine {
+    double radius = 0, end_x = 1, end_y = 0;
+};
+
+// Bounds over t in 0..1 of how the tool moves, from the control points of tip and axis: derivatives by t, mm
+// and radians. A point at the distance d from `middle` is never farther than d + spread from the tip.
+struct TravelBounds {
+    Vec3 middle;  // of the tip path, relative to its start
+    double spread = 0, speed = 0, tip_bend = 0, turn = 0, turn_rate = 0;
+};
+
+// Tip and axis as t^0, t^1, t^2 coefficients, in stock coordinates, the tip relative to its start; the axis
+// is made unit.
+struct CurvedLine {
+    Vec3 tip1, tip2, axis0, axis1, axis2;
+    int stretches = 4;  // of t, looked through one by one
+    TravelBounds bounds{};
+
+    CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 axis_2);
+};
+
+// The tool at even instants of a curved travel, and how it moves there: what single precision tells of where
+// along the travel a point may be nearest.
+struct CurvedInstants {
+    static constexpr int kCount = 8;
+    float tip[3][kCount], axis[3][kCount];            // the axis is unit
+    float tip_rate[3][kCount], axis_rate[3][kCount];  // derivatives by t
+
+    explicit CurvedInstants(const CurvedLine& line);
+};
+
+}  // namespace tribo::milling

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "motion/curve/bezier_motion.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace tribo::motion {
+
+namespace {
+
+// Halvings after which a piece whose norm still cannot be told from zero is taken to have a pole.
+constexpr int kPoleDepth = 24;
+constexpr double kPoleMargin = 1e-9;
+
+bool has_pole(const BezierMotion& motion, int depth) {
+    if (norm_margin(motion) > kPoleMargin) return false;
+    if (depth == kPoleDepth) return true;
+    const auto [left, right] = subdivide(motion, 0.5);
+    return has_pole(left, depth + 1) || has_pole(right, depth + 1);
+}
+
+}  // namespace
+
+PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate) {
+    const double n = dot(q.real, q.real), n_rate = 2 * dot(q.real, rate.real);
+    const Quaternion along_axis(0, 0, 0, 1);
+    const Vec3 tip = 2.0 / n * (q.dual * conjugate(q.real)).vector();
+    const Vec3 moved = 2.0 * (rate.dual * conjugate(q.real) + q.dual * conjugate(rate.real)).vector();
+    const Vec3 axis = (q.real * along_axis * conjugate(q.real)).vector() / n;
+    // The two halves of (q k q*)' are each other's conjugate but for sign: equal vector parts.
+    const Vec3 turned = 2.0 * (rate.real * along_axis * conjugate(q.real)).vector();
+    return {{tip, normalized(axis)}, (moved - n_rate * tip) / n, (turned - n_rate * axis) / n};
+}
+
+PoseRates BezierMotion::rates(double t) const {
+    return pose_rates(at(t), de_casteljau(derivative(control), t));
+}
+
+BezierMotion weighted_motion(std::span<const DualQuaternion> units, std::span<const double> weights) {
+    assert(units.size() == weights.size());
+    BezierMotion motion;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        assert(weights[i] > 0);
+        const bool flip = i > 0 && dot(motion.control.back().real, units[i].real) < 0;
+        motion.control.push_back((flip ? -weights[i] : weights[i]) * units[i]);
+    }
+    return motion;
+}
+
+BezierMotion elevated(const BezierMotion& motion) {
+    return {elevated(motion.control)};
+}
+
+std::pair<BezierMotion, BezierMotion> subdivide(const BezierMotion& motion, double t) {
+    auto [left, right] = subdivide(motion.control, t);
+    return {{std::move(left)}, {std::move(right)}};
+}
+
+HomogeneousPoint image(const DualQuaternion& a, const DualQuaternion& b, HomogeneousPoint p) {
+    const Quaternion turned = a.real * Quaternion(0, p.xyz) * conjugate(b.real);
+    const Quaternion shifted = (2 * p.w) * (a.dual * conjugate(b.real));
+    return {turned.vector() + shifted.vector(), p.w * dot(a.real, b.real)};
+}
+
+std::vector<HomogeneousPoint> point_path(const BezierMotion& motion, HomogeneousPoint p) {
+    const std::span<const DualQuaternion> q(motion.control);
+    return bezier_product(q, q,
+                          [&](const DualQuaternion& a, const DualQuaternion& b) { return image(a, b, p); });
+}
+
+std::vector<HomogeneousPoint> point_path(const BezierMotion& motion, Vec3 point_in_tool_mm) {
+    return point_path(motion, HomogeneousPoint{point_in_tool_mm, 1});
+}
+
+std::vector<HomogeneousPoint> direction_path(const BezierMotion& motion, Vec3 direction_in_tool) {
+    const std::span<const DualQuaternion> q(motion.control);
+    return bezier_product(q, q, [&](const DualQuaternion& a, const DualQuaternion& b) {
+        return HomogeneousPoint{image(a, b, {direction_in_tool, 0}).xyz, dot(a.real, b.real)};
+    });
+}
+
+double norm_margin(const BezierMotion& motion) {
+    const std::span<const DualQuaternion> q(motion.control);
+    const std::vector<double> squares = bezier_product(
+        q, q, [](const DualQuaternion& a, const DualQuaternion& b) { return dot(a.real, b.real); });
+    const auto [low, high] = std::minmax_element(squares.begin(), squares.end());
+    return *high > 0 ? *low / *high : 0;
+}
+
+bool has_pole(const BezierMotion& motion) {
+    return has_pole(motion, 0);
+}
+
+}  // namespace tribo::motion

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Rational B-spline motions: B-splines in the space of dual quaternions, and their conversion to Bezier
+// motions. Where the knots make the curve C2, tip and axis move C2. Any thread. Source: Ge & Ravani 1994,
+// J. Mech. Des. 116; Juttler & Wagner 1996, J. Mech. Des. 118.
+#pragma once
+
+#include <vector>
+
+#include "motion/curve/bezier_motion.hpp"
+#include "motion/curve/bspline.hpp"
+
+namespace tribo::motion {
+
+struct BSplineMotion {
+    BSpline<DualQuaternion> spline;  // is_valid(spline); its real part is nowhere zero
+
+    std::size_t degree() const { return spline.degree; }
+    double start() const { return spline.start(); }
+    double end() const { return spline.end(); }
+    DualQuaternion at(double u) const { return evaluate(spline, u); }
+    ToolPose pose(double u) const { return tool_pose(at(u)); }
+    PoseRates rates(double u) const;
+};
+
+// The same motion with one knot more, or one degree higher.
+BSplineMotion with_knot(const BSplineMotion& motion, double u);
+BSplineMotion elevated(const BSplineMotion& motion);
+
+// The piece between two neighbouring knots; its motion runs over 0..1.
+struct MotionPiece {
+    double start = 0, end = 1;
+    BezierMotion motion;
+};
+std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion);
+
+// The path of a point of the tool as rational B-spline of degree 2 n over the knots of the motion: exact.
+BSpline<HomogeneousPoint> point_path(const BSplineMotion& motion, Vec3 point_in_tool_mm);
+
+// The motion whose tip runs along `tip` while it turns by `rotation`: two splines of one degree n over the
+// same knots, w > 0 and rotation nowhere zero. Of degree 2 n and as smooth as they are; exact.
+BSplineMotion motion_along(const BSpline<HomogeneousPoint>& tip, const BSpline<Quaternion>& rotation);
+
+// The smallest norm_margin of its pieces.
+double norm_margin(const BSplineMotion& motion);
+
+}  // namespace tribo::motion

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "motion/path/moves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/algebra/direction.hpp"
+#include "motion/algebra/quadratic_cut.hpp"
+#include "motion/curve/arc_frame.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::motion {
+
+namespace {
+
+// Part of the tolerance within which a piece counts as straight: merging neighbours adds up a few of them.
+constexpr double kStraightShare = 0.01;
+
+Move with_ends(const Move& like, const ToolPose& start, const ToolPose& end) {
+    Move m = like;
+    m.start = start;
+    m.end = end;
+    m.arc.reset();
+    m.quadratic.reset();
+    return m;
+}
+
+bool is_nothing(const Move& m) {
+    return is_same_pose(m.start, m.end);
+}
+
+class Cutting {
+  public:
+    Cutting(const Move& like, const PieceTolerance& tolerance, std::vector<Move>& moves)
+        : like_(like), tolerance_(tolerance), moves_(moves), first_(moves.size()) {}
+
+    void append(const BezierMotion& motion) {
+        ToolPose start = motion.pose(0);
+        if (!moves_.empty()) {
+            const ToolPose& before = moves_.back().end;
+            if (is_same_pose(before, start)) start = before;
+        }
+        const ToolPose end = motion.pose(1);
+        if (is_straight(motion))
+            append_straight(with_ends(like_, start, end));
+        else
+            cut(motion, start, end);
+    }
+
+  private:
+    // The curve lies in the hull of its control points and does not turn back where they do not.
+    bool is_straight(const BezierMotion& motion) const {
+        const double tip_tolerance = kStraightShare * tolerance_.tip_mm;
+        const double axis_tolerance = kStraightShare * tolerance_.axis_rad;
+        const std::vector<HomogeneousPoint> tips = point_path(motion, Vec3{0, 0, 0});
+        const std::vector<HomogeneousPoint> axes = direction_path(motion, Vec3{0, 0, 1});
+        const Vec3 first = motion.pose(0).tip_mm, axis = motion.pose(0).axis;
+        const Vec3 along = normalized(motion.pose(1).tip_mm - first);
+        double reached = 0;
+        for (const HomogeneousPoint& tip : tips) {
+            if (!(tip.w > 0)) return false;
+            const Vec3 from_first = tip.point() - first;
+            const double run = dot(from_first, along);
+            if (length(from_first - run * along) > tip_tolerance || run < reached - tip_tolerance)
+                return false;
+            reached = std::max(reached, run);
+        }
+        return std::all_of(axes.begin(), axes.end(), [&](const HomogeneousPoint& a) {
+            return distance(a.point(), axis) <= axis_tolerance;
+        });
+    }
+
+    void append_straight(const Move& next) {
+        if (is_nothing(next)) return;
+        if (moves_.size() > first_ && !moves_.back().quadratic) {
+            Move& last = moves_.back();
+            const Vec3 whole = next.end.tip_mm - last.start.tip_mm;
+            const Vec3 along = normalized(whole), so_far = last.end.tip_mm - last.start.tip_mm;
+            const double run = dot(so_far, along);
+            if (run > 0 && run < length(whole) &&
+                length(so_far - run * along) <= kStraightShare * tolerance_.tip_mm) {
+                last.end = next.end;
+                return;
+            }
+        }
+        moves_.push_back(next);
+    }
+
+    void cut(const BezierMotion& motion, const ToolPose& start, const ToolPose& end) {
+        const auto pose_of = [&](double u) { return motion.pose(u); };
+        const auto sink = [&](const Move& piece, double, double) {
+            moves_.push_back(piece);
+            return true;
+        };
+        QuadraticCut(pose_of, like_, tolerance_, sink).cut(0, start, 1, end);
+    }
+
+    const Move& like_;
+    const PieceTolerance& tolerance_;
+    std::vector<Move>& moves_;
+    std::size_t first_;
+};
+
+// The part of a Bezier motion from a to b, 0 <= a < b <= 1.
+BezierMotion part_of(const BezierMotion& motion, double a, double b) {
+    BezierMotion part = motion;
+    if (b < 1) part = subdivide(part, b).first;
+    if (a > 0) part = subdivide(part, a / b).second;
+    return part;
+}
+
+std::vector<Move> quarter_arcs(const Move& move) {
+    // A hair over a multiple of a quarter, as rounding makes it, starts no new piece.
+    const double quarters = std::abs(move.arc->turn_rad) / math::kHalfPi;
+    const int count = std::max(1, static_cast<int>(std::ceil(quarters - 1e-9)));
+    std::vector<Move> pieces;
+    for (int i = 0; i < count; ++i) {
+        Move piece = move;
+        piece.start = i == 0 ? move.start : pieces.back().end;
+        piece.end = pose_at(move, static_cast<double>(i + 1) / count);
+        piece.arc->turn_rad = move.arc->turn_rad / count;
+        piece.duration_s = move.duration_s / count;
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+// How many quadratics of equal parameter stand for the move. With a = half the turn of a piece:
+// control points where the tangents of an arc meet leave it by R a^4 / 8 and run ahead of it by up to
+// 0.065 a^3 rad, which a rise turns into height; control points that match the middle leave a circle by
+// 0.065 R a^3; an axis on a great circle is off by 0.0041 a^5 rad.
+int quadratics_needed(const Move& move, const PieceTolerance& tolerance, double axis_turn) {
+    double count = axis_turn / kMaxPieceTurnRad;
+    const auto need = [&](double n) { count = std::max(count, n); };
+    if (axis_turn > 0) need(path_length_mm(move) / kMaxTurningPieceMm);
+    need(0.5 * axis_turn * math::pow(0.0041 / tolerance.axis_rad, 0.2));
+    if (move.arc && move.arc->turn_rad != 0) {
+        const ArcFrame frame(move);
+        const double turn = std::abs(move.arc->turn_rad), half_tolerance = 0.5 * tolerance.tip_mm;
+        need(turn / (0.5 * math::kHalfPi));
+        if (axis_turn > 0)
+            need(0.5 * turn *
+                 math::cbrt(0.065 * (frame.radius_mm + std::abs(frame.rise_mm)) / half_tolerance));
+        else {
+            need(0.5 * turn * std::sqrt(std::sqrt(frame.radius_mm / (8 * half_tolerance))));
+            need(0.5 * turn * math::cbrt(0.065 * std::abs(frame.rise_mm) / turn / half_tolerance));
+        }
+    }
+    return std::max(1, static_cast<int>(std::ceil(count)));
+}
+
+std::vector<Move> equal_quadratics(const Move& move, const PieceTolerance& tolerance) {
+    const double axis_turn = angle_rad(move.start.axis, move.end.axis);
+    const int count = quadratics_needed(move, tolerance, axis_turn);
+    std::vector<Move> pieces;
+    for (int i = 0; i < count; ++i) {
+        const double a = static_cast<double>(i) / count, b = static_cast<double>(i + 1) / count;
+        Move piece = with_ends(move, i == 0 ? move.start : pieces.back().end, pose_at(move, b));
+        const ToolPose middle = pose_at(move, 0.5 * (a + b));
+        Vec3 control = 2.0 * middle.tip_mm - 0.5 * (piece.start.tip_mm + piece.end.tip_mm);
+        if (move.arc && axis_turn == 0) {
+            // Where the tangents meet: radius R / cos(a) above the middle.
+            const ArcFrame frame(move);
+            const Vec3 from_start = middle.tip_mm - frame.foot_mm;
+            const Vec3 radial = from_start - dot(from_start, frame.normal) * frame.normal;
+            control = middle.tip_mm + (1 / math::cos(0.5 * move.arc->turn_rad / count) - 1) * radial;
+        }
+        piece.quadratic = Quadratic{control, axis_control(piece.start.axis, middle.axis, piece.end.axis)};
+        piece.duration_s = move.duration_s / count;
+        pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+}  // namespace
+
+void append_moves(std::span<const MotionPiece> pieces, double u0, double u1, const Move& like,
+                  const PieceTolerance& tolerance, std::vector<Move>& moves) {
+    Cutting cutting(like, tolerance, moves);
+    for (const MotionPiece& piece : pieces) {
+        const double a = std::max(u0, piece.start), b = std::min(u1, piece.end);
+        if (!(a < b)) continue;
+        const double width = piece.end - piece.start;
+        cutting.append(part_of(piece.motion, a == piece.start ? 0 : (a - piece.start) / width,
+                               b == piece.end ? 1 : (b - piece.start) / width));
+    }
+}
+
+std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like, const PieceTolerance& tolerance) {
+    std::vector<Move> moves;
+    append_moves(bezier_pieces(motion), motion.start(), motion.end(), like, tolerance, moves);
+    return moves;
+}
+
+std::vector<Move> to_elementary(const Move& move, const PieceTolerance& tolerance) {
+    if (move.kind == MoveKind::dwell || move.quadratic) return {move};
+    const bool turns = angle_rad(move.start.axis, move.end.axis) > kStraightShare * tolerance.axis_rad;
+    if (!move.arc) return turns ? equal_quadratics(move, tolerance) : std::vector<Move>{move};
+    const ArcFrame frame(move);
+    const bool upright = length(cross(frame.normal, move.start.axis)) <= kStraightShare * tolerance.axis_rad;
+    const bool flat = std::abs(frame.rise_mm) <= kStraightShare * tolerance.tip_mm;
+    return !turns && upright && flat ? quarter_arcs(move) : equal_quadratics(move, tolerance);
+}
+
+}  // namespace tribo::motion

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// For x86-64-v3 (AVX2): this file alone is compiled for it, so nothing of it may run before the processor was
+// asked.
+#include "base/processor.hpp"
+#include "noise/play/noise_kernels.inl"
+
+namespace tribo::noise {
+
+const NoiseKernels* noise_kernels_v3() {
+    return has_x86_64_v3() ? &kKernels : nullptr;
+}
+
+}  // namespace tribo::noise

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "readers/apt/cycle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tribo::readers::apt {
+namespace {
+
+// Pecks come back to this above the depth they reached, and chips are broken by going back this far, mm:
+// LinuxCNC's figure; controls have theirs in a parameter that no program states.
+constexpr double kPeckGapMm = 0.254;
+constexpr double kMostPecks = 10'000;
+constexpr double kLongestDwellS = 86'400;
+constexpr double kLargestFeed = 1e6;
+
+struct Kind {
+    std::string_view word;
+    Cycle::Way way;
+};
+constexpr std::array kKinds{
+    Kind{"DRILL", Cycle::Way::through}, Kind{"DEEP", Cycle::Way::peck},
+    Kind{"DEEP2", Cycle::Way::peck},    Kind{"DEEPCL", Cycle::Way::peck},
+    Kind{"BRKCHP", Cycle::Way::chip},   Kind{"CHIP", Cycle::Way::chip},
+    Kind{"BREAK", Cycle::Way::chip},    Kind{"TAP", Cycle::Way::bore},
+    Kind{"REAM", Cycle::Way::bore},     Kind{"BORE", Cycle::Way::bore},
+    Kind{"FACE", Cycle::Way::through},  Kind{"CSINK", Cycle::Way::through},
+    Kind{"CBORE", Cycle::Way::through}, Kind{"CENTER", Cycle::Way::through},
+};
+
+enum class Key { depth, clearance, retract, first_peck, peck, dwell, feed };
+struct Word {
+    std::string_view text;
+    Key key;
+};
+constexpr std::array kWords{
+    Word{"FEDTO", Key::depth},        Word{"DEPTH", Key::depth},    Word{"RAPTO", Key::clearance},
+    Word{"CLEAR", Key::clearance},    Word{"RTRCTO", Key::retract}, Word{"RETURN", Key::retract},
+    Word{"1STPECK", Key::first_peck}, Word{"SUBPECK", Key::peck},   Word{"STEP", Key::peck},
+    Word{"STEP1", Key::peck},         Word{"PECK", Key::peck},      Word{"INCR", Key::peck},
+    Word{"DWELL", Key::dwell},        Word{"MMPM", Key::feed},      Word{"MMPR", Key::feed},
+    Word{"IPM", Key::feed},           Word{"IPR", Key::feed},       Word{"PERMIN", Key::feed},
+    Word{"PERREV", Key::feed},
+};
+
+const Word* find_word(std::string_view text) {
+    const auto found = std::ranges::find_if(kWords, [&](const Word& w) { return matches(text, w.text); });
+    return found == kWords.end() ? nullptr : &*found;
+}
+
+class CycleReader {
+  public:
+    CycleReader(const Statement& statement, const Path& path, Report& report)
+        : items_(statement.items), path_(path), report_(report), unit_mm_(path.settings.unit_mm) {
+        cycle_.at = statement.word;
+    }
+
+    Result<Cycle> read() {
+        if (auto ok = read_kind(); !ok) return std::unexpected(ok.error());
+        const bool by_place = at_ < items_.size() && number_of(items_[at_].text).has_value();
+        if (auto ok = by_place ? read_places() : read_words(); !ok) return std::unexpected(ok.error());
+        if (cycle_.depth_mm <= 0) {
+            return report_.refuse(cycle_.at, "a cycle without a depth", "write FEDTO or DEPTH and the depth");
+        }
+        if (!has_retract_) cycle_.retract_mm = cycle_.clearance_mm;
+        if (cycle_.first_peck_mm == 0) cycle_.first_peck_mm = cycle_.peck_mm;
+        if (cycle_.peck_mm == 0) cycle_.peck_mm = cycle_.first_peck_mm;
+        const bool pecks = cycle_.way == Cycle::Way::peck || cycle_.way == Cycle::Way::chip;
+        if (pecks && cycle_.peck_mm == 0) {
+            report_.warn(cycle_.at.line, "a cycle with pecks that states none: the hole is made in one go");
+            cycle_.way = Cycle::Way::through;
+        }
+        if (pecks && cycle_.peck_mm > 0 && cycle_.depth_mm / cycle_.peck_mm > kMostPecks)
+            return report_.refuse(cycle_.at, "more than 10000 pecks for one hole", "correct the peck");
+        return cycle_;
+    }
+
+  private:
+    // DRILL; NX adds how: DRILL,DEEP or DRILL,BRKCHP or BORE,NODRAG.
+    Result<void> read_kind() {
+        if (items_.empty()) return report_.refuse(cycle_.at, "CYCLE without a kind", "write CYCLE/DRILL");
+        for (; at_ < items_.size(); ++at_) {
+            const Item& item = items_[at_];
+            const auto kind =
+                std::ranges::find_if(kKinds, [&](const Kind& k) { return matches(item.text, k.word); });
+            if (kind == kKinds.end()) break;
+            cycle_.way = kind->way;
+        }
+        if (at_ > 0) return {};
+        return report_.refuse(items_[0], quoted(items_[0].text) + " is not a cycle that is read",
+                              "let the CAM system write its moves");
+    }
+
+    Result<double> take_number(double least, double most) {
+        if (at_ == items_.size())
+            return report_.refuse(items_[at_ - 1], "a number is missing after this", "write it");
+        return report_.number(items_[at_++], least, most);
+    }
+
+    Result<void> read_words() {
+        while (at_ < items_.size()) {
+            const Item& item = items_[at_++];
+            const Word* word = find_word(item.text);
+            if (!word) {
+                return report_.refuse(item, quoted(item.text) + " is not known in a cycle",
+                                      "let the CAM system write the moves of this cycle");
+            }
+            if (auto ok = read_value(word->key, item); !ok) return ok;
+        }
+        return {};
+    }
+
+    Result<void> read_value(Key key, const Item& word) {
+        if (key == Key::retract && at_ < items_.size() && matches(items_[at_].text, "AUTO")) {
+            ++at_;
+            return {};
+        }
+        if (key == Key::dwell) return read_dwell();
+        if (key == Key::feed) {
+            const auto value = take_number(0, kLargestFeed);
+            if (!value) return std::unexpected(value.error());
+            return set_feed(*value, word);
+        }
+        const double farthest = kLargestCoordinateMm / unit_mm_;
+        const bool may_be_negative = key == Key::depth || key == Key::retract;
+        const auto value = take_number(may_be_negative ? -farthest : 0, farthest);
+        if (!value) return std::unexpected(value.error());
+        const double mm = *value * unit_mm_;
+        switch (key) {
+            case Key::depth:
+                cycle_.depth_mm = std::abs(mm);  // NX writes the way up, so a minus
+                break;
+            case Key::clearance:
+                cycle_.clearance_mm = mm;
+                break;
+            case Key::retract:
+                cycle_.retract_mm = mm;
+                has_retract_ = true;
+                break;
+            case Key::first_peck:
+                cycle_.first_peck_mm = mm;
+                break;
+            default:
+                cycle_.peck_mm = mm;
+                break;
+        }
+        return {};
+    }
+
+    Result<void> read_dwell() {
+        const bool turns = at_ < items_.size() && matches(items_[at_].text, "REV");
+        if (turns) ++at_;
+        const auto value = take_number(0, kLongestDwellS);
+        if (!value) return std::unexpected(value.error());
+        if (turns && path_.settings.spindle_rpm == 0) {
+            return report_.refuse(items_[at_ - 1], "a dwell in turns with the spindle speed unknown",
+                                  "add SPINDL with a speed before it");
+        }
+        cycle_.dwell_s = turns ? *value * 60 / path_.settings.spindle_rpm : *value;
+        return {};
+    }
+
+    Result<void> set_feed(double value, const Item& word) {
+        if (value == 0) return report_.refuse(word, "a feed rate of 0", "write one above 0");
+        const bool inches = matches(word.text, "IPM") || matches(word.text, "IPR");
+        const bool plain = matches(word.text, "PERMIN") || matches(word.text, "PERREV");
+        const bool per_turn =
+            matches(word.text, "IPR") || matches(word.text, "MMPR") || matches(word.text, "PERREV");
+        const double unit = plain ? unit_mm_ : mm_per(inches ? LengthUnit::inch : LengthUnit::millimetre);
+        cycle_.feed = Feed{value * unit, per_turn};
+        return {};
+    }
+
+    // depth, feed (with its unit before or behind), clearance.
+    Result<void> read_places() {
+        std::array<double, 3> value{};
+        std::size_t count = 0;
+        const Item* unit = nullptr;
+        for (; at_ < items_.size(); ++at_) {
+            const Item& item = items_[at_];
+            const Word* word = find_word(item.text);
+            if (word && word->key == Key::feed && !unit) {
+                unit = &item;
+            } else if (word && count >= 2) {
+                break;
+            } else if (count == value.size()) {
+                return report_.refuse(item, "more numbers than depth, feed and clearance",
+                                      "name them: FEDTO, MMPM, RAPTO, ...");
+            } else {
+                const auto number = report_.number(item, 0, kLargestCoordinateMm / unit_mm_);
+                if (!number) return std::unexpected(number.error());
+                value[count++] = *number;
+            }
+        }
+        cycle_.depth_mm = value[0] * unit_mm_;
+        cycle_.clearance_mm = value[2] * unit_mm_;
+        if (unit && count >= 2) {
+            if (auto ok = set_feed(value[1], *unit); !ok) return ok;
+        } else if (count >= 2) {
+            return report_.refuse(cycle_.at, "the cycle's feed has no unit", "write MMPM or IPM before it");
+        }
+        return read_words();
+    }
+
+    const std::vector<Item>& items_;
+    const Path& path_;
+    Report& report_;
+    double unit_mm_;
+    Cycle cycle_;
+    std::size_t at_ = 0;
+    bool has_retract_ = false;
+};
+
+}  // namespace
+
+Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report) {
+    return CycleReader(statement, path, report).read();
+}
+
+Result<void> drill(const Cycle& cycle, const motion::ToolPose& point, const Item& at, Path& path,
+                   Report& report) {
+    using motion::MoveKind;
+    const auto go = [&](double height, MoveKind kind) {
+        return path.go({point.tip_mm + height * point.axis, point.axis}, kind, at, {}, cycle.feed);
+    };
+    const double top = std::max(cycle.retract_mm, cycle.clearance_mm);
+    if (auto ok = go(top, MoveKind::rapid); !ok) return ok;
+    if (auto ok = go(cycle.clearance_mm, MoveKind::rapid); !ok) return ok;
+    const bool pecks = cycle.way == Cycle::Way::peck || cycle.way == Cycle::Way::chip;
+    double depth = pecks ? std::min(cycle.first_peck_mm, cycle.depth_mm) : cycle.depth_mm;
+    if (pecks && depth < cycle.depth_mm && report.first(Note::pecks)) {
+        report.warn(cycle.at.line,
+                    "pecks go back to, or by, 0.254 mm: the program does not say what the control does");
+    }
+    for (;;) {
+        if (auto ok = go(-depth, MoveKind::feed); !ok) return ok;
+        if (depth >= cycle.depth_mm) break;
+        const double back = cycle.way == Cycle::Way::chip ? -depth + kPeckGapMm : cycle.clearance_mm;
+        if (auto ok = go(std::min(back, cycle.clearance_mm), MoveKind::rapid); !ok) return ok;
+        if (cycle.way == Cycle::Way::peck) {
+            const double near = std::min(-depth + kPeckGapMm, cycle.clearance_mm);
+            if (auto ok = go(near, MoveKind::rapid); !ok) return ok;
+        }
+        depth = std::min(depth + cycle.peck_mm, cycle.depth_mm);
+    }
+    if (auto ok = path.dwell(cycle.dwell_s, at); !ok) return ok;
+    if (cycle.way == Cycle::Way::bore) {
+        if (auto ok = go(cycle.clearance_mm, MoveKind::feed); !ok) return ok;
+    }
+    return go(cycle.retract_mm, MoveKind::rapid);
+}
+
+}  // namespace tribo::readers::apt

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The moves of an APT program as they grow: where the tool is, and how it goes on from there.
+#pragma once
+
+#include <optional>
+
+#include "readers/apt/frames.hpp"
+#include "readers/apt/reader.hpp"
+#include "readers/apt/report.hpp"
+#include "readers/apt/settings.hpp"
+
+namespace tribo::readers::apt {
+
+class Path {
+  public:
+    Path(const AptOptions& options, Report& report) : options_(options), report_(report) {
+        settings.unit_mm = mm_per(options.default_unit);
+        program_.source = options.source_name;
+    }
+
+    Settings settings;
+    Frames frames;
+    Vec3 axis{0, 0, 1};  // of the next point that gives none, as written
+
+    // The point of `count` items from `first` on, 3 or 6, in the program's frame; without an axis of its own
+    // it has the one in force, which an axis of its own becomes.
+    Result<motion::ToolPose> read_pose(const Statement& statement, std::size_t first, std::size_t count);
+    // Three numbers from `first` on, in mm, as written.
+    Result<Vec3> read_point(const Statement& statement, std::size_t first);
+    // Three numbers from `first` on as a unit direction, as written.
+    Result<Vec3> read_direction(const Statement& statement, std::size_t first);
+
+    const std::optional<motion::ToolPose>& place() const { return place_; }
+    bool any_points() const { return any_points_; }
+    // The tool is there, however it came; none: nobody knows.
+    void set_place(const std::optional<motion::ToolPose>& pose);
+
+    // From the place where the tool is; where that is not known, or where it is there already, no move. Along
+    // the arc if there is one. `feed` in the place of the one in force.
+    Result<void> go(const motion::ToolPose& end, motion::MoveKind kind, const Item& at,
+                    const std::optional<motion::Arc>& arc = {}, const std::optional<Feed>& feed = {});
+    Result<void> dwell(double seconds, const Item& at);
+    Result<double> mm_per_min(const Feed& feed, const Item& at) const;
+
+    motion::Program finish();
+
+  private:
+    motion::Move new_move(motion::MoveKind kind, const Item& at) const;
+    Result<void> append(motion::Move move);
+    Result<void> declare_cutter();
+    Result<double> feed_in_force(const Item& at);
+
+    const AptOptions& options_;
+    Report& report_;
+    motion::Program program_;
+    std::optional<motion::ToolPose> place_;
+    bool any_points_ = false;
+};
+
+}  // namespace tribo::readers::apt

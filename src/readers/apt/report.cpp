@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "readers/apt/report.hpp"
+
+#include <utility>
+
+namespace tribo::readers::apt {
+
+std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 24;
+    std::string shown = "'";
+    for (const char c : text.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
+    return shown + (text.size() > longest ? "...'" : "'");
+}
+
+std::unexpected<Error> Report::refuse(const Item& at, std::string cause, std::string remedy) const {
+    return fail_at(source_name_, at.line, at.column, std::move(cause), std::move(remedy));
+}
+
+Result<double> Report::number(const Item& item, double least, double most) const {
+    const auto value = number_of(item.text);
+    if (!value) {
+        return refuse(item,
+                      item.text.empty() ? "a number is missing" : quoted(item.text) + " is not a number",
+                      "write a decimal number");
+    }
+    if (!(*value >= least && *value <= most)) {
+        return refuse(item, quoted(item.text) + " is out of range", "correct it");
+    }
+    return *value;
+}
+
+bool Report::first(Note note) {
+    return !std::exchange(noted_[static_cast<std::size_t>(note)], true);
+}
+
+void Report::warn(int line, std::string text) {
+    warnings.push_back({source_name_, line, std::move(text)});
+}
+
+}  // namespace tribo::readers::apt

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// How the parts of the APT reader speak to the user, and read the numbers of a statement.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "base/result.hpp"
+#include "readers/apt/lexer.hpp"
+
+namespace tribo::readers::apt {
+
+// An assumption that is worth one warning per program, however often it is made.
+enum class Note {
+    unit,
+    feed,
+    spindle_off,
+    spindle_backwards,
+    cutter_shape,
+    inserted_text,
+    second_frame,
+    local_frame,
+    translation,
+    origin,
+    home,
+    rapid_speed,
+    full_circle,
+    pecks,
+    count
+};
+
+class Report {
+  public:
+    explicit Report(std::string source_name) : source_name_(std::move(source_name)) {}
+
+    std::unexpected<Error> refuse(const Item& at, std::string cause, std::string remedy) const;
+    // The number that the item spells, between least and most.
+    Result<double> number(const Item& item, double least, double most) const;
+    // True the first time it is asked of a note.
+    bool first(Note note);
+    void warn(int line, std::string text);
+
+    Warnings warnings;
+
+  private:
+    std::string source_name_;
+    std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
+};
+
+// An item as a message may show it.
+std::string quoted(std::string_view text);
+
+}  // namespace tribo::readers::apt

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "readers/apt/settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/text/length_unit.hpp"
+
+namespace tribo::readers::apt {
+namespace {
+
+constexpr double kLargestToolNumber = 999'999'999;
+constexpr double kLargestSpindleRpm = 1e6;
+constexpr double kLargestFeed = 1e6;  // in the unit of the statement
+// By how much CUTTER/ may differ from the tool that its diameter and corner describe, mm or degrees.
+constexpr double kCutterTolerance = 1e-3;
+
+}  // namespace
+
+Result<void> set_units(const Statement& statement, Settings& settings, Report& report) {
+    const Item& item = statement.items.empty() ? statement.word : statement.items.front();
+    if (matches(item.text, "MM") || matches(item.text, "MILLIMETERS")) {
+        settings.unit_mm = mm_per(LengthUnit::millimetre);
+    } else if (matches(item.text, "INCHES") || matches(item.text, "INCH") || matches(item.text, "IN")) {
+        settings.unit_mm = mm_per(LengthUnit::inch);
+    } else {
+        return report.refuse(item, "units that are neither MM nor INCHES", "write UNITS/MM or UNITS/INCHES");
+    }
+    settings.unit_stated = true;
+    return {};
+}
+
+Result<void> set_feed(const Statement& statement, Settings& settings, Report& report) {
+    std::optional<double> value;
+    double scale = settings.unit_mm;
+    bool per_turn = false, inverse = false;
+    for (const Item& item : statement.items) {
+        if (inverse && (matches(item.text, "AUTO") || matches(item.text, "ON") || matches(item.text, "OFF")))
+            continue;
+        if (matches(item.text, "IPM") || matches(item.text, "IPR")) {
+            scale = mm_per(LengthUnit::inch);
+            per_turn = matches(item.text, "IPR");
+        } else if (matches(item.text, "MMPM") || matches(item.text, "MMPR")) {
+            scale = mm_per(LengthUnit::millimetre);
+            per_turn = matches(item.text, "MMPR");
+        } else if (matches(item.text, "PERREV")) {
+            per_turn = true;
+        } else if (matches(item.text, "INVERS") || matches(item.text, "INVERSE")) {
+            inverse = true;
+        } else if (matches(item.text, "FPT")) {
+            return report.refuse(item, "a feed per tooth, and APT does not say how many teeth",
+                                 "write it per turn or per minute");
+        } else if (!matches(item.text, "PERMIN")) {
+            const auto speed = report.number(item, 0, kLargestFeed);
+            if (!speed) return std::unexpected(speed.error());
+            if (value) return report.refuse(item, "a second feed rate", "give one number and its unit");
+            value = *speed;
+        }
+    }
+    if (inverse && value) {
+        return report.refuse(statement.word, "a feed in inverse time is not read",
+                             "write FEDRAT with a speed; the post makes inverse time of it");
+    }
+    if (inverse) return {};
+    if (!value) return report.refuse(statement.word, "FEDRAT without a number", "write FEDRAT/100,MMPM");
+    if (*value == 0) return report.refuse(statement.word, "a feed rate of 0", "write one above 0");
+    settings.feed = Feed{*value * scale, per_turn};
+    return {};
+}
+
+Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report) {
+    constexpr double mm_per_foot = 304.8, mm_per_metre = 1000;
+    double surface_mm = 0;  // one unit of the surface speed; 0: the speed is in turns
+    bool any = false;
+    for (std::size_t i = 0; i < statement.items.size(); ++i) {
+        const Item& item = statement.items[i];
+        if (matches(item.text, "OFF")) {
+            settings.spindle_stopped = true;
+        } else if (matches(item.text, "RANGE") || matches(item.text, "MAXRPM")) {
+            ++i;  // a gear or a limit: its value
+        } else if (matches(item.text, "SFM")) {
+            surface_mm = mm_per_foot;
+        } else if (matches(item.text, "SMM")) {
+            surface_mm = mm_per_metre;
+        } else if (matches(item.text, "ON") || matches(item.text, "CLW")) {
+            settings.spindle_stopped = false;
+        } else if (matches(item.text, "CCLW")) {
+            settings.spindle_stopped = false;
+            if (report.first(Note::spindle_backwards)) {
+                report.warn(item.line, "the spindle turns backwards (CCLW): taken as a cut all the same");
+            }
+        } else if (!matches(item.text, "RPM")) {
+            const auto speed = report.number(item, 0, kLargestSpindleRpm);
+            if (!speed) return std::unexpected(speed.error());
+            any = true;
+            settings.spindle_rpm = *speed;
+            settings.spindle_stopped = false;
+        }
+    }
+    if (surface_mm == 0 || !any) return {};
+    if (settings.diameter_mm == 0) {
+        return report.refuse(statement.word, "a surface speed with the cutter's diameter unknown",
+                             "add CUTTER before it, or write RPM");
+    }
+    settings.spindle_rpm *= surface_mm / (math::kPi * settings.diameter_mm);
+    return {};
+}
+
+Result<void> load_tool(const Statement& statement, Settings& settings, Report& report) {
+    std::size_t place = 0;
+    if (matches(statement.word.text, "LOAD")) {
+        if (statement.items.empty() || !matches(statement.items.front().text, "TOOL")) {
+            return report.refuse(statement.word, "LOAD of something that is not a tool",
+                                 "write LOAD/TOOL, and its number");
+        }
+        place = 1;
+    }
+    if (statement.items.size() <= place) {
+        return report.refuse(statement.word, "no tool number", "write LOADTL/ and the number");
+    }
+    const Item& item = statement.items[place];
+    const auto tool = report.number(item, 0, kLargestToolNumber);
+    if (!tool) return std::unexpected(tool.error());
+    if (*tool != std::floor(*tool)) {
+        return report.refuse(item, "the tool number is not a whole number", "correct it");
+    }
+    settings.tool = static_cast<int>(*tool);
+    return {};
+}
+
+Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report) {
+    std::array<double, 7> value{};
+    const std::size_t count = statement.items.size();
+    if (count < 1 || count > value.size()) {
+        return report.refuse(statement.word, "CUTTER with " + std::to_string(count) + " numbers",
+                             "write CUTTER/diameter,corner radius");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto read = report.number(statement.items[i], -kLargestCoordinateMm, kLargestCoordinateMm);
+        if (!read) return std::unexpected(read.error());
+        value[i] = *read;
+    }
+    const auto [d, r, e, f, bottom_deg, flank_deg, height] = value;
+    if (!(d > 0)) return report.refuse(statement.items[0], "a cutter without a diameter", "correct it");
+    if (r < 0 || 2 * r > d + kCutterTolerance) {
+        return report.refuse(statement.items[1], "a corner radius that does not fit the diameter",
+                             "correct it");
+    }
+    const auto differs = [](double a, double b) { return std::abs(a - b) > kCutterTolerance; };
+    const bool is_other = (count > 2 && differs(e, 0.5 * d - r)) || (count > 3 && differs(f, r)) ||
+                          differs(bottom_deg, 0) || differs(flank_deg, 0);
+    if (is_other && report.first(Note::cutter_shape)) {
+        report.warn(statement.word.line,
+                    "CUTTER describes a cone or a barrel: only its diameter and corner radius are taken");
+    }
+    settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
+                                           statement.word.line};
+    settings.diameter_mm = settings.cutter->diameter_mm;
+    return {};
+}
+
+Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report) {
+    if (statement.items.size() < 2) {
+        return report.refuse(statement.word, "TLDATA without a kind and a diameter",
+                             "write TLDATA/MILL, diameter and corner radius");
+    }
+    const bool is_mill = matches(statement.items[0].text, "MILL");
+    Statement cutter;
+    cutter.word = statement.word;
+    cutter.items.push_back(statement.items[1]);
+    if (is_mill && statement.items.size() > 2) cutter.items.push_back(statement.items[2]);
+    if (!is_mill && report.first(Note::cutter_shape)) {
+        report.warn(statement.word.line,
+                    "TLDATA describes another tool than a mill: only its diameter is taken");
+    }
+    return set_cutter(cutter, settings, report);
+}
+
+}  // namespace tribo::readers::apt

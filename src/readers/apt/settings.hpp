@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What an APT program sets before it moves: units, feed, spindle, tool and cutter.
+#pragma once
+
+#include <optional>
+
+#include "base/result.hpp"
+#include "motion/path/program.hpp"
+#include "readers/apt/lexer.hpp"
+#include "readers/apt/report.hpp"
+
+namespace tribo::readers::apt {
+
+struct Feed {
+    double value = 0;  // mm/min or mm per turn
+    bool per_turn = false;
+};
+
+struct Settings {
+    double unit_mm = 1;
+    bool unit_stated = false;
+    std::optional<Feed> feed;
+    double spindle_rpm = 0;        // 0: nothing said
+    bool spindle_stopped = false;  // by SPINDL/OFF
+    int tool = 0;
+    std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without its number
+    double diameter_mm = 0;                      // of the last CUTTER; 0: none yet
+};
+
+// UNITS/MM, UNITS/INCHES.
+Result<void> set_units(const Statement& statement, Settings& settings, Report& report);
+// FEDRAT/ with a number and IPM, MMPM, IPR, MMPR, PERMIN or PERREV in any order. INVERS asks the post for
+// inverse time, which is the same feed.
+Result<void> set_feed(const Statement& statement, Settings& settings, Report& report);
+// SPINDL/ with a speed, RPM, CLW, CCLW, ON or OFF in any order; SFM and SMM are speeds at the cutter's
+// diameter.
+Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report);
+// LOADTL/n or LOAD/TOOL,n; what follows sets lengths, which do not move the tip.
+Result<void> load_tool(const Statement& statement, Settings& settings, Report& report);
+// CUTTER/d,r,e,f,a,b,h: diameter, corner radius, place of the corner's centre (from the axis, above the tip),
+// angles of bottom and flank, height.
+Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report);
+// TLDATA/MILL,d,r,... of NX: diameter, corner radius, length, taper, tip; other kinds by their diameter.
+Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report);
+
+}  // namespace tribo::readers::apt

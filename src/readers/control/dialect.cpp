@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/dialect.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers {
+namespace {
+
+constexpr std::size_t kLookedAt = 1 << 16;  // characters from the start
+
+struct Sign {
+    std::string_view text;
+    Dialect dialect;
+};
+// Plain anywhere in a block; the text is in upper case and without blanks.
+constexpr std::array kSigns{
+    Sign{"BEGINPGM", Dialect::heidenhain}, Sign{"TOOLCALL", Dialect::heidenhain},
+    Sign{"TRAORI", Dialect::siemens},      Sign{"TRAFOOF", Dialect::siemens},
+    Sign{"CYCLE8", Dialect::siemens},      Sign{"MCALL", Dialect::siemens},
+    Sign{"MSG(", Dialect::siemens},        Sign{"STOPRE", Dialect::siemens},
+    Sign{"SUPA", Dialect::siemens},        Sign{"_N_", Dialect::siemens},
+    Sign{"CR=", Dialect::siemens},         Sign{"A3=", Dialect::siemens},
+    Sign{"=AC(", Dialect::siemens},        Sign{"=IC(", Dialect::siemens},
+    Sign{"O<", Dialect::linuxcnc},         Sign{"#<", Dialect::linuxcnc},
+    Sign{"M428", Dialect::linuxcnc},       Sign{"M429", Dialect::linuxcnc},
+    Sign{"G43.4", Dialect::fanuc},         Sign{"G43.5", Dialect::fanuc},
+    Sign{"G68.2", Dialect::fanuc},         Sign{"]GOTO", Dialect::fanuc},
+    Sign{"G54.1P", Dialect::fanuc},
+};
+
+// Upper case, without blanks and comments.
+std::string plain(std::string_view line) {
+    std::string text;
+    bool comment = false;
+    for (const char c : line) {
+        if (c == ';') break;
+        if (c == '(' && (text.empty() || !is_letter(text.back()))) comment = true;
+        if (!comment && !is_blank(c)) text += to_upper(c);
+        if (c == ')') comment = false;
+    }
+    return text;
+}
+
+bool is_program_number(std::string_view text) {
+    return text.size() > 1 && (text[0] == 'O' || text[0] == ':') &&
+           std::all_of(text.begin() + 1, text.end(), is_digit);
+}
+
+}  // namespace
+
+std::string_view name_of(Dialect dialect) {
+    constexpr std::string_view names[] = {"LinuxCNC", "Fanuc", "Siemens", "Heidenhain"};
+    return names[static_cast<std::size_t>(dialect)];
+}
+
+std::optional<Dialect> detect_dialect(std::string_view bytes) {
+    TextLines lines(bytes.substr(0, kLookedAt));
+    bool first = true;
+    while (const auto line = lines.next()) {
+        const std::string text = plain(*line);
+        if (text.empty() || text == "%") continue;
+        if (std::exchange(first, false) && is_program_number(text)) return Dialect::fanuc;
+        for (const Sign& sign : kSigns) {
+            if (text.find(sign.text) != std::string::npos) return sign.dialect;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace tribo::readers

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/codes.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+constexpr std::string_view kPlainMoves = "let the CAM system write it as plain G0 to G3 moves";
+constexpr std::string_view kApt =
+    "give the machine-independent path instead: APT CLDATA or keyframes with tool axes";
+constexpr std::string_view kDelete = "delete it where it does not move the tool";
+
+}  // namespace
+
+std::optional<GGroup> group_of_g(int tenths) {
+    switch (tenths) {
+        case 40:
+        case 100:
+        case 280:
+        case 300:
+        case 520:
+        case 530:
+        case 920:
+        case 921:
+        case 922:
+        case 923:
+            return GGroup::non_modal;
+        case 0:
+        case 10:
+        case 20:
+        case 30:
+        case 50:
+        case 51:
+        case 52:
+        case 53:
+        case 62:
+        case 730:
+        case 740:
+        case 760:
+        case 800:
+        case 810:
+        case 820:
+        case 830:
+        case 840:
+        case 850:
+        case 860:
+        case 870:
+        case 880:
+        case 890:
+            return GGroup::motion;
+        case 170:
+        case 180:
+        case 190:
+            return GGroup::plane;
+        case 900:
+        case 910:
+            return GGroup::distance;
+        case 901:
+        case 911:
+            return GGroup::arc_distance;
+        case 930:
+        case 940:
+        case 950:
+            return GGroup::feed_mode;
+        case 200:
+        case 210:
+            return GGroup::units;
+        case 400:
+        case 410:
+        case 411:
+        case 420:
+        case 421:
+            return GGroup::cutter_side;
+        case 430:
+        case 431:
+        case 432:
+        case 434:
+        case 435:
+        case 490:
+        case 1680:
+        case 1690:
+        case 2340:
+            return GGroup::tool_length;
+        case 980:
+        case 990:
+            return GGroup::return_level;
+        case 540:
+        case 550:
+        case 560:
+        case 570:
+        case 580:
+        case 590:
+        case 591:
+        case 592:
+        case 593:
+            return GGroup::work_offset;
+        case 610:
+        case 611:
+        case 640:
+            return GGroup::path_control;
+        case 970:
+            return GGroup::spindle_mode;
+        case 150:
+            return GGroup::polar;
+        case 690:
+            return GGroup::rotation;
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<MGroup> group_of_m(int tenths) {
+    switch (tenths) {
+        case 0:
+        case 10:
+        case 20:
+        case 300:
+        case 600:
+            return MGroup::stop;
+        case 60:
+            return MGroup::tool;
+        case 30:
+        case 40:
+        case 50:
+            return MGroup::spindle;
+        case 70:
+        case 80:
+        case 90:
+            return MGroup::coolant;
+        case 480:
+        case 490:
+        case 500:
+        case 510:
+        case 520:
+        case 530:
+            return MGroup::overrides;
+        case 190:
+            return MGroup::orientation;
+        case 620:
+        case 630:
+        case 640:
+        case 650:
+        case 670:
+        case 680:
+            return MGroup::outputs;
+        case 980:
+        case 990:
+            return MGroup::subprogram;
+        case 1280:
+        case 1290:
+        case 4280:
+        case 4290:
+        case 4300:
+            return MGroup::tool_tip;
+        default:
+            return std::nullopt;
+    }
+}
+
+Unread unread_g(int tenths) {
+    switch (tenths) {
+        case 60:
+        case 61:
+            return {"splines of this kind", kPlainMoves};
+        case 70:
+        case 80:
+            return {"lathe diameters", "give a milling program"};
+        case 120:
+        case 130:
+            return {"circular pockets", kPlainMoves};
+        case 160:
+            return {"polar coordinates", kPlainMoves};
+        case 171:
+        case 181:
+        case 191:
+            return {"planes of the axes U V W", kPlainMoves};
+        case 281:
+        case 301:
+            return {"setting the home position", kDelete};
+        case 330:
+        case 331:
+            return {"moves synchronised with the spindle", kPlainMoves};
+        case 310:
+        case 382:
+        case 383:
+        case 384:
+        case 385:
+            return {"probing", "delete the probing cycle; it does not cut"};
+        case 500:
+        case 510:
+            return {"scaling", kPlainMoves};
+        case 541:
+            return {"additional work offsets", "use G54 to G59"};
+        case 531:
+        case 680:
+        case 682:
+            return {"tilted or turned planes", kApt};
+        case 960:
+            return {"constant surface speed", "use G97 with S in turns per minute"};
+        default:
+            return {"", "check the number and the dialect"};
+    }
+}
+
+Unread unread_m(int tenths) {
+    switch (tenths) {
+        case 970:
+            return {"subroutines that start at a line number", kPlainMoves};
+        case 100:
+        case 110:
+            return {"clamps", kDelete};
+        case 660:
+            return {"reading inputs", kDelete};
+        default:
+            return {"", kDelete};
+    }
+}
+
+}  // namespace tribo::readers::gcode

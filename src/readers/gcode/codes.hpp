@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Which G and M codes this reader knows, in which modal group each stands, and what it says of those that it
+// knows by name only. The dialect is LinuxCNC's where two controls differ.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace tribo::readers::gcode {
+
+// At most one code of a group may stand in a block.
+enum class GGroup {
+    non_modal,     // G4 G10 G28 G30 G53 G92 G92.1 G92.2 G92.3
+    motion,        // G0 G1 G2 G3 G5 to G5.3 G6.2 G73 G74 G76 G80 to G89
+    plane,         // G17 G18 G19
+    distance,      // G90 G91
+    arc_distance,  // G90.1 G91.1
+    feed_mode,     // G93 G94 G95
+    units,         // G20 G21
+    cutter_side,   // G40 G41 G41.1 G42 G42.1
+    tool_length,   // G43 G49, and with tool tip control G43.4 G43.5 G168 G169 G234
+    return_level,  // G98 G99
+    work_offset,   // G54 to G59.3
+    path_control,  // G61 G61.1 G64
+    spindle_mode,  // G97
+    polar,         // G15
+    rotation,      // G69
+    count
+};
+
+enum class MGroup {
+    stop,         // M0 M1 M2 M30 M60
+    tool,         // M6
+    spindle,      // M3 M4 M5
+    coolant,      // M7 M8 M9
+    overrides,    // M48 to M53
+    orientation,  // M19
+    outputs,      // M62 to M65, M67, M68
+    subprogram,   // M98 M99
+    tool_tip,     // tool tip control: M128 M129, LinuxCNC's M428 M429 M430
+    count
+};
+
+// Codes are counted in tenths: G90.1 is 901.
+std::optional<GGroup> group_of_g(int tenths);
+std::optional<MGroup> group_of_m(int tenths);
+
+// What a code that is not read asks for, and what to do about it.
+struct Unread {
+    std::string_view what;
+    std::string_view remedy;
+};
+// Of a code without a group. `what` is empty for a code that is not known at all.
+Unread unread_g(int tenths);
+Unread unread_m(int tenths);
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/flow.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace tribo::readers::gcode {
+namespace {
+
+// LinuxCNC stops at 10, other controls at 4 to 20.
+constexpr std::size_t kDeepestCall = 100;
+constexpr double kMostRepeats = 1e9;
+
+std::string called_label(const std::string& label) {
+    return "o" + label;
+}
+
+}  // namespace
+
+Flow::Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters)
+    : bytes_(bytes), options_(options), lexer_(lexer), parameters_(parameters) {}
+
+std::unexpected<Error> Flow::refuse(int line, int column, std::string cause, std::string remedy) const {
+    return fail_at(options_.source_name, line, column, std::move(cause), std::move(remedy));
+}
+
+Result<void> Flow::require_labels() {
+    if (labels_) return {};
+    auto labels = Labels::of(bytes_, options_.source_name, options_.skip_deletable_blocks);
+    if (!labels) return std::unexpected(labels.error());
+    labels_ = std::move(*labels);
+    return {};
+}
+
+std::unexpected<Error> Flow::refuse_unclosed(int index) const {
+    const Landmark& mark = (*labels_)[index];
+    const std::string_view keyword = spelling(mark.keyword);
+    const std::string closer = mark.keyword == Keyword::do_ ? "while" : "end" + std::string(keyword);
+    return refuse(mark.line, 1, called_label(mark.label) + " " + std::string(keyword) + " is never closed",
+                  "add " + called_label(mark.label) + " " + closer + " after it");
+}
+
+Result<void> Flow::count_step(int line) {
+    // A program without loops and calls runs each of its lines once, so it never meets the limit.
+    if (++steps_ <= options_.max_steps || steps_ <= bytes_.size()) return {};
+    return refuse(line, 1,
+                  "more than " + std::to_string(options_.max_steps) +
+                      " blocks have run: a loop around this line does not seem to end",
+                  "correct its condition");
+}
+
+Result<std::optional<double>> Flow::read_condition(Block& block, Keyword keyword, bool required) {
+    Cursor& cursor = lexer_.cursor();
+    std::optional<double> value;
+    if (cursor.peek_after_blanks() == '[') {
+        const auto read = read_value(cursor, parameters_);
+        if (!read) return std::unexpected(read.error());
+        value = *read;
+    } else if (required) {
+        return cursor.refuse(cursor.at, std::string(spelling(keyword)) + " without its [expression]",
+                             "write it in square brackets");
+    }
+    if (auto end = lexer_.read_end(block); !end) return std::unexpected(end.error());
+    return value;
+}
+
+Result<bool> Flow::run(Block& block) {
+    Cursor& cursor = lexer_.cursor();
+    const std::size_t start = cursor.at;
+    const auto word = read_o_word(cursor, &parameters_);
+    if (!word) return std::unexpected(word.error());
+    if (word->is_computed && word->keyword != Keyword::call) {
+        return cursor.refuse(start, "only a call may compute its label", "write the number out");
+    }
+    if (word->keyword == Keyword::none) {
+        if (auto end = lexer_.read_end(block); !end) return std::unexpected(end.error());
+        if (calls_.empty()) return true;
+        return cursor.refuse(start,
+                             "another program starts here before M99 has ended the one that was called",
+                             "end each subprogram with M99");
+    }
+    if (auto known = require_labels(); !known) return std::unexpected(known.error());
+    const int index = labels_->on_line(block.line);
+    if (index < 0 && word->keyword != Keyword::call) {
+        return cursor.refuse(start, "an O-word does not stand at the start of its line",
+                             "move what is before it to the line above");
+    }
+    const auto done = [&]() -> Result<void> {
+        switch (word->keyword) {
+            case Keyword::sub: {
+                const Landmark& mark = (*labels_)[index];
+                if (mark.closer < 0) return refuse_unclosed(index);
+                lexer_.go_to((*labels_)[mark.closer].after);
+                return {};
+            }
+            case Keyword::endsub:
+            case Keyword::return_:
+                return return_from_sub(*word, block);
+            case Keyword::call:
+                return call(*word, block);
+            case Keyword::if_:
+                return branch(index, block);
+            case Keyword::elseif:
+            case Keyword::else_:
+            case Keyword::endif:
+                return leave_branches(index);
+            case Keyword::do_:
+            case Keyword::repeat:
+                return begin_loop(index, block);
+            case Keyword::while_:
+                return (*labels_)[index].opener < 0 ? begin_loop(index, block) : end_loop(index, block);
+            case Keyword::endwhile:
+            case Keyword::endrepeat:
+                return end_loop(index, block);
+            default:
+                return leave_loop(index, block);
+        }
+    }();
+    if (!done) return std::unexpected(done.error());
+    return false;
+}
+
+// if, and each elseif on the way to the branch that is taken.
+Result<void> Flow::branch(int index, Block& block) {
+    if ((*labels_)[index].closer < 0) return refuse_unclosed(index);
+    for (;;) {
+        const Landmark& mark = (*labels_)[index];
+        const auto is_true = read_condition(block, mark.keyword, true);
+        if (!is_true) return std::unexpected(is_true.error());
+        if (**is_true != 0) return {};
+        index = mark.next_branch;
+        const Landmark& next = (*labels_)[index];
+        if (next.keyword != Keyword::elseif) {
+            lexer_.go_to(next.after);
+            return {};
+        }
+        lexer_.go_to(next.at);
+        if (auto given = lexer_.next(block); !given) return std::unexpected(given.error());
+        if (auto word = read_o_word(lexer_.cursor(), nullptr); !word) return std::unexpected(word.error());
+    }
+}
+
+// What follows a branch that was taken.
+Result<void> Flow::leave_branches(int index) {
+    const Landmark& mark = (*labels_)[index];
+    if (mark.opener < 0) {
+        return refuse(
+            mark.line, 1,
+            called_label(mark.label) + " " + std::string(spelling(mark.keyword)) + " without its if",
+            "add " + called_label(mark.label) + " if before it, with the same label");
+    }
+    const int closer = (*labels_)[mark.opener].closer;
+    if (closer < 0) return refuse_unclosed(mark.opener);
+    lexer_.go_to((*labels_)[closer].after);
+    return {};
+}
+
+Result<void> Flow::begin_loop(int index, Block& block) {
+    const Landmark& mark = (*labels_)[index];
+    if (mark.closer < 0) return refuse_unclosed(index);
+    if (mark.keyword == Keyword::do_) return lexer_.read_end(block);
+    const auto value = read_condition(block, mark.keyword, true);
+    if (!value) return std::unexpected(value.error());
+    if (mark.keyword == Keyword::while_) {
+        if (**value == 0) lexer_.go_to((*labels_)[mark.closer].after);
+        return {};
+    }
+    const double times = std::floor(**value + 0.5);
+    if (times > kMostRepeats) {
+        return refuse(block.line, 1, "a loop is to be repeated more than a thousand million times",
+                      "correct the number");
+    }
+    if (times < 1) {
+        lexer_.go_to((*labels_)[mark.closer].after);
+    } else {
+        repeats_.push_back({index, static_cast<long>(times)});
+    }
+    return {};
+}
+
+Result<void> Flow::end_loop(int index, Block& block) {
+    const Landmark& mark = (*labels_)[index];
+    if (mark.opener < 0) {
+        return refuse(mark.line, 1,
+                      called_label(mark.label) + " " + std::string(spelling(mark.keyword)) +
+                          " without the start of its loop",
+                      "add it before this line, with the same label");
+    }
+    const Landmark& opener = (*labels_)[mark.opener];
+    if (mark.keyword == Keyword::endwhile) {
+        lexer_.go_to(opener.at);
+        return {};
+    }
+    if (mark.keyword == Keyword::while_) {
+        const auto is_true = read_condition(block, mark.keyword, true);
+        if (!is_true) return std::unexpected(is_true.error());
+        if (**is_true != 0) lexer_.go_to(opener.after);
+        return {};
+    }
+    if (repeats_.empty() || repeats_.back().opener != mark.opener) {
+        return refuse(mark.line, 1, called_label(mark.label) + " endrepeat without the start of its loop",
+                      "enter loops at their start only");
+    }
+    if (--repeats_.back().left > 0) {
+        lexer_.go_to(opener.after);
+    } else {
+        repeats_.pop_back();
+    }
+    return {};
+}
+
+// break and continue
+Result<void> Flow::leave_loop(int index, Block& block) {
+    if (auto end = lexer_.read_end(block); !end) return end;
+    const Landmark& mark = (*labels_)[index];
+    const bool ends = mark.keyword == Keyword::break_;
+    if (mark.opener < 0) {
+        return refuse(mark.line, 1,
+                      called_label(mark.label) + " " + std::string(spelling(mark.keyword)) +
+                          " stands in no loop of that label",
+                      "give it the label of the loop around it");
+    }
+    const Landmark& opener = (*labels_)[mark.opener];
+    if (opener.closer < 0) return refuse_unclosed(mark.opener);
+    const int innermost = ends ? mark.opener : mark.opener + 1;
+    const std::size_t least = calls_.empty() ? 0 : calls_.back().loops;
+    while (repeats_.size() > least && repeats_.back().opener >= innermost) repeats_.pop_back();
+    const Landmark& closer = (*labels_)[opener.closer];
+    lexer_.go_to(ends ? closer.after : opener.keyword == Keyword::while_ ? opener.at : closer.at);
+    return {};
+}
+
+Result<void> Flow::call(const OWord& word, Block& block) {
+    std::array<double, kLocalParameters> arguments;
+    std::size_t count = 0;
+    Cursor& cursor = lexer_.cursor();
+    while (cursor.peek_after_blanks() == '[') {
+        if (count == arguments.size()) {
+            return cursor.refuse(cursor.at, "a call has more than 30 arguments",
+                                 "pass the rest in named parameters");
+        }
+        const auto value = read_value(cursor, parameters_);
+        if (!value) return std::unexpected(value.error());
+        arguments[count++] = *value;
+    }
+    if (auto end = lexer_.read_end(block); !end) return end;
+    const int sub = labels_->find_sub(word.label);
+    if (sub < 0) {
+        return refuse(block.line, block.column,
+                      called_label(word.label) + " is called, but this file has no " +
+                          called_label(word.label) + " sub",
+                      "copy the subroutine into this file: no other files are opened");
+    }
+    if ((*labels_)[sub].closer < 0) return refuse_unclosed(sub);
+    if (calls_.size() == kDeepestCall) {
+        return refuse(block.line, block.column, "subroutines call each other more than 100 deep",
+                      "end the recursion earlier");
+    }
+    calls_.push_back({lexer_.place(), sub, 0, repeats_.size(), false});
+    parameters_.enter({arguments.data(), count});
+    lexer_.go_to((*labels_)[sub].after);
+    return {};
+}
+
+Result<void> Flow::return_from_sub(const OWord& word, Block& block) {
+    const auto value = read_condition(block, word.keyword, false);
+    if (!value) return std::unexpected(value.error());
+    if (calls_.empty() || calls_.back().is_program || (*labels_)[calls_.back().callee].label != word.label) {
+        return refuse(block.line, block.column,
+                      called_label(word.label) + " " + std::string(spelling(word.keyword)) +
+                          " stands outside of that subroutine",
+                      "give it the label of the sub around it");
+    }
+    parameters_.leave();
+    parameters_.set_returned(*value);
+    lexer_.go_to(calls_.back().back);
+    forget_loops(calls_.back().loops);
+    calls_.pop_back();
+    return {};
+}
+
+Result<void> Flow::call_program(const Word& number, long times, int line) {
+    if (auto known = require_labels(); !known) return known;
+    const std::string label = std::to_string(static_cast<long>(number.value));
+    const int program = labels_->find_program(label);
+    if (program < 0) {
+        return refuse(line, number.column, "M98 calls O" + label + ", which this file does not have",
+                      "copy the subprogram behind the main program, from O" + label + " to M99");
+    }
+    if (calls_.size() == kDeepestCall) {
+        return refuse(line, number.column, "subprograms call each other more than 100 deep",
+                      "end the recursion earlier");
+    }
+    calls_.push_back({lexer_.place(), program, times - 1, repeats_.size(), true});
+    lexer_.go_to((*labels_)[program].after);
+    return {};
+}
+
+Result<bool> Flow::return_from_program(int line, int column) {
+    if (calls_.empty()) return false;
+    Call& call = calls_.back();
+    if (!call.is_program) {
+        return refuse(line, column, "M99 stands in a subroutine that an O-word has called",
+                      "end it with endsub");
+    }
+    forget_loops(call.loops);
+    if (call.times_left > 0) {
+        --call.times_left;
+        lexer_.go_to((*labels_)[call.callee].after);
+        return true;
+    }
+    lexer_.go_to(call.back);
+    calls_.pop_back();
+    return true;
+}
+
+Result<void> Flow::end_text(int line) const {
+    if (calls_.empty()) return {};
+    const Call& call = calls_.back();
+    const std::string& label = (*labels_)[call.callee].label;
+    return refuse(line, 1,
+                  call.is_program ? "the text ends before M99 has ended O" + label
+                                  : "the text ends before o" + label + " endsub",
+                  "end each subprogram with M99 and each sub with endsub");
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/motion/compensation.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "base/math.hpp"
+#include "readers/gcode/motion/arc.hpp"
+#include "readers/gcode/motion/moves.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+// Directions that differ by less than this go on straight, rad.
+constexpr double kStraightRad = 1e-6;
+constexpr double kSamePointMm = 1e-7;
+constexpr double kLargestDiameterMm = 1e4;
+
+std::string mm_text(double value) {
+    return short_decimal(value) + " mm";
+}
+
+class Corner {
+  public:
+    Corner(State& state, Output& output) : state_(state), comp_(state.compensation), output_(output) {
+        const auto axes = axes_of(comp_.plane);
+        u_ = axes[0];
+        v_ = axes[1];
+        w_ = axes[2];
+    }
+
+    Result<void> take(const motion::Move& programmed) {
+        const Point from = in_plane(programmed.start.tip_mm), to = in_plane(programmed.end.tip_mm);
+        if (programmed.kind == motion::MoveKind::dwell || (!programmed.arc && from == to)) {
+            return stay(programmed);
+        }
+        if (programmed.quadratic) {
+            return refuse(programmed, "splines are not compensated for the cutter's radius",
+                          "write G40 before it");
+        }
+        Element contour{from, to, {}, 0};
+        if (programmed.arc) {
+            contour.centre = in_plane(programmed.arc->centre_mm);
+            contour.turn_rad = programmed.arc->turn_rad * (programmed.arc->normal[w_] < 0 ? -1 : 1);
+        }
+        auto moved = offset(contour, comp_.left_mm);
+        if (!moved) {
+            return refuse(programmed,
+                          "the arc's radius " + mm_text(distance(contour.start, contour.centre)) +
+                              " is smaller than the cutter's, " + mm_text(std::abs(comp_.left_mm)),
+                          "take a smaller cutter or round the corner more");
+        }
+        if (!comp_.has_begun) return enter(programmed, contour, *moved);
+        return join(programmed, contour, *moved);
+    }
+
+    Result<void> hand_out_all() {
+        for (const motion::Move& move : comp_.waiting) {
+            if (auto done = hand_out(move, state_, output_); !done) return done;
+        }
+        comp_.waiting.clear();
+        return {};
+    }
+
+  private:
+    Point in_plane(Vec3 p) const { return {p[u_], p[v_]}; }
+    Vec3 in_space(Point p, double w) const {
+        Vec3 q;
+        q[u_] = p.u;
+        q[v_] = p.v;
+        q[w_] = w;
+        return q;
+    }
+    std::unexpected<Error> refuse(const motion::Move& move, std::string cause, std::string remedy) const {
+        return output_.refuse(move.line, 1, std::move(cause), std::move(remedy));
+    }
+
+    // A dwell, or a move along the tool: wherever the last move of the contour will end.
+    Result<void> stay(const motion::Move& programmed) {
+        motion::Move move = programmed;
+        const Point here = comp_.has_begun ? comp_.last.end : comp_.at;
+        move.start.tip_mm = in_space(here, programmed.start.tip_mm[w_]);
+        move.end.tip_mm = in_space(here, programmed.end.tip_mm[w_]);
+        if (comp_.waiting.empty()) return hand_out(move, state_, output_);
+        if (comp_.waiting.size() > kMostWaiting) {
+            return refuse(programmed, "more than 1000 blocks without motion in the plane of compensation",
+                          "write G40 before them");
+        }
+        comp_.waiting.push_back(move);
+        return {};
+    }
+
+    // The move along the compensated element, with the words of the programmed one.
+    motion::Move along(const Element& element, const motion::Move& programmed) const {
+        motion::Move move = programmed;
+        move.start.tip_mm = in_space(element.start, programmed.start.tip_mm[w_]);
+        move.end.tip_mm = in_space(element.end, programmed.end.tip_mm[w_]);
+        move.duration_s = 0;  // its time was that of the programmed length
+        move.arc.reset();
+        if (element.is_arc()) {
+            motion::Arc arc;
+            arc.centre_mm = in_space(element.centre, move.start.tip_mm[w_]);
+            arc.normal = {0, 0, 0};
+            arc.normal[w_] = element.turn_rad > 0 ? 1 : -1;
+            arc.turn_rad = std::abs(element.turn_rad);
+            move.arc = arc;
+        }
+        return move;
+    }
+
+    Result<void> enter(const motion::Move& programmed, const Element& contour, const Element& moved) {
+        const double radius = std::abs(comp_.left_mm);
+        if (contour.is_arc()) {
+            const auto into = arc_into(comp_.at, moved);
+            if (!into) {
+                return refuse(programmed, "no arc leads from the start to the offset of this arc's end",
+                              "begin compensation on a straight move");
+            }
+            comp_.last = *into;
+            comp_.waiting.assign(1, along(*into, programmed));
+        } else {
+            if (contour.length() <= radius) {
+                return refuse(programmed,
+                              "the entry into compensation is " + mm_text(contour.length()) +
+                                  " long, not longer than the cutter's radius of " + mm_text(radius),
+                              "start farther away");
+            }
+            Element entry = moved;
+            comp_.last = moved;
+            entry.start = comp_.at;
+            comp_.waiting.assign(1, along(entry, programmed));
+        }
+        comp_.has_begun = true;
+        comp_.direction = contour.end_direction();
+        comp_.curvature_per_mm = contour.curvature_per_mm();
+        return {};
+    }
+
+    Result<void> join(const motion::Move& programmed, const Element& contour, Element moved) {
+        const double side = comp_.left_mm < 0 ? -1 : 1;
+        const double turn = turn_at_corner(contour);
+        if (std::abs(turn) < kStraightRad) {
+            moved.set_start(comp_.last.end);
+        } else if (side * turn < 0) {
+            if (auto done = hand_out_all(); !done) return done;
+            if (auto done = turn_about(contour.start, moved.start, turn, programmed); !done) return done;
+        } else if (auto done = cut_off(programmed, moved); !done) {
+            return done;
+        }
+        if (auto done = hand_out_all(); !done) return done;
+        comp_.waiting.assign(1, along(moved, programmed));
+        comp_.last = moved;
+        comp_.direction = contour.end_direction();
+        comp_.curvature_per_mm = contour.curvature_per_mm();
+        return {};
+    }
+
+    // A path that turns back turns to the side on which it goes on; along the very same line it goes round.
+    double turn_at_corner(const Element& contour) const {
+        const double turn = turn_between(comp_.direction, contour.start_direction());
+        if (math::kPi - std::abs(turn) >= kStraightRad) return turn;
+        const double to_right = comp_.curvature_per_mm + contour.curvature_per_mm();
+        const bool is_same = std::abs(to_right) < 1e-9;
+        const bool turns_left = is_same ? comp_.left_mm < 0 : to_right < 0;
+        return turns_left ? math::kPi : -math::kPi;
+    }
+
+    // Round an outside corner.
+    Result<void> turn_about(Point corner, Point to, double turn, const motion::Move& programmed) {
+        Element arc{comp_.last.end, to, corner, turn};
+        motion::Move move = programmed;
+        move.end.tip_mm[w_] = move.start.tip_mm[w_];
+        if (distance(arc.start, arc.end) <= kSamePointMm && std::abs(turn) < 1) return {};
+        return hand_out(along(arc, move), state_, output_);
+    }
+
+    // At an inside corner.
+    Result<void> cut_off(const motion::Move& programmed, Element& moved) {
+        const auto meets = meeting(comp_.last, moved);
+        if (!meets) {
+            return refuse(programmed,
+                          "the cutter of " + mm_text(2 * std::abs(comp_.left_mm)) +
+                              " diameter does not fit into the inside corner at the start of this block "
+                              "without gouging line " +
+                              std::to_string(comp_.waiting.front().line) + " or this one",
+                          "take a smaller cutter or leave out moves that are too short for it");
+        }
+        motion::Move& first = comp_.waiting.front();
+        comp_.last.set_end(*meets);
+        first.end.tip_mm = in_space(*meets, first.end.tip_mm[w_]);
+        if (first.arc) first.arc->turn_rad = std::abs(comp_.last.turn_rad);
+        for (std::size_t i = 1; i < comp_.waiting.size(); ++i) {
+            motion::Move& move = comp_.waiting[i];
+            move.start.tip_mm = in_space(*meets, move.start.tip_mm[w_]);
+            move.end.tip_mm = in_space(*meets, move.end.tip_mm[w_]);
+        }
+        moved.set_start(*meets);
+        return {};
+    }
+
+    static constexpr std::size_t kMostWaiting = 1000;
+
+    State& state_;
+    Compensation& comp_;
+    Output& output_;
+    int u_ = 0, v_ = 1, w_ = 2;
+};
+
+std::unexpected<Error> refuse_meanwhile(const Command& command, char letter, Code code, const State& state,
+                                        const Output& output) {
+    return output.refuse(command.line(), code.column,
+                         code_text(letter, code.tenths) +
+                             " does not go with the cutter compensation that line " +
+                             std::to_string(state.compensation.line) + " has switched on",
+                         "write G40 before it");
+}
+
+}  // namespace
+
+Result<void> end_compensation(State& state, Output& output) {
+    Compensation& comp = state.compensation;
+    if (!comp.is_on) return {};
+    if (auto done = Corner(state, output).hand_out_all(); !done) return done;
+    if (comp.has_begun) {
+        const auto axes = axes_of(comp.plane);
+        Vec3 at = state.tip_mm;
+        at[axes[0]] = comp.last.end.u;
+        at[axes[1]] = comp.last.end.v;
+        state.left_at_mm = at;
+    }
+    comp = {};
+    return {};
+}
+
+Result<void> check_compensation(const Command& command, State& state, Output& output) {
+    if (!state.compensation.is_on) return {};
+    const auto side = command.g(GGroup::cutter_side);
+    if (side && side->tenths == 400) return end_compensation(state, output);
+    if (side) return refuse_meanwhile(command, 'G', *side, state, output);
+    for (const GGroup group : {GGroup::plane, GGroup::units, GGroup::work_offset}) {
+        if (const auto code = command.g(group)) {
+            const bool same_plane =
+                group == GGroup::plane && code->tenths == (state.plane == Plane::xy   ? 170
+                                                           : state.plane == Plane::zx ? 180
+                                                                                      : 190);
+            if (!same_plane) return refuse_meanwhile(command, 'G', *code, state, output);
+        }
+    }
+    if (const auto code = command.g(GGroup::non_modal); code && code->tenths != 40) {
+        return refuse_meanwhile(command, 'G', *code, state, output);
+    }
+    if (const auto code = command.g(GGroup::motion); code && code->tenths > 30 && code->tenths != 800) {
+        return refuse_meanwhile(command, 'G', *code, state, output);
+    }
+    if (const auto code = command.m(MGroup::tool))
+        return refuse_meanwhile(command, 'M', *code, state, output);
+    return {};
+}
+
+Result<void> begin_compensation(Command& command, State& state, Output& output) {
+    const auto code = command.g(GGroup::cutter_side);
+    if (!code || code->tenths == 400) return {};
+    const bool is_dynamic = code->tenths % 10 == 1;
+    const Word* word = command.use('D');
+    const int column = word == nullptr ? code->column : word->column;
+    std::optional<double> diameter_mm;
+    if (is_dynamic) {
+        if (word == nullptr) {
+            return output.refuse(command.line(), column,
+                                 code_text('G', code->tenths) + " without the cutter's diameter",
+                                 "add it as D");
+        }
+        diameter_mm = word->value * state.unit_mm;
+    } else {
+        constexpr double largest_number = 999'999'999;
+        const double number = word == nullptr ? state.tool() : word->value;
+        if (!(number >= 0 && number <= largest_number) || number != std::floor(number)) {
+            return output.refuse(command.line(), column, "D is not the number of a tool", "correct D");
+        }
+        // D0 is no compensation by old custom.
+        const bool is_none = word != nullptr && number == 0;
+        diameter_mm = is_none ? 0 : output.tool_diameter_mm(static_cast<int>(number));
+        if (!diameter_mm) {
+            return output.refuse(command.line(), column,
+                                 code_text('G', code->tenths) + " needs the diameter of tool " +
+                                     std::to_string(static_cast<int>(number)) + ", which nothing states",
+                                 "give the tool to the job, write a comment like (T1 D=10.), or use G41.1 D");
+        }
+    }
+    if (!(*diameter_mm >= 0) || *diameter_mm > kLargestDiameterMm) {
+        return output.refuse(command.line(), column,
+                             "the cutter's diameter is negative or beyond any machine",
+                             "correct D; use the other side for a negative one");
+    }
+    if (!state.knows_tip()) {
+        if (auto known = require_start(command, state, output); !known) return known;
+    }
+    Compensation& comp = state.compensation;
+    comp = {};
+    comp.is_on = true;
+    comp.code = code->tenths;
+    comp.line = command.line();
+    comp.plane = state.plane;
+    comp.left_mm = (code->tenths / 10 == 41 ? 0.5 : -0.5) * *diameter_mm;
+    const auto axes = axes_of(state.plane);
+    const Vec3 at = state.left_at_mm.value_or(state.tip_mm);
+    comp.at = {at[axes[0]], at[axes[1]]};
+    state.left_at_mm.reset();
+    return {};
+}
+
+Result<void> leave_compensation(motion::Move move, State& state, Output& output) {
+    if (move.kind == motion::MoveKind::dwell) {
+        move.start.tip_mm = move.end.tip_mm = *state.left_at_mm;
+        return hand_out(move, state, output);
+    }
+    const Vec3 from = *std::exchange(state.left_at_mm, std::nullopt);
+    if (move.arc || move.quadratic) {
+        return output.refuse(move.line, 1, "a curve cannot lead out of cutter compensation",
+                             "write a straight move after G40");
+    }
+    move.start.tip_mm = from;
+    return hand_out(move, state, output);
+}
+
+Result<void> compensate(const motion::Move& programmed, State& state, Output& output) {
+    if (state.rotary.turns()) {
+        return output.refuse(programmed.line, 1,
+                             "rotary axes turn while cutter compensation is on, which has no plane then",
+                             "write G40 before it");
+    }
+    if (state.compensation.left_mm == 0) return hand_out(programmed, state, output);
+    return Corner(state, output).take(programmed);
+}
+
+}  // namespace tribo::readers::gcode

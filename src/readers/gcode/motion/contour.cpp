@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/motion/contour.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+// Points nearer than this are one, mm.
+constexpr double kSamePointMm = 1e-7;
+
+Point operator+(Point a, Point b) {
+    return {a.u + b.u, a.v + b.v};
+}
+Point operator-(Point a, Point b) {
+    return {a.u - b.u, a.v - b.v};
+}
+Point operator*(double s, Point a) {
+    return {s * a.u, s * a.v};
+}
+double dot(Point a, Point b) {
+    return a.u * b.u + a.v * b.v;
+}
+double cross(Point a, Point b) {
+    return a.u * b.v - a.v * b.u;
+}
+Point left_of(Point a) {
+    return {-a.v, a.u};
+}
+Point unit(Point a) {
+    const double size = math::hypot(a.u, a.v);
+    return size > 0 ? (1 / size) * a : Point{1, 0};
+}
+
+// From 0 to a full turn, in the sense of `sign`; nearly a full turn counts as none.
+double turn_from(Point centre, Point a, Point b, double sign) {
+    double turn = sign * turn_between(a - centre, b - centre);
+    const double least = -kSamePointMm / std::max(distance(a, centre), kSamePointMm);
+    if (turn < least) turn += math::kTwoPi;
+    return std::max(turn, 0.0);
+}
+
+struct Meetings {
+    std::array<Point, 2> points;
+    int count = 0;
+    void add(Point p) { points[static_cast<std::size_t>(count++)] = p; }
+};
+
+Meetings line_line(const Element& a, const Element& b) {
+    Meetings found;
+    const Point d = a.start_direction(), e = b.start_direction();
+    const double sine = cross(d, e);
+    if (std::abs(sine) > 1e-12) found.add(a.start + (cross(b.start - a.start, e) / sine) * d);
+    return found;
+}
+
+Meetings line_circle(const Element& line, Point centre, double radius) {
+    Meetings found;
+    const Point d = line.start_direction();
+    const Point foot = line.start + dot(centre - line.start, d) * d;
+    const double height = distance(foot, centre);
+    if (height > radius + kSamePointMm) return found;
+    const double half = height < radius ? std::sqrt((radius - height) * (radius + height)) : 0;
+    found.add(foot + half * d);
+    found.add(foot - half * d);
+    return found;
+}
+
+Meetings circle_circle(Point a, double radius_a, Point b, double radius_b) {
+    Meetings found;
+    const double apart = distance(a, b);
+    if (apart < kSamePointMm) return found;
+    const double along = (apart * apart + radius_a * radius_a - radius_b * radius_b) / (2 * apart);
+    const double square = radius_a * radius_a - along * along;
+    if (square < -2 * radius_a * kSamePointMm) return found;
+    const double aside = square > 0 ? std::sqrt(square) : 0;
+    const Point d = unit(b - a);
+    found.add(a + along * d + aside * left_of(d));
+    found.add(a + along * d - aside * left_of(d));
+    return found;
+}
+
+double radius_of(const Element& arc) {
+    return distance(arc.centre, arc.end);
+}
+
+Meetings meetings(const Element& a, const Element& b) {
+    if (!a.is_arc() && !b.is_arc()) return line_line(a, b);
+    if (!a.is_arc()) return line_circle(a, b.centre, radius_of(b));
+    if (!b.is_arc()) return line_circle(b, a.centre, radius_of(a));
+    return circle_circle(a.centre, radius_of(a), b.centre, radius_of(b));
+}
+
+}  // namespace
+
+double distance(Point a, Point b) {
+    return math::hypot(a.u - b.u, a.v - b.v);
+}
+
+double turn_between(Point a, Point b) {
+    return math::atan2(cross(a, b), dot(a, b));
+}
+
+double Element::length() const {
+    return is_arc() ? std::abs(turn_rad) * radius_of(*this) : distance(start, end);
+}
+
+double Element::curvature_per_mm() const {
+    if (!is_arc()) return 0;
+    return (turn_rad > 0 ? 1 : -1) / std::max(radius_of(*this), kSamePointMm);
+}
+
+Point Element::start_direction() const {
+    if (!is_arc()) return unit(end - start);
+    const Point d = left_of(unit(start - centre));
+    return turn_rad > 0 ? d : -1 * d;
+}
+
+Point Element::end_direction() const {
+    if (!is_arc()) return unit(end - start);
+    const Point d = left_of(unit(end - centre));
+    return turn_rad > 0 ? d : -1 * d;
+}
+
+double Element::before_end(Point p) const {
+    if (!is_arc()) return dot(end - p, start_direction());
+    return radius_of(*this) * turn_from(centre, p, end, turn_rad > 0 ? 1 : -1);
+}
+
+double Element::after_start(Point p) const {
+    if (!is_arc()) return dot(p - start, start_direction());
+    return radius_of(*this) * turn_from(centre, start, p, turn_rad > 0 ? 1 : -1);
+}
+
+void Element::set_end(Point p) {
+    if (is_arc()) {
+        const double sign = turn_rad > 0 ? 1 : -1;
+        turn_rad -= sign * turn_from(centre, p, end, sign);
+    }
+    end = p;
+}
+
+void Element::set_start(Point p) {
+    if (is_arc()) {
+        const double sign = turn_rad > 0 ? 1 : -1;
+        turn_rad -= sign * turn_from(centre, start, p, sign);
+    }
+    start = p;
+}
+
+std::optional<Element> offset(const Element& element, double left_mm) {
+    Element moved = element;
+    if (!element.is_arc()) {
+        const Point aside = left_mm * left_of(element.start_direction());
+        moved.start = element.start + aside;
+        moved.end = element.end + aside;
+        return moved;
+    }
+    const double outwards = element.turn_rad > 0 ? -left_mm : left_mm;
+    for (Point* p : {&moved.start, &moved.end}) {
+        const double radius = distance(*p, element.centre);
+        if (!(radius + outwards > kSamePointMm)) return std::nullopt;
+        *p = element.centre + ((radius + outwards) / radius) * (*p - element.centre);
+    }
+    return moved;
+}
+
+std::optional<Point> meeting(const Element& first, const Element& second) {
+    std::optional<Point> best;
+    double least = 0;
+    const Meetings found = meetings(first, second);
+    for (int i = 0; i < found.count; ++i) {
+        const Point p = found.points[static_cast<std::size_t>(i)];
+        const double off_first = first.before_end(p), off_second = second.after_start(p);
+        if (off_first < -kSamePointMm || off_first > first.length() + kSamePointMm) continue;
+        if (off_second < -kSamePointMm || off_second > second.length() + kSamePointMm) continue;
+        if (!best || off_first + off_second < least) {
+            best = p;
+            least = off_first + off_second;
+        }
+    }
+    return best;
+}
+
+std::optional<Element> arc_into(Point start, const Element& arc) {
+    // The centre lies on the normal at the end, as far from the start as from the end.
+    const Point normal = left_of(arc.end_direction());
+    const Point back = start - arc.end;
+    const double aside = dot(back, normal);
+    if (std::abs(aside) <= kSamePointMm) return std::nullopt;
+    const double radius = dot(back, back) / (2 * aside);
+    Element into;
+    into.start = start;
+    into.end = arc.end;
+    into.centre = arc.end + radius * normal;
+    const double sign = radius > 0 ? 1 : -1;
+    into.turn_rad = sign * turn_from(into.centre, start, arc.end, sign);
+    return into;
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/motion/moves.hpp"
+
+#include <cmath>
+
+#include "readers/gcode/motion/compensation.hpp"
+#include "readers/gcode/motion/rotary.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+constexpr char kAxisLetters[] = "XYZ";
+
+}  // namespace
+
+// Column of the first of these words in the block; 1 where it has none.
+int column_of_any(Command& command, std::string_view letters) {
+    for (const char letter : letters) {
+        if (command.has(letter)) return command.use(letter)->column;
+    }
+    return 1;
+}
+
+std::unexpected<Error> refuse_far(Command& command, char letter, const Output& output) {
+    return output.refuse(command.line(), command.use(letter)->column,
+                         std::string(1, letter) + " lies more than a kilometre away", "correct it");
+}
+
+motion::Move new_move(motion::MoveKind kind, const Command& command, const State& state) {
+    motion::Move move;
+    move.kind = kind;
+    move.start.tip_mm = move.end.tip_mm = state.tip_mm;
+    move.spindle_rpm = state.spindle_rpm;
+    move.tool = state.tool();
+    move.line = command.line();
+    return move;
+}
+
+Result<void> append(const motion::Move& move, State& state, Output& output) {
+    if (state.compensation.is_on) return compensate(move, state, output);
+    return state.left_at_mm ? leave_compensation(move, state, output) : hand_out(move, state, output);
+}
+
+Result<void> hand_out(const motion::Move& move, State& state, Output& output) {
+    if (output.machine) return append_on_machine(move, state, output);
+    const double turn_deg = state.active().turn_deg;
+    if (state.rotary.vectors || state.rotary.now_axis != Vec3{0, 0, 1}) {
+        return output.append(turned(with_vectors(move, state), turn_deg));
+    }
+    return turn_deg == 0 ? output.append(move) : output.append(turned(move, turn_deg));
+}
+
+Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command, State& state,
+                             Output& output) {
+    motion::Move move = new_move(kind, command, state);
+    move.end.tip_mm = to_mm;
+    if (move.start.tip_mm == to_mm && !state.left_at_mm) return {};
+    if (kind == motion::MoveKind::feed) {
+        if (auto fed = set_feed(move, command, state, output); !fed) return fed;
+        note_spindle(command, state, output);
+    }
+    state.tip_mm = to_mm;
+    return append(move, state, output);
+}
+
+// Where the axis words lead. In G91 an axis that nothing has stated is taken to start at the program's zero.
+Result<Target> target_of(Command& command, State& state, Output& output) {
+    Target target{state.tip_mm, state.known};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto word = coordinate_mm(command, axis, state, output);
+        if (!word) return std::unexpected(word.error());
+        if (!*word) continue;
+        Known& known = target.known[static_cast<std::size_t>(axis)];
+        double& place = target.tip_mm[axis];
+        if (!state.incremental) {
+            place = **word + state.origin_mm()[axis];
+            known = Known::yes;
+        } else if (known == Known::yes) {
+            place += **word;
+        } else if (known == Known::unstated) {
+            if (output.first(Note::unstated_axes)) {
+                output.warn(command.line(), std::string("incremental move before ") + kAxisLetters[axis] +
+                                                " is stated: it is taken to start at the program's zero");
+            }
+            place = state.tip_mm[axis] = state.origin_mm()[axis];
+            known = state.known[static_cast<std::size_t>(axis)] = Known::yes;
+            place += **word;
+        }
+        if (std::abs(place) > kLargestCoordinateMm) {
+            return refuse_far(command, kAxisLetters[axis], output);
+        }
+    }
+    return target;
+}
+
+// A feed move needs to know where it starts.
+Result<void> require_start(Command& command, State& state, Output& output) {
+    std::string assumed;
+    for (int axis = 0; axis < 3; ++axis) {
+        Known& known = state.known[static_cast<std::size_t>(axis)];
+        if (known == Known::lost) {
+            return output.refuse(command.line(), column_of_any(command, "XYZIJKR"),
+                                 std::string("the feed move starts at an unknown ") + kAxisLetters[axis] +
+                                     ", which line " + std::to_string(state.lost_line) +
+                                     " moved to a place that only the machine knows",
+                                 std::string("add a rapid (G0) with ") + kAxisLetters[axis] + " before it");
+        }
+        if (known == Known::yes) continue;
+        if (!assumed.empty()) assumed += ", ";
+        assumed += kAxisLetters[axis];
+        assumed += '0';
+        state.tip_mm[axis] = state.origin_mm()[axis];
+        known = Known::yes;
+    }
+    if (!assumed.empty() && output.first(Note::unstated_axes)) {
+        output.warn(command.line(),
+                    "feed move before all of X, Y and Z are stated: it is taken to start at " + assumed);
+    }
+    return {};
+}
+
+// Sets feed and time of a feed move whose path is complete.
+Result<void> set_feed(motion::Move& move, Command& command, const State& state, Output& output) {
+    const int column = column_of_any(command, "FXYZIJKR");
+    if (state.feed_mode == FeedMode::inverse_time) {
+        if (!state.feed || state.feed_line != command.line() || *state.feed == 0) {
+            return output.refuse(command.line(), column, "a feed move in G93 without its own F above 0",
+                                 "write F, one over the minutes that the move takes, or G94 before it");
+        }
+        move.feed_mm_per_min = motion::path_length_mm(move) * *state.feed;
+        move.duration_s = 60 / *state.feed;
+        return {};
+    }
+    if (!state.feed && state.feed_mode == FeedMode::per_minute &&
+        output.options.default_feed_mm_per_min > 0) {
+        move.feed_mm_per_min = output.options.default_feed_mm_per_min;
+        if (output.first(Note::default_feed)) {
+            output.warn(command.line(),
+                        "no feed rate so far: " + short_decimal(move.feed_mm_per_min) + " mm/min is taken");
+        }
+        return {};
+    }
+    if (!state.feed) {
+        return output.refuse(command.line(), column, "a feed move before any F word",
+                             "add an F word to this line or before it");
+    }
+    if (*state.feed == 0) {
+        return output.refuse(command.line(), column, "a feed move with feed rate 0", "write an F above 0");
+    }
+    move.feed_mm_per_min = *state.feed;
+    if (state.feed_mode == FeedMode::per_turn) {
+        if (state.spindle_rpm == 0) {
+            return output.refuse(command.line(), column,
+                                 "a feed per turn (G95) with the spindle speed unknown",
+                                 "write S before it, or G94 with a feed per minute");
+        }
+        move.feed_mm_per_min *= state.spindle_rpm;
+    }
+    return {};
+}
+
+void note_spindle(const Command& command, const State& state, Output& output) {
+    if (state.spindle == Spindle::off) {
+        if (output.first(Note::spindle_off)) {
+            output.warn(command.line(), "feed move with the spindle off: it is taken as running (M3)");
+        }
+    } else if (state.spindle == Spindle::counter_clockwise) {
+        if (output.first(Note::spindle_backwards)) {
+            output.warn(command.line(),
+                        "feed move with the spindle turning backwards (M4): taken as a cut all the same");
+        }
+    }
+    if (!state.has_changed_tool && state.selected_tool != 0) {
+        if (output.first(Note::tool_without_change)) {
+            output.warn(command.line(), "T" + std::to_string(state.selected_tool) +
+                                            " without M6: taken as the tool that is in the spindle");
+        }
+    }
+}
+
+Result<std::optional<double>> coordinate_mm(Command& command, int axis, const State& state, Output& output) {
+    const Word* word = command.use(kAxisLetters[axis]);
+    if (word == nullptr) return std::nullopt;
+    const double value = word->value * state.unit_mm;
+    if (std::abs(value) > kLargestCoordinateMm) {
+        return refuse_far(command, kAxisLetters[axis], output);
+    }
+    if (!state.unit_stated) {
+        if (output.first(Note::no_unit)) {
+            output.warn(command.line(), "no G20 or G21 before the first coordinates: " +
+                                            std::string(plural(output.options.default_unit)) + " are taken");
+        }
+    }
+    return value;
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/motion/offsets.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "readers/gcode/motion/motion.hpp"
+#include "readers/gcode/motion/moves.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+constexpr double kLongestDwellS = 86'400;
+
+// G4: P in seconds; on a Fanuc control P in milliseconds or X in seconds.
+Result<void> apply_dwell(Command& command, State& state, Output& output, int column) {
+    const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
+    const Word* length = command.use('P');
+    const bool in_milliseconds = is_fanuc && length != nullptr;
+    if (length == nullptr && is_fanuc) length = command.use('X');
+    const char* const remedy =
+        is_fanuc ? "write its milliseconds as P or its seconds as X" : "write its seconds as P";
+    if (length == nullptr) return output.refuse(command.line(), column, "a dwell (G4) without P", remedy);
+    const double seconds = in_milliseconds ? length->value / 1000 : length->value;
+    if (!(seconds >= 0) || seconds > kLongestDwellS) {
+        return output.refuse(command.line(), length->column,
+                             seconds < 0 ? "a dwell of negative length" : "a dwell of more than a day",
+                             remedy);
+    }
+    return dwell(seconds, command, state, output);
+}
+
+// The work system that P of G10 names; 0 is the one in force.
+Result<std::size_t> work_system_of(Command& command, const State& state, const Output& output, int column) {
+    const Word* system = command.use('P');
+    if (system == nullptr || system->value < 0 || system->value > kWorkSystems ||
+        system->value != std::floor(system->value)) {
+        return output.refuse(command.line(), system == nullptr ? column : system->column,
+                             "G10 without a work system P from 0 to 9",
+                             "write P1 for G54, P2 for G55 and so on, P0 for the one in force");
+    }
+    const int index = system->value == 0 ? state.active_work : static_cast<int>(system->value) - 1;
+    return static_cast<std::size_t>(index);
+}
+
+// Changes a work system; the tip stays where it is in the stock.
+void set_work(std::size_t index, const WorkSystem& work, State& state) {
+    const double before_deg = state.active().turn_deg;
+    state.work[index] = work;
+    state.work[index].set = true;
+    state.reframe(before_deg);
+}
+
+// G10 L2: where a work system lies, and how it is turned.
+Result<void> set_work_origin(Command& command, State& state, Output& output, int column) {
+    const auto index = work_system_of(command, state, output, column);
+    if (!index) return std::unexpected(index.error());
+    WorkSystem work = state.work[*index];
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto word = coordinate_mm(command, axis, state, output);
+        if (!word) return std::unexpected(word.error());
+        if (*word) work.origin_mm[axis] = **word;
+    }
+    if (const Word* turn = command.use('R')) {
+        if (std::abs(turn->value) > 360) {
+            return output.refuse(command.line(), turn->column,
+                                 "a work system is turned by more than 360 degrees", "correct R");
+        }
+        work.turn_deg = turn->value;
+        const bool knows_plane = state.known[0] == state.known[1];
+        if (!knows_plane) {
+            return output.refuse(command.line(), turn->column,
+                                 "a work system is turned while only one of X and Y is known",
+                                 "move both axes to a stated place before it");
+        }
+    }
+    set_work(*index, work, state);
+    return {};
+}
+
+// G10 L20: a work system is laid so that the tip gets these coordinates in it.
+Result<void> set_work_origin_by_tip(Command& command, State& state, Output& output, int column) {
+    const auto index = work_system_of(command, state, output, column);
+    if (!index) return std::unexpected(index.error());
+    WorkSystem work = state.work[*index];
+    if (const Word* turn = command.use('R')) {
+        return output.refuse(command.line(), turn->column, "G10 L20 does not turn work systems",
+                             "use G10 L2 R");
+    }
+    const Vec3 tip = turned(turned(state.tip_mm, state.active().turn_deg), -work.turn_deg);
+    Vec3 origin = turned(work.origin_mm, -work.turn_deg);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto word = coordinate_mm(command, axis, state, output);
+        if (!word) return std::unexpected(word.error());
+        if (!*word) continue;
+        if (state.known[static_cast<std::size_t>(axis)] != Known::yes) {
+            return output.refuse(
+                command.line(), column,
+                std::string("G10 L20 names the tip's place while ") + "XYZ"[axis] + " is not known",
+                "move there by G0 before it, or use G10 L2");
+        }
+        origin[axis] = tip[axis] - **word - (state.preset_on ? state.preset_mm[axis] : 0);
+    }
+    work.origin_mm = turned(origin, work.turn_deg);
+    set_work(*index, work, state);
+    return {};
+}
+
+// G10 L1: a line of the tool table, of which the radius counts here.
+Result<void> set_tool_entry(Command& command, const State& state, Output& output, int column) {
+    const Word* number = command.use('P');
+    constexpr double largest_number = 999'999'999;
+    if (number == nullptr || !(number->value >= 1 && number->value <= largest_number) ||
+        number->value != std::floor(number->value)) {
+        return output.refuse(command.line(), number == nullptr ? column : number->column,
+                             "G10 L1 without the number of a tool", "write it as P");
+    }
+    for (const char letter : {'X', 'Y', 'Z', 'I', 'J', 'Q'}) command.use(letter);
+    const Word* radius = command.use('R');
+    if (radius == nullptr) return {};
+    const double diameter_mm = 2 * radius->value * state.unit_mm;
+    if (!(diameter_mm >= 0) || diameter_mm > kLargestCoordinateMm) {
+        return output.refuse(command.line(), radius->column,
+                             "the cutter's radius is negative or beyond any machine", "correct R");
+    }
+    output.declare_tool({static_cast<int>(number->value), diameter_mm});
+    return {};
+}
+
+// G10, by its L.
+Result<void> set_table(Command& command, State& state, Output& output, int column) {
+    const Word* kind = command.use('L');
+    if (kind != nullptr && kind->value == 1) return set_tool_entry(command, state, output, column);
+    if (kind != nullptr && kind->value == 2) return set_work_origin(command, state, output, column);
+    if (kind != nullptr && kind->value == 20) return set_work_origin_by_tip(command, state, output, column);
+    return output.refuse(command.line(), kind == nullptr ? column : kind->column,
+                         "of G10 only L1 (tool table), L2 and L20 (work systems) are read",
+                         "let the CAM system write the path without other settings");
+}
+
+// G52: shifts the program's zero, by the same registers as G92 (LinuxCNC).
+Result<void> shift_locally(Command& command, State& state, Output& output, int column) {
+    if (!command.has_any("XYZ")) {
+        return output.refuse(command.line(), column, "G52 without coordinates", "write X, Y or Z after it");
+    }
+    if (!state.preset_on) state.preset_mm = {};
+    state.preset_on = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto word = coordinate_mm(command, axis, state, output);
+        if (!word) return std::unexpected(word.error());
+        if (*word) state.preset_mm[axis] = **word;
+    }
+    return {};
+}
+
+// G92: the tip's place gets new coordinates.
+Result<void> preset(Command& command, State& state, Output& output, int column) {
+    if (!command.has_any("XYZ")) {
+        return output.refuse(command.line(), column, "G92 without coordinates", "write X, Y or Z after it");
+    }
+    if (!state.preset_on) state.preset_mm = {};
+    state.preset_on = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto word = coordinate_mm(command, axis, state, output);
+        if (!word) return std::unexpected(word.error());
+        if (!*word) continue;
+        Known& known = state.known[static_cast<std::size_t>(axis)];
+        if (known == Known::lost) {
+            return output.refuse(
+                command.line(), column,
+                "G92 names a place that only the machine knows since line " + std::to_string(state.lost_line),
+                "write a rapid (G0) to a known place before it");
+        }
+        if (known == Known::unstated) {
+            if (output.first(Note::preset_as_origin)) {
+                output.warn(command.line(),
+                            "G92 before the tool has a place: the coordinates count from the stock's origin");
+            }
+            state.tip_mm[axis] = **word + state.origin_mm()[axis];
+            known = Known::yes;
+        } else {
+            state.preset_mm[axis] += state.tip_mm[axis] - state.origin_mm()[axis] - **word;
+        }
+    }
+    return {};
+}
+
+// G28, G30: a rapid to the point that the block names, then to a place that only the machine knows.
+Result<void> go_home(Command& command, State& state, Output& output, int tenths) {
+    std::array<bool, 3> goes{command.has('X'), command.has('Y'), command.has('Z')};
+    if (!command.has_any("XYZ")) goes = {true, true, true};
+    // From a place that nothing has stated, an increment leads nowhere.
+    for (std::size_t axis = 0; axis < 3 && state.incremental; ++axis) {
+        if (state.known[axis] == Known::unstated) state.known[axis] = Known::lost;
+    }
+    state.lost_line = command.line();
+    if (auto moved = move_rapidly(command, state, output); !moved) return moved;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (goes[axis]) state.known[axis] = Known::lost;
+    }
+    if (output.first(Note::machine_position)) {
+        output.warn(
+            command.line(),
+            code_text('G', tenths) +
+                " goes to a place that only the machine knows: the path is left out until X, Y and Z are "
+                "known again");
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<bool> apply_non_modal(Command& command, State& state, Output& output) {
+    const auto code = command.g(GGroup::non_modal);
+    if (!code) return false;
+    switch (code->tenths) {
+        case 530:
+            return false;
+        case 921:
+            state.preset_mm = {};
+            [[fallthrough]];
+        case 923:
+            state.preset_on = true;
+            return false;
+        case 922:
+            state.preset_on = false;
+            return false;
+        default:
+            break;
+    }
+    const auto motion = command.g(GGroup::motion);
+    const bool goes_home = code->tenths == 280 || code->tenths == 300;
+    if (motion && command.has_any("XYZ") && !(goes_home && motion->tenths == 0)) {
+        return output.refuse(command.line(), code->column,
+                             code_text('G', code->tenths) + " and " + code_text('G', motion->tenths) +
+                                 " both claim the coordinates of this block",
+                             "put them on two lines");
+    }
+    Result<void> done;
+    switch (code->tenths) {
+        case 40:
+            done = apply_dwell(command, state, output, code->column);
+            break;
+        case 100:
+            done = set_table(command, state, output, code->column);
+            break;
+        case 520:
+            done = shift_locally(command, state, output, code->column);
+            break;
+        case 920:
+            done = preset(command, state, output, code->column);
+            break;
+        default:
+            done = go_home(command, state, output, code->tenths);
+            break;
+    }
+    if (!done) return std::unexpected(done.error());
+    return true;
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/motion/rotary.hpp"
+
+#include <cmath>
+
+#include "base/math.hpp"
+#include "motion/algebra/direction.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+constexpr char kLetters[] = "ABC";
+// Beyond this no table turns: 278 turns.
+constexpr double kLargestAngleDeg = 100'000;
+
+void note_machine_needed(const Command& command, Output& output) {
+    motion::Program& program = output.program;
+    if (!program.has_rotary_words) program.first_rotary_line = command.line();
+    program.has_rotary_words = true;
+}
+
+// Whether the block switches tool tip control, and to what.
+struct Switch {
+    bool on = false;
+    bool by_length_code = false;
+    bool vectors = false;
+};
+std::optional<Switch> switch_in(const Command& command, const State& state) {
+    if (const auto code = command.m(MGroup::tool_tip)) {
+        return Switch{code->tenths == 1280 || code->tenths == 4280, false, false};
+    }
+    const auto code = command.g(GGroup::tool_length);
+    if (!code) return std::nullopt;
+    switch (code->tenths) {
+        case 434:
+        case 435:
+        case 1690:
+        case 2340:
+            return Switch{true, true, code->tenths == 435};
+        default:  // G43 and G49 end what such a code began
+            if (!state.rotary.by_length_code) return std::nullopt;
+            return Switch{};
+    }
+}
+
+// The word of the axis with the number 0 to 2 (A B C); absent where the block has none.
+Result<std::optional<double>> word_rad(Command& command, int axis, const Output& output) {
+    const Word* word = command.use(kLetters[axis]);
+    if (word == nullptr) return std::nullopt;
+    const std::string letter(1, kLetters[axis]);
+    if (!output.machine->has_axis(kLetters[axis])) {
+        return output.refuse(command.line(), word->column,
+                             "the machine " + output.machine->machine().name + " has no axis " + letter,
+                             "name the machine that the program is written for");
+    }
+    if (std::abs(word->value) > kLargestAngleDeg) {
+        return output.refuse(command.line(), word->column, letter + " turns more than 277 times",
+                             "correct it");
+    }
+    return word->value * math::kRadPerDeg;
+}
+
+Result<void> read_vector(Command& command, State& state, Output& output) {
+    const Word* first = nullptr;
+    Vec3 axis;
+    for (int k = 0; k < 3; ++k) {
+        const Word* word = command.use("IJK"[k]);
+        if (word == nullptr) continue;
+        if (first == nullptr) first = word;
+        axis[k] = word->value;
+    }
+    if (first == nullptr) return {};
+    if (!(length(axis) > 1e-6)) {
+        return output.refuse(command.line(), first->column, "the tool's axis I J K has no direction",
+                             "write the direction from the tip to the shank");
+    }
+    if (!output.machine) {
+        state.rotary.target_axis = normalized(axis);
+        state.rotary.stated = true;
+        return {};
+    }
+    const auto reached =
+        output.machine->kinematics().joints({{}, normalized(axis)}, {{}, state.rotary.now_rad});
+    if (!reached) {
+        return output.refuse(command.line(), first->column,
+                             "the machine " + output.machine->machine().name + " cannot turn its tool there",
+                             "name the machine that the program is written for");
+    }
+    state.rotary.target_rad = reached->joints.rotary_rad;
+    state.rotary.stated = true;
+    return {};
+}
+
+// G28, G30: the home of the rotary axes that the block names, or of all where it names no axis.
+void turn_home(Command& command, State& state, Output& output) {
+    const bool all = !command.has_any("XYZABC");
+    for (int axis = 0; axis < 3; ++axis) {
+        if (command.use(kLetters[axis]) == nullptr && !all) continue;
+        if (state.rotary.now_rad[axis] != 0 && output.first(Note::rotary_home)) {
+            output.warn(command.line(), code_text('G', command.g(GGroup::non_modal)->tenths) +
+                                            ": the home of the rotary axes is taken to be their zero");
+        }
+        state.rotary.target_rad[axis] = 0;
+    }
+}
+
+// G10 L2: where a work system has the zeros of its rotary axes. That L and P are right is checked with X Y Z.
+Result<void> set_rotary_origin(Command& command, State& state, const Output& output) {
+    const Word* system = command.use('P');
+    const int index = system == nullptr || !(system->value >= 1 && system->value <= kWorkSystems)
+                          ? state.active_work
+                          : static_cast<int>(system->value) - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto angle = word_rad(command, axis, output);
+        if (!angle) return std::unexpected(angle.error());
+        if (*angle) state.rotary.origin_rad[static_cast<std::size_t>(index)][axis] = **angle;
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> switch_tip_control(const Command& command, State& state, Output& output) {
+    const auto to = switch_in(command, state);
+    if (!to) return {};
+    if (!output.machine && to->vectors) {
+        state.rotary.vectors = state.rotary.by_length_code = true;
+        return {};
+    }
+    if (!output.machine && state.rotary.vectors) {
+        state.rotary.vectors = state.rotary.by_length_code = false;
+        return {};
+    }
+    if (!output.machine) {
+        note_machine_needed(command, output);
+        if (output.first(Note::tool_tip_switch)) {
+            const auto m = command.m(MGroup::tool_tip);
+            const std::string text =
+                m ? code_text('M', m->tenths) : code_text('G', command.g(GGroup::tool_length)->tenths);
+            output.warn(command.line(), text +
+                                            " switches tool tip control: the program needs a machine to "
+                                            "be understood");
+        }
+        return {};
+    }
+    if (const auto code = command.m(MGroup::tool_tip); code && code->tenths == 4300) {
+        return output.refuse(command.line(), code->column,
+                             "M430 switches to kinematics that only its own machine knows",
+                             "use M428 for tool tip control, M429 for none");
+    }
+    RotaryState& rotary = state.rotary;
+    rotary.by_length_code = to->by_length_code;
+    rotary.vectors = to->vectors;
+    if (rotary.tip_control == to->on) return {};
+    rotary.tip_control = to->on;
+    const motion::Kinematics& kinematics = output.machine->kinematics();
+    if (!to->on && output.machine->needs_tool_length(rotary.now_rad)) {
+        // Where the joints stand depends on the tool's length; as the tip, they are lost.
+        state.known = {Known::lost, Known::lost, Known::lost};
+        state.lost_line = command.line();
+        return {};
+    }
+    if (!state.knows_tip()) {
+        if (rotary.now_rad == Vec3{}) return {};
+        state.known = {Known::lost, Known::lost, Known::lost};
+        state.lost_line = command.line();
+        return {};
+    }
+    const Vec3 zero = kinematics.stock_mm(), tip = turned(state.tip_mm, state.active().turn_deg);
+    const Vec3 coordinates = to->on ? kinematics.pose({tip + zero, rotary.now_rad}).tip_mm
+                                    : kinematics.with_tip(tip, rotary.now_rad).linear_mm - zero;
+    state.tip_mm = turned(coordinates, -state.active().turn_deg);
+    return {};
+}
+
+Result<void> read_rotary_words(Command& command, State& state, Output& output) {
+    RotaryState& rotary = state.rotary;
+    rotary.stated = false;
+    if (rotary.vectors && (state.motion == MotionMode::line || state.motion == MotionMode::rapid)) {
+        if (auto done = read_vector(command, state, output); !done) return done;
+    }
+    if (!output.machine) {
+        if (!command.has_any("ABC")) return {};
+        for (const char letter : {'A', 'B', 'C'}) command.use(letter);
+        note_machine_needed(command, output);
+        if (output.first(Note::rotary_words)) {
+            output.warn(command.line(),
+                        "rotary words (A B C) mean nothing without a machine: their motion is left out");
+        }
+        return {};
+    }
+    const auto code = command.g(GGroup::non_modal);
+    if (code && (code->tenths == 280 || code->tenths == 300)) {
+        turn_home(command, state, output);
+        return {};
+    }
+    if (!command.has_any("ABC")) return {};
+    note_machine_needed(command, output);
+    if (code && code->tenths == 100) return set_rotary_origin(command, state, output);
+    if (code && code->tenths == 920) {
+        return output.refuse(command.line(), code->column, "G92 with rotary axes is not read yet",
+                             "set their zero with G10 L2, or let the CAM system write machine angles");
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto angle = word_rad(command, axis, output);
+        if (!angle) return std::unexpected(angle.error());
+        if (!*angle) continue;
+        const bool of_machine = command.has_g(GGroup::non_modal, 530);
+        const double from = state.incremental ? rotary.now_rad[axis]
+                            : of_machine
+                                ? 0
+                                : rotary.origin_rad[static_cast<std::size_t>(state.active_work)][axis];
+        rotary.target_rad[axis] = from + **angle;
+        rotary.stated = true;
+    }
+    return {};
+}
+
+motion::Move with_vectors(const motion::Move& move, State& state) {
+    motion::Move leaning = move;
+    leaning.start.axis = state.rotary.now_axis;
+    leaning.end.axis = state.rotary.target_axis;
+    state.rotary.now_axis = state.rotary.target_axis;
+    return leaning;
+}
+
+void set_turning_time(motion::Move& move, const State& state) {
+    if (!state.rotary.turns() || move.kind != motion::MoveKind::feed || move.duration_s > 0) return;
+    const double length = motion::path_length_mm(move);
+    // With tool tip control the tip runs at the feed by itself, unless it stands.
+    if ((state.rotary.tip_control || state.rotary.vectors) && length > 0) return;
+    const RotaryState& rotary = state.rotary;
+    const double turn_deg = (tribo::length(rotary.target_rad - rotary.now_rad) +
+                             motion::angle_rad(rotary.now_axis, rotary.target_axis)) *
+                            math::kDegPerRad;
+    move.duration_s = 60 * (length > 0 ? length : turn_deg) / move.feed_mm_per_min;
+}
+
+Result<void> append_on_machine(const motion::Move& move, State& state, Output& output) {
+    RotaryState& rotary = state.rotary;
+    if (!rotary.tip_control && (output.machine->needs_tool_length(rotary.now_rad) ||
+                                output.machine->needs_tool_length(rotary.target_rad))) {
+        return output.refuse(move.line, 1,
+                             "where the tilted head of the machine " + output.machine->machine().name +
+                                 " brings the tip depends on the tool's length",
+                             "add tool_length_mm, from the spindle nose to the tip, to the machine");
+    }
+    const motion::Move program = turned(move, state.active().turn_deg);
+    motion::MachineBlock block;
+    block.tip_control = rotary.tip_control;
+    block.start_mm = program.start.tip_mm;
+    block.end_mm = program.end.tip_mm;
+    block.arc = program.arc;
+    block.quadratic = program.quadratic;
+    block.start_rad = rotary.now_rad;
+    block.end_rad = rotary.target_rad;
+    rotary.now_rad = rotary.target_rad;
+    const auto* pieces = output.machine->run(block, move, output.options.max_moves - output.moves + 1);
+    if (pieces == nullptr)
+        return output.refuse(move.line, 1, MachineRun::kTooManyPieces, MachineRun::kFewerPieces);
+    for (const motion::Move& piece : *pieces) {
+        if (auto done = output.append(piece); !done) return done;
+    }
+    return {};
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/state.hpp"
+
+#include <utility>
+
+#include "base/math.hpp"
+
+namespace tribo::readers::gcode {
+
+Vec3 turned(Vec3 v, double degrees) {
+    if (degrees == 0) return v;
+    double sine = 0, cosine = 0;
+    math::sincos(degrees * math::kRadPerDeg, sine, cosine);
+    return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z};
+}
+
+motion::Move turned(const motion::Move& move, double degrees) {
+    motion::Move result = move;
+    for (motion::ToolPose* pose : {&result.start, &result.end}) {
+        pose->tip_mm = turned(pose->tip_mm, degrees);
+        pose->axis = turned(pose->axis, degrees);
+    }
+    if (result.arc) {
+        result.arc->centre_mm = turned(result.arc->centre_mm, degrees);
+        result.arc->normal = turned(result.arc->normal, degrees);
+    }
+    if (result.quadratic) {
+        result.quadratic->tip_control_mm = turned(result.quadratic->tip_control_mm, degrees);
+        result.quadratic->axis_control = turned(result.quadratic->axis_control, degrees);
+    }
+    return result;
+}
+
+Result<void> Output::append(const motion::Move& move) {
+    if (moves >= options.max_moves) {
+        return refuse(move.line, 1,
+                      "the program has more than " + std::to_string(options.max_moves) + " moves",
+                      "split it");
+    }
+    ++moves;
+    if (sink_ != nullptr) {
+        sink_->take(move);
+    } else {
+        program.moves.push_back(move);
+    }
+    return {};
+}
+
+std::optional<double> Output::tool_diameter_mm(int number) const {
+    for (const auto* tools : {&options.tools, &declared_}) {
+        for (auto tool = tools->rbegin(); tool != tools->rend(); ++tool) {
+            if (tool->number == number) return tool->diameter_mm;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<double> Output::tool_length_mm(int number) const {
+    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
+        if (tool->number == number && tool->length_mm) return tool->length_mm;
+    }
+    return std::nullopt;
+}
+
+bool Output::first(Note note) {
+    return !std::exchange(noted_[static_cast<std::size_t>(note)], true);
+}
+
+void Output::warn(int line, std::string text) {
+    program.warnings.push_back({options.source_name, line, std::move(text)});
+}
+
+std::unexpected<Error> Output::refuse(int line, int column, std::string cause, std::string remedy) const {
+    return fail_at(options.source_name, line, column, std::move(cause), std::move(remedy));
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/text/expression.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/math.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+// Longest number, characters without its sign and blanks; no control writes half as many.
+constexpr std::size_t kLongestNumber = 64;
+// Brackets, functions, signs and '#' within each other.
+constexpr int kDeepestNesting = 60;
+// How far a number may be off a whole one where a whole one is asked for, and how near numbers are equal
+// (LinuxCNC).
+constexpr double kWholeTolerance = 1e-4, kEqualTolerance = 1e-4;
+
+bool is_number_character(char c) {
+    return is_digit(c) || c == '.';
+}
+
+enum class Function { abs, acos, asin, atan, cos, exists, exp, fix, fup, ln, round, sin, sqrt, tan };
+enum class Operator {
+    none,
+    power,
+    times,
+    over,
+    modulo,
+    plus,
+    minus,
+    eq,
+    ne,
+    gt,
+    ge,
+    lt,
+    le,
+    and_,
+    or_,
+    xor_
+};
+
+template <class What>
+struct Named {
+    std::string_view name;
+    What what;
+};
+constexpr Named<Function> kFunctions[] = {
+    {"ABS", Function::abs},   {"ACOS", Function::acos},   {"ASIN", Function::asin},
+    {"ATAN", Function::atan}, {"COS", Function::cos},     {"EXISTS", Function::exists},
+    {"EXP", Function::exp},   {"FIX", Function::fix},     {"FUP", Function::fup},
+    {"LN", Function::ln},     {"ROUND", Function::round}, {"SIN", Function::sin},
+    {"SQRT", Function::sqrt}, {"TAN", Function::tan},
+};
+// The longer of two that start alike comes first.
+constexpr Named<Operator> kOperators[] = {
+    {"**", Operator::power}, {"*", Operator::times}, {"/", Operator::over},   {"MOD", Operator::modulo},
+    {"+", Operator::plus},   {"-", Operator::minus}, {"EQ", Operator::eq},    {"NE", Operator::ne},
+    {"GT", Operator::gt},    {"GE", Operator::ge},   {"LT", Operator::lt},    {"LE", Operator::le},
+    {"AND", Operator::and_}, {"OR", Operator::or_},  {"XOR", Operator::xor_},
+};
+
+int precedence(Operator op) {
+    if (op == Operator::none) return 0;
+    if (op == Operator::power) return 5;
+    if (op <= Operator::modulo) return 4;
+    if (op <= Operator::minus) return 3;
+    return op <= Operator::le ? 2 : 1;
+}
+
+bool stands_here(const Cursor& cursor, std::string_view name) {
+    if (cursor.line.size() - cursor.at < name.size()) return false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        if (to_upper(cursor.line[cursor.at + i]) != name[i]) return false;
+    }
+    return true;
+}
+
+class Reader {
+  public:
+    Reader(Cursor& cursor, const Parameters& parameters, int depth = 0)
+        : cursor_(cursor), parameters_(parameters), depth_(depth) {}
+
+    Result<double> value() {
+        if (++depth_ > kDeepestNesting) {
+            return cursor_.refuse(cursor_.at, "an expression is nested more than 60 deep",
+                                  "compute it in steps, with parameters for the parts");
+        }
+        Result<double> read = value_here();
+        --depth_;
+        return read;
+    }
+
+    Result<void> parameter_name(ParameterName& read) {
+        const std::size_t start = cursor_.at++;  // '#'
+        read.number = 0;
+        read.name.clear();
+        if (cursor_.peek_after_blanks() == '<') return read_angled_name(cursor_, read.name);
+        const auto number = value();
+        if (!number) return std::unexpected(number.error());
+        const double whole = std::floor(*number + 0.5);
+        if (!(std::abs(*number - whole) <= kWholeTolerance) || !(whole >= 1) || whole > kLastParameter) {
+            return cursor_.refuse(start, "the number of a parameter is not a whole one from 1 to 5602",
+                                  "correct it");
+        }
+        read.number = static_cast<int>(whole);
+        return {};
+    }
+
+  private:
+    Result<double> value_here() {
+        const char c = cursor_.peek_after_blanks();
+        const std::size_t start = cursor_.at;
+        if (c == '[') return bracket();
+        if (c == '#') return parameter();
+        if (c == '-' || c == '+') {
+            ++cursor_.at;
+            auto read = value();
+            if (read && c == '-') *read = -*read;
+            return read;
+        }
+        if (is_letter(c)) return function();
+        const auto digits = read_digits(cursor_, start);
+        if (!digits) return std::unexpected(digits.error());
+        if (*digits) return **digits;
+        return cursor_.refuse(start, "a number is missing here",
+                              "write digits, a #parameter, a function or an [expression]");
+    }
+
+    Result<double> parameter() {
+        const std::size_t start = cursor_.at;
+        ParameterName name;
+        if (auto read = parameter_name(name); !read) return std::unexpected(read.error());
+        auto got = name.number != 0 ? parameters_.get(name.number) : parameters_.get(name.name);
+        if (got) return got;
+        return cursor_.refuse(start, std::move(got.error().cause), std::move(got.error().remedy));
+    }
+
+    Result<double> bracket() {
+        const std::size_t open = cursor_.at++;
+        auto read = operation(1);
+        if (!read) return read;
+        if (cursor_.peek_after_blanks() != ']') {
+            return cursor_.at >= cursor_.line.size()
+                       ? cursor_.refuse(open, "a '[' is not closed on this line", "add the missing ']'")
+                       : cursor_.refuse(
+                             cursor_.at,
+                             shown_character(cursor_.peek()) +
+                                 " is neither an operator nor the end of the expression",
+                             "write an operator (+ - * / ** MOD EQ NE GT GE LT LE AND OR XOR) or ']'");
+        }
+        ++cursor_.at;
+        return read;
+    }
+
+    // Operators of at least this precedence.
+    Result<double> operation(int least) {
+        auto left = value();
+        if (!left) return left;
+        for (;;) {
+            cursor_.skip_blanks();
+            const std::size_t start = cursor_.at;
+            const Operator op = peek_operator();
+            if (precedence(op) < least) return left;
+            for (const auto& named : kOperators) {
+                if (named.what == op) cursor_.at += named.name.size();
+            }
+            auto right = operation(precedence(op) + 1);
+            if (!right) return right;
+            left = applied(op, *left, *right, start);
+            if (!left) return left;
+        }
+    }
+
+    Operator peek_operator() const {
+        for (const auto& named : kOperators) {
+            if (stands_here(cursor_, named.name)) return named.what;
+        }
+        return Operator::none;
+    }
+
+    Result<double> applied(Operator op, double a, double b, std::size_t start) const {
+        const auto truth = [](bool is) { return is ? 1.0 : 0.0; };
+        switch (op) {
+            case Operator::power:
+                return finite(math::pow(a, b), start, "a power without a real value",
+                              "raise only positive numbers to broken powers");
+            case Operator::times:
+                return finite(a * b, start, "a product too large for a number", "correct the expression");
+            case Operator::over:
+                return finite(a / b, start, "a division by zero", "test the divisor before");
+            case Operator::modulo: {
+                if (b == 0) return finite(a / b, start, "a division by zero", "test the divisor before");
+                const double rest = std::fmod(a, b);
+                return rest < 0 ? rest + std::abs(b) : rest;
+            }
+            case Operator::plus:
+            case Operator::minus:
+                return finite(op == Operator::plus ? a + b : a - b, start, "a sum too large for a number",
+                              "correct the expression");
+            case Operator::eq:
+                return truth(std::abs(a - b) < kEqualTolerance);
+            case Operator::ne:
+                return truth(!(std::abs(a - b) < kEqualTolerance));
+            case Operator::gt:
+                return truth(a > b);
+            case Operator::ge:
+                return truth(a >= b);
+            case Operator::lt:
+                return truth(a < b);
+            case Operator::le:
+                return truth(a <= b);
+            case Operator::and_:
+                return truth(a != 0 && b != 0);
+            case Operator::or_:
+                return truth(a != 0 || b != 0);
+            default:
+                return truth((a != 0) != (b != 0));
+        }
+    }
+
+    Result<double> function() {
+        const std::size_t start = cursor_.at;
+        const Named<Function>* found = nullptr;
+        for (const auto& named : kFunctions) {
+            if (stands_here(cursor_, named.name)) found = &named;
+        }
+        if (found != nullptr) cursor_.at += found->name.size();
+        if (found == nullptr || cursor_.peek_after_blanks() != '[') {
+            return cursor_.refuse(start, "this is neither a number nor a function with its [argument]",
+                                  "use ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
+        }
+        if (found->what == Function::exists) return existence();
+        const auto x = bracket();
+        if (!x) return x;
+        if (found->what == Function::atan) return arc_tangent(*x);
+        return finite(called(found->what, *x), start,
+                      "a function has no value there: " + std::string(found->name),
+                      "keep SQRT and LN above 0, ASIN and ACOS within 1");
+    }
+
+    Result<double> finite(double value, std::size_t start, std::string cause, std::string remedy) const {
+        if (std::isfinite(value)) return value;
+        return cursor_.refuse(start, std::move(cause), std::move(remedy));
+    }
+
+    // EXISTS[#<name>]
+    Result<double> existence() {
+        const std::size_t open = cursor_.at++;
+        ParameterName name;
+        if (cursor_.peek_after_blanks() != '#') {
+            return cursor_.refuse(open, "EXISTS asks for a parameter", "write EXISTS[#<name>]");
+        }
+        if (auto read = parameter_name(name); !read) return std::unexpected(read.error());
+        if (name.number != 0) {
+            return cursor_.refuse(open, "EXISTS asks for a parameter with a name", "write EXISTS[#<name>]");
+        }
+        if (cursor_.peek_after_blanks() != ']') {
+            return cursor_.refuse(open, "a '[' is not closed on this line", "add the missing ']'");
+        }
+        ++cursor_.at;
+        return parameters_.exists(name.name) ? 1.0 : 0.0;
+    }
+
+    // ATAN[y]/[x], in degrees.
+    Result<double> arc_tangent(double y) {
+        const bool divided = cursor_.peek_after_blanks() == '/';
+        if (divided) ++cursor_.at;
+        if (!divided || cursor_.peek_after_blanks() != '[') {
+            return cursor_.refuse(cursor_.at, "ATAN has one argument, it needs two", "write ATAN[y]/[x]");
+        }
+        const auto x = bracket();
+        if (!x) return x;
+        return math::atan2(y, *x) * math::kDegPerRad;
+    }
+
+    static double called(Function function, double x) {
+        switch (function) {
+            case Function::abs:
+                return std::abs(x);
+            case Function::acos:
+                return math::acos(x) * math::kDegPerRad;
+            case Function::asin:
+                return math::asin(x) * math::kDegPerRad;
+            case Function::cos:
+                return math::cos(x * math::kRadPerDeg);
+            case Function::exp:
+                return math::exp(x);
+            case Function::fix:
+                return std::floor(x);
+            case Function::fup:
+                return std::ceil(x);
+            case Function::ln:
+                return math::log(x);
+            case Function::round:
+                return x < 0 ? std::ceil(x - 0.5) : std::floor(x + 0.5);
+            case Function::sin:
+                return math::sin(x * math::kRadPerDeg);
+            case Function::sqrt:
+                return x < 0 ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(x);
+            default:
+                return math::tan(x * math::kRadPerDeg);
+        }
+    }
+
+    Cursor& cursor_;
+    const Parameters& parameters_;
+    int depth_;
+};
+
+}  // namespace
+
+Result<std::optional<double>> read_digits(Cursor& cursor, std::size_t start) {
+    const std::string_view line = cursor.line;
+    const std::size_t first = cursor.at;
+    std::size_t end = first;
+    while (end < line.size() && is_number_character(line[end])) ++end;
+    if (end == first) return std::nullopt;
+    std::string_view text = line.substr(first, end - first);
+    cursor.at = end;
+    // Blanks among the digits do not count: RS274/NGC 3.3.2.
+    std::array<char, kLongestNumber> joined;
+    if (is_number_character(cursor.peek_after_blanks())) {
+        std::size_t length = 0;
+        cursor.at = first;
+        while (is_number_character(cursor.peek_after_blanks())) {
+            if (length < joined.size()) joined[length] = cursor.peek();
+            ++length;
+            ++cursor.at;
+        }
+        text = {joined.data(), std::min(length, joined.size())};
+        if (length > joined.size()) end = first + length;  // refused below
+    }
+    if (end - first > kLongestNumber) {
+        return cursor.refuse(start, "a number has more than 64 digits", "round it");
+    }
+    const auto value = number_of(text);
+    if (!value) {
+        return cursor.refuse(start, "the number " + std::string(text) + " is malformed",
+                             "write it with digits and at most one decimal point");
+    }
+    return value;
+}
+
+Result<double> read_value(Cursor& cursor, const Parameters& parameters) {
+    return Reader(cursor, parameters).value();
+}
+
+bool starts_computed_value(const Cursor& cursor) {
+    Cursor ahead = cursor;
+    const char c = ahead.peek_after_blanks();
+    if (c == '#' || c == '[') return true;
+    for (const auto& named : kFunctions) {
+        if (!stands_here(ahead, named.name)) continue;
+        ahead.at += named.name.size();
+        return ahead.peek_after_blanks() == '[';
+    }
+    return false;
+}
+
+Result<void> read_parameter_name(Cursor& cursor, const Parameters& parameters, ParameterName& read) {
+    return Reader(cursor, parameters).parameter_name(read);
+}
+
+Result<void> read_angled_name(Cursor& cursor, std::string& name) {
+    const std::size_t open = cursor.at++;
+    name.clear();
+    while (cursor.at < cursor.line.size() && cursor.line[cursor.at] != '>') {
+        const char c = cursor.line[cursor.at++];
+        if (is_blank(c)) continue;
+        name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    if (cursor.at >= cursor.line.size()) {
+        return cursor.refuse(open, "a name is opened with '<' and not closed on this line",
+                             "add the missing '>'");
+    }
+    if (name.empty()) return cursor.refuse(open, "a name without letters", "write letters between < and >");
+    ++cursor.at;
+    return {};
+}
+
+}  // namespace tribo::readers::gcode

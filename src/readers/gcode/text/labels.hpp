@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The O-words of a text: where subroutines, loops and branches begin and end.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "readers/gcode/cursor.hpp"
+#include "readers/gcode/text/parameters.hpp"
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers::gcode {
+
+enum class Keyword {
+    none,  // a program number: O1000
+    sub,
+    endsub,
+    return_,
+    call,
+    do_,
+    while_,
+    endwhile,
+    if_,
+    elseif,
+    else_,
+    endif,
+    repeat,
+    endrepeat,
+    break_,
+    continue_,
+};
+
+struct OWord {
+    std::string label;  // digits without leading zeros, or <name>
+    Keyword keyword = Keyword::none;
+    bool is_computed = false;  // the label was an expression
+};
+
+// Reads label and keyword; the cursor stands on the O and is left behind the keyword. Without parameters a
+// computed label is refused.
+Result<OWord> read_o_word(Cursor& cursor, const Parameters* parameters);
+
+std::string_view spelling(Keyword keyword);
+
+// A line with an O-word. Numbers of other landmarks are -1 where the text has none that fits.
+struct Landmark {
+    std::string label;
+    Keyword keyword = Keyword::none;
+    int line = 0;
+    TextLines at, after;   // places that give this line and the one after it
+    int opener = -1;       // of a closing, branching or leaving keyword: what it belongs to
+    int closer = -1;       // of an opening keyword: endsub, endif, endwhile, the while of a do, endrepeat
+    int next_branch = -1;  // of if and elseif: the elseif, else or endif that follows
+    int last_branch = -1;  // of if: the last one found so far
+};
+
+class Labels {
+  public:
+    // Walks the whole text once. More than a million O-words, or 1000 within each other, are refused.
+    static Result<Labels> of(std::string_view bytes, const std::string& source_name, bool skip_deletable);
+
+    const Landmark& operator[](int index) const { return marks_[static_cast<std::size_t>(index)]; }
+    // The landmark on that line; -1 if there is none.
+    int on_line(int line) const;
+    // The first subroutine or program of that label; -1 if there is none.
+    int find_sub(std::string_view label) const;
+    int find_program(std::string_view label) const;
+
+  private:
+    void add(Landmark mark);
+    int innermost(std::string_view label, std::initializer_list<Keyword> keywords) const;
+    void close(int index, int opener);
+
+    std::vector<Landmark> marks_;  // by line, ascending
+    std::vector<int> open_;        // openers that nothing has closed yet
+    std::map<std::string, int, std::less<>> subs_, programs_;
+};
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/text/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/gcode/state.hpp"
+
+namespace tribo::readers::gcode {
+namespace {
+
+// Where LinuxCNC keeps what the control knows.
+constexpr int kFirstProbe = 5061, kLastProbe = 5070;
+constexpr int kPresetOn = 5210, kFirstPreset = 5211;
+constexpr int kActiveWork = 5220, kFirstWork = 5221, kLastWork = 5390, kWorkStep = 20;
+constexpr int kWorkTurn = 9;  // after the nine axes of a work system
+constexpr int kInput = 5399;
+constexpr int kFirstState = 5400, kLastState = 5428;
+constexpr int kTool = 5400, kToolDiameter = 5410, kFirstPosition = 5420;
+constexpr int kAxes = 9;  // x y z a b c u v w
+// From here on numbers show the state of a Fanuc control.
+constexpr int kFirstFanucSystem = 1000;
+
+std::string shown(int number) {
+    return "#" + std::to_string(number);
+}
+
+int motion_code(const State& state) {
+    switch (state.motion) {
+        case MotionMode::rapid:
+            return 0;
+        case MotionMode::line:
+            return 10;
+        case MotionMode::arc_clockwise:
+            return 20;
+        case MotionMode::arc_counter_clockwise:
+            return 30;
+        default:
+            return state.motion == MotionMode::cycle ? state.cycle.tenths : 800;
+    }
+}
+
+int work_code(const State& state) {
+    return state.active_work < 6 ? 540 + 10 * state.active_work : 586 + state.active_work - 1;
+}
+
+struct Shown {
+    std::string_view name;
+    double (*value)(const State&);
+};
+// By name, ascending.
+constexpr Shown kShown[] = {
+    {"_absolute", [](const State& s) { return s.incremental ? 0.0 : 1.0; }},
+    {"_ccomp", [](const State& s) { return s.compensation_code(); }},
+    {"_coord_system", [](const State& s) { return static_cast<double>(work_code(s)); }},
+    {"_current_tool", [](const State& s) { return static_cast<double>(s.tool()); }},
+    {"_feed",
+     [](const State& s) {
+         const bool is_length = s.feed_mode != FeedMode::inverse_time;
+         return s.feed.value_or(0) / (is_length ? s.unit_mm : 1);
+     }},
+    {"_imperial", [](const State& s) { return s.unit_mm == 1 ? 0.0 : 1.0; }},
+    {"_incremental", [](const State& s) { return s.incremental ? 1.0 : 0.0; }},
+    {"_inverse_time", [](const State& s) { return s.feed_mode == FeedMode::inverse_time ? 1.0 : 0.0; }},
+    {"_line", [](const State& s) { return static_cast<double>(s.line); }},
+    {"_metric", [](const State& s) { return s.unit_mm == 1 ? 1.0 : 0.0; }},
+    {"_motion_mode", [](const State& s) { return static_cast<double>(motion_code(s)); }},
+    {"_plane",
+     [](const State& s) { return s.plane == Plane::xy   ? 170.0
+                                 : s.plane == Plane::zx ? 180.0
+                                                        : 190.0; }},
+    {"_rpm", [](const State& s) { return s.spindle_rpm; }},
+    {"_selected_tool", [](const State& s) { return static_cast<double>(s.selected_tool); }},
+    {"_spindle_cw", [](const State& s) { return s.spindle == Spindle::clockwise ? 1.0 : 0.0; }},
+    {"_spindle_on", [](const State& s) { return s.spindle == Spindle::off ? 0.0 : 1.0; }},
+    {"_task", [](const State&) { return 0.0; }},
+    {"_units_per_minute", [](const State& s) { return s.feed_mode == FeedMode::per_minute ? 1.0 : 0.0; }},
+    {"_units_per_rev", [](const State& s) { return s.feed_mode == FeedMode::per_turn ? 1.0 : 0.0; }},
+    // The release whose documents this reader follows.
+    {"_vmajor", [](const State&) { return 2.9; }},
+    {"_vminor", [](const State&) { return 0.0; }},
+};
+
+}  // namespace
+
+Parameters::Parameters(State& state, Output& output) : state_(state), output_(output), frames_(1) {}
+
+Result<double> Parameters::position(int axis) const {
+    if (axis >= 3) return 0.0;
+    if (state_.known[static_cast<std::size_t>(axis)] != Known::yes) {
+        return fail(std::string("the parameter asks for ") + "XYZ"[axis] + ", which is not known here",
+                    "move every axis to a stated place (G0) before it is read");
+    }
+    return (state_.tip_mm[axis] - state_.origin_mm()[axis]) / state_.unit_mm;
+}
+
+Result<double> Parameters::get(int number) const {
+    if (number < 1 || number > kLastParameter) {
+        return fail(shown(number) + " is no parameter: they run from #1 to #5602", "correct the number");
+    }
+    const Frame& frame = frames_.back();
+    const bool is_outermost = frames_.size() == 1;
+    if (number <= kLocalParameters && !is_outermost) {
+        return frame.numbers[static_cast<std::size_t>(number - 1)];
+    }
+    const auto index = static_cast<std::size_t>(number);
+    if (output_.options.dialect == GcodeDialect::linuxcnc) {
+        if (number >= kFirstPosition && number < kFirstPosition + kAxes) {
+            return position(number - kFirstPosition);
+        }
+        if (number == kTool) return state_.tool();
+        if (number == kToolDiameter) {
+            const auto diameter = output_.tool_diameter_mm(state_.tool());
+            return diameter.value_or(0) / state_.unit_mm;
+        }
+        if (number >= kFirstState && number <= kLastState) return 0.0;
+        if (number == kPresetOn) return state_.preset_on ? 1.0 : 0.0;
+        if (number == kActiveWork) return state_.active_work + 1;
+        if (number >= kFirstPreset && number < kFirstPreset + kAxes) {
+            const int axis = number - kFirstPreset;
+            return axis < 3 ? state_.preset_mm[axis] / state_.unit_mm : 0;
+        }
+        if (number >= kFirstWork && number <= kLastWork && (number - kFirstWork) % kWorkStep <= kWorkTurn) {
+            const WorkSystem& work = state_.work[static_cast<std::size_t>((number - kFirstWork) / kWorkStep)];
+            const int axis = (number - kFirstWork) % kWorkStep;
+            if (axis == kWorkTurn) return work.turn_deg;
+            return axis < 3 ? work.origin_mm[axis] / state_.unit_mm : 0;
+        }
+        const bool is_measured = (number >= kFirstProbe && number <= kLastProbe) || number == kInput;
+        if (is_measured && (numbers_.empty() || !numbers_[index])) {
+            return fail(
+                shown(number) + " holds what a probe or an input has measured, which nobody knows here",
+                "assign it before it is read");
+        }
+    } else if (number >= kFirstFanucSystem && (numbers_.empty() || !numbers_[index])) {
+        return fail(shown(number) + " shows the state of a Fanuc control, which is not read",
+                    "assign it before it is read, or let the control expand the macro");
+    }
+    if (!numbers_.empty() && numbers_[index]) return *numbers_[index];
+    if (output_.first(Note::unassigned_parameter)) {
+        output_.warn(state_.line, shown(number) + " has no value so far: 0 is taken");
+    }
+    return 0.0;
+}
+
+std::optional<double> Parameters::shown_by_control(std::string_view name) const {
+    const auto* const found =
+        std::lower_bound(std::begin(kShown), std::end(kShown), name,
+                         [](const Shown& shown, std::string_view wanted) { return shown.name < wanted; });
+    if (found != std::end(kShown) && found->name == name) return found->value(state_);
+    if (name == "_value") return returned_.value_or(0);
+    if (name == "_value_returned") return returned_ ? 1 : 0;
+    if (name == "_call_level") return static_cast<double>(frames_.size() - 1);
+    return std::nullopt;
+}
+
+std::optional<double> Parameters::assigned(std::string_view name) const {
+    const Names& names = name.starts_with('_') ? global_names_ : frames_.back().names;
+    const auto found = names.find(name);
+    if (found == names.end()) return std::nullopt;
+    return found->second;
+}
+
+bool Parameters::exists(std::string_view name) const {
+    return assigned(name) || shown_by_control(name) || name == "_x" || name == "_y" || name == "_z";
+}
+
+Result<double> Parameters::get(std::string_view name) const {
+    if (const auto value = assigned(name)) return *value;
+    if (const auto value = shown_by_control(name)) return *value;
+    if (name.size() == 2 && name[0] == '_' && name[1] >= 'x' && name[1] <= 'z')
+        return position(name[1] - 'x');
+    const std::string text = "#<" + std::string(name) + ">";
+    if (name.starts_with("_ini[") || name.starts_with("_hal[")) {
+        return fail(text + " is a setting of one machine, which a program does not tell",
+                    "assign a number to a parameter of your own");
+    }
+    return fail(text + " has no value",
+                name.starts_with('_')
+                    ? "assign it before it is read"
+                    : "assign it before it is read; names without '_' are known only in the "
+                      "subroutine that assigned them");
+}
+
+Result<void> Parameters::set(int number, double value) {
+    if (number < 1 || number > kLastParameter) {
+        return fail(shown(number) + " is no parameter: they run from #1 to #5602", "correct the number");
+    }
+    if (number <= kLocalParameters && frames_.size() > 1) {
+        frames_.back().numbers[static_cast<std::size_t>(number - 1)] = value;
+        return {};
+    }
+    if (output_.options.dialect == GcodeDialect::linuxcnc) {
+        const bool is_offset = number >= kPresetOn && number <= kLastWork;
+        if (is_offset) {
+            return fail(shown(number) + " holds an offset, which is not read as an assignment",
+                        "use G10 L2 for work systems and G92 or G52 for the rest");
+        }
+        if (number >= kFirstState && number <= kLastState) {
+            return fail(shown(number) + " shows the state of the control and cannot be assigned",
+                        "use another number");
+        }
+    }
+    if (numbers_.empty()) numbers_.resize(kLastParameter + 1);
+    numbers_[static_cast<std::size_t>(number)] = value;
+    return {};
+}
+
+Result<void> Parameters::set(std::string_view name, double value) {
+    if (shown_by_control(name)) {
+        return fail("#<" + std::string(name) + "> shows the state of the control and cannot be assigned",
+                    "use another name");
+    }
+    Names& names = name.starts_with('_') ? global_names_ : frames_.back().names;
+    if (const auto found = names.find(name); found != names.end()) {
+        found->second = value;
+    } else {
+        names.emplace(name, value);
+    }
+    return {};
+}
+
+void Parameters::enter(std::span<const double> arguments) {
+    Frame& frame = frames_.emplace_back();
+    const std::size_t count = std::min(arguments.size(), frame.numbers.size());
+    std::copy_n(arguments.begin(), count, frame.numbers.begin());
+}
+
+void Parameters::leave() {
+    if (frames_.size() > 1) frames_.pop_back();
+}
+
+}  // namespace tribo::readers::gcode

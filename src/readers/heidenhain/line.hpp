@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// One block of Heidenhain conversational text as items: words with a number (X+10, IZ-2, R0), words with a
+// sign (DR+), words alone (FMAX, TCPM). What they mean is not known here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "readers/heidenhain/parameters.hpp"
+
+namespace tribo::readers::heidenhain {
+
+// A line without its block number and comment.
+struct Line {
+    std::string_view text;
+    int number = 0;        // from 1
+    int column = 1;        // of the first character of `text`
+    bool goes_on = false;  // ends with '~': the next line belongs to it
+};
+
+// The line's text as a block.
+Line line_of(std::string_view text, int number);
+
+struct Item {
+    std::string name;  // upper case; empty for a number by itself
+    std::optional<double> value;
+    int sign = 0;        // of a word with a sign but no number: +1 or -1
+    int parameter = -1;  // of Q200=2: 200
+    std::string word;    // FAUTO or FMAX in the place of a parameter's value
+    int column = 0;
+};
+
+// Reads a line from left to right.
+class LineReader {
+  public:
+    // Both must outlive it.
+    LineReader(const Line& line, const std::string& source_name, const Parameters& parameters)
+        : line_(line), source_name_(source_name), parameters_(parameters) {}
+
+    bool at_end();
+    int column();
+    // Takes the word (upper case) where it stands next and no letter or digit of it goes on.
+    bool take(std::string_view word);
+    bool take(char character);
+    // A number, perhaps signed, or a Q parameter.
+    Result<std::optional<double>> number();
+    Result<double> formula();
+    // The index of a parameter after its Q.
+    Result<std::optional<int>> parameter();
+    // A label's name: a number or a text in quotes.
+    Result<std::string> label();
+    // The next item; absent at the end.
+    Result<std::optional<Item>> item();
+    // Appends the items to the end of the line.
+    Result<void> items(std::vector<Item>& items);
+
+    std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const;
+
+  private:
+    void skip_blanks();
+    char peek() const { return at_ < line_.text.size() ? line_.text[at_] : '\0'; }
+    Result<double> sum(int depth);
+    Result<double> product(int depth);
+    Result<double> power(int depth);
+    Result<double> factor(int depth);
+
+    const Line& line_;
+    const std::string& source_name_;
+    const Parameters& parameters_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace tribo::readers::heidenhain

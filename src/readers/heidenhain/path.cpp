@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "readers/heidenhain/path.hpp"
+
+#include <utility>
+
+#include "base/math.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::readers::heidenhain {
+
+Path::Path(const GcodeOptions& given, MoveSink* sink) : options(given), sink_(sink) {
+    program.source = options.source_name;
+    if (options.machine != nullptr) {
+        machine.emplace(*options.machine);
+        program.machine = options.machine->name;
+    }
+}
+
+bool Path::knows_tip() const {
+    return known_[0] == Known::yes && known_[1] == Known::yes && known_[2] == Known::yes;
+}
+
+void Path::put(Vec3 tip_in_frame, std::array<Known, 3> known, int line) {
+    place_mm_ = frame.in_stock(tip_in_frame);
+    known_ = known;
+    for (const Known k : known) {
+        if (k == Known::lost) lost_line_ = line;
+    }
+}
+
+void Path::lose(int line) {
+    known_ = {Known::lost, Known::lost, Known::lost};
+    lost_line_ = line;
+}
+
+bool Path::first(int note) {
+    return !std::exchange(noted_[static_cast<std::size_t>(note)], true);
+}
+
+void Path::warn(int line, std::string text) {
+    program.warnings.push_back({options.source_name, line, std::move(text)});
+}
+
+std::unexpected<Error> Path::refuse(Place place, std::string cause, std::string remedy) const {
+    return fail_at(options.source_name, place.line, place.column, std::move(cause), std::move(remedy));
+}
+
+void Path::note_machine_needed(int line, const std::string& what) {
+    if (!program.has_rotary_words) program.first_rotary_line = line;
+    if (!program.has_rotary_words && !machine)
+        warn(line, what + " without a machine: its motion is left out");
+    program.has_rotary_words = true;
+}
+
+Result<void> Path::append(const motion::Move& move) {
+    if (moves >= options.max_moves) {
+        return refuse({move.line, 1},
+                      "the program has more than " + std::to_string(options.max_moves) + " moves",
+                      "split it");
+    }
+    ++moves;
+    if (sink_ != nullptr) {
+        sink_->take(move);
+    } else {
+        program.moves.push_back(move);
+    }
+    return {};
+}
+
+Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad,
+                        Place place) {
+    motion::Move move;
+    move.kind = kind;
+    move.start.tip_mm = place_mm_;
+    move.end.tip_mm = frame.in_stock(to);
+    if (arc) {
+        move.arc = arc;
+        move.arc->centre_mm = frame.in_stock(arc->centre_mm);
+        move.arc->normal = frame.direction_in_stock(arc->normal);
+    }
+    move.start.axis = axis_;
+    move.end.axis = aim_;
+    move.spindle_rpm = spindle_rpm;
+    move.tool = tool;
+    move.line = place.line;
+    const bool turns = to_rad != now_rad_;
+    if (!arc && !turns && move.start == move.end) return {};
+    axis_ = aim_;
+    if (kind == motion::MoveKind::feed) {
+        if (!feed_mm_per_min) {
+            return refuse(place, "a feed move before any F", "write F, or FMAX for a rapid");
+        }
+        move.feed_mm_per_min = *feed_mm_per_min;
+        const double length = motion::path_length_mm(move);
+        if (turns && (!in_stock() || length == 0)) {
+            const double degrees = tribo::length(to_rad - now_rad_) * math::kDegPerRad;
+            move.duration_s = 60 * (length > 0 ? length : degrees) / move.feed_mm_per_min;
+        }
+    }
+    const Vec3 from_rad = std::exchange(now_rad_, to_rad);
+    place_mm_ = move.end.tip_mm;
+    if (!machine) return append(move);
+    if (!in_stock() && (machine->needs_tool_length(from_rad) || machine->needs_tool_length(to_rad))) {
+        return refuse(place,
+                      "where the tilted head of the machine " + machine->machine().name +
+                          " brings the tip depends on the tool's length",
+                      "add tool_length_mm, from the spindle nose to the tip, to the machine");
+    }
+    motion::MachineBlock block;
+    block.tip_control = in_stock();
+    block.start_mm = move.start.tip_mm;
+    block.end_mm = move.end.tip_mm;
+    block.arc = move.arc;
+    block.start_rad = from_rad;
+    block.end_rad = to_rad;
+    const auto* pieces = machine->run(block, move, options.max_moves - moves + 1);
+    if (pieces == nullptr) return refuse(place, MachineRun::kTooManyPieces, MachineRun::kFewerPieces);
+    for (const motion::Move& piece : *pieces) {
+        if (auto done = append(piece); !done) return done;
+    }
+    return {};
+}
+
+Result<void> Path::dwell(double seconds, Place place) {
+    if (!knows_tip() || !(seconds > 0)) return {};
+    motion::Move move;
+    move.kind = motion::MoveKind::dwell;
+    motion::ToolPose pose{place_mm_, axis_};
+    if (machine) {
+        motion::MachineBlock block;
+        block.tip_control = in_stock();
+        block.start_mm = block.end_mm = place_mm_;
+        block.start_rad = block.end_rad = now_rad_;
+        pose = motion::pose_at(machine->kinematics(), block, 0);
+    }
+    move.start = move.end = pose;
+    move.duration_s = seconds;
+    move.spindle_rpm = spindle_rpm;
+    move.tool = tool;
+    move.line = place.line;
+    return append(move);
+}
+
+void Path::measure_tool() {
+    if (!machine) return;
+    std::optional<double> length_mm;
+    for (const motion::DeclaredTool& known : program.tools) {
+        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
+    }
+    for (const GcodeTool& known : options.tools) {
+        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
+    }
+    machine->set_tool_length(length_mm);
+}
+
+void Path::switch_tip_control(bool on, int line) {
+    if (on == tip_control) return;
+    const bool was_in_stock = in_stock();
+    tip_control = on;
+    if (!machine || in_stock() == was_in_stock) return;
+    if (!knows_tip() || machine->needs_tool_length(now_rad_)) {
+        if (now_rad_ != Vec3{}) lose(line);
+        return;
+    }
+    const Vec3 zero = machine->kinematics().stock_mm();
+    place_mm_ = on ? machine->kinematics().pose({place_mm_ + zero, now_rad_}).tip_mm
+                   : machine->kinematics().with_tip(place_mm_, now_rad_).linear_mm - zero;
+}
+
+bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line) {
+    if (!machine) {
+        frame = plane;
+        axis_ = aim_ = plane.z;
+        if (!keep_tip) lose(line);
+        return true;
+    }
+    const motion::Kinematics& kinematics = machine->kinematics();
+    const auto reached = kinematics.joints({{}, plane.z}, {{}, now_rad_});
+    if (!reached) return false;
+    const bool known = knows_tip() && !machine->needs_tool_length(now_rad_) &&
+                       !machine->needs_tool_length(reached->joints.rotary_rad);
+    motion::Joints joints{place_mm_ + kinematics.stock_mm(), now_rad_};
+    if (in_stock()) joints = kinematics.with_tip(place_mm_, now_rad_);
+    const Vec3 tip = kinematics.pose(joints).tip_mm;
+    if (!keep_tip) joints.rotary_rad = reached->joints.rotary_rad;
+    const Vec3 swung = kinematics.pose(joints).tip_mm;
+    now_rad_ = reached->joints.rotary_rad;
+    frame = plane;
+    if (!known && !(keep_tip && in_stock() && knows_tip())) {
+        lose(line);
+        return true;
+    }
+    place_mm_ = keep_tip ? tip : swung;
+    if (!in_stock()) {
+        place_mm_ = kinematics.with_tip(place_mm_, now_rad_).linear_mm - kinematics.stock_mm();
+    }
+    return true;
+}
+
+}  // namespace tribo::readers::heidenhain

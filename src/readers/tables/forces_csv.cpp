@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "readers/tables/forces_csv.hpp"
+
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers {
+namespace {
+
+// Fine enough for a cutter of 0.1 mm.
+constexpr int kTimeDecimals = 6, kLengthDecimals = 6, kAxisDecimals = 6, kVolumeDecimals = 9;
+constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 5, kTorqueDecimals = 8;
+constexpr int kDurationDecimals = 9, kFactorDecimals = 4;
+
+void append(std::string& csv, double value, int decimals) {
+    csv += ',';
+    append_fixed(csv, value, decimals);
+}
+void append(std::string& csv, Vec3 value, int decimals) {
+    append(csv, value.x, decimals);
+    append(csv, value.y, decimals);
+    append(csv, value.z, decimals);
+}
+
+}  // namespace
+
+void append_force_row(std::string& csv, const milling::ForceRow& row) {
+    append_fixed(csv, row.t_s, kTimeDecimals);
+    csv += ',';
+    csv += std::to_string(row.line);
+    append(csv, row.tip_mm, kLengthDecimals);
+    append(csv, row.axis, kAxisDecimals);
+    append(csv, row.spindle_rpm, kSpeedDecimals);
+    append(csv, row.feed_mm_per_min, kSpeedDecimals);
+    append(csv, row.entry_deg, kAngleDecimals);
+    append(csv, row.exit_deg, kAngleDecimals);
+    append(csv, row.axial_depth_mm, kLengthDecimals);
+    append(csv, row.mean_n, kForceDecimals);
+    append(csv, row.peak_n, kForceDecimals);
+    append(csv, row.peak_fxy_n, kForceDecimals);
+    append(csv, row.mean_torque_nm, kTorqueDecimals);
+    append(csv, row.peak_torque_nm, kTorqueDecimals);
+    append(csv, row.removed_mm3, kVolumeDecimals);
+    append(csv, row.duration_s, kDurationDecimals);
+    append(csv, row.reconciled, kFactorDecimals);
+    csv += '\n';
+}
+
+}  // namespace tribo::readers

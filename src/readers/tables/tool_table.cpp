@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "readers/tables/tool_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "base/decimal.hpp"
+#include "base/nearest.hpp"
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::array kColumns{"number"sv, "diameter_mm"sv, "corner_mm"sv, "flutes"sv, "length_mm"sv};
+constexpr double kLargestNumber = 999'999;
+constexpr double kMostFlutes = 64;
+
+struct Field {
+    std::string_view text;
+    int column = 1;
+};
+
+std::vector<Field> fields_of(std::string_view line) {
+    std::vector<Field> fields;
+    for (std::size_t at = 0;;) {
+        const std::size_t end = std::min(line.find_first_of(",;", at), line.size());
+        const std::string_view text = trimmed(line.substr(at, end - at));
+        fields.push_back(
+            {text,
+             static_cast<int>((text.empty() ? at : static_cast<std::size_t>(text.data() - line.data()))) +
+                 1});
+        if (end == line.size()) return fields;
+        at = end + 1;
+    }
+}
+
+class Reader {
+  public:
+    Reader(std::string_view bytes, const ToolTableOptions& options) : lines_(bytes), options_(options) {}
+
+    Result<ToolTable> read() {
+        while (const auto line = lines_.next()) {
+            const std::string_view text = trimmed(*line);
+            if (text.empty() || text[0] == ';' || text[0] == '#') continue;
+            if (columns_.empty() && table_.tools.empty() &&
+                text.find_first_of(",;") != std::string_view::npos && to_upper(text[0]) != 'T') {
+                if (auto done = read_header(*line); !done) return std::unexpected(done.error());
+                continue;
+            }
+            auto tool = columns_.empty() ? read_words(*line) : read_row(*line);
+            if (!tool) return std::unexpected(tool.error());
+            if (auto done = add(*tool); !done) return std::unexpected(done.error());
+        }
+        if (table_.tools.empty()) {
+            return fail_at(
+                options_.source_name, 0, 0, "the tool table holds no tool",
+                "write a line as T1 P1 D6 Z50 for each, or a CSV table with number and diameter_mm");
+        }
+        return std::move(table_);
+    }
+
+  private:
+    std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const {
+        return fail_at(options_.source_name, lines_.number(), column, std::move(cause), std::move(remedy));
+    }
+
+    Result<void> read_header(std::string_view line) {
+        for (const Field& field : fields_of(line)) {
+            std::string name(field.text);
+            std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+                return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+            });
+            const auto known = std::find(kColumns.begin(), kColumns.end(), name);
+            if (known == kColumns.end()) {
+                table_.warnings.push_back(
+                    {options_.source_name, lines_.number(),
+                     "the column '" + name + "' is not read; " + suggestion(name, kColumns)});
+            }
+            columns_.push_back(static_cast<std::size_t>(known - kColumns.begin()));
+        }
+        for (std::size_t needed : {std::size_t{0}, std::size_t{1}}) {
+            if (std::find(columns_.begin(), columns_.end(), needed) != columns_.end()) continue;
+            return refuse(1, "the table has no column '" + std::string(kColumns[needed]) + "'",
+                          "name its columns number, diameter_mm, corner_mm, flutes, length_mm");
+        }
+        return {};
+    }
+
+    Result<motion::DeclaredTool> read_row(std::string_view line) {
+        const std::vector<Field> fields = fields_of(line);
+        motion::DeclaredTool tool;
+        for (std::size_t i = 0; i < fields.size() && i < columns_.size(); ++i) {
+            if (columns_[i] == kColumns.size() || fields[i].text.empty()) continue;
+            const auto value = number_of(fields[i].text);
+            if (!value) {
+                return refuse(fields[i].column,
+                              "'" + std::string(fields[i].text.substr(0, 20)) + "' is no number",
+                              "correct it");
+            }
+            if (auto done = set(tool, columns_[i], *value, fields[i].column); !done) {
+                return std::unexpected(done.error());
+            }
+        }
+        return tool;
+    }
+
+    // T1 P1 D6.0 Z+50.2 ;comment
+    Result<motion::DeclaredTool> read_words(std::string_view line) {
+        motion::DeclaredTool tool;
+        const double unit = mm_per(options_.unit);
+        for (std::size_t at = 0; at < line.size();) {
+            if (is_blank(line[at])) {
+                ++at;
+                continue;
+            }
+            if (line[at] == ';') break;
+            const int column = static_cast<int>(at) + 1;
+            const char letter = to_upper(line[at]);
+            double value = 0;
+            const std::size_t length = parse_decimal(line.substr(at + 1), value, DecimalExponent::none);
+            if (!is_letter(letter) || length == 0) {
+                return refuse(column, "a tool's line is words such as T1 P1 D6 Z50, and this is none",
+                              "correct it, or give a CSV table with a header");
+            }
+            at += 1 + length;
+            std::optional<std::size_t> what;
+            if (letter == 'T') what = 0;
+            if (letter == 'D') what = 1;
+            if (letter == 'Z') what = 4;
+            if (!what) continue;  // pocket, other axes' offsets, lathe angles
+            if (auto done = set(tool, *what, *what == 0 ? value : value * unit, column); !done) {
+                return std::unexpected(done.error());
+            }
+        }
+        return tool;
+    }
+
+    Result<void> set(motion::DeclaredTool& tool, std::size_t what, double value, int column) {
+        const bool whole = value == std::floor(value);
+        switch (what) {
+            case 0:
+                if (!whole || value < 0 || value > kLargestNumber) {
+                    return refuse(column, "the tool number is not a whole number", "correct it");
+                }
+                tool.number = static_cast<int>(value);
+                break;
+            case 1:
+                if (!(value >= 0) || value > kLargestCoordinateMm) {
+                    return refuse(column, "the diameter is out of range", "give it above 0");
+                }
+                tool.diameter_mm = value;
+                break;
+            case 2:
+                if (!(value >= 0) || value > kLargestCoordinateMm) {
+                    return refuse(column, "the corner radius is out of range",
+                                  "give it from 0 to half the diameter");
+                }
+                tool.corner_mm = value;
+                break;
+            case 3:
+                if (!whole || value < 1 || value > kMostFlutes) {
+                    return refuse(column, "the number of flutes is out of range", "give 1 to 64");
+                }
+                tool.flutes = static_cast<int>(value);
+                break;
+            default:
+                if (!(std::abs(value) <= kLargestCoordinateMm)) {
+                    return refuse(column, "the length is out of range", "correct it");
+                }
+                tool.length_mm = value;
+                break;
+        }
+        return {};
+    }
+
+    Result<void> add(motion::DeclaredTool tool) {
+        tool.line = lines_.number();
+        tool.table = options_.source_name.empty() ? "tool table" : options_.source_name;
+        if (2 * tool.corner_mm > tool.diameter_mm) {
+            return refuse(1, "the corner radius is more than half the diameter", "correct one of them");
+        }
+        if (tool.number == 0) return {};  // tool.tbl's empty spindle
+        for (const motion::DeclaredTool& other : table_.tools) {
+            if (other.number != tool.number) continue;
+            return refuse(1, "tool " + std::to_string(tool.number) + " stands in the table twice",
+                          "delete one of the lines");
+        }
+        table_.tools.push_back(std::move(tool));
+        return {};
+    }
+
+    TextLines lines_;
+    const ToolTableOptions& options_;
+    std::vector<std::size_t> columns_;  // of CSV: what each holds
+    ToolTable table_;
+};
+
+}  // namespace
+
+Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options) {
+    return Reader(bytes, options).read();
+}
+
+}  // namespace tribo::readers

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Tool tables: LinuxCNC's tool.tbl (T1 P1 D6 Z50.2 ;comment) and CSV with a header. Any thread; allocates.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "motion/path/program.hpp"
+#include "readers/text/length_unit.hpp"
+
+namespace tribo::readers {
+
+struct ToolTableOptions {
+    std::string source_name{};                 // stands in messages
+    LengthUnit unit = LengthUnit::millimetre;  // of tool.tbl, which does not say; CSV is in mm
+};
+
+struct ToolTable {
+    std::vector<motion::DeclaredTool> tools;  // numbers differ; D and corner, flutes, length where given
+    Warnings warnings;
+};
+
+// A CSV table begins with a line of names, of which number and diameter_mm are needed: number, diameter_mm,
+// corner_mm, flutes, length_mm (from the spindle nose to the tip). Everything else is read as tool.tbl.
+Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options = {});
+
+}  // namespace tribo::readers

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+#include "report/facts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/math.hpp"
+#include "base/mesh_edges.hpp"
+#include "files/json/json.hpp"
+
+namespace tribo::report {
+namespace {
+
+constexpr std::string_view kPathNames[] = {"keyframes", "gcode", "apt"};
+constexpr std::string_view kCutterNames[] = {"flat", "ball", "bull"};
+
+std::string_view path_name(job::PathKind kind) {
+    return kPathNames[static_cast<std::size_t>(kind)];
+}
+
+// Three decimals at most, none that say nothing.
+std::string number(double value) {
+    std::array<char, 64> text = {};
+    std::snprintf(text.data(), text.size(), "%.3f", value);
+    std::string out = text.data();
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.ends_with('.')) out.pop_back();
+    return out == "-0" ? "0" : out;
+}
+
+std::string range(double least, double most, const char* unit) {
+    return number(least) + (most > least ? " to " + number(most) : "") + " " + unit;
+}
+
+std::string box_text(const Box3& box) {
+    const auto side = [](const char* name, double a, double b) {
+        return std::string(name) + " " + number(a) + " to " + number(b);
+    };
+    return side("x", box.min.x, box.max.x) + ", " + side("y", box.min.y, box.max.y) + ", " +
+           side("z", box.min.z, box.max.z) + " mm";
+}
+
+std::string clock_text(double seconds) {
+    const long s = std::lround(seconds);
+    return s < 60 ? number(seconds) + " s"
+                  : (s >= 3600 ? std::to_string(s / 3600) + " h " : "") + std::to_string(s / 60 % 60) +
+                        " min " + std::to_string(s % 60) + " s";
+}
+
+files::Json box_json(const Box3& box) {
+    return files::Json::array({files::triple(box.min), files::triple(box.max)});
+}
+
+// Builds both forms side by side.
+class Builder {
+  public:
+    explicit Builder(const char* kind) {
+        json["schema"] = "tribo.inspect/1";
+        json["kind"] = kind;
+    }
+    void line(std::string name, std::string text) {
+        facts.lines.emplace_back(std::move(name), std::move(text));
+    }
+    Facts finish() {
+        json["warnings"] = files::Json::array();
+        for (const Warning& w : facts.warnings) json["warnings"].push_back(w.message());
+        facts.json = files::pretty(json);
+        return std::move(facts);
+    }
+
+    files::Json json;
+    Facts facts;
+};
+
+files::Json declared_tools(const motion::Program& program) {
+    files::Json tools = files::Json::array();
+    for (const motion::DeclaredTool& tool : program.tools) {
+        files::Json entry;
+        entry["number"] = tool.number;
+        if (tool.diameter_mm > 0) entry["diameter_mm"] = tool.diameter_mm;
+        if (tool.diameter_mm > 0) entry["corner_mm"] = tool.corner_mm;
+        if (tool.line > 0) entry["line"] = tool.line;
+        tools.push_back(std::move(entry));
+    }
+    return tools;
+}
+
+std::string tools_text(const std::vector<int>& numbers) {
+    std::string text;
+    for (const int tool : numbers) text += (text.empty() ? "T" : ", T") + std::to_string(tool);
+    return text;
+}
+
+std::string cutter_text(const milling::Cutter& c) {
+    std::string text = c.number > 0 ? "T" + std::to_string(c.number) + ": " : "";
+    text += std::string(kCutterNames[static_cast<std::size_t>(c.kind)]) + " D" + number(c.diameter_mm);
+    if (c.kind == milling::CutterKind::bull) text += " corner " + number(c.corner_mm);
+    text += ", " + std::to_string(c.flutes) + (c.flutes == 1 ? " flute" : " flutes") + ", helix " +
+            number(c.helix_deg) + " deg, " + number(c.length_mm) + " mm long";
+    if (!c.holder.empty()) text += ", holder of " + std::to_string(c.holder.size()) + " steps";
+    return text;
+}
+
+files::Json cutter_json(const milling::Cutter& c) {
+    files::Json json;
+    if (c.number > 0) json["number"] = c.number;
+    json["kind"] = kCutterNames[static_cast<std::size_t>(c.kind)];
+    json["diameter_mm"] = c.diameter_mm;
+    if (c.kind == milling::CutterKind::bull) json["corner_mm"] = c.corner_mm;
+    json["flutes"] = c.flutes;
+    json["helix_deg"] = c.helix_deg;
+    json["length_mm"] = c.length_mm;
+    return json;
+}
+
+void add_solid(Builder& b, const job::JobSolid& solid, const std::string& name) {
+    if (solid.model) {
+        b.json[name]["mesh"] = solid.model->path;
+        b.line(name, solid.model->path);
+    } else {
+        b.json[name]["box_mm"] = box_json(solid.box_mm);
+        b.line(name, box_text(solid.box_mm));
+    }
+}
+
+void add_material(Builder& b, const job::JobMaterial& material) {
+    if (!material.coefficients) {
+        b.json["material"]["name"] = material.name;
+        b.line("material", material.name);
+        return;
+    }
+    const milling::CuttingCoefficients& k = *material.coefficients;
+    b.json["material"] = {{"ktc_n_per_mm2", k.ktc}, {"krc_n_per_mm2", k.krc}, {"kac_n_per_mm2", k.kac},
+                          {"kte_n_per_mm", k.kte},  {"kre_n_per_mm", k.kre},  {"kae_n_per_mm", k.kae}};
+    b.line("material", "own coefficients: ktc " + number(k.ktc) + ", krc " + number(k.krc) + ", kac " +
+                           number(k.kac) + " N/mm2; kte " + number(k.kte) + ", kre " + number(k.kre) +
+                           ", kae " + number(k.kae) + " N/mm");
+}
+
+// Facts of a named file under a key of their own; its lines follow the name, its warnings join.
+void add_inner(Builder& b, const char* name, const Facts& inner) {
+    b.json[name] = files::Json::parse(inner.json);
+    b.json[name].erase("schema");
+    for (const auto& [line_name, text] : inner.lines) b.line(std::string(name) + " " + line_name, text);
+    b.facts.warnings.insert(b.facts.warnings.end(), inner.warnings.begin(), inner.warnings.end());
+}
+
+// Parts smaller or larger than this across are rarely milled: their unit is another, mm.
+constexpr double kSmallestPartMm = 3, kLargestPartMm = 5000;
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// Equal corners count as one, however often the file writes them.
+void add_edges(Builder& b, TriangleMesh mesh, bool closed) {
+    weld_exactly(mesh);
+    const MeshEdges e = describe_edges(mesh);
+    b.json["pieces"] = e.pieces;
+    b.json["open_edges"] = e.open;
+    b.json["holes"] = e.holes;
+    b.json["crowded_edges"] = e.crowded;
+    b.json["turned_edges"] = e.turned;
+    b.line("pieces", std::to_string(e.pieces));
+    std::string text = closed || e.open + e.crowded + e.turned == 0 ? "yes" : "no: ";
+    if (e.open > 0) text += counted(e.holes, "hole", "holes") + " of " + counted(e.open, "edge", "edges");
+    if (e.crowded > 0) {
+        text +=
+            (e.open > 0 ? ", " : "") + counted(e.crowded, "edge", "edges") + " of more than two triangles";
+    }
+    if (e.turned > 0) {
+        text += (e.open + e.crowded > 0 ? ", " : "") + counted(e.turned, "edge", "edges") +
+                " where one side is inside out";
+    }
+    b.line("closed", text);
+}
+
+void add_unit_warning(Builder& b, const Box3& box, const readers::Model& model) {
+    if (box.empty()) return;
+    const double across = length(box.size());
+    if (across >= kSmallestPartMm && across <= kLargestPartMm) return;
+    const bool is_small = across < kSmallestPartMm;
+    std::string text = "the model is only " + number(across) + " mm across";
+    if (!is_small) text = "the model is " + number(across / 1000) + " m across";
+    text += ": if its unit is not the millimetre, set unit_mm";
+    if (is_small) text += ", 1000 for metres or 25.4 for inches";
+    if (model.format == readers::ModelFormat::vrml && is_small) text += "; VRML means metres";
+    b.facts.warnings.push_back({"", 0, text});
+}
+
+}  // namespace
+
+Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min) {
+    motion::ProgramMeter meter;
+    for (const motion::Move& move : program.moves) meter.add(move);
+    return describe(program, meter, format, rapid_mm_per_min);
+}
+
+Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, job::PathKind format,
+               double rapid_mm_per_min) {
+    const motion::ProgramSummary s = meter.summary(rapid_mm_per_min);
+    Builder b("program");
+    b.json["format"] = path_name(format);
+    b.line("format", std::string(path_name(format)));
+    if (!program.dialect.empty()) {
+        b.json["dialect"] = program.dialect;
+        b.line("dialect", program.dialect);
+    }
+    b.json["moves"] = s.moves;
+    b.json["feed_moves"] = s.feed_moves;
+    b.line("moves", std::to_string(s.moves) + ", " + std::to_string(s.feed_moves) + " of them at feed");
+    b.json["path_mm"] = s.path_mm;
+    b.json["rapid_mm"] = s.rapid_mm;
+    b.line("path", number(s.path_mm) + " mm at feed, " + number(s.rapid_mm) + " mm rapid");
+    if (!s.bounds_mm.empty()) {
+        b.json["bounds_mm"] = box_json(s.bounds_mm);
+        b.line("bounds", box_text(s.bounds_mm));
+    }
+    b.json["tools"] = s.tools;
+    if (!s.tools.empty()) b.line("tools", tools_text(s.tools));
+    if (!program.tools.empty()) b.json["declared_tools"] = declared_tools(program);
+    b.json["rotary"] = program.has_rotary_words;
+    b.json["tilted"] = s.tilted;
+    if (!program.machine.empty()) {
+        b.json["machine"] = program.machine;
+        b.line("machine", program.machine);
+    }
+    if (s.tilted) {
+        const double tilt_deg = s.tilt_rad * math::kDegPerRad;
+        b.json["tilt_deg"] = tilt_deg;
+        b.line("axis", "leaves +z, by up to " + number(tilt_deg) + " deg");
+    }
+    if (program.stock) {
+        b.json["stock"]["box_mm"] = box_json(program.stock->box_mm);
+        b.line("stock",
+               box_text(program.stock->box_mm) + " (line " + std::to_string(program.stock->line) + ")");
+    }
+    if (s.feed_mm_per_min.most > 0) {
+        b.json["feed_mm_per_min"] = {s.feed_mm_per_min.least, s.feed_mm_per_min.most};
+        b.line("feed", range(s.feed_mm_per_min.least, s.feed_mm_per_min.most, "mm/min"));
+        b.json["feed_s"] = s.feed_s;
+        b.line("time", clock_text(s.feed_s) + " at feed, " + clock_text(s.rapid_s) + " rapid");
+    }
+    if (s.spindle_rpm.most > 0) {
+        b.json["spindle_rpm"] = {s.spindle_rpm.least, s.spindle_rpm.most};
+        b.line("spindle", range(s.spindle_rpm.least, s.spindle_rpm.most, "rpm"));
+    }
+    b.json["rapid_s"] = s.rapid_s;
+    if (s.dwell_s > 0) b.json["dwell_s"] = s.dwell_s;
+    b.facts.warnings = program.warnings;
+    return b.finish();
+}
+
+Facts describe(const readers::Model& model) {
+    Builder b("model");
+    const TriangleMesh& mesh = model.mesh;
+    b.json["format"] = readers::name(model.format);
+    b.line("format", std::string(readers::name(model.format)));
+    b.json["triangles"] = mesh.triangles.size();
+    b.json["vertices"] = mesh.positions.size();
+    b.line("triangles", std::to_string(mesh.triangles.size()) + " on " +
+                            std::to_string(mesh.positions.size()) + " vertices");
+    const double area = area_mm2(mesh);
+    b.json["area_mm2"] = area;
+    b.line("area", number(area) + " mm2");
+    const Box3 box = bounds(mesh);
+    if (!box.empty()) {
+        b.json["bounds_mm"] = box_json(box);
+        b.line("bounds", box_text(box));
+    }
+    if (!model.parts.empty()) {
+        b.json["parts"] = model.parts.size();
+        b.line("parts", std::to_string(model.parts.size()));
+    }
+    const bool closed = is_closed(mesh);
+    b.json["closed"] = closed;
+    if (closed) {
+        const double volume = volume_mm3(mesh);
+        b.json["volume_mm3"] = volume;
+        b.line("volume", number(volume) + " mm3");
+    }
+    add_edges(b, mesh, closed);
+    b.facts.warnings = model.warnings;
+    add_unit_warning(b, box, model);
+    if (closed && volume_mm3(mesh) < 0) {
+        b.facts.warnings.push_back(
+            {"", 0, "the model is inside out: its triangles run clockwise seen from outside"});
+    }
+    return b.finish();
+}
+
+Facts describe(const job::Job& job, const Facts* program, const Facts* part) {
+    Builder b("job");
+    b.line("format", "job");
+    if (job.stock_from) {
+        b.json["stock"]["from"] = job.stock_from->path;
+        b.line("stock", "as " + job.stock_from->path + " leaves it");
+    } else {
+        add_solid(b, job.stock, "stock");
+    }
+    b.json["cutters"] = files::Json::array();
+    for (const milling::Cutter& cutter : job.cutters) {
+        b.json["cutters"].push_back(cutter_json(cutter));
+        b.line("cutter", cutter_text(cutter));
+    }
+    add_material(b, job.material);
+    if (job.process.spindle_rpm > 0) {
+        b.json["process"]["spindle_rpm"] = job.process.spindle_rpm;
+        b.line("spindle", number(job.process.spindle_rpm) + " rpm");
+    }
+    if (job.process.feed_mm_per_min > 0) {
+        b.json["process"]["feed_mm_per_min"] = job.process.feed_mm_per_min;
+        b.line("feed", number(job.process.feed_mm_per_min) + " mm/min");
+    }
+    b.json["path"][std::string(path_name(job.path.kind))] = job.path.file;
+    b.line("path", job.path.file);
+    if (!job.fixtures.empty()) {
+        b.json["fixtures"] = job.fixtures.size();
+        b.line("fixtures", std::to_string(job.fixtures.size()));
+    }
+    if (program) add_inner(b, "program", *program);
+    if (part) add_inner(b, "part", *part);
+    return b.finish();
+}
+
+std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines) {
+    std::size_t width = 0;
+    for (const auto& [name, text] : lines) width = std::max(width, name.size());
+    std::string out;
+    for (const auto& [name, text] : lines) {
+        out += "  " + name + std::string(width - name.size() + 2, ' ') + text + "\n";
+    }
+    return out;
+}
+
+}  // namespace tribo::report

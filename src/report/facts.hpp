@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// What a file holds, said twice: for a machine as JSON, for a person as aligned lines.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "job/job.hpp"
+#include "material/material.hpp"
+#include "motion/path/program.hpp"
+#include "motion/path/summary.hpp"
+#include "readers/mesh/model.hpp"
+
+namespace tribo::report {
+
+struct Facts {
+    std::string json;                                        // one object, "schema" and "kind" first
+    std::vector<std::pair<std::string, std::string>> lines;  // name and text
+    Warnings warnings;                                       // those of the JSON
+};
+
+// {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
+Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min = 10000);
+// The same of a program whose moves went by: the meter saw them.
+Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, job::PathKind format,
+               double rapid_mm_per_min = 10000);
+// {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}
+Facts describe(const readers::Model& model);
+// {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".
+Facts describe(const job::Job& job, const Facts* program, const Facts* part);
+
+// {kind: "material", stiffness_n_per_mm, viscosity_n_s_per_mm, width_mm, image, voices: [{speed_mm_per_s,
+// ...}], ...}
+Facts describe(const material::Material& material);
+
+// The lines as text, names padded to one width.
+std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines);
+
+}  // namespace tribo::report

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+#include "report/report_html.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <span>
+#include <string_view>
+
+#include "files/json/json.hpp"
+#include "report/html_parts.hpp"
+#include "report/report_page.hpp"
+
+namespace tribo::report {
+namespace {
+
+constexpr std::size_t kMostRows = 12'000;  // more than the plots have pixels
+constexpr std::size_t kMostNotices = 30;
+constexpr double kGapShare = 0.5;  // of a row's duration; a longer pause is a gap between cuts
+
+// Significant digits, but no exponent for what a person would write out.
+std::string number(double value, int digits = 4) {
+    std::array<char, 40> text = {};
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+    const double size = std::abs(value);
+    if (std::string_view(text.data()).find('e') != std::string_view::npos && size >= 1 && size < 1e15) {
+        std::snprintf(text.data(), text.size(), "%.0f", value);
+    }
+    return text.data();
+}
+
+std::string time_text(double seconds) {
+    if (seconds < 100) return number(seconds, 3) + " <small>s</small>";
+    const long s = std::lround(seconds);
+    std::array<char, 32> text = {};
+    if (s >= 3600) {
+        std::snprintf(text.data(), text.size(), "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+    } else {
+        std::snprintf(text.data(), text.size(), "%ld:%02ld", s / 60, s % 60);
+    }
+    return std::string(text.data()) + (s >= 3600 ? " <small>h</small>" : " <small>min</small>");
+}
+
+std::string card(const std::string& label, const std::string& value, const std::string& note = "") {
+    return "<div class=\"card\"><span>" + label + "</span><b>" + value + "</b>" +
+           (note.empty() ? "" : "<span class=\"band\">" + note + "</span>") + "</div>\n";
+}
+
+std::string cards(const Summary& s) {
+    const auto unit = [](double value, const char* name) {
+        return number(value) + " <small>" + name + "</small>";
+    };
+    const auto band = [&](double value) {
+        if (s.force_low_factor >= s.force_high_factor) return std::string();
+        return number(value * s.force_low_factor, 3) + " to " + number(value * s.force_high_factor, 3);
+    };
+    const double cm3 = 1e-3;
+    std::string html;
+    html += card("Largest force", unit(s.peak_force_n, "N"), band(s.peak_force_n));
+    html += card("Mean force", unit(s.mean_force_n, "N"), band(s.mean_force_n));
+    html += card("Largest torque", unit(s.peak_torque_nm, "N m"), band(s.peak_torque_nm));
+    html += card("Largest power", unit(s.peak_power_w, "W"), band(s.peak_power_w));
+    if (s.tooth_passing_hz) html += card("Tooth passing", unit(*s.tooth_passing_hz, "Hz"));
+    html += card("Duration", time_text(s.duration_s), "cutting " + time_text(s.cutting_s));
+    html += card("Path", unit(s.path_mm * 1e-3, "m"), "feed moves");
+    html += card("Removed", unit(s.removed_mm3 * cm3, "cm³"), number(s.remaining_mm3 * cm3) + " cm³ remain");
+    if (s.gouge_max_mm) html += card("Deepest gouge", unit(*s.gouge_max_mm, "mm"));
+    if (s.rest_max_mm) html += card("Most material left", unit(*s.rest_max_mm, "mm"));
+    if (s.scallop_max_mm) html += card("Highest scallop", unit(*s.scallop_max_mm, "mm"));
+    html += card("Resolution", unit(s.resolution_mm, "mm"),
+                 s.triangles ? std::to_string(*s.triangles) + " triangles" : "");
+    return html;
+}
+
+std::string list(const std::vector<std::string>& items, const std::string& title, const char* style) {
+    if (items.empty()) return "";
+    std::string html = std::string("<div class=\"notice ") + style + "\"><b>" + title + "</b>\n<ul>\n";
+    for (std::size_t i = 0; i < std::min(items.size(), kMostNotices); ++i) {
+        html += "<li>" + escaped(items[i]) + "</li>\n";
+    }
+    if (items.size() > kMostNotices) {
+        html += "<li>and " + std::to_string(items.size() - kMostNotices) + " more in summary.json</li>\n";
+    }
+    return html + "</ul></div>\n";
+}
+
+std::string notices(const Summary& s) {
+    std::vector<std::string> collisions, warnings;
+    for (const SummaryCollision& c : s.collisions) {
+        collisions.push_back((c.line > 0 ? "line " + std::to_string(c.line) + ", " : "") + number(c.t_s) +
+                             " s: " + c.kind + ", tip at " + number(c.tip_mm.x) + ", " + number(c.tip_mm.y) +
+                             ", " + number(c.tip_mm.z) + " mm");
+    }
+    for (const Warning& w : s.warnings) warnings.push_back(w.message());
+    const auto counted = [](std::size_t n, const char* what) {
+        return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::string html = list(collisions, counted(collisions.size(), "collision"), "bad") +
+                       list(warnings, counted(warnings.size(), "warning"), "");
+    if (s.as_published) {
+        html +=
+            "<div class=\"notice\">Forces and sound by the paper's formulas as printed (--as-published), "
+            "which "
+            "are known to be wrong.</div>\n";
+    }
+    return html;
+}
+
+std::string facts(const std::vector<std::pair<std::string, std::string>>& rows) {
+    std::string html = "<table>\n";
+    for (const auto& [name, text] : rows) {
+        html += "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(text) + "</td></tr>\n";
+    }
+    return html + "</table>";
+}
+
+std::string audio(const ReportSound& sound) {
+    if (sound.stereo.empty()) return "";
+    const double heard =
+        std::min(kReportSoundS, 0.5 * static_cast<double>(sound.stereo.size()) / sound.rate_hz);
+    const auto most = 2 * static_cast<std::size_t>(kReportSoundS * sound.rate_hz);
+    const auto heard_part = std::span(sound.stereo).first(std::min(sound.stereo.size() / 2 * 2, most));
+    std::string html = "<audio controls preload=\"metadata\" src=\"data:audio/wav;base64," +
+                       base64(wav_bytes_16(heard_part, 2, sound.rate_hz)) + "\"></audio>\n";
+    if (heard < sound.seconds - 0.01) {
+        html += "<p class=\"hint\">Plays " + number(heard, 3) + " s from " + number(sound.heard_from_s, 4) +
+                " s on; sound.wav has all " + number(sound.seconds, 4) + " s.</p>\n";
+    }
+    return html;
+}
+
+// The picture, and over it what the script shows in its place.
+std::string picture(const ReportData& data) {
+    const std::string still =
+        "<img alt=\"The part as milled\" src=\"data:image/png;base64," + base64(data.picture_png) + "\">\n";
+    if (!data.part) return still;
+    return "<figure id=\"part-view\">\n" + still +
+           R"(<div class="live" hidden><canvas tabindex="0" role="application" aria-roledescription="3D view"
+aria-label="The part as milled" aria-describedby="part-hint"></canvas></div>
+<div class="choices" role="radiogroup" aria-label="Colour the part by" hidden>
+<label><input type="radio" name="part-colour" value="surface" checked> surface</label>
+<label><input type="radio" name="part-colour" value="deviation"> deviation from the designed surface</label>
+</div>
+<div class="scale" hidden><i></i><span></span><span></span><span></span></div>
+<figcaption class="live" id="part-hint" hidden>Blue: machined. Grey: untouched stock. Yellow: the tool's tip at the row below. Drag
+or arrow keys turn it, two fingers or shift move it, + and - or the wheel after a click come nearer, Home or a double click
+shows all again.</figcaption>
+</figure>)";
+}
+
+// Text of a JSON array with at most `digits` digits a number.
+template <class Items, class Value>
+std::string array_of(const Items& items, int digits, const Value& value) {
+    std::string text = "[";
+    for (const auto& item : items) {
+        const double v = static_cast<double>(value(item));
+        text += number(std::isfinite(v) ? v : 0, digits);
+        text += ',';
+    }
+    if (text.back() == ',') text.pop_back();
+    return text + "]";
+}
+
+std::string rows_json(const std::vector<ReportRow>& rows) {
+    struct Column {
+        const char* name;
+        int digits;
+        std::function<double(const ReportRow&)> value;
+    };
+    using R = const ReportRow&;
+    const Column columns[] = {
+        {"t", 8, [](R r) { return r.t_s; }},
+        {"dt", 4, [](R r) { return r.duration_s; }},
+        {"line", 9, [](R r) { return r.line; }},
+        {"x", 6, [](R r) { return r.tip_mm.x; }},
+        {"y", 6, [](R r) { return r.tip_mm.y; }},
+        {"z", 6, [](R r) { return r.tip_mm.z; }},
+        {"mean", 4, [](R r) { return r.mean_n; }},
+        {"peak", 4, [](R r) { return r.peak_n; }},
+        {"entry", 4, [](R r) { return r.entry_deg; }},
+        {"exit", 4, [](R r) { return r.exit_deg; }},
+        {"depth", 4, [](R r) { return r.depth_mm; }},
+        {"rpm", 5, [](R r) { return r.rpm; }},
+        {"feed", 4, [](R r) { return r.feed_mm_per_min; }},
+    };
+    std::string json = "{";
+    for (const Column& column : columns) {
+        json += (json.size() > 1 ? ",\"" : "\"") + std::string(column.name) +
+                "\":" + array_of(rows, column.digits, column.value);
+    }
+    return json + "}";
+}
+
+std::string turn_json(const ReportTurn& turn) {
+    std::string json = "{\"t\":" + number(turn.t_s, 6) + ",\"line\":" + std::to_string(turn.line) +
+                       ",\"rpm\":" + number(turn.rpm, 6);
+    json += ",\"x\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.x; });
+    json += ",\"y\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.y; });
+    json += ",\"z\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.z; });
+    json += ",\"hz\":" + array_of(turn.spectrum, 6, [](const auto& line) { return line.first; });
+    json += ",\"amplitude\":" + array_of(turn.spectrum, 4, [](const auto& line) { return line.second; });
+    return json + "}";
+}
+
+std::string sound_json(const ReportSound& sound) {
+    std::string json = "\"envelope\":{\"seconds\":" + number(sound.seconds, 8) +
+                       ",\"heard\":" + number(sound.heard_from_s, 8);
+    json += ",\"low\":" + array_of(sound.envelope_pascal, 3, [](const auto& step) { return step.first; });
+    json += ",\"high\":" + array_of(sound.envelope_pascal, 3, [](const auto& step) { return step.second; });
+    json += "},\"waves\":[";
+    for (const ReportWave& wave : sound.waves) {
+        json += "{\"label\":" + files::dump(files::Json(wave.label)) +
+                ",\"rate\":" + number(wave.rate_hz, 8) +
+                ",\"samples\":" + array_of(wave.pascal, 4, [](float p) { return p; }) + "},";
+    }
+    if (json.back() == ',') json.pop_back();
+    return json + "]";
+}
+
+std::string data_json(const ReportData& data) {
+    std::string json = "{\"schema\":\"tribo.report/1\",\"band\":[" + number(data.summary.force_low_factor) +
+                       "," + number(data.summary.force_high_factor) +
+                       "],\"rows\":" + rows_json(thin_rows(data.rows, kMostRows));
+    if (data.turn && !data.turn->force_n.empty()) json += ",\"turn\":" + turn_json(*data.turn);
+    if (data.sound && data.sound->seconds > 0) json += "," + sound_json(*data.sound);
+    if (data.part) json += ",\"part\":" + report_part_json(*data.part);
+    json += "}";
+    // Inside a script element only "</" could end it; '<' occurs in strings alone.
+    std::string safe;
+    for (const char c : json) {
+        if (c == '<') {
+            safe += "\\u003c";
+        } else {
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+// The page with every {{mark}} replaced, in one pass, so that what is put in is never looked at again.
+std::string filled(std::string_view page, const std::function<std::string(std::string_view)>& value) {
+    std::string out;
+    while (true) {
+        const std::size_t open = page.find("{{");
+        const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);
+        if (close == page.npos) return out.append(page);
+        out.append(page.substr(0, open));
+        out += value(page.substr(open + 2, close - open - 2));
+        page.remove_prefix(close + 2);
+    }
+}
+
+ReportRow joined(const ReportRow& a, const ReportRow& b) {
+    ReportRow row = b.peak_n > a.peak_n ? b : a;
+    row.t_s = a.t_s;
+    row.duration_s = b.t_s + b.duration_s - a.t_s;
+    const double both = a.duration_s + b.duration_s;
+    if (both > 0) row.mean_n = (a.mean_n * a.duration_s + b.mean_n * b.duration_s) / both;
+    return row;
+}
+
+}  // namespace
+
+std::vector<ReportRow> thin_rows(const std::vector<ReportRow>& rows, std::size_t most) {
+    std::vector<ReportRow> thin = rows;
+    while (thin.size() > most && most > 0) {
+        const std::size_t before = thin.size();
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < before; ++i) {
+            const bool last = i + 1 == before;
+            const double end = thin[i].t_s + thin[i].duration_s;
+            if (!last && thin[i + 1].t_s <= end + kGapShare * thin[i].duration_s) {
+                thin[kept++] = joined(thin[i], thin[i + 1]);
+                ++i;
+            } else {
+                thin[kept++] = thin[i];
+            }
+        }
+        thin.resize(kept);
+        if (kept == before) break;  // nothing but gaps
+    }
+    return thin;
+}
+
+std::string report_html(const ReportData& data) {
+    return filled(kReportPage, [&](std::string_view mark) -> std::string {
+        if (mark == "title") return escaped(data.title);
+        if (mark == "subtitle") return escaped(data.subtitle);
+        if (mark == "style") return std::string(kReportStyle);
+        if (mark == "script") return std::string(kReportScript);
+        if (mark == "cards") return cards(data.summary);
+        if (mark == "notices") return notices(data.summary);
+        if (mark == "facts") return facts(data.facts);
+        if (mark == "audio") return data.sound ? audio(*data.sound) : "";
+        if (mark == "data") return data_json(data);
+        if (mark == "footer") return "Tribo " + escaped(data.summary.version) + ". Units: mm, N, s.";
+        if (mark == "picture" && !data.picture_png.empty()) return picture(data);
+        if (mark == "part" && data.part) {
+            return "<script type=\"text/plain\" id=\"part\">" + base64(report_part_bytes(*data.part)) +
+                   "</script>";
+        }
+        if (mark == "view" && data.part) return std::string(kReportView);
+        return "";
+    });
+}
+
+}  // namespace tribo::report

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// A cut as it was measured, kept so that its force can be worked out again for another feed, spindle speed,
+// material or helix without milling again: what the teeth meet does not depend on them (but for the feed's
+// share in the chip).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "contact/force_table.hpp"
+#include "session/cut/mill_session.hpp"
+
+namespace tribo::session {
+
+struct CutStretch {
+    double start_s = 0, end_s = 0;  // of the program as written
+    double phase_rad = 0;           // spindle angle at start_s
+    double turns = 0;               // whole turns before that angle
+    double spindle_rpm = 0;
+    Vec3 tip_mm;  // in the middle
+    milling::ToolFrame frame;
+    milling::ToolTravel feed;
+    std::size_t cutter = 0;
+    milling::Engagement engagement;
+    double chip_mm3_per_s = 0;
+};
+
+// Collects rows: hand add() to MillSinks::row.
+class CutRecord {
+  public:
+    void add(const MillRow& row);
+    std::span<const CutStretch> stretches() const { return stretches_; }
+
+  private:
+    std::vector<CutStretch> stretches_;
+};
+
+// What may change while it runs.
+struct CutChange {
+    double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle
+    std::optional<milling::CuttingCoefficients> coefficients{};
+    std::optional<double> helix_deg{};
+
+    // The times of a program go by faster by the feed, its spindle angle by the speed.
+    double angle_factor() const { return speed_factor / feed_factor; }
+    double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
+};
+
+// The spindle's angle where a stretch begins with something changed; whole turns are left out.
+double changed_phase_rad(const CutStretch& stretch, const CutChange& change);
+
+// The spectra of a record with something changed, on all threads; times are those of the program at the
+// changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know
+// them).
+std::vector<contact::ForceStretch> force_stretches(std::span<const CutStretch> stretches,
+                                                   const MillSetup& setup, const CutChange& change = {},
+                                                   const ParallelFor& parallel = serial_for);
+inline std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
+                                                          const CutChange& change = {},
+                                                          const ParallelFor& parallel = serial_for) {
+    return force_stretches(record.stretches(), setup, change, parallel);
+}
+
+// The force over a turn of the stretches from the `first` on, with something changed.
+struct StretchForce {
+    Vec3 mean_n;  // stock frame
+    double peak_force_n = 0, mean_torque_nm = 0;
+};
+std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
+                                         const CutChange& change, std::size_t first = 0,
+                                         const ParallelFor& parallel = serial_for);
+
+// The spectra of `count` stretches from the `first` on.
+std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
+                                                    const CutChange& change, std::size_t first,
+                                                    std::size_t count);
+
+// Tells records of different jobs apart: everything that the force along the path depends on.
+std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);
+
+}  // namespace tribo::session

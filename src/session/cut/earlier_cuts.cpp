@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "session/cut/earlier_cuts.hpp"
+
+#include <array>
+#include <memory>
+
+#include "base/hash.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/path.hpp"
+#include "session/cut/mill_session.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Many, so that all threads have work; few enough that a stop is heard soon.
+constexpr std::size_t kCarvedAtOnce = 256;
+static_assert(kCarvedAtOnce <= field::CarvedField::kMostAtOnce);
+
+void add(Hash& hash, const motion::ToolPose& pose) {
+    hash.add(pose.tip_mm);
+    hash.add(pose.axis);
+}
+
+}  // namespace
+
+EarlierCuts cuts_of(const MillSetup& setup) {
+    EarlierCuts cuts;
+    cuts.cutters = setup.cutters;
+    motion::Schedule schedule;
+    if (setup.until_s) schedule = *motion::schedule(setup.moves, setup.timing);
+    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
+        motion::Move move = setup.moves[n];
+        if (setup.until_s) {
+            const motion::MoveTiming& timing = schedule.moves[n];
+            if (timing.start_s >= *setup.until_s) break;
+            if (timing.end_s > *setup.until_s) {
+                const double length = timing.path_fraction(*setup.until_s) * motion::path_length_mm(move);
+                move = motion::first_part(move, motion::parameter_at_length(move, length));
+            }
+        }
+        if (move.kind == motion::MoveKind::dwell) continue;
+        cuts.moves.push_back(std::move(move));
+        cuts.cutter_of_move.push_back(setup.cutter_of_move[n]);
+    }
+    return cuts;
+}
+
+std::uint64_t hash_of_moves(const EarlierCuts& cuts) {
+    Hash hash;
+    for (std::size_t n = 0; n < cuts.moves.size(); ++n) {
+        const motion::Move& move = cuts.moves[n];
+        add(hash, move.start);
+        add(hash, move.end);
+        hash.add(move.arc.has_value());
+        if (move.arc) {
+            hash.add(move.arc->centre_mm);
+            hash.add(move.arc->normal);
+            hash.add(move.arc->turn_rad);
+        }
+        hash.add(move.quadratic.has_value());
+        if (move.quadratic) {
+            hash.add(move.quadratic->tip_control_mm);
+            hash.add(move.quadratic->axis_control);
+        }
+        hash.add(cuts.cutter_of_move[n]);
+    }
+    return hash.value();
+}
+
+std::uint64_t hash_of_cutters(const EarlierCuts& cuts) {
+    Hash hash;
+    for (const milling::Cutter& cutter : cuts.cutters) {
+        hash.add(static_cast<int>(cutter.kind));
+        hash.add(cutter.diameter_mm);
+        hash.add(cutter.corner_mm);
+        hash.add(cutter.length_mm);
+    }
+    return hash.value();
+}
+
+motion::Move in_frame(const motion::Move& move, const motion::WorkFrame& frame) {
+    motion::Move turned = move;
+    for (motion::ToolPose* pose : {&turned.start, &turned.end}) {
+        pose->tip_mm = frame.from_stock(pose->tip_mm);
+        pose->axis = frame.direction_from_stock(pose->axis);
+    }
+    if (turned.arc) {
+        turned.arc->centre_mm = frame.from_stock(turned.arc->centre_mm);
+        turned.arc->normal = frame.direction_from_stock(turned.arc->normal);
+    }
+    if (turned.quadratic) {
+        turned.quadratic->tip_control_mm = frame.from_stock(turned.quadratic->tip_control_mm);
+        turned.quadratic->axis_control = frame.direction_from_stock(turned.quadratic->axis_control);
+    }
+    return turned;
+}
+
+bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
+           const std::function<bool(double fraction)>& progress) {
+    std::size_t all = 0, done = 0;
+    for (const EarlierCuts& cuts : earlier) all += cuts.moves.size();
+    std::vector<std::unique_ptr<const field::Shape>> shapes;
+    std::array<double, kCarvedAtOnce> removed_mm3;
+    for (const EarlierCuts& cuts : earlier) {
+        for (std::size_t n = 0; n < cuts.moves.size(); ++n) {
+            shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], cuts.moves[n]));
+            if (++done < all && shapes.size() < kCarvedAtOnce) continue;
+            stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));
+            shapes.clear();
+            if (progress && !progress(static_cast<double>(done) / static_cast<double>(all))) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace tribo::session

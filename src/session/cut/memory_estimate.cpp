@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "session/cut/memory_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "field/carved/carved_field.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// A brick keeps nodes of its own where the surface comes nearer to it than CarvedField::kNearCells; in edges.
+constexpr double kNearEdges = field::CarvedField::kNearCells / field::kBrickCells;
+// How far the grid goes beyond the blank.
+constexpr double kMarginEdges = field::CarvedField::kMarginCells / field::kBrickCells;
+// From a brick's middle to its corners, in edges.
+constexpr double kToCorner = 0.8661;
+// Cells of the coarse grid, at most: its table has eight bytes for each 512.
+constexpr double kMostCells = 5e8;
+// Bytes of a move with its timing and what goes with it, and of its sweep, with what the heap adds.
+constexpr double kMoveBytes = sizeof(motion::Move) + 2 * sizeof(motion::MoveTiming) + 64;
+constexpr double kSweepBytes = 320, kCurvedSweepBytes = 1400;
+// Vertices of a brick that was cut, about; one of a flat face has one.
+constexpr double kCutBrickVertices = 25;
+// Bytes of meshing, measured: for a vertex with its two triangles, as arrays grow; for what is known of the
+// bricks in hand; for each brick of two layers.
+constexpr double kVertexBytes = 50, kInHandBytes = 1e7, kLayerBrickBytes = 16;
+
+// The surface of the tool from a point: how far (negative inside), and in which direction, by the axis and
+// away from it.
+struct FromTool {
+    double mm, up, out;
+};
+
+FromTool from_tool(const milling::Cutter& c, double along, double off) {
+    const double corner = c.corner_radius_mm();
+    const double below = corner - along, beyond = off - (c.radius_mm() - corner);
+    FromTool side{off - c.radius_mm(), 0, 1};
+    if (below > 0 && beyond > 0) {
+        const double far = std::sqrt(below * below + beyond * beyond);
+        side = {far - corner, far > 0 ? -below / far : -1, far > 0 ? beyond / far : 0};
+    } else if (-along > side.mm) {
+        side = {-along, -1, 0};
+    }
+    return along - c.length_mm > side.mm ? FromTool{along - c.length_mm, 1, 0} : side;
+}
+
+// The cells of the coarse grid, as field::BrickIndex keeps them.
+class CoarseStock {
+  public:
+    CoarseStock(const field::Shape& blank, double edge)
+        : blank_(blank), box_(blank.bounds_mm().inflated(kMarginEdges * edge)), edge_(edge), index_(size()) {}
+
+    void sweep(const milling::Cutter& cutter, const motion::ToolPose& pose) {
+        Box3 box;
+        box.include(pose.tip_mm);
+        box.include(pose.tip_mm + cutter.length_mm * pose.axis);
+        box = box.inflated(cutter.radius_mm() + (kToCorner + kNearEdges) * edge_);
+        int first[3], last[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const double from = std::max(box.min[axis], box_.min[axis]) - box_.min[axis];
+            const double to = std::min(box.max[axis], box_.max[axis]) - box_.min[axis];
+            if (!(from <= to)) return;
+            first[axis] = static_cast<int>(from / edge_);
+            last[axis] = std::min(static_cast<int>(to / edge_), count(axis) - 1);
+        }
+        for (int k = first[2]; k <= last[2]; ++k) {
+            for (int j = first[1]; j <= last[1]; ++j) {
+                for (int i = first[0]; i <= last[0]; ++i) look(cutter, pose, {i, j, k});
+            }
+        }
+    }
+
+    double most_surface_cells() const { return static_cast<double>(most_); }
+    double touched_cells() const { return static_cast<double>(touched_); }
+
+  private:
+    int count(int axis) const { return std::max(1, static_cast<int>(std::ceil(box_.size()[axis] / edge_))); }
+    field::BrickCoord size() const { return {count(0), count(1), count(2)}; }
+
+    void look(const milling::Cutter& cutter, const motion::ToolPose& pose, field::BrickCoord cell) {
+        const field::BrickRef was = index_.get(cell);
+        if (was == field::kAir) return;
+        const Vec3 middle = box_.min + edge_ * Vec3{cell.i + 0.5, cell.j + 0.5, cell.k + 0.5};
+        const Vec3 from_tip = middle - pose.tip_mm;
+        const double along = dot(from_tip, pose.axis);
+        const double off = std::sqrt(std::max(0.0, squared_length(from_tip) - along * along));
+        const FromTool tool = from_tool(cutter, along, off);
+        const Vec3 outward = off > 0 ? (from_tip - along * pose.axis) / off : Vec3{};
+        const Vec3 n = tool.up * pose.axis + tool.out * outward;
+        // Half the cell's extent along n, so that a plane across n meets the cell, and the band beside it.
+        const double near = edge_ * (0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) + kNearEdges);
+        if (tool.mm > near || (tool.mm > -near && was != field::kUntouched)) return;
+        if (was == field::kUntouched) ++touched_;
+        const bool air =
+            tool.mm <= -near || (was == field::kUntouched && blank_.distance_mm(middle) > kToCorner * edge_);
+        index_.set(cell, air ? field::kAir : field::kFirstBrick);
+        if (was != field::kUntouched) --surface_;
+        if (!air) most_ = std::max(most_, ++surface_);
+    }
+
+    const field::Shape& blank_;
+    Box3 box_;
+    double edge_;
+    field::BrickIndex index_;
+    std::size_t surface_ = 0, most_ = 0, touched_ = 0;
+};
+
+// How far any point of the tool goes in a move, about.
+double travel_mm(const motion::Move& move, const milling::Cutter& cutter) {
+    return motion::path_length_mm(move) + cutter.length_mm * length(move.end.axis - move.start.axis);
+}
+
+double steps_of(const motion::Move& move, const milling::Cutter& cutter, double edge) {
+    return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
+}
+
+// Calls visit(move, cutter, whether it is the last) for the moves of earlier jobs and the setup's own.
+template <class Visit>
+void over_moves(const MillSetup& setup, const Visit& visit) {
+    std::size_t left = setup.moves.size();
+    for (const EarlierCuts& cuts : setup.earlier) left += cuts.moves.size();
+    for (const EarlierCuts& cuts : setup.earlier) {
+        for (std::size_t n = 0; n < cuts.moves.size(); ++n)
+            visit(cuts.moves[n], cuts.cutters[cuts.cutter_of_move[n]], --left == 0);
+    }
+    for (std::size_t n = 0; n < setup.moves.size(); ++n)
+        visit(setup.moves[n], setup.cutters[setup.cutter_of_move[n]], --left == 0);
+}
+
+// Looks at cells that marking would take.
+double tests_at(const MillSetup& setup, double edge) {
+    const Vec3 blank = setup.blank->bounds_mm().size();
+    double tests = 0, travelled = 0;
+    over_moves(setup, [&](const motion::Move& move, const milling::Cutter& c, bool is_last) {
+        // Short moves share their poses.
+        travelled += travel_mm(move, c);
+        if (travelled < 0.5 * edge && !is_last) return;
+        const auto cells = [&](double extent, double room) { return std::min(extent, room) / edge + 1; };
+        const double across = c.diameter_mm + 2 * (kToCorner + kNearEdges) * edge;
+        tests += (travelled / (0.5 * edge) + 1) * cells(across, blank.x) * cells(across, blank.y) *
+                 cells(c.length_mm + 2 * (kToCorner + kNearEdges) * edge, blank.z);
+        travelled = 0;
+    });
+    return tests;
+}
+
+}  // namespace
+
+MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
+    : blank_(setup.blank->bounds_mm()), coarse_mm_(field::kBrickCells * cell_mm) {
+    const Vec3 size = blank_.size();
+    const auto cells = [&] {
+        return (size.x / coarse_mm_ + 1) * (size.y / coarse_mm_ + 1) * (size.z / coarse_mm_ + 1);
+    };
+    while (cells() > kMostCells || tests_at(setup, coarse_mm_) > kMostTests) coarse_mm_ *= 1.3;
+    CoarseStock stock(*setup.blank, coarse_mm_);
+    double travelled = 0;
+    const milling::Cutter* last_cutter = nullptr;
+    over_moves(setup, [&](const motion::Move& move, const milling::Cutter& cutter, bool is_last) {
+        ++moves_;
+        if (move.quadratic || move.start.axis != move.end.axis) ++curved_moves_;
+        if (move.kind == motion::MoveKind::dwell) return;
+        travelled += travel_mm(move, cutter);
+        if (&cutter == last_cutter && travelled < 0.5 * coarse_mm_ && !is_last) return;
+        const double steps = steps_of(move, cutter, coarse_mm_);
+        for (double s = &cutter == last_cutter ? 1 : 0; s <= steps; ++s)
+            stock.sweep(cutter, motion::pose_at(move, s / steps));
+        travelled = 0;
+        last_cutter = &cutter;
+    });
+    surface_cells_ = stock.most_surface_cells();
+    touched_cells_ = stock.touched_cells();
+}
+
+double MemoryEstimate::cut_bricks(double cell_mm) const {
+    const double cells_per_brick = coarse_mm_ / (field::kBrickCells * cell_mm);
+    return surface_cells_ * cells_per_brick * cells_per_brick;
+}
+
+double MemoryEstimate::touched_bricks(double cell_mm) const {
+    const double cells_per_brick = coarse_mm_ / (field::kBrickCells * cell_mm);
+    return touched_cells_ * cells_per_brick * cells_per_brick * std::max(1.0, cells_per_brick);
+}
+
+double MemoryEstimate::session_bytes(double cell_mm) const {
+    return moves_ * (kMoveBytes + kSweepBytes) + curved_moves_ * (kCurvedSweepBytes - kSweepBytes) +
+           field::CarvedField::estimated_bytes(blank_, cell_mm, cut_bricks(cell_mm), touched_bricks(cell_mm));
+}
+
+double MemoryEstimate::vertices(double cell_mm) const {
+    const Vec3 s = blank_.size() / (field::kBrickCells * cell_mm);
+    return 2 * (s.x * s.y + s.y * s.z + s.z * s.x) + kCutBrickVertices * cut_bricks(cell_mm);
+}
+
+double MemoryEstimate::mesh_bytes(double cell_mm) const {
+    const Vec3 s = blank_.size() / (field::kBrickCells * cell_mm);
+    return kVertexBytes * vertices(cell_mm) + kInHandBytes + kLayerBrickBytes * s.x * s.y;
+}
+
+}  // namespace tribo::session

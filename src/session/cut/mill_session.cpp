@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "session/cut/mill_session.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "milling/engagement/joined_moves.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Moves that are offered to the cut at once; it takes as many of them as are worth looking at together.
+constexpr std::size_t kOfferedMoves = 64;
+// Force models, so that several threads may each use their own.
+constexpr std::size_t kShares = 8;
+
+constexpr double kDegPerRad = 180 / math::kPi;
+
+// The range over all bands, in degrees and mm.
+struct Hull {
+    double entry_deg = 0, exit_deg = 0, axial_depth_mm = 0;
+};
+
+Hull hull(const milling::Engagement& e) {
+    if (e.bands.empty()) return {};
+    double entry = math::kTwoPi, exit = 0, low = e.bands[0].z0_mm, high = 0;
+    for (const milling::EngagementBand& b : e.bands) {
+        entry = std::min(entry, b.entry_rad);
+        exit = std::max(exit, b.exit_rad);
+        low = std::min(low, b.z0_mm);
+        high = std::max(high, b.z1_mm);
+    }
+    return {entry * kDegPerRad, exit * kDegPerRad, high - low};
+}
+
+}  // namespace
+
+class MillSession::Run {
+  public:
+    Run(MillSetup setup, ParallelFor parallel, const std::function<bool(double fraction)>& progress)
+        : setup_(std::move(setup)),
+          parallel_(std::move(parallel)),
+          schedule_(*motion::schedule(setup_.moves, setup_.timing)),
+          stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
+          machining_(stock_, setup_.cutters, setup_.fixtures, {}, parallel_) {
+        for (auto& share : models_) {
+            for (const milling::Cutter& cutter : setup_.cutters)
+                share.emplace_back(cutter, setup_.coefficients);
+        }
+        stopped_ = !carve(stock_, setup_.earlier, progress);
+        removed_earlier_mm3_ = stock_.removed_mm3();
+        end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
+        cutting_at_.assign(setup_.cutters.size(), 0);
+        milling::JoinedMoves joined;
+        joins_.reserve(setup_.moves.size());
+        for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
+            const motion::MoveTiming& timing = schedule_.moves[n];
+            joins_.push_back(joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
+                                        setup_.rpm_of_move[n], timing.end_s - timing.start_s));
+        }
+    }
+
+    bool run_to(double to_s, const MillSinks& sinks) {
+        if (stopped_) return false;
+        limit_s_ = std::min(to_s, end_s_);
+        while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
+            cut();
+            evaluate(static_cast<bool>(sinks.row));
+            for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], sinks);
+            if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
+                return false;
+        }
+        finish();
+        return true;
+    }
+
+    MillSetup setup_;
+    ParallelFor parallel_;
+    motion::Schedule schedule_;
+    field::CarvedField stock_;
+    MillTotals totals_;
+    double end_s_ = 0, now_s_ = 0;
+    double removed_earlier_mm3_ = 0;  // by jobs before this one
+    bool stopped_ = false;            // while their cuts were carved
+
+  private:
+    struct Row {
+        std::size_t move = 0, cutter = 0;
+        double start_s = 0, end_s = 0, angle_rad = 0, turns = 0;
+        milling::ToolTravel feed;
+        milling::ForcePeaks peaks;
+        double edge_torque_nmm = 0;  // mean, of kte alone
+        contact::ForceSpectrum spectrum;
+        milling::CutRow cut;
+    };
+    // Offers the next moves to the cut, up to the end of time, and books what it took.
+    void cut() {
+        steps_.clear();
+        std::size_t n = next_move_;
+        for (; n < setup_.moves.size(); ++n) {
+            const motion::MoveTiming& timing = schedule_.moves[n];
+            const bool enough = steps_.size() >= kOfferedMoves || timing.start_s >= limit_s_;
+            if (n > next_move_ && (joins_[n] ? timing.start_s >= end_s_ : enough)) break;
+            const motion::Move* move = &setup_.moves[n];
+            if (timing.end_s > end_s_) {
+                const double length = motion::path_length_mm(*move);
+                last_share_ = timing.path_fraction(end_s_);
+                last_move_ =
+                    motion::first_part(*move, motion::parameter_at_length(*move, last_share_ * length));
+                move = &last_move_;
+            }
+            steps_.push_back({move, setup_.cutter_of_move[n], joins_[n] != 0});
+        }
+        const std::size_t count = machining_.run(steps_, machined_);
+        for (const milling::Collision& c : machined_.collisions) {
+            const std::size_t index = next_move_ + c.step;
+            const double start = schedule_.moves[index].start_s;
+            const double end = std::min(schedule_.moves[index].end_s, end_s_);
+            add_collision({c.kind, setup_.moves[index].line, start + c.at * (end - start), c.tip_mm});
+        }
+        row_count_ = 0;
+        std::size_t row = 0;
+        for (std::size_t step = 0, last; step < count; step = last) {
+            for (last = step + 1; last < count && steps_[last].joins;) ++last;
+            const std::size_t first = row;
+            while (row < machined_.row_count && machined_.rows[row].step == step) ++row;
+            finish_pass(step, last, first, row);
+        }
+        next_move_ += count;
+    }
+
+    // The steps of one pass, and its rows of those machined, in time.
+    void finish_pass(std::size_t step, std::size_t last_step, std::size_t first, std::size_t last) {
+        const std::size_t move = next_move_ + step;
+        const double start = schedule_.moves[move].start_s;
+        const double end = std::min(schedule_.moves[next_move_ + last_step - 1].end_s, end_s_);
+        const double rpm = setup_.rpm_of_move[move];
+        for (std::size_t n = step; n < last_step; ++n) {
+            if (steps_[n].move->kind != motion::MoveKind::feed) continue;
+            totals_.path_mm += motion::path_length_mm(*steps_[n].move);
+            totals_.fed_mm3 += machined_.removed_mm3[n];
+        }
+        std::size_t at = step;  // where the rows have come to
+        double begun_mm = 0, travelled = 0, row_start = start;
+        for (std::size_t n = first; n < last; ++n) {
+            milling::CutRow& cut = machined_.rows[n];
+            const std::size_t begins_at = at;
+            travelled += cut.length_mm;
+            for (; at + 1 < last_step; ++at) {
+                const double length = motion::path_length_mm(*steps_[at].move);
+                if (travelled < begun_mm + length * (1 - 1e-9)) break;
+                begun_mm += length;
+            }
+            const double row_end = time_on_s(at, travelled - begun_mm, cut.to);
+            if (!cut.engagement.empty())
+                add_row(next_move_ + begins_at, steps_[step].cutter, cut, row_start, row_end, rpm, start);
+            row_start = row_end;
+        }
+        angle_rad_ += rpm / 60 * math::kTwoPi * (end - start);
+        const double turns = std::floor(angle_rad_ / math::kTwoPi);
+        angle_rad_ -= math::kTwoPi * turns;
+        turns_ += turns;
+        now_s_ = end;
+    }
+
+    // When the tip has gone so far on the step; on one without a way, when that share of it is done.
+    double time_on_s(std::size_t step, double way_mm, double share) const {
+        const milling::Step& s = steps_[step];
+        const motion::MoveTiming& timing = schedule_.moves[next_move_ + step];
+        const double length = motion::path_length_mm(*s.move), end = std::min(timing.end_s, end_s_);
+        if (!(length > 0)) return timing.start_s + (end - timing.start_s) * share;
+        return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) *
+                                std::clamp(way_mm / length, 0.0, 1.0));
+    }
+
+    void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,
+                 double rpm, double move_start) {
+        if (rows_.size() == row_count_) rows_.emplace_back();
+        Row& row = rows_[row_count_++];
+        row.move = move;
+        row.cutter = cutter;
+        row.start_s = start;
+        row.end_s = end;
+        row.turns = turns_;
+        row.angle_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
+        std::swap(row.cut, cut);  // both keep their room
+        const double teeth = (end - start) * rpm / 60 * setup_.cutters[cutter].flutes;
+        row.feed = (teeth > 0 ? 1 / teeth : 0) * row.cut.pose.travel;
+        if (!setup_.engagement) {
+            row.feed = row.cut.reconciled * row.feed;
+        } else {
+            row.cut.reconciled = 1;
+            row.cut.engagement.clear();
+            row.cut.engagement.bands.push_back({0, setup_.engagement->axial_depth_mm,
+                                                setup_.engagement->entry_rad, setup_.engagement->exit_rad});
+        }
+    }
+
+    // Nobody hears a spectrum where nobody is told of rows.
+    void evaluate(bool spectra) {
+        parallel_(kShares, [&](std::size_t share) {
+            const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
+            for (std::size_t n = from; n < to; ++n) {
+                Row& row = rows_[n];
+                milling::ForceModel& model = models_[share][row.cutter];
+                model.engage(row.cut.engagement, row.feed);
+                if (spectra) model.spectrum(setup_.harmonics, row.spectrum);
+                row.peaks = model.peaks();
+                row.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
+            }
+        });
+    }
+
+    void finish_row(const Row& row, const MillSinks& sinks) {
+        const double rpm = setup_.rpm_of_move[row.move], seconds = row.end_s - row.start_s;
+        const milling::ForcePeaks& p = row.peaks;
+        totals_.cutting_s += seconds;
+        cutting_at_[row.cutter] += seconds;
+        force_seconds_ += length(p.mean_n) * seconds;
+        const double turned_rad = rpm / 60 * math::kTwoPi * seconds;
+        totals_.work_j += 1e-3 * p.mean_torque_nmm * turned_rad;
+        totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - row.edge_torque_nmm) * turned_rad;
+        totals_.chip_mm3 += row.cut.chip_mm3;
+        totals_.peak_force_n = std::max(totals_.peak_force_n, p.peak_force_n);
+        totals_.peak_torque_nmm = std::max(totals_.peak_torque_nmm, p.peak_torque_nmm);
+        totals_.peak_power_w =
+            std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * rpm / 60 * math::kTwoPi);
+        ++totals_.rows;
+        if (!sinks.row) return;
+        const Hull h = hull(row.cut.engagement);
+        milling::ForceRow values;
+        values.t_s = row.start_s;
+        values.duration_s = seconds;
+        values.line = setup_.moves[row.move].line;
+        values.tip_mm = row.cut.pose.tip_mm;
+        values.axis = row.cut.pose.frame.z;
+        values.spindle_rpm = rpm;
+        values.feed_mm_per_min = seconds > 0 ? row.cut.length_mm / seconds * 60 : 0;
+        values.entry_deg = h.entry_deg;
+        values.exit_deg = h.exit_deg;
+        values.axial_depth_mm = h.axial_depth_mm;
+        values.mean_n = p.mean_n;
+        values.peak_n = p.peak_n;
+        values.peak_fxy_n = p.peak_xy_n;
+        values.mean_torque_nm = 1e-3 * p.mean_torque_nmm;
+        values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
+        values.removed_mm3 = row.cut.removed_mm3;
+        values.reconciled = row.cut.reconciled;
+        sinks.row({values, row.cut.engagement, row.spectrum, row.cut.pose.frame, row.feed, p, row.cutter,
+                   row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0, row.turns});
+    }
+
+    void add_collision(const MillCollision& c) {
+        const bool known =
+            std::any_of(totals_.collisions.begin(), totals_.collisions.end(),
+                        [&](const MillCollision& k) { return k.line == c.line && k.kind == c.kind; });
+        if (!known) totals_.collisions.push_back(c);
+    }
+
+    void finish() {
+        totals_.duration_s = end_s_;
+        totals_.removed_mm3 = stock_.removed_mm3() - removed_earlier_mm3_;
+        totals_.remaining_mm3 = setup_.blank_volume_mm3 - stock_.removed_mm3();
+        if (totals_.fed_mm3 > 0 && !setup_.engagement)
+            totals_.energy_balance =
+                totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);
+        totals_.mean_force_n = totals_.cutting_s > 0 ? force_seconds_ / totals_.cutting_s : 0;
+        const auto longest = std::max_element(cutting_at_.begin(), cutting_at_.end()) - cutting_at_.begin();
+        for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
+            if (setup_.moves[n].kind == motion::MoveKind::feed &&
+                setup_.cutter_of_move[n] == static_cast<std::size_t>(longest)) {
+                totals_.tooth_passing_hz =
+                    setup_.rpm_of_move[n] / 60 * setup_.cutters[static_cast<std::size_t>(longest)].flutes;
+                break;
+            }
+        }
+    }
+
+    milling::Machining machining_;
+    std::array<std::vector<milling::ForceModel>, kShares> models_;
+    std::vector<milling::Step> steps_;
+    milling::Machined machined_;
+    std::vector<Row> rows_;  // of the moves just cut; the first row_count_ count
+    std::size_t row_count_ = 0;
+    motion::Move last_move_;          // cut short by the end of time
+    double last_share_ = 1;           // of its path
+    std::vector<double> cutting_at_;  // seconds by cutter
+    std::vector<char> joins_;         // by move: shares a row with the one before
+    std::size_t next_move_ = 0;
+    double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
+};
+
+MillSession::MillSession(MillSetup setup, ParallelFor parallel,
+                         const std::function<bool(double fraction)>& progress)
+    : run_(std::make_unique<Run>(std::move(setup), std::move(parallel), progress)) {}
+MillSession::~MillSession() = default;
+
+bool MillSession::run(const MillSinks& sinks) {
+    return run_->run_to(run_->end_s_, sinks);
+}
+bool MillSession::run_to(double t_s, const MillSinks& sinks) {
+    return run_->run_to(t_s, sinks);
+}
+double MillSession::milled_s() const {
+    return run_->now_s_;
+}
+double MillSession::duration_s() const {
+    return run_->end_s_;
+}
+const motion::Schedule& MillSession::schedule() const {
+    return run_->schedule_;
+}
+const field::CarvedField& MillSession::stock() const {
+    return run_->stock_;
+}
+std::unique_ptr<field::FieldReader> MillSession::read_stock() {
+    return std::make_unique<field::FieldReader>(run_->stock_);
+}
+const MillTotals& MillSession::totals() const {
+    return run_->totals_;
+}
+const MillSetup& MillSession::setup() const {
+    return run_->setup_;
+}
+
+}  // namespace tribo::session

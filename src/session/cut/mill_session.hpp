@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// A milling job from the first move to the last: stock, engagement, force and time wired into one stream of
+// rows. No files and no clocks: what comes out goes to sinks, what takes time is told to `progress`.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "contact/force_spectrum.hpp"
+#include "field/carved/field_reader.hpp"
+#include "milling/engagement/machining.hpp"
+#include "milling/force/force.hpp"
+#include "milling/force/force_row.hpp"
+#include "milling/tool/coefficients.hpp"
+#include "milling/tool/cutter.hpp"
+#include "motion/path/program.hpp"
+#include "motion/path/timing.hpp"
+#include "session/cut/earlier_cuts.hpp"
+
+namespace tribo::session {
+
+// Engagement that the job prescribes: it replaces the measured one wherever the tool cuts at all.
+struct PrescribedEngagement {
+    double entry_rad = 0, exit_rad = 0, axial_depth_mm = 0;
+};
+
+struct MillSetup {
+    std::vector<motion::Move> moves;
+    std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
+    std::vector<double> rpm_of_move;          // one per move; > 0 for every feed move
+    std::vector<milling::Cutter> cutters;
+    milling::CuttingCoefficients coefficients;
+    std::unique_ptr<const field::Shape> blank;
+    double blank_volume_mm3 = 0;
+    std::vector<EarlierCuts> earlier;  // carved before the session begins, in this order
+    std::vector<std::unique_ptr<const field::Shape>> fixtures;
+    std::optional<PrescribedEngagement> engagement;
+    motion::TimingOptions timing;
+    double cell_mm = 0.25;
+    std::optional<double> until_s;
+    int harmonics =
+        16;  // multiples of the tooth passing frequency (of the spindle's where teeth differ: times flutes)
+};
+
+// What one row hands to the senses. References are valid during the call only.
+struct MillRow {
+    const milling::ForceRow& values;
+    const milling::Engagement& engagement;
+    const contact::ForceSpectrum& spectrum;
+    milling::ToolFrame frame;
+    milling::ToolTravel feed;
+    milling::ForcePeaks peaks;
+    std::size_t cutter = 0;
+    double end_s = 0;              // values.t_s is the start
+    double spindle_angle_rad = 0;  // at the start
+    double chip_mm3_per_s = 0;     // feed times chip area
+    double spindle_turns = 0;      // whole turns before that angle, since the program began
+};
+
+struct MillCollision {
+    milling::CollisionKind kind;
+    int line = 0;
+    double t_s = 0;
+    Vec3 tip_mm;
+};
+
+struct MillTotals {
+    double duration_s = 0, cutting_s = 0;
+    double path_mm = 0;                         // feed moves
+    double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; in the end
+    double chip_mm3 = 0;  // as measured, before they are reconciled: should equal what feed moves removed
+    double fed_mm3 = 0;   // removed by feed moves
+    double mean_force_n = 0, peak_force_n = 0;
+    double peak_torque_nmm = 0, peak_power_w = 0;
+    // Of the spindle, and what of it the shear coefficient ktc explains: ktc times the chips' volume. The
+    // rest is the edge coefficient's.
+    double work_j = 0, shear_work_j = 0;
+    double tooth_passing_hz = 0;  // of the longest cutting time
+    std::size_t rows = 0;
+    // The work that shears over ktc times the volume that feed moves removed: 1 where the force is true to
+    // the metal, whatever the cut. Absent where nothing was cut or the engagement is prescribed.
+    std::optional<double> energy_balance;
+    std::vector<MillCollision> collisions;  // one per line and kind
+};
+
+struct MillSinks {
+    std::function<void(const MillRow&)> row;        // in the order of time, while cutting only; may be empty
+    std::function<bool(double fraction)> progress;  // now and then; false stops the run; may be empty
+};
+
+class MillSession {
+  public:
+    // The setup is as prepare_mill() checked it. Earlier cuts are carved here; `progress` is told as
+    // MillSinks tell it, and where it stops them the session mills nothing.
+    MillSession(MillSetup setup, ParallelFor parallel,
+                const std::function<bool(double fraction)>& progress = {});
+    ~MillSession();
+
+    // Mills on to the end. False: stopped by `progress`; the stock is then somewhere in between.
+    bool run(const MillSinks& sinks);
+    // Mills on through the moves that begin before `t_s`, and those that share rows with the last of them:
+    // what follows the session as it goes on.
+    bool run_to(double t_s, const MillSinks& sinks);
+    // Up to here it has milled.
+    double milled_s() const;
+
+    // Of the program, or until_s where that is sooner.
+    double duration_s() const;
+    // When each of setup().moves is where.
+    const motion::Schedule& schedule() const;
+    const field::CarvedField& stock() const;
+    // The stock for another thread while this one mills: one at a time, gone before the session. Made and
+    // destroyed on the milling thread (field/field_reader.hpp).
+    std::unique_ptr<field::FieldReader> read_stock();
+    const MillTotals& totals() const;
+    const MillSetup& setup() const;
+
+  private:
+    class Run;
+    std::unique_ptr<Run> run_;
+};
+
+}  // namespace tribo::session

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "session/cut/mill_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/decimal.hpp"
+#include "base/math.hpp"
+#include "motion/curve/keyframe_motion.hpp"
+#include "motion/path/close_passes.hpp"
+#include "motion/path/moves.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// The cutter for a tool number of the program.
+class ToolChoice {
+  public:
+    ToolChoice(const job::Job& job, const motion::Program& program, Warnings& warnings)
+        : job_(job), program_(program), warnings_(warnings) {}
+
+    Result<std::size_t> cutter_for(const motion::Move& move) {
+        const auto& cutters = job_.cutters;
+        if (move.tool == 0) return 0;
+        for (std::size_t n = 0; n < cutters.size(); ++n) {
+            if (cutters[n].number == move.tool) return n;
+        }
+        if (cutters.size() == 1 && cutters[0].number == 0) {
+            if (!warned_) {
+                warnings_.push_back({program_.source, move.line,
+                                     "tool T" + std::to_string(move.tool) +
+                                         " has no [cutter] of that number; the job's only one stands in"});
+            }
+            warned_ = true;
+            return 0;
+        }
+        return fail_at(program_.source, move.line, 0,
+                       "tool T" + std::to_string(move.tool) + " is not described by the job",
+                       "add a [[cutter]] with number = " + std::to_string(move.tool));
+    }
+
+  private:
+    const job::Job& job_;
+    const motion::Program& program_;
+    Warnings& warnings_;
+    bool warned_ = false;
+};
+
+void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+    for (const milling::Cutter& cutter : setup.cutters) {
+        if (cutter.diameter_mm < 4 * setup.cell_mm) {
+            warnings.push_back({source, 0,
+                                "the grid is coarse for a cutter of " + format_decimal(cutter.diameter_mm) +
+                                    " mm: fewer than four cells across; try a finer --resolution"});
+        }
+    }
+}
+
+// Scallops are right at any grid of up to half the sidestep; below that cusps merge.
+constexpr double kLeastCellsPerSidestep = 2;
+// Less of the path than this is a lead-in, a corner or the end of a raster.
+constexpr double kWorthAWarning = 0.1;
+
+void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+    constexpr double kRounding = 1e-6;  // of coordinates in text, relative
+    const double within = kLeastCellsPerSidestep * setup.cell_mm * (1 - kRounding);
+    const motion::ClosePasses close = motion::close_passes(setup.moves, within);
+    if (close.share < kWorthAWarning) return;
+    // Rounded down, so that the spacing asked for is fine enough.
+    const double sidestep = close.sidestep_mm * (1 + kRounding), finest = sidestep / kLeastCellsPerSidestep;
+    double digit = 1e-6;
+    while (finest >= 100 * digit) digit *= 10;
+    warnings.push_back({source, 0,
+                        "along " + format_decimal(std::floor(100 * close.share)) +
+                            " % of the feed path the next pass is only " +
+                            format_decimal(std::floor(1000 * sidestep) / 1000) +
+                            " mm aside, less than two cells of " + format_decimal(setup.cell_mm) +
+                            " mm: the ridges between are not resolved; try --resolution " +
+                            format_decimal(std::floor(finest / digit) * digit)});
+}
+
+}  // namespace
+
+double default_cell_mm(const job::Job& job, const Box3& blank_mm) {
+    const Vec3 size = blank_mm.size();
+    double cell = std::max({size.x, size.y, size.z}) / 400;
+    for (const milling::Cutter& cutter : job.cutters) cell = std::min(cell, cutter.radius_mm() / 4);
+    return std::clamp(cell, 0.02, 1.0);
+}
+
+Result<milling::Material> job_material(const job::Job& job) {
+    if (!job.material.coefficients) return milling::find_material(job.material.name);
+    milling::Material own;
+    own.name = "own coefficients";
+    own.what = "as the job file gives them";
+    own.source = "job file";
+    own.note = "no spread is known; the band is the calibration's own";
+    own.coefficients = *job.material.coefficients;
+    own.spread_low = own.spread_high = 1;
+    if (auto ok = milling::check(own.coefficients); !ok) return std::unexpected(ok.error());
+    return own;
+}
+
+Result<motion::Program> keyframe_program(const job::Job& job, std::span<const motion::Keyframe> keyframes,
+                                         const std::string& source) {
+    motion::KeyframeOptions options;
+    if (job.path.interpolation == motion::Interpolation::linear)
+        options.interpolation = motion::Interpolation::linear;
+    auto moves = motion::keyframe_moves(keyframes, job.process.feed_mm_per_min, options);
+    if (!moves) {
+        Error error = moves.error();
+        error.file = source;
+        return std::unexpected(error);
+    }
+    motion::Program program;
+    program.source = source;
+    program.moves = std::move(*moves);
+    return program;
+}
+
+Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& program,
+                                const MillOptions& options, Warnings& warnings) {
+    if (program.has_rotary_words && program.machine.empty()) {
+        return fail_at(program.source, program.first_rotary_line, 0,
+                       "rotary words mean nothing without a machine",
+                       "add machine = \"NAME\" to [path], NAME being one of " + motion::machine_names() +
+                           " or a .toml file that describes one");
+    }
+    if (program.moves.empty()) {
+        return fail_at(program.source, 0, 0, "the program moves nothing", "give it at least one feed move");
+    }
+    auto material = job_material(job);
+    if (!material) {
+        Error error = material.error();
+        if (error.file.empty()) error.file = job.file;
+        return std::unexpected(error);
+    }
+
+    MillSetup setup;
+    setup.cutters = job.cutters;
+    setup.coefficients = material->coefficients;
+    setup.until_s = options.until_s;
+    setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
+    setup.timing.acceleration_mm_per_s2 = job.machine.acceleration_mm_per_s2;
+    if (job.engagement) {
+        setup.engagement =
+            PrescribedEngagement{job.engagement->entry_deg * math::kRadPerDeg,
+                                 job.engagement->exit_deg * math::kRadPerDeg, job.engagement->axial_depth_mm};
+    }
+    ToolChoice tools(job, program, warnings);
+    for (const motion::Move& move : program.moves) {
+        const auto cutter = tools.cutter_for(move);
+        if (!cutter) return std::unexpected(cutter.error());
+        const double rpm = move.spindle_rpm > 0 ? move.spindle_rpm : job.process.spindle_rpm;
+        if (!(rpm > 0) && move.kind == motion::MoveKind::feed) {
+            return fail_at(program.source, move.line, 0, "the spindle has no speed here",
+                           "add an S word to the program or spindle_rpm to [process]");
+        }
+        const auto add = [&](motion::Move piece) {
+            setup.moves.push_back(std::move(piece));
+            setup.cutter_of_move.push_back(*cutter);
+            setup.rpm_of_move.push_back(rpm);
+        };
+        for (motion::Move& piece : motion::to_elementary(move)) {
+            if (!options.longest_piece_mm) {
+                add(std::move(piece));
+                continue;
+            }
+            for (motion::Move& part : motion::in_pieces(piece, *options.longest_piece_mm))
+                add(std::move(part));
+        }
+    }
+    if (auto times = motion::schedule(setup.moves, setup.timing); !times) {
+        Error error = times.error();
+        if (error.file.empty()) error.file = program.source;
+        return std::unexpected(error);
+    }
+    return setup;
+}
+
+Result<MillSetup> prepare_mill(const job::Job& job, MillInputs inputs, const MillOptions& options,
+                               Warnings& warnings) {
+    auto prepared = prepare_moves(job, inputs.program, options, warnings);
+    if (!prepared) return std::unexpected(prepared.error());
+    MillSetup setup = *std::move(prepared);
+    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(job, inputs.blank->bounds_mm()));
+    warn_where_the_grid_is_coarse(setup, job.file, warnings);
+    warn_of_passes_below_the_grid(setup, job.file, warnings);
+    setup.blank = std::move(inputs.blank);
+    setup.blank_volume_mm3 = inputs.blank_volume_mm3;
+    setup.earlier = std::move(inputs.earlier);
+    setup.fixtures = std::move(inputs.fixtures);
+    return setup;
+}
+
+}  // namespace tribo::session

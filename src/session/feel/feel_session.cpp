@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "session/feel/feel_session.hpp"
+
+#include "surface/textured_triangles.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Of the finger's cylinder: beyond it, it is the hand.
+constexpr double kFingerMm = 40;
+// A texture record answers for places up to this share of the records' spacing away.
+constexpr double kReach = 1.5;
+constexpr std::size_t kMostRecords = 20'000;
+// N/ms where nothing has to be protected.
+constexpr double kFreeSlew = 20;
+
+}  // namespace
+
+haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, double now_s,
+                                             double /*tick_s*/) noexcept {
+    const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
+    if (probe_.size() > 1) probe_.turned(hand.stylus, balls);
+    const haptics::Contact contact =
+        probe_.size() > 1 ? contact_.update(hand.position_mm, balls) : contact_.update(hand.position_mm);
+    haptics::RenderedForce felt;
+    felt.contact_n = contact.force_n;
+    felt.touching = contact.in_contact;
+    felt.simulation_s = now_s;  // the part does not change any more
+    return felt;
+}
+
+CutterTrack::CutterTrack(const MillSetup& setup)
+    : moves_(setup.moves),
+      schedule_(*motion::schedule(setup.moves, setup.timing)),
+      cutter_of_move_(setup.cutter_of_move) {
+    for (const milling::Cutter& c : setup.cutters)
+        cutters_.push_back({{}, {0, 0, 1}, c.radius_mm(), c.length_mm});
+}
+
+haptics::Cylinder CutterTrack::at(double t_s) const noexcept {
+    const motion::ToolPose pose = motion::pose_at_time(moves_, schedule_, t_s);
+    haptics::Cylinder cutter = cutters_[cutter_of_move_[schedule_.move_at(t_s)]];
+    cutter.end_mm = pose.tip_mm;
+    cutter.axis = pose.axis;
+    return cutter;
+}
+
+Vec3 TableForce::force_n(double at_s) noexcept {
+    Vec3 force;
+    if (!table_.force_at(at_s, rate_hz_, cursor_, force)) return {};
+    return scaling_.apply(force);
+}
+
+haptics::TextureMap texture_map(std::span<const CutStretch> cut, const contact::DistanceField& machined,
+                                const ParallelFor& parallel, double spacing_mm) {
+    std::vector<const CutStretch*> places;
+    for (const CutStretch& s : cut) {
+        if (places.empty() || distance(places.back()->tip_mm, s.tip_mm) >= spacing_mm) places.push_back(&s);
+    }
+    // Evenly thinned where there would be too many.
+    const std::size_t step = places.size() / kMostRecords + 1;
+    std::vector<std::optional<contact::TextureRecord>> found((places.size() + step - 1) / step);
+    parallel(found.size(), [&](std::size_t n) {
+        const CutStretch& s = *places[n * step];
+        surface::TextureOptions options;
+        options.pitch_along_mm = s.feed.across_mm;
+        found[n] = surface::textured_triangles(machined, {s.tip_mm, s.frame.z, s.frame.x}, options);
+    });
+    std::vector<contact::TextureRecord> records;
+    for (const auto& r : found) {
+        if (r) records.push_back(*r);
+    }
+    return {std::move(records), kReach * spacing_mm * static_cast<double>(step)};
+}
+
+CutSource::CutSource(const CutterTrack& track, haptics::CuttingForce& force,
+                     const haptics::TextureMap& textures, const CutSourceOptions& options)
+    : track_(track), textures_(textures), options_(options), field_([&] {
+          haptics::ForceFieldOptions field;
+          field.tick_s = options.tick_s;
+          return field;
+      }()) {
+    field_.set_cutting(&force);
+    field_.begin_in(haptics::FeelMode::cut);
+    if (options.part != nullptr) touch_.emplace(*options.part, options.contact, options.probe);
+}
+
+haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, double now_s,
+                                         double tick_s) noexcept {
+    haptics::FieldMoment moment;
+    moment.at_s = options_.start_s + now_s;
+    moment.cutter = track_.at(moment.at_s);
+    moment.finger = {hand.position_mm, hand.stylus, options_.finger_mm, kFingerMm};
+    if (options_.texture) moment.texture = textures_.nearest(moment.cutter.end_mm);
+    const haptics::FieldForce force = field_.render(moment);
+    haptics::RenderedForce felt;
+    felt.simulation_s = now_s;
+    if (touch_) {
+        (void)options_.part->refresh();
+        felt = touch_->render(hand, now_s, tick_s);
+    }
+    // Both come from the machine that moves the cutter: the hand's work has no part in them.
+    felt.driven_n = force.cutting_n + force.texture_n;
+    felt.touching = felt.touching || squared_length(force.cutting_n) > 0;
+    return felt;
+}
+
+haptics::SafetyLimits safety_limits(const haptics::Device& device, double rate_hz) {
+    haptics::SafetyLimits limits;
+    limits.max_force_n = device.limits().max_force_n;
+    limits.damping_n_s_per_mm = 0.5 * device.limits().max_damping_n_s_per_mm;
+    limits.tick_s = 1 / rate_hz;
+    if (!device.has_motors()) {
+        limits.ramp_s = 0;
+        limits.slew_n_per_ms = kFreeSlew;
+    }
+    return limits;
+}
+
+}  // namespace tribo::session

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_feel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tribo::session {
+namespace {
+
+// Of the hand's cylinder: beyond it, it is the arm.
+constexpr double kFingerMm = 40;
+// Share of the program clock's error that a tick takes back: scenes come by the picture's clock, 60 times a
+// second and not quite evenly, and the teeth must not stutter with them.
+constexpr double kClockPull = 0.005;
+// Seconds of the servo by which the clocks may differ before the program's is taken as it is.
+constexpr double kClockJumpS = 0.05;
+
+}  // namespace
+
+struct LiveFeel::Part {
+    Part(MillSession& session, const haptics::ContactOptions& options)
+        : reader(session.read_stock()), contact(*reader, options), track(session.setup()) {}
+    std::unique_ptr<field::FieldReader> reader;
+    haptics::FieldContact contact;
+    CutterTrack track;
+};
+
+LiveFeel::LiveFeel(const LiveFeelOptions& options)
+    : options_(options), force_(options.rate_hz), field_([&] {
+          haptics::ForceFieldOptions field;
+          field.tick_s = 1 / options.rate_hz;
+          return field;
+      }()) {
+    options_.contact.tick_s = 1 / options.rate_hz;
+    field_.set_cutting(&force_);
+    field_.begin_in(haptics::FeelMode::cut);
+}
+
+LiveFeel::~LiveFeel() = default;
+
+void LiveFeel::show(const LiveScene& scene) {
+    scenes_.back() = scene;
+    scenes_.back().number = ++shown_;
+    scenes_.publish();
+}
+
+void LiveFeel::set_session(MillSession* session) {
+    lent_part_.lend(nullptr);
+    part_.reset();
+    if (session == nullptr) return;
+    part_ = std::make_unique<Part>(*session, options_.contact);
+    lent_part_.lend(part_.get());
+}
+
+void LiveFeel::set_force(contact::ForceTable table, const haptics::ForceScaling& scaling) {
+    force_.replace(std::move(table), scaling);
+}
+
+void LiveFeel::set_textures(haptics::TextureMap textures) {
+    const int next = 1 - current_;
+    textures_[next] = std::move(textures);
+    lent_textures_.lend(&textures_[next]);
+    current_ = next;
+    ++textures_set_;
+}
+
+// The program's clock runs at its pace by the servo's own, drawn towards what the scenes say.
+void LiveFeel::keep_time(double now_s, double tick_s) noexcept {
+    const LiveScene& newest = scenes_.read();
+    if (!begun_ || newest.number != scene_.number) {
+        scene_ = newest;
+        seen_s_ = now_s;
+    }
+    const double aim = scene_.program_s + scene_.pace * (now_s - seen_s_);
+    const double on = program_s_ + scene_.pace * tick_s;
+    const bool jump = !begun_ || std::abs(aim - on) > kClockJumpS * std::max(1.0, scene_.pace);
+    program_s_ = jump ? aim : on + kClockPull * (aim - on);
+    begun_ = true;
+}
+
+haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double now_s,
+                                        double tick_s) noexcept {
+    keep_time(now_s, tick_s);
+    haptics::RenderedForce felt;
+    felt.simulation_s = seen_s_;
+    touched_ = {program_s_, hand.position_mm, 0, false, scene_.hand};
+    const Loan<Part>::Use part(lent_part_);
+    const Loan<const haptics::TextureMap>::Use textures(lent_textures_);
+    if (part.get() == nullptr) return felt;
+    part.get()->reader->refresh();
+    if (!scene_.hand) {
+        // The next one begins where it is.
+        part.get()->contact.reset();
+        must_leave_ = false;
+        return felt;
+    }
+    const haptics::Contact contact = part.get()->contact.update(hand.position_mm);
+    touched_.proxy_mm = contact.proxy_mm;
+    touched_.slip_mm_per_s = length(contact.slip_mm_per_s);
+    touched_.contact = contact.in_contact;
+
+    haptics::FieldMoment moment;
+    moment.at_s = program_s_;
+    moment.cutter = part.get()->track.at(program_s_);
+    moment.finger = {hand.position_mm, hand.stylus, options_.finger_mm, kFingerMm};
+    if (textures.get() != nullptr) moment.texture = textures.get()->nearest(moment.cutter.end_mm);
+    // A cutter that stands does not cut.
+    field_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
+    if (scene_.pace > 0) force_.set_pace(scene_.pace);
+    const haptics::FieldForce near_cutter = field_.render(moment);
+
+    // A surface that comes back under a hand that presses would throw it out: it must leave first.
+    if (scene_.stopped) must_leave_ = true;
+    if (!contact.in_contact && !scene_.stopped) must_leave_ = false;
+    if (scene_.stopped) return felt;
+    if (!must_leave_) felt.contact_n = contact.force_n;
+    felt.driven_n = near_cutter.cutting_n + near_cutter.texture_n;
+    felt.touching = (contact.in_contact && !must_leave_) || squared_length(near_cutter.cutting_n) > 0;
+    return felt;
+}
+
+void in_written_time(std::vector<contact::ForceStretch>& stretches, double feed_factor) {
+    for (contact::ForceStretch& s : stretches) {
+        s.start_s *= feed_factor;
+        s.end_s *= feed_factor;
+        s.rate_rad_per_s /= feed_factor;
+    }
+}
+
+}  // namespace tribo::session

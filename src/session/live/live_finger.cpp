@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_finger.hpp"
+
+#include <utility>
+
+namespace tribo::session {
+namespace {
+
+std::unique_ptr<haptics::Device> arm_or_hand(std::unique_ptr<haptics::Device> arm, Vec3 start_mm,
+                                             double rate_hz, haptics::LedHand*& led) {
+    if (arm) return arm;
+    auto hand = std::make_unique<haptics::LedHand>(start_mm, 1 / rate_hz);
+    led = hand.get();
+    return hand;
+}
+
+}  // namespace
+
+LiveFinger::LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm)
+    : rate_hz_(options.rate_hz),
+      device_(arm_or_hand(std::move(arm), start_mm, options.rate_hz, led_)),
+      feel_(options),
+      servo_(*device_, feel_, safety_limits(*device_, options.rate_hz),
+             led_ != nullptr ? 0 : options.delay_s) {}
+
+bool LiveFinger::tick(double now_s) noexcept {
+    const haptics::ServoTick tick = servo_.tick(now_s);
+    const LiveFeel::Touched& touched = feel_.touched();
+    Seen& seen = seen_.back();
+    seen.touch.t_s = touched.program_s;
+    seen.touch.probe_mm = tick.position_mm;
+    seen.touch.proxy_mm = touched.proxy_mm;
+    seen.touch.force_n = tick.force_n;
+    seen.touch.slip_mm_per_s = touched.slip_mm_per_s;
+    seen.touch.contact = touched.contact;
+    seen.touch.hand = touched.hand;
+    seen.servo.ticks = static_cast<std::uint32_t>(servo_.ticks());
+    seen.servo.fault = static_cast<std::uint32_t>(tick.fault);
+    seen.servo.rate_hz = rate_hz_;
+    seen.servo.force_limit_n = servo_.safety().limits().max_force_n;
+    seen.servo.largest_force_n = servo_.max_force_n();
+    seen_.publish();
+    return servo_.device_there();
+}
+
+void LiveFinger::lead(Vec3 aim_mm, bool down) {
+    if (led_ == nullptr) return;
+    if (down) led_->lead_to(aim_mm);
+    down_ = down;
+}
+
+void LiveFinger::stop(LiveScene scene) {
+    scene.stopped = true;
+    feel_.show(scene);
+}
+
+void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& frames) {
+    scene.hand = has_arm() || down_;
+    feel_.show(scene);
+    const Seen& seen = seen_.read();
+    seen_servo_ = seen.servo;
+    protocol::LiveTouch touch = seen.touch;
+    touch.hand = scene.hand && touch.hand;
+    touch.cut_mode = scene.cut_mode;
+    touch.cutting_force = scene.cutting_force;
+    touch.stopped = scene.stopped;
+    // Without a hand there is nothing that moves.
+    if (!touch.hand) touch = {0, {}, {}, {}, 0, false, touch.cutting_force, touch.cut_mode, touch.stopped};
+    protocol::write_finger_frame(touch, frame_);
+    if (frame_ != last_finger_) {
+        frames(frame_);
+        std::swap(frame_, last_finger_);
+    }
+    const contact::TextureRecord* texture = feel_.texture_at(tip_mm);
+    if (texture == shown_texture_ && feel_.textures_set() == shown_textures_set_) return;
+    if (texture == nullptr && shown_texture_ == nullptr) return;
+    shown_texture_ = texture;
+    shown_textures_set_ = feel_.textures_set();
+    const haptics::ForceFieldOptions felt;
+    protocol::write_texture_frame(scene.program_s, texture, felt.texture_press_mm,
+                                  felt.texture_stiffness_n_per_mm, frame_);
+    frames(frame_);
+}
+
+}  // namespace tribo::session

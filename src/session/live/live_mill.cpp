@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_mill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "base/math.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Points along a curved move of the drawn path: one a millimetre, at most these.
+constexpr double kCurvePointMm = 1, kMostCurvePoints = 4;
+// Rows in one frame: what a viewer takes in without a stutter.
+constexpr std::size_t kRowsPerFrame = 4096;
+constexpr std::size_t kPiecesPerFrame = 64;
+constexpr std::size_t kTrianglesPerFrame = 20'000;
+
+std::vector<protocol::LivePathPoint> path_points(const MillSession& session) {
+    std::vector<protocol::LivePathPoint> points;
+    const auto& moves = session.setup().moves;
+    for (std::size_t n = 0; n < moves.size(); ++n) {
+        const motion::Move& move = moves[n];
+        if (move.kind == motion::MoveKind::dwell) continue;
+        const motion::MoveTiming& timing = session.schedule().moves[n];
+        const bool rapid = move.kind == motion::MoveKind::rapid;
+        if (points.empty()) points.push_back({timing.start_s, move.start.tip_mm, rapid});
+        const double wanted = std::ceil(motion::path_length_mm(move) / kCurvePointMm);
+        const int count =
+            move.arc || move.quadratic ? static_cast<int>(std::clamp(wanted, 1.0, kMostCurvePoints)) : 1;
+        for (int k = 1; k <= count; ++k) {
+            const double t = static_cast<double>(k) / count;
+            points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid});
+        }
+    }
+    return points;
+}
+
+// Where the tool, standing up to its shank, was between two times.
+Box3 swept_box(const MillSession& session, double from_s, double to_s) {
+    Box3 box;
+    const MillSetup& setup = session.setup();
+    const motion::Schedule& schedule = session.schedule();
+    for (std::size_t n = schedule.move_at(from_s); n < setup.moves.size(); ++n) {
+        if (schedule.moves[n].start_s >= to_s && n > schedule.move_at(from_s)) break;
+        const motion::Move& move = setup.moves[n];
+        const milling::Cutter& cutter = setup.cutters[setup.cutter_of_move[n]];
+        Box3 path = motion::tip_bounds(move);
+        for (const motion::ToolPose& pose : {move.start, move.end})
+            path.include(pose.tip_mm + cutter.length_mm * pose.axis);
+        box.include(path.inflated(cutter.radius_mm()));
+    }
+    return box;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel,
+                                                   LiveExtras extras) {
+    std::unique_ptr<LiveMill> live(
+        new LiveMill(std::move(make_setup), std::move(parallel), std::move(extras)));
+    if (auto begun = live->begin(); !begun) return std::unexpected(begun.error());
+    return live;
+}
+
+Result<void> LiveMill::begin() {
+    auto setup = make_setup_();
+    if (!setup) return std::unexpected(setup.error());
+    if (watcher_) watcher_(nullptr);
+    session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
+    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
+    path_ = path_points(*session_);
+    rows_.clear();
+    felt_.clear();
+    record_ = {};
+    rows_told_ = pieces_told_ = collisions_told_ = 0;
+    shown_s_ = 0;
+    begun_anew_ = true;
+    set_back_ = false;
+    if (watcher_) watcher_(session_.get());
+    return {};
+}
+
+void LiveMill::watch(std::function<void(MillSession*)> watcher) {
+    watcher_ = std::move(watcher);
+    if (watcher_) watcher_(session_.get());
+}
+
+void LiveMill::set_change(const CutChange& change) {
+    change_ = change;
+    work_out_forces(0);
+    rows_told_ = 0;
+    // What is behind the clock is heard no more.
+    while (pieces_told_ > 0 && rows_[pieces_told_ - 1].end_s > clock_s_) --pieces_told_;
+    rows_anew_ = !rows_.empty();
+    last_state_.clear();
+}
+
+void LiveMill::play(bool on) {
+    if (on && clock_s_ >= duration_s()) set_clock(0);
+    playing_ = on;
+}
+
+void LiveMill::set_speed(double seconds_per_second) {
+    if (seconds_per_second > 0 && seconds_per_second <= kFastest) speed_ = seconds_per_second;
+}
+
+void LiveMill::set_clock(double t_s) {
+    if (std::isnan(t_s)) return;
+    clock_s_ = std::clamp(t_s, 0.0, duration_s());
+    // Metal does not grow again.
+    set_back_ = clock_s_ < session_->milled_s();
+}
+
+void LiveMill::add_row(const MillRow& row) {
+    const milling::ForceRow& v = row.values;
+    protocol::LiveRow told;
+    told.t_s = v.t_s;
+    told.end_s = row.end_s;
+    told.tip_mm = v.tip_mm;
+    told.entry_rad = v.entry_deg * math::kRadPerDeg;
+    told.exit_rad = v.exit_deg * math::kRadPerDeg;
+    told.axial_depth_mm = v.axial_depth_mm;
+    told.line = static_cast<std::uint32_t>(v.line);
+    rows_.push_back(told);
+    const double before = felt_.empty() ? 0 : felt_.back().removed_mm3;
+    felt_.push_back({{}, 0, 0, before + v.removed_mm3});
+    record_.add(row);
+}
+
+// What follows from the change, of the rows from `first` on.
+void LiveMill::work_out_forces(std::size_t first) {
+    const auto forces = stretch_forces(record_, session_->setup(), change_, first, parallel_);
+    for (std::size_t n = first; n < rows_.size(); ++n) {
+        const StretchForce& force = forces[n - first];
+        const CutStretch& s = record_.stretches()[n];
+        rows_[n].mean_force_n = length(force.mean_n);
+        rows_[n].peak_force_n = force.peak_force_n;
+        rows_[n].mean_torque_nm = force.mean_torque_nm;
+        rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.across_mm;
+        felt_[n].force_n = force.mean_n;
+        felt_[n].spindle_angle_rad = changed_phase_rad(s, change_);
+        felt_[n].spindle_rad_per_s = change_.angle_factor() * s.spindle_rpm / 60 * math::kTwoPi;
+    }
+}
+
+Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
+                            const protocol::FrameSink& frames) {
+    if (set_back_) {
+        if (auto begun = begin(); !begun) return begun;
+    }
+    // The clock runs on from where the part is.
+    const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
+    const std::size_t rows_before = rows_.size();
+    MillSinks sinks;
+    sinks.row = [this](const MillRow& row) { add_row(row); };
+    sinks.progress = [&](double) { return may_go_on(); };
+    session_->run_to(target, sinks);
+    work_out_forces(rows_before);
+    clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
+    if (clock_s_ >= duration_s()) playing_ = false;
+    if (begun_anew_) {
+        begun_anew_ = false;
+        show_job(frames);
+        show_part(picture_->all(), frames);
+        // After the part: on a slow line the first picture does not wait for them.
+        if (extras_.designed) show_designed(frames);
+        protocol::write_path_frame(path_, frame_);
+        frames(frame_);
+        last_state_.clear();
+    } else if (session_->milled_s() > shown_s_) {
+        show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
+    }
+    show_rows(frames);
+    show_sound(frames);
+    show_state(frames);
+    return {};
+}
+
+void LiveMill::show_job(const protocol::FrameSink& frames) {
+    const MillSetup& setup = session_->setup();
+    protocol::write_job_frame(
+        {duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters}, frame_);
+    frames(frame_);
+    protocol::write_listening_frame(listening(), frame_);
+    frames(frame_);
+}
+
+job::Listening LiveMill::listening() const {
+    if (extras_.listening) return *extras_.listening;
+    job::Job job;
+    job.cutters = {session_->setup().cutters.front()};
+    return job::listening_to(job, session_->stock().blank().bounds_mm());
+}
+
+void LiveMill::show_designed(const protocol::FrameSink& frames) {
+    const TriangleMesh& whole = *extras_.designed;
+    for (std::size_t first = 0; first < whole.triangles.size(); first += kTrianglesPerFrame) {
+        const std::size_t last = std::min(first + kTrianglesPerFrame, whole.triangles.size());
+        TriangleMesh piece;
+        std::map<std::uint32_t, std::uint32_t> kept;
+        for (std::size_t n = first; n < last; ++n) {
+            Triangle triangle;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const std::uint32_t old = whole.triangles[n][corner];
+                const auto [at, added] = kept.try_emplace(old, static_cast<std::uint32_t>(kept.size()));
+                if (added) piece.positions.push_back(whole.positions[old]);
+                triangle[corner] = at->second;
+            }
+            piece.triangles.push_back(triangle);
+        }
+        protocol::write_designed_frame(piece, frame_);
+        frames(frame_);
+    }
+}
+
+void LiveMill::show_sound(const protocol::FrameSink& frames) {
+    std::vector<protocol::LiveSoundPiece> pieces;
+    while (pieces_told_ < rows_.size()) {
+        const std::size_t now = std::min(kPiecesPerFrame, rows_.size() - pieces_told_);
+        const auto forces = stretch_spectra(record_, session_->setup(), change_, pieces_told_, now);
+        pieces.clear();
+        for (std::size_t n = 0; n < now; ++n) {
+            const CutStretch& s = record_.stretches()[pieces_told_ + n];
+            const double rad_per_s = change_.speed_factor * s.spindle_rpm / 60 * math::kTwoPi;
+            const int edges = session_->setup().cutters[s.cutter].flutes;
+            pieces.push_back({s.start_s, s.end_s, s.tip_mm, changed_phase_rad(s, change_), rad_per_s,
+                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s, edges, forces[n]});
+        }
+        protocol::write_sound_frame(pieces, frame_);
+        frames(frame_);
+        pieces_told_ += now;
+    }
+}
+
+void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) {
+    picture_->update(box_mm, [&](ChunkCoord c, const TriangleMesh& mesh) {
+        protocol::write_chunk_frame(session_->milled_s(), {c.i, c.j, c.k}, mesh, frame_);
+        frames(frame_);
+    });
+    shown_s_ = session_->milled_s();
+}
+
+void LiveMill::show_rows(const protocol::FrameSink& frames) {
+    while (rows_told_ < rows_.size()) {
+        const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
+        protocol::write_rows_frame({rows_.data() + rows_told_, now}, std::exchange(rows_anew_, false),
+                                   frame_);
+        frames(frame_);
+        rows_told_ += now;
+    }
+    const auto& collisions = session_->totals().collisions;
+    for (; collisions_told_ < collisions.size(); ++collisions_told_) {
+        const MillCollision& c = collisions[collisions_told_];
+        protocol::write_collision_frame(c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm, frame_);
+        frames(frame_);
+    }
+}
+
+void LiveMill::show_state(const protocol::FrameSink& frames) {
+    protocol::write_state_frame(state(), frame_);
+    if (frame_ == last_state_) return;
+    frames(frame_);
+    std::swap(frame_, last_state_);
+}
+
+protocol::LiveState LiveMill::state() const {
+    const MillSetup& setup = session_->setup();
+    const motion::Schedule& schedule = session_->schedule();
+    protocol::LiveState s;
+    s.t_s = std::min(clock_s_, std::max(session_->milled_s(), 0.0));
+    const std::size_t n = schedule.move_at(s.t_s);
+    s.tool = motion::pose_at_time(setup.moves, schedule, s.t_s);
+    s.line = static_cast<std::uint32_t>(setup.moves[n].line);
+    s.cutter = static_cast<std::uint32_t>(setup.cutter_of_move[n]);
+    s.rapid = setup.moves[n].kind == motion::MoveKind::rapid;
+    s.spindle_rpm = change_.speed_factor * setup.rpm_of_move[n];
+    s.feed_mm_per_min = change_.feed_factor * 60 * schedule.moves[n].speed_mm_per_s(s.t_s);
+    s.milled_s = session_->milled_s();
+    s.speed = speed_;
+    s.playing = playing_;
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), s.t_s,
+                                        [](double t, const protocol::LiveRow& row) { return t < row.t_s; });
+    if (after == rows_.begin()) return s;
+    const auto row = static_cast<std::size_t>(after - rows_.begin()) - 1;
+    const Felt& felt = felt_[row];
+    s.removed_mm3 = felt.removed_mm3;
+    if (s.t_s > rows_[row].end_s) return s;
+    s.cutting = true;
+    s.force_n = felt.force_n;
+    s.peak_force_n = rows_[row].peak_force_n;
+    s.mean_torque_nm = rows_[row].mean_torque_nm;
+    s.spindle_angle_rad = felt.spindle_angle_rad + felt.spindle_rad_per_s * (s.t_s - rows_[row].t_s);
+    return s;
+}
+
+}  // namespace tribo::session

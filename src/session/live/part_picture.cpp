@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/part_picture.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/hash.hpp"
+#include "field/contour/contour.hpp"
+
+namespace tribo::session {
+namespace {
+
+using field::BrickCoord;
+
+// State of a chunk that nobody has looked at.
+constexpr std::uint64_t kUnseen = 0;
+
+ChunkCoord chunk_of(BrickCoord b) {
+    return {b.i / kChunkBricks, b.j / kChunkBricks, b.k / kChunkBricks};
+}
+
+BrickCoord first_brick(ChunkCoord c) {
+    return {c.i * kChunkBricks, c.j * kChunkBricks, c.k * kChunkBricks};
+}
+
+}  // namespace
+
+PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel)
+    : field_(field), parallel_(std::move(parallel)) {
+    const BrickCoord n = field.size();
+    const ChunkCoord last = chunk_of({n.i - 1, n.j - 1, n.k - 1});
+    size_ = {last.i + 1, last.j + 1, last.k + 1};
+    shown_.assign(static_cast<std::size_t>(size_.i) * static_cast<std::size_t>(size_.j) *
+                      static_cast<std::size_t>(size_.k),
+                  kUnseen);
+}
+
+Box3 PartPicture::all() const {
+    return field_.blank().bounds_mm();
+}
+
+std::size_t PartPicture::number(ChunkCoord c) const {
+    return static_cast<std::size_t>(c.i) +
+           static_cast<std::size_t>(size_.i) *
+               (static_cast<std::size_t>(c.j) +
+                static_cast<std::size_t>(size_.j) * static_cast<std::size_t>(c.k));
+}
+
+std::uint64_t PartPicture::state(ChunkCoord chunk) const {
+    // A cut that moves the surface of a brick takes volume from it. The contour reaches one brick back.
+    const BrickCoord first = first_brick(chunk), size = field_.size();
+    Hash hash;
+    for (int k = std::max(first.k - 1, 0); k < std::min(first.k + kChunkBricks, size.k); ++k) {
+        for (int j = std::max(first.j - 1, 0); j < std::min(first.j + kChunkBricks, size.j); ++j) {
+            for (int i = std::max(first.i - 1, 0); i < std::min(first.i + kChunkBricks, size.i); ++i) {
+                const field::BrickRef ref = field_.ref({i, j, k});
+                const double volume =
+                    ref >= field::kFirstBrick ? field_.brick(ref).volume_mm3 : (ref == field::kAir ? -2 : -1);
+                hash.add(volume);
+            }
+        }
+    }
+    return hash.value() | 1;
+}
+
+void PartPicture::update(const Box3& box_mm,
+                         const std::function<void(ChunkCoord, const TriangleMesh&)>& show) {
+    if (box_mm.empty()) return;
+    const BrickCoord n = field_.size();
+    const auto inside = [&](BrickCoord b) {
+        return BrickCoord{std::clamp(b.i, 0, n.i - 1), std::clamp(b.j, 0, n.j - 1),
+                          std::clamp(b.k, 0, n.k - 1)};
+    };
+    const ChunkCoord first = chunk_of(inside(field_.brick_at(box_mm.min)));
+    // Bricks of a chunk are drawn with those before them, so a cut also changes the chunk after it.
+    BrickCoord after = field_.brick_at(box_mm.max);
+    ++after.i, ++after.j, ++after.k;
+    const ChunkCoord last = chunk_of(inside(after));
+    for (int k = first.k; k <= last.k; ++k) {
+        for (int j = first.j; j <= last.j; ++j) {
+            for (int i = first.i; i <= last.i; ++i) {
+                const ChunkCoord chunk{i, j, k};
+                const std::uint64_t now = state(chunk);
+                std::uint64_t& shown = shown_[number(chunk)];
+                if (now == shown) continue;
+                changes_.push_back({chunk, shown != kUnseen, {}});
+                shown = now;
+            }
+        }
+    }
+    parallel_(changes_.size(), [&](std::size_t n) {
+        const BrickCoord from = first_brick(changes_[n].chunk);
+        changes_[n].mesh = field::contour_part(
+            field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks});
+    });
+    for (const Change& c : changes_) {
+        if (c.was_seen || !c.mesh.triangles.empty()) show(c.chunk, c.mesh);
+    }
+    changes_.clear();
+}
+
+}  // namespace tribo::session

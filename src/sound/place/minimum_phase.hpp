@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// A head response split in two: what it does to the spectrum (a filter of minimum phase, short) and how much
+// later it comes (a delay). Nothing else of it is heard (Kulkarni, Isabelle, Colburn 1999).
+#pragma once
+
+#include <array>
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "sound/place/ear_kernels.hpp"
+
+namespace tribo::sound {
+
+// Discrete Fourier transform of 2^log2_size values, in place; the inverse divides by the size. The same bits
+// on every machine.
+class FourierTransform {
+  public:
+    explicit FourierTransform(int log2_size);
+    std::size_t size() const { return turn_.size(); }
+    void forward(std::span<std::complex<double>> x) const;
+    void inverse(std::span<std::complex<double>> x) const;
+
+  private:
+    std::vector<std::complex<double>> turn_;  // e^{-2 pi i k / size}
+    std::vector<std::size_t> reversed_;
+};
+
+// Weights of the values at -1, 0, 1 and 2 for the cubic through them at 0 <= t <= 1.
+std::array<double, 4> cubic_weights(double t);
+
+using HeadTaps = std::array<float, kHeadTaps>;
+
+// The responses of both ears to one direction.
+struct EarResponses {
+    std::array<HeadTaps, 2> taps{};       // left, right
+    std::array<double, 2> delay_s{0, 0};  // of the response beyond its filter; may be negative
+};
+
+// Frequencies at which a response is asked for: bins of the transform below, 0 ... half the sample rate.
+class MinimumPhase {
+  public:
+    explicit MinimumPhase(double sample_rate_hz);
+
+    std::size_t bins() const { return fourier_.size() / 2 + 1; }
+    double bin_hz() const { return sample_rate_hz_ / static_cast<double>(fourier_.size()); }
+
+    // Filters of the magnitudes of both spectra (bins() values each, of any phase), cut to kHeadTaps with
+    // their level as a whole and at 1 kHz kept, and the delay by which each spectrum lags behind its filter
+    // between 300 and 1500 Hz, where ears compare phases: together they keep the arrival offset, the peak of
+    // the ears' cross-correlation over that band.
+    EarResponses split(std::span<const std::complex<double>> left,
+                       std::span<const std::complex<double>> right);
+
+  private:
+    using Taps = std::array<double, kHeadTaps>;
+    std::complex<double> response(const Taps& taps, double hz) const;
+    void keep_level(std::span<const std::complex<double>> spectrum, Taps& taps) const;
+    double delay_behind(std::span<const std::complex<double>> spectrum, const Taps& taps) const;
+    void keep_arrival_offset(std::span<const std::complex<double>> left,
+                             std::span<const std::complex<double>> right, const std::array<Taps, 2>& taps,
+                             std::array<double, 2>& delay_s) const;
+    std::size_t first_compared() const;
+    std::size_t last_compared() const;
+
+    double sample_rate_hz_;
+    FourierTransform fourier_;
+    std::vector<std::complex<double>> work_;
+};
+
+}  // namespace tribo::sound

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// What the APT reader refuses of circles, cycles, frames and settings, and where.
+#include <gtest/gtest.h>
+#include <string>
+
+#include "readers/apt/reader.hpp"
+#include "readers/refusals.hpp"
+
+namespace tribo::readers {
+namespace {
+
+TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
+    const std::string at = "UNITS/MM\nFEDRAT/100\nFROM/10,0,0\n";  // three lines
+    const std::string circle = at + "CIRCLE/0,0,0,0,0,1,10\n";
+    const Refusal refusals[] = {
+        {"UNITS/MM\nCIRCLE/0,0,0,0,0,1,5\n", 2, 1, "a circle before any point"},
+        {at + "CIRCLE/0,0,0,5\n", 4, 1, "'CIRCLE' without centre, axis and radius"},
+        {at + "CIRCLE/0,0,0,0,0,1\n", 4, 1, "without centre, axis and radius"},
+        {at + "CIRCLE/0,0,0,0,0,0,5\n", 4, 14, "the direction has no length"},
+        {at + "CIRCLE/0,0,0,0,0,1,0\n", 4, 20, "without a radius"},
+        {at + "CIRCLE/0,0,0,0,0,1,-5\n", 4, 20, "'-5' is out of range"},
+        {at + "CIRCLE/0,0,zero,0,0,1,5\n", 4, 12, "'zero' is not a number"},
+        {at + "CIRCLE/0,0,0,0,0,1,5,FAST\n", 4, 22, "'FAST' is not known here"},
+        {at + "MOVARC/CENTER,0,0,0,RADIUS,5\n", 4, 1, "'MOVARC' without centre, axis and radius"},
+        {at + "MOVARC/0,0,0,0,0,1,10,ANGLE\n", 4, 23, "a number is missing"},
+        {at + "CIRCLE/0,0,0,0,0,1,5\nGOTO/0,5,0\n", 5, 1,
+         "starts 10 mm from the axis of its circle of radius 5 mm"},
+        {circle + "GOTO/0,11,0\n", 5, 1, "ends 11 mm from the axis of its circle of radius 10 mm"},
+        {at + "MOVARC/0,0,0,0,0,1,10,ANGLE,80\nGOTO/0,10,0\n", 4, 1,
+         "states a turn of 80 degrees where its points make 90"},
+        {circle + "GOTO/0,10\n", 5, 1, "'GOTO' has 2 numbers"},
+        {at + "INDIRV/1,0\n", 4, 1, "INDIRV without a direction"},
+        {at + "TLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10,0)\n", 4, 1, "without INDIRV"},
+        {at + "INDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10)\n", 5, 1,
+         "in a form that is not known"},
+        {at + "INDIRV/0,1,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),TO,(LINE/0,0,0,0,10,0)\n", 5, 1,
+         "in a form that is not known"},
+        {at + "INDIRV/1,0,0\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,0,10,0)\n", 5, 1,
+         "INDIRV does not lead along the circle"},
+        {at + "CYCLE\n", 4, 1, "CYCLE without a kind"},
+        {at + "CYCLE/THREAD,5\n", 4, 7, "'THREAD' is not a cycle that is read"},
+        {at + "CYCLE/ON\n", 4, 1, "before any cycle was described"},
+        {at + "CYCLE/DRILL\n", 4, 1, "a cycle without a depth"},
+        {at + "CYCLE/DRILL,FEDTO\n", 4, 13, "a number is missing after this"},
+        {at + "CYCLE/DRILL,FEDTO,deep\n", 4, 19, "'deep' is not a number"},
+        {at + "CYCLE/DRILL,FEDTO,5,RAPTO,-3\n", 4, 27, "'-3' is out of range"},
+        {at + "CYCLE/DRILL,FEDTO,5,MMPM,0\n", 4, 21, "a feed rate of 0"},
+        {at + "CYCLE/DRILL,FEDTO,5,CAM,1\n", 4, 21, "'CAM' is not known in a cycle"},
+        {at + "CYCLE/DRILL,5,80,3\n", 4, 1, "the cycle's feed has no unit"},
+        {at + "CYCLE/DRILL,5,MMPM,80,3,4\n", 4, 25, "more numbers than depth, feed and clearance"},
+        {at + "CYCLE/DRILL,FEDTO,5,DWELL,REV,2\n", 4, 31, "a dwell in turns with the spindle speed unknown"},
+        {at + "CYCLE/DEEP,FEDTO,500,STEP,.001,MMPM,80\n", 4, 1, "more than 10000 pecks"},
+        {at + "CYCLE/DRILL,FEDTO,5\nCIRCLE/0,0,0,0,0,1,10\n", 5, 1, "while the CYCLE of line 4 is on"},
+        {at + "CYCLE/TAP,FEDTO,5,MMPR,1\nGOTO/0,0,0\n", 5, 1,
+         "a feed per turn with the spindle speed unknown"},
+        {"UNITS/MM\nFROM/0,0,0\nCYCLE/DRILL,FEDTO,5\nGOTO/0,0,0\n", 4, 1, "a feed move before any FEDRAT"},
+        {"UNITS/MM\nGODLTA/1,0,0\n", 2, 1, "GODLTA before any point"},
+        {at + "GODLTA/1,0\n", 4, 1, "GODLTA has 2 numbers"},
+        {at + "GOHOME/1,0\n", 4, 1, "'GOHOME' has 2 numbers"},
+        {at + "RETRCT\n", 4, 1, "without a clearance plane"},
+        {at + "RETRCT/TOOL\n", 4, 8, "RETRCT with conditions"},
+        {at + "CLEARP\n", 4, 1, "CLEARP without a plane"},
+        {at + "CLEARP/XZ,5\n", 4, 8, "'XZ' is no plane"},
+        {at + "CLEARP/YZPLAN,50\nRETRCT\n", 5, 1, "does not lead to the clearance plane"},
+        {at + "TLAXIS/1\n", 4, 1, "TLAXIS without a direction"},
+        {"MSYS/0,0,0\n", 1, 1, "'MSYS' has 3 numbers"},
+        {"MSYS/0,0,0,2,0,0,0,1,0\n", 1, 1, "is not a turn without stretch"},
+        {"MSYS/0,0,0,1,0,0,1,0,0\n", 1, 1, "is not a turn without stretch"},
+        {"CSYS/0,1,0,0\n", 1, 1, "'CSYS' has 4 numbers"},
+        {"CSYS/0,-1,0,0,1,0,0,0,0,0,1,0\n", 1, 1, "does not say whether points are written in it"},
+        {"TRNTYP/WORLD\nCSYS/1,0,0,0,0,1,0,0,0,0,-1,0\n", 2, 1, "third axis of CSYS"},
+        {"TRNTYP/TOOL\n", 1, 8, "neither WORLD nor LOCAL"},
+        {"TRNTYP/WORLD,0,0,5\n", 1, 18, "TRNTYP with an offset"},
+        {"TRANS/1,2\n", 1, 1, "'TRANS' has 2 numbers"},
+        {"ORIGIN/1,2,z\n", 1, 12, "'z' is not a number"},
+        {"FEDRAT/5,FPT\n", 1, 10, "a feed per tooth"},
+        {"FEDRAT/INVERS,5\n", 1, 1, "a feed in inverse time"},
+        {"SPINDL/SFM,300\n", 1, 1, "a surface speed with the cutter's diameter unknown"},
+        {"TLDATA/MILL\n", 1, 1, "TLDATA without a kind and a diameter"},
+        {"TLDATA/MILL,10,6\n", 1, 16, "does not fit"},
+        {at + "DELAY/2,REV\n", 4, 9, "a dwell in turns"},
+        {"ROTATE/AAXIS,30\n", 1, 1, "'ROTATE' (moves of rotary axes) is not read"},
+        {"TRACUT/1\n", 1, 1, "'TRACUT' (transformations of what was written before) is not read"},
+        {"COPY/1,SAME,2\n", 1, 1, "'COPY' (loops, macros and copies) is not read"},
+        {"GOFWD/L1\n", 1, 1, "'GOFWD' (moves that an APT processor computes) is not read"},
+    };
+    expect_refused(refusals, [](const std::string& text, const char* name) {
+        AptOptions options;
+        options.source_name = name;
+        return read_apt(text, options);
+    });
+}
+
+}  // namespace
+}  // namespace tribo::readers

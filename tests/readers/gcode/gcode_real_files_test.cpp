@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Real programs against LinuxCNC's own interpreter. The numbers were made with rs274_path.py (which see) and
+// linuxcnc-uspace 2.9.0~pre1; where the interpreter refuses a file for words that do not change X, Y and Z,
+// those words were deleted for it: G43 H1 in cds, M6 T3 in wave, M428, M429, T1 M6 and the words A and C in
+// boat. It refuses G6.2 (farfalla): that length and box are of De Boor's algorithm at 200,000 parameters.
+#include <gtest/gtest.h>
+
+#include "motion/path/summary.hpp"
+#include "readers/gcode/gcode_text.hpp"
+#include "readers/real_files.hpp"
+
+namespace tribo::readers {
+namespace {
+
+struct RealProgram {
+    const char* name;
+    std::size_t feed_moves;  // 0: not compared, as splines are cut differently
+    double feed_mm;
+    Box3 bounds_mm;
+    bool rotary;
+    double tolerance_mm;
+};
+
+TEST(GcodeReader, ReadsRealProgramsAsLinuxcncDoes) {
+    const RealProgram programs[] = {
+        {"camotics-3x-wave.gcode", 1151, 4691.4037148, {{0, 0, -2.496577}, {92, 92, 3}}, false, 1e-5},
+        {"bantam-3x-pocket.nc", 45, 1129.2308964, {{13.1, 13.1, -2}, {63.1, 63.1, 5}}, false, 1e-5},
+        {"lcnc-3x-cds.ngc", 241, 4616.6906863, {{0, -6.35, 27.020266}, {101.6, 101.6, 53.34}}, false, 1e-5},
+        {"lcnc-3x-arcspiral.ngc",
+         1000,
+         2569.3664782,
+         {{-49.476410, -50.274371, -2.54}, {47.880596, 48.678496, 25.4}},
+         false,
+         1e-5},
+        {"lcnc-3x-flowsnake-ocode.ngc",
+         3073,
+         44.6570776,
+         {{0.25, -0.010363, 0}, {3.75, 3.95, 1}},
+         false,
+         1e-5},
+        {"lcnc-5x-boat-xyzac.ngc",
+         1739,
+         3552.5660774,
+         {{-49.969, -26.323, -13.25}, {46.264, 22.345, 5}},
+         true,
+         1e-5},
+        {"lcnc-3x-nurbs-g6-farfalla.ngc",
+         0,
+         362.0546943,
+         {{6.515294, 7.045765, -1}, {102.489906, 64.903486, 1}},
+         false,
+         1e-3},
+    };
+    for (const RealProgram& expected : programs) {
+        const auto bytes = real_file(expected.name);
+        if (!bytes) GTEST_SKIP() << "no ../shared/data/gcode";
+        const motion::Program program = program_of(*bytes);
+        const motion::ProgramSummary summary = motion::describe(program);
+        if (expected.feed_moves != 0) {
+            EXPECT_EQ(summary.feed_moves, expected.feed_moves) << expected.name;
+        }
+        EXPECT_NEAR(summary.path_mm, expected.feed_mm, expected.tolerance_mm) << expected.name;
+        expect_near(summary.bounds_mm.min, expected.bounds_mm.min, expected.tolerance_mm);
+        expect_near(summary.bounds_mm.max, expected.bounds_mm.max, expected.tolerance_mm);
+        EXPECT_EQ(program.has_rotary_words, expected.rotary) << expected.name;
+    }
+}
+
+}  // namespace
+}  // namespace tribo::readers

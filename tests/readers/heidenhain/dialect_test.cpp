@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/dialect.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tribo::readers {
+namespace {
+
+TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
+    const struct {
+        const char* text;
+        std::optional<Dialect> dialect;
+    } cases[] = {
+        {"", std::nullopt},
+        {"G21\nG0 X1 (MSG(hello))\n", std::nullopt},
+        {"(made for TRAORI)\nG1 X1\n", std::nullopt},
+        {"%\nO0001\nG1 X1\n", Dialect::fanuc},
+        {":1234\nG1 X1\n", Dialect::fanuc},
+        {"G1 X1\nG43.4 H1\n", Dialect::fanuc},
+        {"g1 x1\no100 sub\n", std::nullopt},
+        {"o<cut> call\n", Dialect::linuxcnc},
+        {"%\nM428\n", Dialect::linuxcnc},
+        {"N10 TRAORI(1)\n", Dialect::siemens},
+        {"N10 G1 X1 A3 = 0.5\n", Dialect::siemens},
+        {"g2 x1 y1 cr=5\n", Dialect::siemens},
+        {"N10 CYCLE800(0,\"\")\n", Dialect::siemens},
+        {"\xEF\xBB\xBF"
+         "0 BEGIN PGM X MM\r\n",
+         Dialect::heidenhain},
+    };
+    for (const auto& c : cases) EXPECT_EQ(detect_dialect(c.text), c.dialect) << c.text;
+}
+
+}  // namespace
+}  // namespace tribo::readers

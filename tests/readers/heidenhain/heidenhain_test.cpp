@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "readers/heidenhain/reader.hpp"
+#include "readers/program_checks.hpp"
+
+namespace tribo::readers {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+motion::Program conversational(std::string_view text, const GcodeOptions& options = {}) {
+    const auto program = read_heidenhain(text, options);
+    if (!program) {
+        ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
+        return {};
+    }
+    return *program;
+}
+
+motion::Program on(const char* name, std::string_view text) {
+    const motion::Machine machine = *motion::named_machine(name);
+    GcodeOptions options;
+    options.machine = &machine;
+    return conversational(text, options);
+}
+
+std::string fault(std::string_view text) {
+    GcodeOptions options;
+    options.source_name = "p.h";
+    options.max_steps = 10'000;
+    const auto program = read_heidenhain(text, options);
+    return program ? "" : program.error().text();
+}
+
+constexpr std::string_view kStart =
+    "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S2000 F500\n2 L X+0 Y+0 Z+10 R0 FMAX M3\n";
+
+std::string after_start(std::string_view text) {
+    return std::string(kStart) + std::string(text) + "99 END PGM P MM\n";
+}
+
+TEST(Heidenhain, ReadsLinesStockAndToolOfAPlainProgram) {
+    const motion::Program program = conversational(
+        "0  BEGIN PGM PLATE MM\r\n1  BLK FORM 0.1 Z X-50 Y-40 Z-20\r\n2  BLK FORM 0.2 X+50 Y+40 Z+0\r\n"
+        "3  ; a comment\r\n4  TOOL DEF 5 L+0 R+6\r\n5  TOOL CALL 5 Z S3000 F800\r\n"
+        "6  L X-60 Y+0 Z+5 R0 FMAX M3\r\n7  L Z-5 F200\r\n8  L X+60 F AUTO\r\n9  L IY+10.5\r\n10 L Z+100 "
+        "FMAX M30\r\n"
+        "11 END PGM PLATE MM\r\n");
+    EXPECT_EQ(program.dialect, "Heidenhain");
+    ASSERT_TRUE(program.stock);
+    EXPECT_EQ(program.stock->box_mm.min, (Vec3{-50, -40, -20}));
+    EXPECT_EQ(program.stock->box_mm.max, (Vec3{50, 40, 0}));
+    EXPECT_EQ(program.stock->line, 3);
+    ASSERT_EQ(program.tools.size(), 1u);
+    EXPECT_EQ(program.tools[0].diameter_mm, 12);
+    ASSERT_EQ(program.moves.size(), 4u);
+    EXPECT_EQ(program.moves[0].feed_mm_per_min, 200);
+    EXPECT_EQ(program.moves[1].feed_mm_per_min, 800);
+    EXPECT_EQ(program.moves[1].line, 9);
+    EXPECT_EQ(program.moves[1].tool, 5);
+    EXPECT_EQ(program.moves[1].spindle_rpm, 3000);
+    expect_near(program.moves[2].end.tip_mm, {60, 10.5, -5});
+    EXPECT_EQ(program.moves[3].kind, motion::MoveKind::rapid);
+    EXPECT_TRUE(program.warnings.empty());
+}
+
+TEST(Heidenhain, CountsInches) {
+    const motion::Program program =
+        conversational("0 BEGIN PGM P INCH\n1 L X+0 Y+0 Z+1 FMAX M3\n2 L X+1,5 F10\n3 END PGM P INCH\n");
+    ASSERT_EQ(program.moves.size(), 1u);
+    expect_near(program.moves[0].end.tip_mm, {38.1, 0, 25.4});
+    EXPECT_NEAR(program.moves[0].feed_mm_per_min, 254, 1e-12);
+}
+
+TEST(Heidenhain, TurnsCirclesOfEveryKind) {
+    const motion::Program program = conversational(after_start(R"(3 L X+10 F500
+4 CC X+0 Y+0
+5 C X+0 Y+10 DR+
+6 C X+0 Y+10 DR-
+7 CR X-10 Y+0 R+10 DR+
+8 CR X+10 Y+0 R-20 DR-
+9 CP IPA+720 IZ-8 DR+
+10 LP PR+20 PA+90
+11 CP PA+0 DR-
+12 L IY-10
+13 CT X+30 Y-20
+)"));
+    ASSERT_EQ(program.moves.size(), 10u);
+    const auto length = [&](std::size_t i) { return path_length_mm(program.moves[i]); };
+    EXPECT_NEAR(length(1), 10 * kPi / 2, 1e-9);
+    EXPECT_NEAR(length(2), 20 * kPi, 1e-9);  // a full circle
+    EXPECT_NEAR(length(3), 10 * kPi / 2, 1e-9);
+    // Radius 20 over a chord of 20: the long way, 300 degrees.
+    EXPECT_NEAR(length(4), 20 * 300 * kPi / 180, 1e-9);
+    EXPECT_NEAR(length(5), std::hypot(2 * 20 * kPi, 8), 1e-9);
+    expect_near(program.moves[5].end.tip_mm, {10, 0, 2}, 1e-9);
+    expect_near(program.moves[6].end.tip_mm, {0, 20, 2}, 1e-9);
+    EXPECT_NEAR(length(7), 20 * kPi / 2, 1e-9);
+    expect_near(program.moves[8].end.tip_mm, {20, -10, 2}, 1e-9);
+    // Down along -y, then tangentially to (30, -20): a quarter of radius 10.
+    EXPECT_NEAR(length(9), 10 * kPi / 2, 1e-9);
+    expect_near(pose_at(program.moves[9], 0.5).tip_mm,
+                {30 - 10 * std::sqrt(0.5), -10 - 10 * std::sqrt(0.5), 2}, 1e-9);
+}
+
+TEST(Heidenhain, ComputesWithParameters) {
+    const auto x_of = [](const std::string& text) {
+        const motion::Program program = conversational(after_start(text + "L X+Q1 F100\n"));
+        return program.moves.empty() ? NAN : program.moves.back().end.tip_mm.x;
+    };
+    EXPECT_DOUBLE_EQ(x_of("FN 0: Q1 = +5\n"), 5);
+    EXPECT_DOUBLE_EQ(x_of("FN 0: Q2 = -4\nFN 1: Q1 = +Q2 + +5\n"), 1);
+    EXPECT_DOUBLE_EQ(x_of("FN 2: Q1 = +10 - +Q9\n"), 10);
+    EXPECT_DOUBLE_EQ(x_of("FN 3: Q1 = +3 * +7\n"), 21);
+    EXPECT_DOUBLE_EQ(x_of("FN 4: Q1 = +4 DIV +8\n"), 0.5);
+    EXPECT_DOUBLE_EQ(x_of("FN 5: Q1 = SQRT +16\n"), 4);
+    EXPECT_NEAR(x_of("FN 6: Q1 = SIN +30\n"), 0.5, 1e-15);
+    EXPECT_DOUBLE_EQ(x_of("FN 8: Q1 = +3 LEN +4\n"), 5);
+    EXPECT_DOUBLE_EQ(x_of("FN 13: Q1 = +1 ANG +1\n"), 45);
+    EXPECT_NEAR(x_of("Q2 = 3\nQ1 = 2 * ( Q2 + 1 ) ^ 2 - SQ 2 / 4\n"), 31, 1e-12);
+    EXPECT_NEAR(x_of("Q1 = ABS ( -2 ) * COS 60 + INT 3.7 + FRAC 0.25 + NEG 1 + SGN -4\n"), 2.25, 1e-12);
+    EXPECT_NEAR(x_of("Q1 = PI\n"), kPi, 1e-15);
+}
+
+TEST(Heidenhain, RunsLabelsRepeatsAndJumps) {
+    // A subprogram behind M30, called twice; a repeat that runs three times in all; a loop with FN 12.
+    const motion::Program program = conversational(after_start(R"(3 CALL LBL 1
+4 CALL LBL "SIDE"
+5 LBL 2
+6 L IX+1 F100
+7 CALL LBL 2 REP 2
+8 Q5 = 0
+9 LBL 3
+10 L IZ+1
+11 Q5 = Q5 + 1
+12 FN 12: IF +Q5 LT +4 GOTO LBL 3
+13 L Z+50 FMAX M30
+14 LBL 1
+15 L Y+5 F100
+16 LBL 0
+17 LBL "SIDE"
+18 L IY+5
+19 LBL 0
+)"));
+    ASSERT_EQ(program.moves.size(), 2u + 3 + 4 + 1);
+    expect_near(program.moves[program.moves.size() - 2].end.tip_mm, {3, 10, 14});
+}
+
+TEST(Heidenhain, DrillsWithCycle200) {
+    const motion::Program program = conversational(after_start(R"(3 CYCL DEF 200 DRILLING ~
+    Q200=2    ;SET-UP CLEARANCE ~
+    Q201=-15  ;DEPTH ~
+    Q206=150  ;FEED RATE FOR PLNGNG ~
+    Q202=6    ;PLUNGING DEPTH ~
+    Q210=0.5  ;DWELL TIME AT TOP ~
+    Q203=-1   ;SURFACE COORDINATE ~
+    Q204=50   ;2ND SET-UP CLEARANCE ~
+    Q211=0.25 ;DWELL TIME AT DEPTH
+4 L X+10 Y+5 R0 FMAX M99
+5 L X+20 R0 FMAX
+6 CYCL CALL
+)"));
+    double feed_path = 0, dwell = 0, deepest = 0;
+    for (const motion::Move& m : program.moves) {
+        if (m.kind == motion::MoveKind::feed) {
+            EXPECT_EQ(m.feed_mm_per_min, 150);
+            feed_path += path_length_mm(m);
+        }
+        dwell += m.kind == motion::MoveKind::dwell ? m.duration_s : 0;
+        deepest = std::min(deepest, m.end.tip_mm.z);
+    }
+    EXPECT_NEAR(deepest, -16, 1e-12);
+    // Three infeeds: 2 + 6, from the clearance above the last depth 2 + 6, then 2 + 3; two holes.
+    EXPECT_NEAR(feed_path, 2 * (8 + 8 + 5), 1e-9);
+    EXPECT_NEAR(dwell, 2 * (2 * 0.5 + 0.25), 1e-12);
+    expect_near(program.moves.back().end.tip_mm, {20, 5, 49});
+    EXPECT_EQ(program.moves.back().kind, motion::MoveKind::rapid);
+}
+
+TEST(Heidenhain, BreaksChipsInCycle203AndReamsWith201) {
+    const motion::Program deep = conversational(after_start(R"(CYCL DEF 203 UNIVERSAL DRILLING ~
+Q200=2 ~
+Q201=-10 ~
+Q206=FAUTO ~
+Q202=4 ~
+Q210=0 ~
+Q203=+0 ~
+Q204=2 ~
+Q212=1 ~
+Q213=3 ~
+Q205=1 ~
+Q211=0 ~
+Q208=1000 ~
+Q256=0.5
+CYCL CALL M3
+)"));
+    // 4, 3, 2, 1: depths 4, 7, 9, 10 with three chips broken by half a millimetre.
+    std::vector<double> z;
+    for (const motion::Move& m : deep.moves) z.push_back(m.end.tip_mm.z);
+    EXPECT_EQ(z, (std::vector<double>{2, -4, -3.5, -7, -6.5, -9, -8.5, -10, 2}));
+    EXPECT_EQ(deep.moves[1].feed_mm_per_min, 500);
+    EXPECT_EQ(deep.moves[2].feed_mm_per_min, 1000);
+
+    const motion::Program reamed = conversational(after_start(R"(CYCL DEF 201 REAMING ~
+Q200=2 ~
+Q201=-10 ~
+Q206=100 ~
+Q211=0 ~
+Q208=0 ~
+Q203=+0 ~
+Q204=20
+CYCL CALL POS X+5 Y+5 Z+3 FMAX
+)"));
+    z.clear();
+    for (const motion::Move& m : reamed.moves) z.push_back(m.end.tip_mm.z);
+    EXPECT_EQ(z, (std::vector<double>{3, 2, -10, 2, 20}));
+    EXPECT_EQ(reamed.moves[3].feed_mm_per_min, 100);
+}
+
+TEST(Heidenhain, ShiftsAndTurnsTheDatum) {
+    const motion::Program program = conversational(after_start(R"(3 CYCL DEF 7.0 DATUM SHIFT
+4 CYCL DEF 7.1 X+10
+5 CYCL DEF 7.2 Y+20
+6 CYCL DEF 10.0 ROTATION
+7 CYCL DEF 10.1 ROT+90
+8 L X+5 Y+0 F100
+9 TRANS DATUM RESET
+10 CYCL DEF 10.1 ROT+0
+11 L X+5 Y+0
+)"));
+    expect_near(program.moves[0].end.tip_mm, {10, 25, 10}, 1e-12);
+    expect_near(program.moves[1].end.tip_mm, {5, 0, 10}, 1e-12);
+}
+
+TEST(Heidenhain, TiltsThePlaneWithoutKnowingTheMachine) {
+    const motion::Program program = conversational(after_start(R"(3 CYCL DEF 7.1 Z-5
+4 PLANE SPATIAL SPA+0 SPB+90 SPC+0 STAY
+5 L X+0 Y+0 Z+20 R0 FMAX
+6 L Z+1 F100
+7 CC X+0 Y+0
+8 L X+3
+9 C X+3 DR+
+10 PLANE RESET STAY
+11 L X+0 Y+0 Z+0 R0 FMAX
+12 L X+1 F100
+)"));
+    EXPECT_FALSE(program.has_rotary_words);
+    // SPB90 turns x to -z and z to +x.
+    ASSERT_EQ(program.moves.size(), 4u);
+    expect_near(program.moves[0].start.tip_mm, {20, 0, -5}, 1e-12);
+    expect_near(program.moves[0].end.axis, {1, 0, 0}, 1e-12);
+    expect_near(program.moves[1].end.tip_mm, {1, 0, -8}, 1e-12);
+    EXPECT_NEAR(path_length_mm(program.moves[2]), 6 * kPi, 1e-9);
+    expect_near(pose_at(program.moves[2], 0.25).tip_mm, {1, 3, -5}, 1e-9);
+    expect_near(program.moves[3].end.axis, {0, 0, 1}, 1e-12);
+    expect_near(program.moves[3].end.tip_mm, {1, 0, -5}, 1e-12);
+}
+
+TEST(Heidenhain, HoldsTheTipWithM128AndTcpmOnAMachine) {
+    for (const char* control : {"M128", "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"}) {
+        const motion::Program program = on("xyzac-trt", after_start(std::string("3 ") + control + R"(
+4 L X+10 A+30 C+90 F600
+5 FUNCTION RESET TCPM
+6 L IZ+5
+)"));
+        ASSERT_GE(program.moves.size(), 2u);
+        const motion::Move& last = program.moves.back();
+        expect_near(last.start.tip_mm, {10, 0, 10}, 1e-9);
+        // Table A30 C90: the tool leans to +x of the part.
+        expect_near(last.start.axis, {0.5, 0, std::sqrt(0.75)}, 1e-12);
+        expect_near(last.end.tip_mm, Vec3{10, 0, 10} + 5 * last.start.axis, 1e-9);
+        EXPECT_NEAR(feed_mm(program), 15, 1e-9) << control;
+    }
+}
+
+TEST(Heidenhain, LeadsTheToolAlongVectorsWithAndWithoutAMachine) {
+    const std::string text =
+        after_start("3 LN X+5 Y+0 Z+10 TX+0 TY+0.6 TZ+0.8 F500\n4 LN X+9 TX+0 TY+0 TZ+1\n");
+    const motion::Program plain = conversational(text), table = on("xyzbc-trt", text);
+    ASSERT_EQ(plain.moves.size(), 2u);
+    expect_near(plain.moves[0].end.axis, {0, 0.6, 0.8}, 1e-12);
+    expect_near(plain.moves[1].end.axis, {0, 0, 1}, 1e-12);
+    EXPECT_FALSE(plain.has_rotary_words);
+    EXPECT_NEAR(feed_mm(table), feed_mm(plain), 1e-9);
+    expect_near(table.moves.back().end.axis, {0, 0, 1}, 1e-9);
+}
+
+TEST(Heidenhain, NotesRotaryWordsWithoutAMachine) {
+    const motion::Program program = conversational(after_start("3 L A+10 C+20 FMAX\n4 L X+5 F100 M128\n"));
+    EXPECT_TRUE(program.has_rotary_words);
+    EXPECT_EQ(program.first_rotary_line, 4);
+    EXPECT_TRUE(warns_of(program, 4, "without a machine"));
+}
+
+TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
+    const struct {
+        const char* text;
+        const char* message;
+    } cases[] = {
+        {"3 L X+10\n", ""},
+        {"3 L X+10 RL F100\n", "p.h:4:10: error: radius compensation (RL) is not read yet"},
+        {"3 L X+1e F100\n", "p.h:4:8: error: 'E' does not belong into a block L"},
+        {"3 C X+1 Y+1 DR+\n", "p.h:4:5: error: a circle without a centre"},
+        {"3 CC X+5 Y+0\n4 C X+5 Y+9\n", "p.h:5:5: error: a circle without DR+ or DR-"},
+        {"3 CC X+5 Y+0\n4 C X+5 Y+9 DR+\n", "p.h:5:5: error: the arc's radius is 5 mm at its start and 9 mm"},
+        {"3 CR X+100 Y+0 R+10 DR+\n", "p.h:4:6: error: radius 10 mm cannot reach the end"},
+        {"3 CT X+10 Y+10\n", ""},
+        {"3 L X+5 F100\n4 CT X+10\n", "p.h:5:6: error: the end of CT lies straight ahead"},
+        {"3 CALL LBL 7\n", "p.h:4:8: error: there is no LBL 7"},
+        {"3 CALL PGM OTHER\n", "p.h:4:8: error: only CALL LBL is read"},
+        {"3 RND R5\n", "p.h:4:3: error: RND is not read yet"},
+        {"3 CYCL CALL\n", "p.h:4:12: error: a cycle is called, but none is defined"},
+        {"3 CYCL DEF 208 BORE MILLING\n", "p.h:4:12: error: cycle 208 is not read yet"},
+        {"3 CYCL DEF 200 DRILLING ~\nQ200=2 ~\nQ201=-5 ~\nQ206=100\n",
+         "p.h:4:3: error: cycle 200 lacks Q203"},
+        {"3 CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q203=0\n", "the depth Q201 is not below zero"},
+        {"3 FN 4: Q1 = +5 DIV +0\n", "p.h:4:17: error: division by zero"},
+        {"3 FN 18: SYSREAD Q1 = ID1\n", "p.h:4:6: error: FN 18 is not read"},
+        {"3 Q1 = SQRT -1\n", "p.h:4:8: error: SQRT has no value here"},
+        {"3 Q1 = ( 2 + 3\n", "a ')' is missing"},
+        {"3 Q1 = 2 +\n", "a number is missing"},
+        {"3 Q2000 = 2\n", "there is no parameter beyond Q1999"},
+        {"3 QL1 = 2\n", "parameters QL are not read yet"},
+        {"3 LBL 1\n4 FN 9: IF +1 EQU +1 GOTO LBL 1\n", "the program seems to run for ever"},
+        {"3 LBL 1\n4 CALL LBL 1\n", "subprograms are nested too deeply"},
+        {"3 L X+10 M77\n", "M77 is not known"},
+        {"3 HELLO\n", "p.h:4:3: error: the block 'HELLO' is not known"},
+        {"3 PLANE AXIAL B+45\n", "p.h:4:9: error: this way to give a plane is not read"},
+        {"3 TOOL CALL 1 Y\n", "a tool along Y is not read"},
+        {"3 TOOL CALL \"MILL\" Z\n", "a tool with a name instead of a number"},
+        {"3 BLK FORM 0.2 X+1 Y+1 Z+1\n", "BLK FORM 0.2 without 0.1"},
+        {"3 L X+2000000 F100\n", "X lies more than a kilometre away"},
+        {"3 L Z-5 M91\n4 L X+5 F100\n", "p.h:5:3: error: the feed move starts at an unknown X, which line 4"},
+        {"3 L X+5 F-3\n", "p.h:4:9: error: the feed is out of range"},
+    };
+    for (const auto& c : cases) {
+        const std::string text = after_start(c.text), message = fault(text);
+        if (*c.message == '\0') continue;
+        EXPECT_NE(message.find(c.message), std::string::npos) << c.text << "gave: " << message;
+        EXPECT_NE(message.find("; "), std::string::npos) << message;
+    }
+    EXPECT_NE(fault("").find("no conversational program"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tribo::readers

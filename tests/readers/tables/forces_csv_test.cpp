@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "readers/tables/forces_csv.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace tribo::readers {
+namespace {
+
+TEST(ForcesCsv, HasTheColumnsThatOthersReadInTheirOrder) {
+    EXPECT_EQ(
+        forces_csv_header,
+        "t_s,line,tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,spindle_rpm,feed_mm_per_min,entry_deg,"
+        "exit_deg,axial_depth_mm,mean_fx_n,mean_fy_n,mean_fz_n,peak_fx_n,peak_fy_n,peak_fz_n,peak_fxy_n,"
+        "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled\n");
+}
+
+TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
+    milling::ForceRow row;
+    row.t_s = 0.03;
+    row.line = 12;
+    row.tip_mm = {1.5, -2, 0.0000004};
+    row.axis = {0, 0.6, 0.8};
+    row.spindle_rpm = 6000;
+    row.feed_mm_per_min = 900;
+    row.entry_deg = 90;
+    row.exit_deg = 180.12345;
+    row.axial_depth_mm = 2;
+    row.mean_n = {-50.75, 111.97, 29.67};
+    row.peak_n = {-171.1, 218.4, 45.7};
+    row.peak_fxy_n = 225.6;
+    row.mean_torque_nm = 0.5;
+    row.peak_torque_nm = 1.251;
+    row.removed_mm3 = 6;
+    row.duration_s = 0.125;
+    row.reconciled = 1.0125;
+    std::string csv;
+    append_force_row(csv, row);
+    EXPECT_EQ(
+        csv,
+        "0.030000,12,1.500000,-2.000000,0.000000,0.000000,0.600000,0.800000,6000.00,900.00,90.000,180.123,"
+        "2.000000,-50.75000,111.97000,29.67000,-171.10000,218.40000,45.70000,225.60000,0.50000000,"
+        "1.25100000,6.000000000,0.125000000,1.0125\n");
+    EXPECT_EQ(std::ranges::count(csv, ','), std::ranges::count(forces_csv_header, ','));
+}
+
+}  // namespace
+}  // namespace tribo::readers
