@@ -13,7 +13,7 @@ help:
 	@echo "make bench    measure into build/bench.json"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR as usual"
 	@echo "make tidy     clang-tidy, ROOM=field for one room"
-	@echo "make format   clang-format in place"
+	@echo "make format   clang-format and Prettier in place"
 	@echo "make setup    install what packages.txt names for build and test"
 	@echo "make clean    remove build/ and out/"
 

@@ -54,7 +54,10 @@ async function visit(throttled: boolean): Promise<Seen> {
 
 const median = (values: number[]) => Math.round(values.sort((a, b) => a - b)[values.length >> 1]!);
 const measured: Record<string, number> = {};
-for (const [name, throttled] of [["throttled", true], ["unthrottled", false]] as const) {
+for (const [name, throttled] of [
+  ["throttled", true],
+  ["unthrottled", false],
+] as const) {
   const visits: Required<Seen>[] = [];
   for (let n = 0; n < RUNS; ++n) visits.push((await visit(throttled)) as Required<Seen>);
   measured[`first_picture_${name}_ms`] = median(visits.map((seen) => seen.first));

@@ -24,5 +24,8 @@ writeFileSync(join(out, "index.html"), none);
 for (const { folder, files } of EXAMPLES) {
   for (const file of files) copyFileSync(join(ROOT, "examples", folder, file), join(out, "examples", file));
 }
-writeFileSync(join(out, "examples/examples.json"), JSON.stringify(EXAMPLES.map(({ name, job, files }) => ({ name, job, files }))));
+writeFileSync(
+  join(out, "examples/examples.json"),
+  JSON.stringify(EXAMPLES.map(({ name, job, files }) => ({ name, job, files }))),
+);
 console.log(`mill page with ${EXAMPLES.length} examples`);

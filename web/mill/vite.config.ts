@@ -4,7 +4,6 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 import { MILL_PAGE, MODULES } from "../tools/places.js";
 
-
 // The modules beside the page, and of everything that is text or code packed forms for the engine's server.
 function modules(): Plugin {
   return {
@@ -32,7 +31,9 @@ function preload(): Plugin {
     transformIndexHtml: {
       order: "post",
       handler(_html, { bundle }) {
-        const main = Object.values(bundle ?? {}).find((chunk) => chunk.type === "chunk" && chunk.facadeModuleId?.endsWith("/src/main.ts"));
+        const main = Object.values(bundle ?? {}).find(
+          (chunk) => chunk.type === "chunk" && chunk.facadeModuleId?.endsWith("/src/main.ts"),
+        );
         if (!main) throw new Error("the page's script is not in the bundle");
         return [{ tag: "link", attrs: { rel: "modulepreload", href: `./${main.fileName}` }, injectTo: "head" }];
       },

@@ -3,7 +3,9 @@
 import { existsSync } from "node:fs";
 import { chromium, type Browser, type CDPSession, type Page } from "playwright-core";
 
-const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
+const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) =>
+  existsSync(path),
+);
 
 export const hasBrowser = CHROMIUM !== undefined;
 export const PATIENCE_MS = 60_000;
@@ -64,7 +66,14 @@ export async function fingers(page: Page): Promise<Hand> {
       const fewer = points.length === 0 || points.length < down;
       const type = fewer ? "touchEnd" : points.length > down ? "touchStart" : "touchMove";
       down = points.length;
-      const touchPoints = points.map(({ x, y, id = 0, radius = 12, radiusY = radius, force = 0.6 }) => ({ x, y, id, radiusX: radius, radiusY, force }));
+      const touchPoints = points.map(({ x, y, id = 0, radius = 12, radiusY = radius, force = 0.6 }) => ({
+        x,
+        y,
+        id,
+        radiusX: radius,
+        radiusY,
+        force,
+      }));
       await cdp.send("Input.dispatchTouchEvent", { type, touchPoints });
     },
     async cancel() {

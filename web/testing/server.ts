@@ -41,10 +41,10 @@ export async function serve(find: (path: string) => Body | undefined): Promise<S
   const server = createServer((request, response) => {
     const path = new URL(request.url ?? "/", "http://localhost").pathname;
     const body = find(path);
-    if (body === undefined) return void response.writeHead(404).end("not here");
     const type = TYPES[extname(path)] ?? "application/octet-stream";
-    if (type.startsWith("image/")) return void response.writeHead(200, { "Content-Type": type }).end(body);
-    response.writeHead(200, { "Content-Type": type, "Content-Encoding": "gzip" }).end(pack(body));
+    if (body === undefined) response.writeHead(404).end("not here");
+    else if (type.startsWith("image/")) response.writeHead(200, { "Content-Type": type }).end(body);
+    else response.writeHead(200, { "Content-Type": type, "Content-Encoding": "gzip" }).end(pack(body));
   });
   await new Promise<void>((ready) => server.listen(0, "127.0.0.1", ready));
   return {

@@ -41,6 +41,12 @@ export async function bundle({ entry, file, banner, external }: Bundle): Promise
     external,
     plugins: [shortTexts],
     transform: { target: TARGET },
-    output: { file, format: "esm", banner, comments: false, minify: { compress: { target: TARGET }, mangle: { toplevel: true } } },
+    output: {
+      file,
+      format: "esm",
+      banner,
+      comments: false,
+      minify: { compress: { target: TARGET }, mangle: { toplevel: true } },
+    },
   });
 }

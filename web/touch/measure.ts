@@ -64,7 +64,8 @@ const firstFrame = (throttled: boolean) =>
     const ms = await page.evaluate(drawn);
     const fetched = await page.evaluate(() =>
       (performance.getEntriesByType("resource") as PerformanceResourceTiming[]).map(
-        ({ name, startTime, responseEnd }) => `${name.split("/").pop()} ${Math.round(startTime)}-${Math.round(responseEnd)}`,
+        ({ name, startTime, responseEnd }) =>
+          `${name.split("/").pop()} ${Math.round(startTime)}-${Math.round(responseEnd)}`,
       ),
     );
     if (process.env.TRIBO_VERBOSE) console.error(`${fetched.join("\n")}\n`);
@@ -94,7 +95,10 @@ const frameWork = () =>
     const rub = async (moves: number) => {
       for (let i = 0; i < moves; ++i) await touch([{ x: 100 + 5 * (i % 60), y: 200, radius: 90, force: 0.7 }]);
     };
-    const now = async () => ({ seconds: await secondsSpent(cdp), frames: await page.evaluate(() => window.drawnFrames) });
+    const now = async () => ({
+      seconds: await secondsSpent(cdp),
+      frames: await page.evaluate(() => window.drawnFrames),
+    });
     await rub(10);
     const before = await now();
     await rub(60);
@@ -126,8 +130,18 @@ const firstSample = () =>
     return page.evaluate(async () => {
       const surface = document.querySelector("tribo-touch")!.shadowRoot!.querySelector(".surface")!;
       const begin = performance.now();
-      const common = { pointerId: 7, pointerType: "touch", isPrimary: true, clientY: 150, width: 40, height: 40, pressure: 0.7, buttons: 1 };
-      const finger = (type: string, clientX: number) => surface.dispatchEvent(new PointerEvent(type, { ...common, clientX, button: 0 }));
+      const common = {
+        pointerId: 7,
+        pointerType: "touch",
+        isPrimary: true,
+        clientY: 150,
+        width: 40,
+        height: 40,
+        pressure: 0.7,
+        buttons: 1,
+      };
+      const finger = (type: string, clientX: number) =>
+        surface.dispatchEvent(new PointerEvent(type, { ...common, clientX, button: 0 }));
       finger("pointerdown", 100);
       while (window.heard === undefined && performance.now() - begin < 10_000) {
         finger("pointermove", 100 + 300 * Math.abs(Math.sin((performance.now() - begin) / 300)));
@@ -141,7 +155,8 @@ const firstSample = () =>
 async function engineWork(): Promise<{ press: number; step: number }> {
   const x = await instantiate<TouchExports>(await WebAssembly.compile(readFileSync(join(SITE, "touch.wasm"))));
   const sheet = x.sheet_create(512, 512, 1);
-  const press: number[] = [], step: number[] = [];
+  const press: number[] = [],
+    step: number[] = [];
   x.sheet_set_material(sheet, 1, 1);
   for (let n = 0; n < 600; ++n) {
     doublesAt(x, x.sheet_contacts(sheet), 7).set([256 + (n % 2), 256, 64, 64, 0, 1 + 0.01 * (n % 7), 0]);

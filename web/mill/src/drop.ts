@@ -40,16 +40,24 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const programs = files.filter((f) => PROGRAMS.test(f.name));
   const models = files.filter((f) => MODELS.test(f.name));
   if (jobs.length === 0 && tables.length > 0) {
-    return { refused: `each of the ${tables.length} jobs begins with the stock of another; let the first begin with box_mm or mesh` };
+    return {
+      refused: `each of the ${tables.length} jobs begins with the stock of another; let the first begin with box_mm or mesh`,
+    };
   }
   if (jobs.length > 1) {
-    return { refused: `there are ${jobs.length} jobs (${jobs.map((f) => f.name).join(", ")}); drop one, with the files that it names` };
+    return {
+      refused: `there are ${jobs.length} jobs (${jobs.map((f) => f.name).join(", ")}); drop one, with the files that it names`,
+    };
   }
   const cell = 0;
-  const [job] = jobs, [program] = programs, [model] = models;
+  const [job] = jobs,
+    [program] = programs,
+    [model] = models;
   if (job) return { order: { files, job: job.name, part: "", cell } };
   if (programs.length > 1) {
-    return { refused: `there are ${programs.length} programs (${programs.map((f) => f.name).join(", ")}); drop one, or a job that names it` };
+    return {
+      refused: `there are ${programs.length} programs (${programs.map((f) => f.name).join(", ")}); drop one, or a job that names it`,
+    };
   }
   if (program) return { order: { files, job: program.name, part: model?.name ?? "", cell } };
   if (model && models.length === 1 && before) {
@@ -72,7 +80,7 @@ export async function read(files: { name: string; file: File }[]): Promise<JobFi
 
 // The files of a drop, folders walked through.
 export async function dropped(data: DataTransfer): Promise<{ name: string; file: File }[]> {
-  const entries = [...data.items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry != null);
+  const entries = [...data.items].flatMap((item) => item.webkitGetAsEntry?.() ?? []);
   if (entries.length === 0) return [...data.files].map((file) => ({ name: file.name, file }));
   const all: { name: string; file: File }[] = [];
   const walk = async (entry: FileSystemEntry): Promise<void> => {

@@ -74,7 +74,11 @@ export class Finger {
     if (!this.padDown) return;
     const pad = navigator.getGamepads?.().find((g) => g?.connected);
     const strength = Math.min(force / Math.max(limit, 1e-6), 1);
-    void pad?.vibrationActuator?.playEffect("dual-rumble", { duration: 60, weakMagnitude: strength, strongMagnitude: strength });
+    void pad?.vibrationActuator?.playEffect("dual-rumble", {
+      duration: 60,
+      weakMagnitude: strength,
+      strongMagnitude: strength,
+    });
   }
 
   private press(event: PointerEvent): void {

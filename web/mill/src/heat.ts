@@ -16,6 +16,8 @@ const STOPS: Vec3[] = [
 export function heat(share: number): Vec3 {
   const at = Math.min(Math.max(share, 0), 1) * (STOPS.length - 1);
   const n = Math.min(Math.floor(at), STOPS.length - 2);
-  const t = at - n, low = STOPS[n]!, high = STOPS[n + 1]!;
+  const t = at - n,
+    low = STOPS[n]!,
+    high = STOPS[n + 1]!;
   return vec3((k) => low[k] + t * (high[k] - low[k]));
 }

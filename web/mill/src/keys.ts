@@ -13,32 +13,30 @@ export interface KeyActions {
   seek(seconds: number): void;
 }
 
-export class Keys {
-  constructor(scene: Scene, finger: Finger, actions: KeyActions) {
-    scene.canvas.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey) return;
-      const arrows: Record<string, [number, number]> = {
-        ArrowLeft: [-1, 0],
-        ArrowRight: [1, 0],
-        ArrowUp: [0, 1],
-        ArrowDown: [0, -1],
-      };
-      const arrow = arrows[event.key];
-      if (arrow && event.shiftKey) finger.nudge(...arrow);
-      else if (arrow) scene.orbit(TURN * arrow[0], TURN * arrow[1]);
-      else if (event.key === " ") actions.play();
-      else if (event.key === "m" || event.key === "M") actions.mute();
-      else if (event.key === "+" || event.key === "=") scene.orbit(0, 0, NEARER);
-      else if (event.key === "-") scene.orbit(0, 0, 1 / NEARER);
-      else if (event.key === "," || event.key === "PageUp") actions.seek(-1);
-      else if (event.key === "." || event.key === "PageDown") actions.seek(1);
-      else if (event.key === "Home") scene.fit();
-      else return;
-      event.preventDefault();
-    });
-    scene.canvas.addEventListener("keyup", (event) => {
-      if (event.key === "Shift") finger.lift();
-    });
-    scene.canvas.addEventListener("blur", () => finger.lift());
-  }
+export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions): void {
+  scene.canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const arrows: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
+    const arrow = arrows[event.key];
+    if (arrow && event.shiftKey) finger.nudge(...arrow);
+    else if (arrow) scene.orbit(TURN * arrow[0], TURN * arrow[1]);
+    else if (event.key === " ") actions.play();
+    else if (event.key === "m" || event.key === "M") actions.mute();
+    else if (event.key === "+" || event.key === "=") scene.orbit(0, 0, NEARER);
+    else if (event.key === "-") scene.orbit(0, 0, 1 / NEARER);
+    else if (event.key === "," || event.key === "PageUp") actions.seek(-1);
+    else if (event.key === "." || event.key === "PageDown") actions.seek(1);
+    else if (event.key === "Home") scene.fit();
+    else return;
+    event.preventDefault();
+  });
+  scene.canvas.addEventListener("keyup", (event) => {
+    if (event.key === "Shift") finger.lift();
+  });
+  scene.canvas.addEventListener("blur", () => finger.lift());
 }

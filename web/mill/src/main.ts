@@ -8,7 +8,7 @@ import { Finger } from "./finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import type { ChipMark, Colouring } from "./heat_map.js";
 import { History } from "./history.js";
-import { Keys } from "./keys.js";
+import { listenToKeys } from "./keys.js";
 import { showLegend } from "./legend.js";
 import { Memory } from "./memory.js";
 import { clock, element, recall, remember } from "./page.js";
@@ -50,8 +50,8 @@ const listener: Listener = {
     element("stop").textContent = stopped ? "Release" : "Stop";
     element("stop").setAttribute("aria-pressed", String(stopped));
   },
-  line(open, why) {
-    say(open ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
+  line(there, why) {
+    say(there ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
   },
   refused: say,
 };
@@ -65,12 +65,12 @@ const memory = new Memory();
 const sound = new Sound();
 // Whether the page sounds, and not the engine.
 let soundsHere = true;
-const seek = (time: number) => source?.send({ op: "seek", t_s: time });
+const seek = (t_s: number) => source?.send({ op: "seek", t_s });
 const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
-const collisions = new LineList<CollisionFrame>("collisions", (frame) => {
-  scene.overlays.setMark(frame.tip);
+const collisions = new LineList<CollisionFrame>("collisions", ({ tip, time: at }) => {
+  scene.overlays.setMark(tip);
   scene.draw();
-  seek(frame.time);
+  seek(at);
 });
 const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
@@ -196,6 +196,9 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
     case "state":
       show(frame);
+      break;
+    case "listening":
+    case "other":
       break;
   }
 }
@@ -362,7 +365,8 @@ scene.canvas.addEventListener(
     const [a, b] = measuring;
     if (!a || !b) return;
     const d = vec3((k) => b[k] - a[k]);
-    element("measured").textContent = `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
+    element("measured").textContent =
+      `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
   },
   { capture: true },
 );
@@ -443,18 +447,18 @@ void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
   });
 });
 
-new Keys(scene, finger, {
+listenToKeys(scene, finger, {
   play: () => play.click(),
   mute: () => element("sound").click(),
   seek: (by) => seek(Math.min(Math.max(Number(time.value) + by, 0), duration)),
 });
 
-function frame(): void {
+function eachPicture(): void {
   finger.pollGamepad();
   plots?.update();
-  requestAnimationFrame(frame);
+  requestAnimationFrame(eachPicture);
 }
-requestAnimationFrame(frame);
+requestAnimationFrame(eachPicture);
 
 engine?.listen(listener);
 
@@ -462,16 +466,16 @@ engine?.listen(listener);
 if (!hasEngine) {
   void listed().then(async (examples) => {
     const box = element("examples");
-    const [first, ...others] = examples;
-    for (const example of others) {
+    const [example, ...others] = examples;
+    for (const other of others) {
       const button = document.createElement("button");
       button.type = "button";
-      button.textContent = example.name;
-      button.addEventListener("click", async () => mill(await orderOf(example)));
+      button.textContent = other.name;
+      button.addEventListener("click", async () => mill(await orderOf(other)));
       box.append(button);
     }
-    if (!first) return;
+    if (!example) return;
     box.hidden = others.length === 0;
-    await mill(await orderOf(first));
+    await mill(await orderOf(example));
   });
 }

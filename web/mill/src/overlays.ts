@@ -46,12 +46,20 @@ export class Overlays {
     this.force = new Arrow(palette.force);
     this.felt = new Arrow(palette.finger);
     this.solid = new MeshStandardMaterial({ color: palette.finger, roughness: 0.45 });
-    this.ghost = new MeshStandardMaterial({ color: palette.finger, transparent: true, opacity: 0.28, depthWrite: false });
+    this.ghost = new MeshStandardMaterial({
+      color: palette.finger,
+      transparent: true,
+      opacity: 0.28,
+      depthWrite: false,
+    });
     const shape = new CylinderGeometry(1, 1, 5, 32).rotateX(Math.PI / 2).translate(0, 0, 2.5);
     this.skin = new Mesh(shape, this.solid);
     this.hand = new Mesh(shape, this.ghost);
     this.strain = line(palette.finger);
-    this.mark = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: palette.force, transparent: true, opacity: 0.7 }));
+    this.mark = new Mesh(
+      new SphereGeometry(1, 24, 16),
+      new MeshBasicMaterial({ color: palette.force, transparent: true, opacity: 0.7 }),
+    );
     this.finger.add(this.skin, this.hand, this.strain, this.felt);
     this.group.add(this.force, this.finger, this.texture, this.measure, this.mark);
     for (const part of [this.force, this.finger, this.mark]) part.visible = false;
@@ -112,7 +120,13 @@ export class Overlays {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(new Float32Array(corners.flat()), 3));
       const shade = n % 2 === 0 ? 0xffffff : 0x9fc2ee;
-      const face = new MeshBasicMaterial({ color: shade, transparent: true, opacity: 0.55, side: DoubleSide, depthTest: false });
+      const face = new MeshBasicMaterial({
+        color: shade,
+        transparent: true,
+        opacity: 0.55,
+        side: DoubleSide,
+        depthTest: false,
+      });
       const centre = vec3((k) => (corners[0][k] + corners[1][k] + corners[2][k]) / 3);
       const arrow = new Arrow(0xffffff);
       arrow.visible = Math.hypot(...force) > 1e-6;
@@ -125,7 +139,10 @@ export class Overlays {
     for (const child of this.measure.children as (Mesh | Line)[]) child.geometry.dispose();
     this.measure.clear();
     for (const p of points) {
-      const dot = new Mesh(new SphereGeometry(0.006 * this.size, 16, 12), new MeshBasicMaterial({ color: 0x111111, depthTest: false }));
+      const dot = new Mesh(
+        new SphereGeometry(0.006 * this.size, 16, 12),
+        new MeshBasicMaterial({ color: 0x111111, depthTest: false }),
+      );
       dot.position.set(...p);
       dot.renderOrder = 2;
       this.measure.add(dot);

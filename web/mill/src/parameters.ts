@@ -69,7 +69,9 @@ export class Parameters {
       input.setAttribute("aria-valuetext", value.textContent);
     };
     input.addEventListener("input", () => say(from(Number(input.value))));
-    input.addEventListener("change", () => this.send({ op: "set", key: p.key, value: Number(from(Number(input.value)).toPrecision(4)) }));
+    input.addEventListener("change", () =>
+      this.send({ op: "set", key: p.key, value: Number(from(Number(input.value)).toPrecision(4)) }),
+    );
     this.shown.set(p.key, (v) => {
       if (document.activeElement !== input) input.value = String(to(v));
       say(v);

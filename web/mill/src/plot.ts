@@ -71,7 +71,8 @@ export class Plot {
       this.columns.forEach((force, x) => context.fillRect(x, height - force * scale, 1, force * scale));
       context.fillStyle = style.getPropertyValue("--quiet");
       context.font = `${Math.round(11 * ratio)}px system-ui, sans-serif`;
-      if (this.rows.length > 0) context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
+      if (this.rows.length > 0)
+        context.fillText(`peak force, largest ${this.largest.toFixed(0)} N`, 4 * ratio, 11 * ratio);
       context.fillStyle = style.getPropertyValue("--ink");
       context.fillRect((this.time / this.duration) * width - 1, 0, 2, height);
     });

@@ -30,8 +30,11 @@ interface View {
 function overTime(history: History, ...values: ((row: Row) => number)[]): uPlot.AlignedData {
   const { rows } = history;
   const step = Math.max(1, Math.ceil(rows.length / MOST_POINTS));
-  const stretches = Array.from({ length: Math.ceil(rows.length / step) }, (_, n) => rows.slice(n * step, (n + 1) * step));
-  const largest = (value: (row: Row) => number) => stretches.map((stretch) => stretch.reduce((most, row) => Math.max(most, value(row)), -Infinity));
+  const stretches = Array.from({ length: Math.ceil(rows.length / step) }, (_, n) =>
+    rows.slice(n * step, (n + 1) * step),
+  );
+  const largest = (value: (row: Row) => number) =>
+    stretches.map((stretch) => stretch.reduce((most, row) => Math.max(most, value(row)), -Infinity));
   return [stretches.map(([first]) => first!.time), ...values.map(largest)];
 }
 
@@ -43,7 +46,12 @@ const VIEWS: View[] = [
       { label: "mean, N", stroke: "#3b82d0" },
     ],
     axes: ["s", "N"],
-    data: (h) => overTime(h, (row) => row.peakForce, (row) => row.meanForce),
+    data: (h) =>
+      overTime(
+        h,
+        (row) => row.peakForce,
+        (row) => row.meanForce,
+      ),
     seek: true,
   },
   {
@@ -80,7 +88,13 @@ const VIEWS: View[] = [
       { label: "depth, mm", stroke: "#b58900" },
     ],
     axes: ["s", "degrees, mm"],
-    data: (h) => overTime(h, (row) => row.exit * DEG, (row) => row.entry * DEG, (row) => row.depth),
+    data: (h) =>
+      overTime(
+        h,
+        (row) => row.exit * DEG,
+        (row) => row.entry * DEG,
+        (row) => row.depth,
+      ),
     seek: true,
   },
 ];
@@ -171,7 +185,14 @@ export class Plots {
   private make(view: View): void {
     const ink = getComputedStyle(this.box).getPropertyValue("--ink");
     const faint = getComputedStyle(this.box).getPropertyValue("--line");
-    const axis = (label: string): uPlot.Axis => ({ label, stroke: ink, grid: { stroke: faint, width: 1 }, ticks: { stroke: faint }, labelSize: 18, size: label === "N" || label.startsWith("degrees,") ? 56 : 34 });
+    const axis = (label: string): uPlot.Axis => ({
+      label,
+      stroke: ink,
+      grid: { stroke: faint, width: 1 },
+      ticks: { stroke: faint },
+      labelSize: 18,
+      size: label === "N" || label.startsWith("degrees,") ? 56 : 34,
+    });
     this.plot = new uPlot(
       {
         ...this.size(),
@@ -185,7 +206,7 @@ export class Plots {
             stroke: s.stroke,
             width: 1.5,
             points: { show: false },
-            value: (_: uPlot, v: number | null) => (v == null ? "" : v.toPrecision(4)),
+            value: (_: uPlot, v: number | null) => v?.toPrecision(4) ?? "",
             ...(s.bars ? { paths: uPlot.paths.bars!({ size: [0.5, 24] }), fill: `${s.stroke}66` } : {}),
           })),
         ],

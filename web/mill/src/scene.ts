@@ -118,7 +118,13 @@ export class Scene {
     this.overlays = new Overlays(this.palette);
     const corners = this.box.geometry.getAttribute("position").count;
     const grey = new Color(this.palette.untouched).toArray() as Vec3;
-    this.box.geometry.setAttribute("color", new BufferAttribute(Float32Array.from({ length: 3 * corners }, (_, n) => grey[(n % 3) as Axis]), 3));
+    this.box.geometry.setAttribute(
+      "color",
+      new BufferAttribute(
+        Float32Array.from({ length: 3 * corners }, (_, n) => grey[(n % 3) as Axis]),
+        3,
+      ),
+    );
     this.box.visible = false;
     this.world.add(this.box, this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
     this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
@@ -307,7 +313,9 @@ export class Scene {
   render(): void {
     if (!this.renderer.xr.isPresenting) this.resize();
     // The part at once; the shaders of what stands around it are made for the next picture.
-    const around = this.seen ? [] : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);
+    const around = this.seen
+      ? []
+      : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);
     for (const child of around) child.visible = false;
     this.renderer.render(this.three, this.camera);
     for (const child of around) child.visible = true;

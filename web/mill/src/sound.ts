@@ -65,7 +65,7 @@ export class Sound {
   }
 
   state(state: StateFrame): void {
-    const lead = this.context ? (this.context.outputLatency || this.context.baseLatency || 0) : 0;
+    const lead = this.context ? this.context.outputLatency || this.context.baseLatency || 0 : 0;
     this.post({ kind: "clock", time: state.time, speed: state.speed, playing: state.playing, lead });
   }
 

@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The tool, and the row of its latest positions (figure 2 of the milling paper).
 
-import { Color, Group, InstancedMesh, LatheGeometry, Matrix4, Mesh, MeshStandardMaterial, Quaternion, Vector2, Vector3 } from "three";
+import {
+  Color,
+  Group,
+  InstancedMesh,
+  LatheGeometry,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  Quaternion,
+  Vector2,
+  Vector3,
+} from "three";
 
 import type { Cutter, StateFrame } from "@tribo/protocol/frames";
 
@@ -31,7 +42,7 @@ function lathe(cutter: Cutter, segments: number): LatheGeometry {
   return new LatheGeometry(
     outline(cutter).map(([r, z]) => new Vector2(r, z)),
     segments,
-  ).rotateX(Math.PI / 2) as LatheGeometry;
+  ).rotateX(Math.PI / 2);
 }
 
 export class Tool {
@@ -72,7 +83,11 @@ export class Tool {
     for (const cutter of cutters) {
       const mesh = new Mesh(lathe(cutter, 40), this.steel);
       // Only the part that cuts.
-      const row = new InstancedMesh(lathe({ ...cutter, length: Math.min(cutter.length, 2.2 * cutter.radius), holder: [] }, 20), this.ghost, POSITIONS);
+      const row = new InstancedMesh(
+        lathe({ ...cutter, length: Math.min(cutter.length, 2.2 * cutter.radius), holder: [] }, 20),
+        this.ghost,
+        POSITIONS,
+      );
       row.count = 0;
       row.frustumCulled = false;
       row.userData.on = true;

@@ -59,7 +59,13 @@ export class Workshop implements Source {
     switch (message.kind) {
       case "opened":
         this.listener.line(true, "");
-        this.listener.info({ op: "serverInfo", version: message.version, job: message.job, warnings: message.warnings, materials: message.materials });
+        this.listener.info({
+          op: "serverInfo",
+          version: message.version,
+          job: message.job,
+          warnings: message.warnings,
+          materials: message.materials,
+        });
         this.waiting.shift()?.("");
         break;
       case "refused":

@@ -57,7 +57,9 @@ class Mill {
       const bytes = await unpacked(file);
       lendText(x, file.name, (...name) => lend(x, bytes, (...content) => x.mill_put_file(...name, ...content)));
     }
-    const opened = lendText(x, order.job, (...job) => lendText(x, order.part, (...part) => x.mill_open(...job, ...part, order.cell)));
+    const opened = lendText(x, order.job, (...job) =>
+      lendText(x, order.part, (...part) => x.mill_open(...job, ...part, order.cell)),
+    );
     const said = textAt(x, x.mill_text());
     if (!opened) return post({ kind: "refused", why: said });
     const warnings = said.split("\n").filter(Boolean);
@@ -89,7 +91,9 @@ class Mill {
     const { x } = this;
     const cut = (a: Settings) => [a.feed_percent, a.spindle_percent, a.helix_deg, a.material].join();
     if (cut(s) !== cut(this.settings)) {
-      const done = lendText(x, s.material, (...name) => x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, ...name));
+      const done = lendText(x, s.material, (...name) =>
+        x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, ...name),
+      );
       if (!done) return post({ kind: "no", why: textAt(x, x.mill_text()) });
     }
     x.mill_feel(s.force_scale, s.jnd, Number(s.mode === "cut"), Number(s.force), Number(s.stopped));
@@ -114,9 +118,9 @@ class Mill {
     const at = this.x.mill_frames();
     const view = new DataView(this.x.memory.buffer, at, length);
     const frames: ArrayBuffer[] = [];
-    for (let n = 0; n < length; ) {
+    for (let n = 0; n < length;) {
       const bytes = view.getUint32(n, true);
-      frames.push(this.x.memory.buffer.slice(at + n + 8, at + n + 8 + bytes) as ArrayBuffer);
+      frames.push(this.x.memory.buffer.slice(at + n + 8, at + n + 8 + bytes));
       n += 8 + 8 * Math.ceil(bytes / 8);
     }
     post({ kind: "frames", frames }, frames);

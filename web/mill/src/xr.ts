@@ -24,7 +24,10 @@ export class Headset {
     private readonly finger: Finger,
     private readonly play: () => void,
   ) {
-    const top = new Mesh(new BoxGeometry(1.2, 0.04, 0.7), new MeshStandardMaterial({ color: 0x5d4a3a, roughness: 0.8 }));
+    const top = new Mesh(
+      new BoxGeometry(1.2, 0.04, 0.7),
+      new MeshStandardMaterial({ color: 0x5d4a3a, roughness: 0.8 }),
+    );
     top.position.y = -0.02;
     this.bench.add(top);
     this.bench.position.set(0, BENCH_HEIGHT_M, -BENCH_AWAY_M);
@@ -77,7 +80,9 @@ export class Headset {
     const strength = Math.min(Math.hypot(...frame.force) / FULL_N, 1);
     if (strength < 0.02) return;
     for (const source of this.session.inputSources) {
-      const [actuator] = (source.gamepad as unknown as { hapticActuators?: { pulse(s: number, ms: number): Promise<boolean> }[] })?.hapticActuators ?? [];
+      const [actuator] =
+        (source.gamepad as unknown as { hapticActuators?: { pulse(s: number, ms: number): Promise<boolean> }[] })
+          ?.hapticActuators ?? [];
       void actuator?.pulse(strength, PULSE_MS);
     }
   }

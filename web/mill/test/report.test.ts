@@ -12,9 +12,12 @@ import { hasBrowser, launch, launchWithoutGraphics, PATIENCE_MS } from "../../te
 import { jobText } from "../../testing/job.js";
 import { PROGRAM } from "../../tools/places.js";
 
-const JOB = jobText("[[0, 0, -8], [40, 20, 0]]", `[part]
+const JOB = jobText(
+  "[[0, 0, -8], [40, 20, 0]]",
+  `[part]
 surface = "plane.stl"
-`);
+`,
+);
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\n";
 // Where the two grooves end, as one square.
 const corner = (x: number, y: number) => `vertex ${x} ${y} -2\n`;
@@ -83,53 +86,69 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
     expect(problems).toEqual([]);
   });
 
-  it("draws machined surface, untouched stock and the tool's tip", async () => {
-    const seen = await view();
-    expect(seen.drawn).toBeGreaterThan(30_000);
-    expect(seen.blue).toBeGreaterThan(5_000);
-    expect(seen.grey).toBeGreaterThan(5_000);
-    expect(seen.yellow).toBeGreaterThan(20);
-  }, PATIENCE_MS);
+  it(
+    "draws machined surface, untouched stock and the tool's tip",
+    async () => {
+      const seen = await view();
+      expect(seen.drawn).toBeGreaterThan(30_000);
+      expect(seen.blue).toBeGreaterThan(5_000);
+      expect(seen.grey).toBeGreaterThan(5_000);
+      expect(seen.yellow).toBeGreaterThan(20);
+    },
+    PATIENCE_MS,
+  );
 
-  it("turns and comes nearer by mouse and keyboard, and comes back", async () => {
-    const first = await view();
-    const box = await page.locator("#part-view canvas").boundingBox();
-    if (!box) throw new Error("no view");
-    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-    await page.mouse.move(x, y);
-    await page.mouse.down();
-    await page.mouse.move(x + 80, y + 20, { steps: 4 });
-    await page.mouse.up();
-    const turned = await view();
-    expect(turned.sum).not.toBe(first.sum);
-    await page.focus("#part-view canvas");
-    await page.keyboard.press("+");
-    await page.keyboard.press("+");
-    const near = await view();
-    expect(near.drawn).toBeGreaterThan(1.2 * turned.drawn);
-    await page.keyboard.press("ArrowLeft");
-    expect((await view()).sum).not.toBe(near.sum);
-    await page.mouse.wheel(0, 300);
-    await expect.poll(async () => (await view()).drawn, { timeout: PATIENCE_MS }).toBeLessThan(near.drawn);
-    await page.keyboard.press("Home");
-    expect((await view()).sum).toBe(first.sum);
-  }, PATIENCE_MS);
+  it(
+    "turns and comes nearer by mouse and keyboard, and comes back",
+    async () => {
+      const first = await view();
+      const box = await page.locator("#part-view canvas").boundingBox();
+      if (!box) throw new Error("no view");
+      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await page.mouse.move(x + 80, y + 20, { steps: 4 });
+      await page.mouse.up();
+      const turned = await view();
+      expect(turned.sum).not.toBe(first.sum);
+      await page.focus("#part-view canvas");
+      await page.keyboard.press("+");
+      await page.keyboard.press("+");
+      const near = await view();
+      expect(near.drawn).toBeGreaterThan(1.2 * turned.drawn);
+      await page.keyboard.press("ArrowLeft");
+      expect((await view()).sum).not.toBe(near.sum);
+      await page.mouse.wheel(0, 300);
+      await expect.poll(async () => (await view()).drawn, { timeout: PATIENCE_MS }).toBeLessThan(near.drawn);
+      await page.keyboard.press("Home");
+      expect((await view()).sum).toBe(first.sum);
+    },
+    PATIENCE_MS,
+  );
 
-  it("follows the row that the plots point at", async () => {
-    const before = await view();
-    await page.fill("#row", "0");
-    expect((await view()).sum).not.toBe(before.sum);
-  }, PATIENCE_MS);
+  it(
+    "follows the row that the plots point at",
+    async () => {
+      const before = await view();
+      await page.fill("#row", "0");
+      expect((await view()).sum).not.toBe(before.sum);
+    },
+    PATIENCE_MS,
+  );
 
-  it("colours the part by its deviation", async () => {
-    expect(await page.locator("#part-view .scale").isHidden()).toBe(true);
-    await page.check("#part-view input[value=deviation]");
-    const seen = await view();
-    expect(seen.blue).toBeLessThan(seen.purple + 1);
-    expect(seen.purple).toBeGreaterThan(1_000);
-    expect(await page.locator("#part-view .scale").textContent()).toMatch(/mm gouge0\+[\d.]+ mm left/);
-    await page.check("#part-view input[value=surface]");
-  }, PATIENCE_MS);
+  it(
+    "colours the part by its deviation",
+    async () => {
+      expect(await page.locator("#part-view .scale").isHidden()).toBe(true);
+      await page.check("#part-view input[value=deviation]");
+      const seen = await view();
+      expect(seen.blue).toBeLessThan(seen.purple + 1);
+      expect(seen.purple).toBeGreaterThan(1_000);
+      expect(await page.locator("#part-view .scale").textContent()).toMatch(/mm gouge0\+[\d.]+ mm left/);
+      await page.check("#part-view input[value=surface]");
+    },
+    PATIENCE_MS,
+  );
 
   it("says what it is and how it is used", async () => {
     const canvas = page.locator("#part-view canvas");
@@ -137,22 +156,30 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
     expect(await page.locator("#part-hint").innerText()).toContain("arrow keys");
   });
 
-  it("looks the part in the dark too", async () => {
-    await page.emulateMedia({ colorScheme: "dark" });
-    expect((await view()).blue).toBeGreaterThan(5_000);
-    await page.emulateMedia({ colorScheme: "light" });
-  }, PATIENCE_MS);
+  it(
+    "looks the part in the dark too",
+    async () => {
+      await page.emulateMedia({ colorScheme: "dark" });
+      expect((await view()).blue).toBeGreaterThan(5_000);
+      await page.emulateMedia({ colorScheme: "light" });
+    },
+    PATIENCE_MS,
+  );
 
-  it("keeps the picture where there is no WebGL", async () => {
-    const plain = await launchWithoutGraphics();
-    try {
-      const without = await plain.newPage();
-      await without.goto(address);
-      await without.waitForFunction(() => document.getElementById("readout")?.textContent !== "");
-      expect(await without.locator("#part-view img").isVisible()).toBe(true);
-      expect(await without.locator("#part-view canvas").isVisible()).toBe(false);
-    } finally {
-      await plain.close();
-    }
-  }, PATIENCE_MS);
+  it(
+    "keeps the picture where there is no WebGL",
+    async () => {
+      const plain = await launchWithoutGraphics();
+      try {
+        const without = await plain.newPage();
+        await without.goto(address);
+        await without.waitForFunction(() => document.getElementById("readout")?.textContent !== "");
+        expect(await without.locator("#part-view img").isVisible()).toBe(true);
+        expect(await without.locator("#part-view canvas").isVisible()).toBe(false);
+      } finally {
+        await plain.close();
+      }
+    },
+    PATIENCE_MS,
+  );
 });

@@ -36,14 +36,19 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     on.on("pageerror", (error) => problems.push(error.message));
     on.on("request", (request) => {
       const asked = new URL(request.url());
-      if (!["data:", "blob:"].includes(asked.protocol) && asked.host !== new URL(server.root).host) foreign.push(request.url());
+      if (!["data:", "blob:"].includes(asked.protocol) && asked.host !== new URL(server.root).host)
+        foreign.push(request.url());
     });
   };
   const text = async (id: string) => (await page.textContent(`#${id}`)) ?? "";
   const until = (want: string, id: string) =>
-    page.waitForFunction(([w, where]) => document.getElementById(where)?.textContent?.includes(w), [want, id] as const, {
-      timeout: PATIENCE_MS,
-    });
+    page.waitForFunction(
+      ([w, where]) => document.getElementById(where)?.textContent?.includes(w),
+      [want, id] as const,
+      {
+        timeout: PATIENCE_MS,
+      },
+    );
   const removed = (least: number) =>
     page.waitForFunction((n) => parseFloat(document.getElementById("removed")?.textContent ?? "0") >= n, least, {
       timeout: PATIENCE_MS,
@@ -64,7 +69,17 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     watch(page);
     page.on("response", async (response) => {
       const length = Number((await response.allHeaders())["content-length"] ?? 0);
-      loaded.push({ url: response.url(), bytes: length || (await response.request().sizes().catch(() => ({ responseBodySize: 0 }))).responseBodySize });
+      loaded.push({
+        url: response.url(),
+        bytes:
+          length ||
+          (
+            await response
+              .request()
+              .sizes()
+              .catch(() => ({ responseBodySize: 0 }))
+          ).responseBodySize,
+      });
     });
     // What goes to the loudspeaker also goes to a meter.
     await page.addInitScript(() => {
@@ -97,250 +112,323 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     expect(app).toBeLessThan(200_000);
   });
 
-  it("mills a job that is chosen with its files", async () => {
-    await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-    await until("job.toml", "job");
-    await page.selectOption("#speed", "5");
-    await page.click("#begin");
-    await until("Pause", "play");
-    await removed(0.3);
-    await until("rapid through stock", "collisions");
-    await until("Play", "play");
-    await picture("job");
-  }, PATIENCE_MS);
+  it(
+    "mills a job that is chosen with its files",
+    async () => {
+      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await until("job.toml", "job");
+      await page.selectOption("#speed", "5");
+      await page.click("#begin");
+      await until("Pause", "play");
+      await removed(0.3);
+      await until("rapid through stock", "collisions");
+      await until("Play", "play");
+      await picture("job");
+    },
+    PATIENCE_MS,
+  );
 
-  it("sounds at the tooth's frequency while it cuts, and not where it is paused", async () => {
-    await page.selectOption("#speed", "0.1");
-    await page.fill("#time", "1.2");
-    await page.click("#play");
-    await until("Pause", "play");
-    expect(await page.getAttribute("#sound", "aria-pressed")).toBe("true");
-    const level = () =>
-      page.evaluate(() => {
-        const { meter } = window as unknown as { meter: AnalyserNode };
-        const db = new Float32Array(meter.frequencyBinCount);
-        meter.getFloatFrequencyData(db);
-        const bin = meter.context.sampleRate / meter.fftSize;
-        let top = 0;
-        // Below the chips' noise.
-        for (let n = Math.ceil(60 / bin); n < 1000 / bin; ++n) if (db[n]! > db[top]! || top === 0) top = n;
-        return { hz: top * bin, db: db[top] };
-      });
-    // 9000 rpm, two teeth: 300 Hz or a harmonic of it.
-    await expect.poll(async () => (await level()).db, { timeout: PATIENCE_MS }).toBeGreaterThan(-70);
-    await page.waitForTimeout(500);
-    const { hz } = await level();
-    expect(Math.abs(hz / 300 - Math.round(hz / 300))).toBeLessThan(0.03);
-    await page.click("#play");
-    await until("Play", "play");
-    await expect.poll(async () => (await level()).db, { timeout: PATIENCE_MS }).toBeLessThan(-120);
-    await page.click("#sound");
-    expect(await page.getAttribute("#sound", "aria-pressed")).toBe("false");
-    await page.click("#sound");
-  }, PATIENCE_MS);
-
-  it("is felt: what presses on the part is pushed back", async () => {
-    const box = (await page.locator("#scene").boundingBox())!;
-    await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.55 * box.height);
-    await page.mouse.down();
-    await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.55 * box.height, { steps: 4 });
-    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, { timeout: PATIENCE_MS });
-    await picture("finger");
-    await page.mouse.up();
-    await page.click("#show-panel");
-    await page.waitForSelector("#felt-row", { state: "hidden", timeout: PATIENCE_MS });
-    await page.click("#stop");
-    await until("Release", "stop");
-    await page.click("#stop");
-    await until("Stop", "stop");
-    await page.click("#force-on");
-    await page.waitForSelector('#force-on[aria-pressed="false"]');
-    await page.click("#force-on");
-    await page.selectOption("#mode", "inspect");
-    await page.selectOption("#mode", "cut");
-  }, PATIENCE_MS);
-
-  it("recuts with other settings", async () => {
-    const peak = async () => parseFloat(await text("peak"));
-    await page.fill("#time", "1.2");
-    await page.waitForFunction(() => parseFloat(document.getElementById("peak")?.textContent ?? "0") > 20, null, { timeout: PATIENCE_MS });
-    const before = await peak();
-    await page.selectOption("#material", "ti6al4v");
-    await page.waitForFunction((n) => parseFloat(document.getElementById("peak")?.textContent ?? "0") > 1.3 * n, before, { timeout: PATIENCE_MS });
-    for (const key of ["feed_percent", "spindle_percent", "helix_deg", "force_scale", "jnd"]) {
-      await page.focus(`#set-${key}`);
-      await page.keyboard.press("Home");
-    }
-    await until("10 %", "parameters");
-    await page.selectOption("#material", "al7075-t6");
-  }, PATIENCE_MS);
-
-  it("looks different as it is told", async () => {
-    for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
-    for (const theme of ["dark", "light"]) {
-      await page.selectOption("#theme", theme);
-      expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe(theme);
-    }
-    for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
-    for (const by of ["force", "chip"]) {
-      await page.selectOption("#colouring", by);
-      expect(await page.isVisible("#legend")).toBe(true);
-      await page.waitForTimeout(500);
-      await picture(`colour-${by}`);
-    }
-    await until("rubs", "legend-marks");
-    await page.selectOption("#colouring", "deviation");
-    await until("no designed surface", "notice");
-    await page.selectOption("#colouring", "plain");
-    await page.click("#fit");
-  }, PATIENCE_MS);
-
-  it("measures between two places", async () => {
-    await page.click("#measure");
-    const box = (await page.locator("#scene").boundingBox())!;
-    await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.6 * box.height);
-    await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.6 * box.height);
-    await page.waitForFunction(() => /^\d+\.\d{3} mm/.test(document.getElementById("measured")?.textContent ?? ""));
-    const length = parseFloat(await text("measured"));
-    expect(length).toBeGreaterThan(0.5);
-    expect(length).toBeLessThan(35);
-    await page.click("#measure");
-    expect(await page.isVisible("#measured")).toBe(false);
-  }, PATIENCE_MS);
-
-  it("plots force, turn, spectrum, engagement and sound when asked", async () => {
-    await page.click("#show-plots");
-    for (const tab of ["force", "one-turn", "spectrum", "engagement", "sound"]) {
-      await page.click(`#tab-${tab}`);
-      await page.waitForSelector("#plot-panel canvas");
-      await page.waitForTimeout(150);
-      await picture(`plot-${tab}`);
-      expect(await page.evaluate(() => {
-        const canvas = document.querySelector<HTMLCanvasElement>("#plot-panel canvas")!;
-        const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
-        return new Set(data).size;
-      })).toBeGreaterThan(4);
-    }
-    await page.focus("#tab-sound");
-    await page.keyboard.press("ArrowRight");
-    expect(await page.getAttribute("#tab-force", "aria-selected")).toBe("true");
-    await page.click("#show-plots");
-  }, PATIENCE_MS);
-
-  it("is worked by keys", async () => {
-    await page.focus("#scene");
-    for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "Home", "m", "m"]) await page.keyboard.press(key);
-    await page.keyboard.press("Space");
-    await until("Pause", "play");
-    await page.keyboard.press("Space");
-    await until("Play", "play");
-    await page.keyboard.down("Shift");
-    await page.keyboard.press("ArrowRight");
-    await page.waitForSelector("#felt-row", { state: "visible", timeout: PATIENCE_MS });
-    await page.keyboard.up("Shift");
-    await page.waitForSelector("#felt-row", { state: "hidden", timeout: PATIENCE_MS });
-  }, PATIENCE_MS);
-
-  it("records, and plays the recording again", async () => {
-    await page.click("#record");
-    await page.click("#play");
-    await until("Pause", "play");
-    // So long that a busy machine sees it play.
-    await page.waitForTimeout(3000);
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
-    const path = join(folder, "run.tribo");
-    await download.saveAs(path);
-    await page.setInputFiles("#files", path);
-    await until("run.tribo", "job");
-    await until("Play", "play");
-    expect(await page.isVisible("#notice-box")).toBe(false);
-    for (const now of ["Pause", "Play", "Pause"]) {
+  it(
+    "sounds at the tooth's frequency while it cuts, and not where it is paused",
+    async () => {
+      await page.selectOption("#speed", "0.1");
+      await page.fill("#time", "1.2");
       await page.click("#play");
-      await until(now, "play");
-    }
-    writeFileSync(path, readFileSync(path).subarray(0, 1000));
-    await page.setInputFiles("#files", path);
-    await until("run.tribo: the recording is cut off", "notice");
-  }, PATIENCE_MS);
+      await until("Pause", "play");
+      expect(await page.getAttribute("#sound", "aria-pressed")).toBe("true");
+      const level = () =>
+        page.evaluate(() => {
+          const { meter } = window as unknown as { meter: AnalyserNode };
+          const db = new Float32Array(meter.frequencyBinCount);
+          meter.getFloatFrequencyData(db);
+          const bin = meter.context.sampleRate / meter.fftSize;
+          let top = 0;
+          // Below the chips' noise.
+          for (let n = Math.ceil(60 / bin); n < 1000 / bin; ++n) if (db[n]! > db[top]! || top === 0) top = n;
+          return { hz: top * bin, db: db[top] };
+        });
+      // 9000 rpm, two teeth: 300 Hz or a harmonic of it.
+      await expect.poll(async () => (await level()).db, { timeout: PATIENCE_MS }).toBeGreaterThan(-70);
+      await page.waitForTimeout(500);
+      const { hz } = await level();
+      expect(Math.abs(hz / 300 - Math.round(hz / 300))).toBeLessThan(0.03);
+      await page.click("#play");
+      await until("Play", "play");
+      await expect.poll(async () => (await level()).db, { timeout: PATIENCE_MS }).toBeLessThan(-120);
+      await page.click("#sound");
+      expect(await page.getAttribute("#sound", "aria-pressed")).toBe("false");
+      await page.click("#sound");
+    },
+    PATIENCE_MS,
+  );
 
-  it("takes a drop, a program alone and a surface after it", async () => {
-    await page.evaluate((program) => {
-      const data = new DataTransfer();
-      data.items.add(new File([program], "alone.nc"));
-      for (const kind of ["dragenter", "dragover", "drop"]) window.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
-    }, PROGRAM.replace("G21", "G21 S8000 F600"));
-    await until("alone.nc", "job");
-    await until("is not described", "warnings");
-    expect(await page.isVisible("#said")).toBe(true);
-    await choose(file("surface.obj", SURFACE));
-    await page.waitForSelector("#designed-label:not([hidden])", { timeout: PATIENCE_MS });
-    await page.selectOption("#speed", "50");
-    await page.click("#play");
-    await removed(0.3);
-    for (const by of ["deviation", "scallop"]) {
-      await page.selectOption("#colouring", by);
-      await page.waitForTimeout(400);
-      await picture(`colour-${by}`);
-    }
-    await page.selectOption("#colouring", "plain");
-    await page.click("#show-designed");
-    await page.click("#show-designed");
-  }, PATIENCE_MS);
+  it(
+    "is felt: what presses on the part is pushed back",
+    async () => {
+      const box = (await page.locator("#scene").boundingBox())!;
+      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.55 * box.height);
+      await page.mouse.down();
+      await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.55 * box.height, { steps: 4 });
+      await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
+        timeout: PATIENCE_MS,
+      });
+      await picture("finger");
+      await page.mouse.up();
+      await page.click("#show-panel");
+      await page.waitForSelector("#felt-row", { state: "hidden", timeout: PATIENCE_MS });
+      await page.click("#stop");
+      await until("Release", "stop");
+      await page.click("#stop");
+      await until("Stop", "stop");
+      await page.click("#force-on");
+      await page.waitForSelector('#force-on[aria-pressed="false"]');
+      await page.click("#force-on");
+      await page.selectOption("#mode", "inspect");
+      await page.selectOption("#mode", "cut");
+    },
+    PATIENCE_MS,
+  );
 
-  it("lists a hundred places and counts the rest", async () => {
-    const dives = Array.from({ length: 120 }, (_, n) => `G0 X${2 * (n % 14) + 2} Y${1.5 * Math.floor(n / 14) + 1}\nG0 Z-${1 + n / 60}\nG0 Z5\n`);
-    await choose(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
-    await until("job.toml", "job");
-    await page.selectOption("#speed", "50");
-    await page.click("#play");
-    await until("and 20 more", "collisions");
-    expect(await page.locator("#collisions li").count()).toBe(100);
-    await choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
-    await until("alone.nc", "job");
-    await page.waitForSelector("#collisions", { state: "hidden", timeout: PATIENCE_MS });
-  }, PATIENCE_MS);
+  it(
+    "recuts with other settings",
+    async () => {
+      const peak = async () => parseFloat(await text("peak"));
+      await page.fill("#time", "1.2");
+      await page.waitForFunction(() => parseFloat(document.getElementById("peak")?.textContent ?? "0") > 20, null, {
+        timeout: PATIENCE_MS,
+      });
+      const before = await peak();
+      await page.selectOption("#material", "ti6al4v");
+      await page.waitForFunction(
+        (n) => parseFloat(document.getElementById("peak")?.textContent ?? "0") > 1.3 * n,
+        before,
+        { timeout: PATIENCE_MS },
+      );
+      for (const key of ["feed_percent", "spindle_percent", "helix_deg", "force_scale", "jnd"]) {
+        await page.focus(`#set-${key}`);
+        await page.keyboard.press("Home");
+      }
+      await until("10 %", "parameters");
+      await page.selectOption("#material", "al7075-t6");
+    },
+    PATIENCE_MS,
+  );
 
-  it("says what is wrong with a file, and where", async () => {
-    const told = async (what: string, ...files: ReturnType<typeof file>[]) => {
-      await choose(...files);
-      await until(what, "notice");
-    };
-    await told("job.toml:2:1: error: unknown key 'boxx_mm' in [stock]", file("job.toml", JOB.replace("box_mm", "boxx_mm")), file("p.nc", PROGRAM));
-    await told("p.nc: error: the file is not here", file("job.toml", JOB));
-    await told("bad.nc:2:", file("bad.nc", "G21 G90\nG1 X[1/0] F100\n"));
-    await told("a model alone says no path", file("a.stl", ""), file("b.stl", ""));
-    await told("this is no job and no program", file("letter.doc", "Dear all,\n"));
-    const big = join(folder, "big.nc");
-    writeFileSync(big, "");
-    truncateSync(big, 100e6);
-    await page.setInputFiles("#files", big);
-    await until("big.nc: 100 MB are more than a page can hold", "notice");
-    // What was there goes on.
-    expect(await text("job")).toBe("alone.nc");
-  }, PATIENCE_MS);
+  it(
+    "looks different as it is told",
+    async () => {
+      for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
+      for (const theme of ["dark", "light"]) {
+        await page.selectOption("#theme", theme);
+        expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe(theme);
+      }
+      for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
+      for (const by of ["force", "chip"]) {
+        await page.selectOption("#colouring", by);
+        expect(await page.isVisible("#legend")).toBe(true);
+        await page.waitForTimeout(500);
+        await picture(`colour-${by}`);
+      }
+      await until("rubs", "legend-marks");
+      await page.selectOption("#colouring", "deviation");
+      await until("no designed surface", "notice");
+      await page.selectOption("#colouring", "plain");
+      await page.click("#fit");
+    },
+    PATIENCE_MS,
+  );
 
-  it("is free of what axe finds, light and dark, wide and on a phone", async () => {
-    for (const theme of ["light", "dark"]) {
-      await page.selectOption("#theme", theme);
-      expect(await violations(page)).toEqual([]);
-    }
-    await picture("dark");
-    await page.setViewportSize({ width: 390, height: 844 });
-    await page.waitForTimeout(300);
-    await picture("phone-panel");
-    await page.click("#show-panel");
-    await page.click("#fit", { force: true }).catch(() => undefined);
-    await page.waitForTimeout(300);
-    await picture("phone");
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-    expect(wide).toBeLessThanOrEqual(390);
-    for (const id of ["play", "open", "show-panel", "time"]) {
-      const box = (await page.locator(`#${id}`).boundingBox())!;
-      expect(box.x).toBeGreaterThanOrEqual(0);
-      expect(box.x + box.width).toBeLessThanOrEqual(390);
-      expect(box.y + box.height).toBeLessThanOrEqual(844);
-    }
-  }, PATIENCE_MS);
+  it(
+    "measures between two places",
+    async () => {
+      await page.click("#measure");
+      const box = (await page.locator("#scene").boundingBox())!;
+      await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.6 * box.height);
+      await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.6 * box.height);
+      await page.waitForFunction(() => /^\d+\.\d{3} mm/.test(document.getElementById("measured")?.textContent ?? ""));
+      const length = parseFloat(await text("measured"));
+      expect(length).toBeGreaterThan(0.5);
+      expect(length).toBeLessThan(35);
+      await page.click("#measure");
+      expect(await page.isVisible("#measured")).toBe(false);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "plots force, turn, spectrum, engagement and sound when asked",
+    async () => {
+      await page.click("#show-plots");
+      for (const tab of ["force", "one-turn", "spectrum", "engagement", "sound"]) {
+        await page.click(`#tab-${tab}`);
+        await page.waitForSelector("#plot-panel canvas");
+        await page.waitForTimeout(150);
+        await picture(`plot-${tab}`);
+        expect(
+          await page.evaluate(() => {
+            const canvas = document.querySelector<HTMLCanvasElement>("#plot-panel canvas")!;
+            const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+            return new Set(data).size;
+          }),
+        ).toBeGreaterThan(4);
+      }
+      await page.focus("#tab-sound");
+      await page.keyboard.press("ArrowRight");
+      expect(await page.getAttribute("#tab-force", "aria-selected")).toBe("true");
+      await page.click("#show-plots");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "is worked by keys",
+    async () => {
+      await page.focus("#scene");
+      for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "Home", "m", "m"]) await page.keyboard.press(key);
+      await page.keyboard.press("Space");
+      await until("Pause", "play");
+      await page.keyboard.press("Space");
+      await until("Play", "play");
+      await page.keyboard.down("Shift");
+      await page.keyboard.press("ArrowRight");
+      await page.waitForSelector("#felt-row", { state: "visible", timeout: PATIENCE_MS });
+      await page.keyboard.up("Shift");
+      await page.waitForSelector("#felt-row", { state: "hidden", timeout: PATIENCE_MS });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "records, and plays the recording again",
+    async () => {
+      await page.click("#record");
+      await page.click("#play");
+      await until("Pause", "play");
+      // So long that a busy machine sees it play.
+      await page.waitForTimeout(3000);
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click("#record")]);
+      const path = join(folder, "run.tribo");
+      await download.saveAs(path);
+      await page.setInputFiles("#files", path);
+      await until("run.tribo", "job");
+      await until("Play", "play");
+      expect(await page.isVisible("#notice-box")).toBe(false);
+      for (const now of ["Pause", "Play", "Pause"]) {
+        await page.click("#play");
+        await until(now, "play");
+      }
+      writeFileSync(path, readFileSync(path).subarray(0, 1000));
+      await page.setInputFiles("#files", path);
+      await until("run.tribo: the recording is cut off", "notice");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "takes a drop, a program alone and a surface after it",
+    async () => {
+      await page.evaluate(
+        (program) => {
+          const data = new DataTransfer();
+          data.items.add(new File([program], "alone.nc"));
+          for (const kind of ["dragenter", "dragover", "drop"])
+            window.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
+        },
+        PROGRAM.replace("G21", "G21 S8000 F600"),
+      );
+      await until("alone.nc", "job");
+      await until("is not described", "warnings");
+      expect(await page.isVisible("#said")).toBe(true);
+      await choose(file("surface.obj", SURFACE));
+      await page.waitForSelector("#designed-label:not([hidden])", { timeout: PATIENCE_MS });
+      await page.selectOption("#speed", "50");
+      await page.click("#play");
+      await removed(0.3);
+      for (const by of ["deviation", "scallop"]) {
+        await page.selectOption("#colouring", by);
+        await page.waitForTimeout(400);
+        await picture(`colour-${by}`);
+      }
+      await page.selectOption("#colouring", "plain");
+      await page.click("#show-designed");
+      await page.click("#show-designed");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "lists a hundred places and counts the rest",
+    async () => {
+      const dives = Array.from(
+        { length: 120 },
+        (_, n) => `G0 X${2 * (n % 14) + 2} Y${1.5 * Math.floor(n / 14) + 1}\nG0 Z-${1 + n / 60}\nG0 Z5\n`,
+      );
+      await choose(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
+      await until("job.toml", "job");
+      await page.selectOption("#speed", "50");
+      await page.click("#play");
+      await until("and 20 more", "collisions");
+      expect(await page.locator("#collisions li").count()).toBe(100);
+      await choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
+      await until("alone.nc", "job");
+      await page.waitForSelector("#collisions", { state: "hidden", timeout: PATIENCE_MS });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "says what is wrong with a file, and where",
+    async () => {
+      const told = async (what: string, ...files: ReturnType<typeof file>[]) => {
+        await choose(...files);
+        await until(what, "notice");
+      };
+      await told(
+        "job.toml:2:1: error: unknown key 'boxx_mm' in [stock]",
+        file("job.toml", JOB.replace("box_mm", "boxx_mm")),
+        file("p.nc", PROGRAM),
+      );
+      await told("p.nc: error: the file is not here", file("job.toml", JOB));
+      await told("bad.nc:2:", file("bad.nc", "G21 G90\nG1 X[1/0] F100\n"));
+      await told("a model alone says no path", file("a.stl", ""), file("b.stl", ""));
+      await told("this is no job and no program", file("letter.doc", "Dear all,\n"));
+      const big = join(folder, "big.nc");
+      writeFileSync(big, "");
+      truncateSync(big, 100e6);
+      await page.setInputFiles("#files", big);
+      await until("big.nc: 100 MB are more than a page can hold", "notice");
+      // What was there goes on.
+      expect(await text("job")).toBe("alone.nc");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "is free of what axe finds, light and dark, wide and on a phone",
+    async () => {
+      for (const theme of ["light", "dark"]) {
+        await page.selectOption("#theme", theme);
+        expect(await violations(page)).toEqual([]);
+      }
+      await picture("dark");
+      await page.setViewportSize({ width: 390, height: 844 });
+      await page.waitForTimeout(300);
+      await picture("phone-panel");
+      await page.click("#show-panel");
+      await page.click("#fit", { force: true }).catch(() => undefined);
+      await page.waitForTimeout(300);
+      await picture("phone");
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      expect(wide).toBeLessThanOrEqual(390);
+      for (const id of ["play", "open", "show-panel", "time"]) {
+        const box = (await page.locator(`#${id}`).boundingBox())!;
+        expect(box.x).toBeGreaterThanOrEqual(0);
+        expect(box.x + box.width).toBeLessThanOrEqual(390);
+        expect(box.y + box.height).toBeLessThanOrEqual(844);
+      }
+    },
+    PATIENCE_MS,
+  );
 
   it("asks nobody else and makes no error", () => {
     expect(foreign).toEqual([]);

@@ -12,6 +12,30 @@ import { SITE } from "../../tools/places.js";
 
 const IWER = join(dirname(createRequire(import.meta.url).resolve("iwer/package.json")), "build/iwer.min.js");
 
+// What of the emulated headset is used here.
+interface Actuator {
+  pulse(strength: number, ms: number): Promise<boolean>;
+}
+interface Placed {
+  position: { set(x: number, y: number, z: number): void };
+  quaternion: { set(x: number, y: number, z: number, w: number): void };
+}
+interface Controller extends Placed {
+  connected: boolean;
+  inputSource: { gamepad: { hapticActuators: Actuator[] } };
+}
+interface Device extends Placed {
+  installRuntime(options: { forceInstall: boolean }): void;
+  controllers: { left: Controller; right: Controller };
+  activeSession: XRSession | undefined;
+}
+declare global {
+  interface Window {
+    IWER: { XRDevice: new (model: object) => Device; metaQuest3: object };
+    headset: { device: Device; pulses: number };
+  }
+}
+
 describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the page in VR", () => {
   let server: Server;
   let browser: Browser;
@@ -25,15 +49,16 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     page.on("pageerror", (error) => problems.push(error.message));
     await page.addInitScript(readFileSync(IWER, "utf8"));
     await page.addInitScript(() => {
-      const { XRDevice, metaQuest3 } = (window as any).IWER;
+      const { XRDevice, metaQuest3 } = window.IWER;
       const device = new XRDevice(metaQuest3);
       device.installRuntime({ forceInstall: true });
-      const seen = ((window as any).seen = { device, pulses: 0 });
-      const watch = (actuator: any) => {
+      const seen = (window.headset = { device, pulses: 0 });
+      const watch = (actuator: Actuator) => {
         const pulse = actuator.pulse.bind(actuator);
         actuator.pulse = (strength: number, ms: number) => (++seen.pulses, pulse(strength, ms));
       };
-      for (const side of ["left", "right"]) for (const actuator of device.controllers[side].inputSource.gamepad.hapticActuators) watch(actuator);
+      for (const side of ["left", "right"] as const)
+        for (const actuator of device.controllers[side].inputSource.gamepad.hapticActuators) watch(actuator);
     });
     await page.goto(`${server.root}/mill/`);
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
@@ -44,24 +69,34 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     await server?.close();
   });
 
-  it("sets the part on a bench and lets the controller feel it", async () => {
-    await page.waitForSelector("#vr:not([hidden])");
-    await page.click("#vr");
-    await page.waitForFunction(() => (window as any).seen.device.activeSession !== undefined, null, { timeout: PATIENCE_MS });
-    // The bowl's block is 25 mm high on a bench of 950 mm, half a metre away; the finger's tip is 50 mm before
-    // the controller, which points ahead.
-    await page.evaluate(() => {
-      const { device } = (window as any).seen;
-      device.position.set(0, 1.6, 0);
-      device.controllers.right.position.set(0, 0.95 + 0.0245, -0.5 + 0.05);
-      device.controllers.right.quaternion.set(0, 0, 0, 1);
-      device.controllers.right.connected = true;
-      device.controllers.left.connected = false;
-    });
-    await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, { timeout: PATIENCE_MS });
-    await page.waitForFunction(() => (window as any).seen.pulses > 0, null, { timeout: PATIENCE_MS });
-    await page.evaluate(() => (window as any).seen.device.activeSession.end());
-    await page.waitForFunction(() => (window as any).seen.device.activeSession === undefined, null, { timeout: PATIENCE_MS });
-    expect(problems).toEqual([]);
-  }, PATIENCE_MS);
+  it(
+    "sets the part on a bench and lets the controller feel it",
+    async () => {
+      await page.waitForSelector("#vr:not([hidden])");
+      await page.click("#vr");
+      await page.waitForFunction(() => window.headset.device.activeSession !== undefined, null, {
+        timeout: PATIENCE_MS,
+      });
+      // The bowl's block is 25 mm high on a bench of 950 mm, half a metre away; the finger's tip is 50 mm before
+      // the controller, which points ahead.
+      await page.evaluate(() => {
+        const { device } = window.headset;
+        device.position.set(0, 1.6, 0);
+        device.controllers.right.position.set(0, 0.95 + 0.0245, -0.5 + 0.05);
+        device.controllers.right.quaternion.set(0, 0, 0, 1);
+        device.controllers.right.connected = true;
+        device.controllers.left.connected = false;
+      });
+      await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
+        timeout: PATIENCE_MS,
+      });
+      await page.waitForFunction(() => window.headset.pulses > 0, null, { timeout: PATIENCE_MS });
+      await page.evaluate(() => window.headset.device.activeSession?.end());
+      await page.waitForFunction(() => window.headset.device.activeSession === undefined, null, {
+        timeout: PATIENCE_MS,
+      });
+      expect(problems).toEqual([]);
+    },
+    PATIENCE_MS,
+  );
 });

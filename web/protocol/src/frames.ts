@@ -172,15 +172,17 @@ export type Frame =
   | PathFrame
   | OtherFrame;
 
-const COLLISIONS = [
-  "rapid through stock",
-  "shank in stock",
-  "holder in stock",
-  "tool in fixture",
-  "holder in fixture",
-];
+const COLLISIONS = ["rapid through stock", "shank in stock", "holder in stock", "tool in fixture", "holder in fixture"];
 
-const FAULTS = ["", "the device is silent", "the simulation stalled", "the clock jumped", "a force was no number", "too fast", "the arm switched its motors off"];
+const FAULTS = [
+  "",
+  "the device is silent",
+  "the simulation stalled",
+  "the clock jumped",
+  "a force was no number",
+  "too fast",
+  "the arm switched its motors off",
+];
 
 class Reader {
   at = 16;
@@ -338,7 +340,17 @@ function decodeServo(r: Reader): ServoFrame {
   const four = (): Quantiles => [r.f32(), r.f32(), r.f32(), r.f32()];
   const [ticks, late, fault] = [r.u32(), r.u32(), r.u32()];
   const [rate, limit, largest] = [r.f32(), r.f32(), r.f32()];
-  return { kind: "servo", ticks, late, fault: FAULTS[fault] ?? "fault", rate, limit, largest, lateness: four(), cpu: four() };
+  return {
+    kind: "servo",
+    ticks,
+    late,
+    fault: FAULTS[fault] ?? "fault",
+    rate,
+    limit,
+    largest,
+    lateness: four(),
+    cpu: four(),
+  };
 }
 
 function decodeState(r: Reader, time: number): StateFrame {

@@ -44,9 +44,10 @@ function isRecording(bytes: ArrayBuffer): boolean {
 export function readRecording(bytes: ArrayBuffer): Recorded[] {
   if (bytes.byteLength < HEADER || !isRecording(bytes)) throw new Error("this is no recording of Tribo's");
   const view = new DataView(bytes);
-  if (view.getUint32(8, true) !== VERSION) throw new Error(`recordings of version ${view.getUint32(8, true)} are not known`);
+  if (view.getUint32(8, true) !== VERSION)
+    throw new Error(`recordings of version ${view.getUint32(8, true)} are not known`);
   const all: Recorded[] = [];
-  for (let at = HEADER; at < bytes.byteLength; ) {
+  for (let at = HEADER; at < bytes.byteLength;) {
     if (at + 16 > bytes.byteLength) throw new Error("the recording is cut off");
     const length = view.getUint32(at, true);
     const seconds = view.getFloat64(at + 8, true);

@@ -160,7 +160,15 @@ describe("decodeFrame", () => {
         },
       ],
     });
-    expect(decodeFrame(new Bytes().header(7, 1).f32(1, 2, 3, 4, 5, 6, 7, 8, 9, 10).u32(1 + 4 + 16).done())).toEqual({
+    expect(
+      decodeFrame(
+        new Bytes()
+          .header(7, 1)
+          .f32(1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
+          .u32(1 + 4 + 16)
+          .done(),
+      ),
+    ).toEqual({
       kind: "finger",
       hand: [1, 2, 3],
       proxy: [4, 5, 6],
@@ -198,7 +206,14 @@ describe("decodeFrame", () => {
       force: [0, 0, 0.5],
     });
     expect(decodeFrame(new Bytes().header(9, 1).done())).toEqual({ kind: "texture", triangles: [] });
-    const designed = new Bytes().header(11, 0).u32(3, 1).f32(0, 0, 0, 0.5).u16(0, 0, 0, 2, 0, 0, 0, 2, 0).pad().u16(0, 1, 2).pad();
+    const designed = new Bytes()
+      .header(11, 0)
+      .u32(3, 1)
+      .f32(0, 0, 0, 0.5)
+      .u16(0, 0, 0, 2, 0, 0, 0, 2, 0)
+      .pad()
+      .u16(0, 1, 2)
+      .pad();
     const surface = decodeFrame(designed.done());
     if (surface.kind !== "designed") throw new Error();
     expect([...surface.positions]).toEqual([0, 0, 0, 1, 0, 0, 0, 1, 0]);

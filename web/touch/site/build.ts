@@ -33,7 +33,8 @@ async function materialFiles(folder: string): Promise<string[]> {
 await rm(SITE, { recursive: true, force: true });
 await mkdir(join(SITE, "materials"), { recursive: true });
 for (const file of ["index.html", "touch.css"]) await copyFile(join(here, file), join(SITE, file));
-for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"]) await copyFile(join(COMPONENT, file), join(SITE, file));
+for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"])
+  await copyFile(join(COMPONENT, file), join(SITE, file));
 await copyFile(join(MODULES, "learn.wasm"), join(SITE, "learn.wasm"));
 // The component is the page's neighbour, not a part of it; what makes a material comes when it is asked for.
 await bundle({
@@ -42,7 +43,8 @@ await bundle({
   external: ["./make.js"],
   banner: 'import "./tribo-touch.js";',
 });
-for (const name of ["make", "learner"]) await bundle({ entry: join(here, `${name}.ts`), file: join(SITE, `${name}.js`) });
+for (const name of ["make", "learner"])
+  await bundle({ entry: join(here, `${name}.ts`), file: join(SITE, `${name}.js`) });
 
 const listed: { file: string; name: string; note: string; image: string }[] = [];
 for (const path of await materialFiles(join(ROOT, "examples/materials"))) {
@@ -55,8 +57,16 @@ for (const path of await materialFiles(join(ROOT, "examples/materials"))) {
   await copyFile(join(path, "..", material.image), join(SITE, "materials", image));
   if (material.height_map && map) await copyFile(join(path, "..", material.height_map), join(SITE, "materials", map));
   await writeFile(join(SITE, "materials", `${name}.json`), JSON.stringify({ ...material, image, height_map: map }));
-  listed.push({ file: `materials/${name}.json`, name: material.name || name, note: material.note ?? "", image: `materials/${image}` });
+  listed.push({
+    file: `materials/${name}.json`,
+    name: material.name || name,
+    note: material.note ?? "",
+    image: `materials/${image}`,
+  });
 }
 await writeFile(join(SITE, "materials.json"), JSON.stringify(listed));
-await writeFile(join(SITE, "site.json"), `${JSON.stringify({ schema: "tribo.site/1", version, materials: listed.length })}\n`);
+await writeFile(
+  join(SITE, "site.json"),
+  `${JSON.stringify({ schema: "tribo.site/1", version, materials: listed.length })}\n`,
+);
 console.log(`site with ${listed.length} materials`);

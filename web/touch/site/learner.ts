@@ -42,10 +42,20 @@ export const kHighpassHz = 50;
 
 function texture(take: () => number, list: (n: number) => number[], bands: number): Texture {
   const crossovers_hz = list(bands - 1);
-  const levels_db = Array.from({ length: bands }, () => list(17)), coherence = take(), lengths = take();
-  const lengths_mm = list(lengths), weights = list(lengths);
+  const levels_db = Array.from({ length: bands }, () => list(17)),
+    coherence = take(),
+    lengths = take();
+  const lengths_mm = list(lengths),
+    weights = list(lengths);
   const [per_mm, share, scatter] = list(3) as [number, number, number];
-  return { crossovers_hz, levels_db, coherence, lengths_mm, weights, grains: { per_mm, share, scatter, sizes: list(take()), shape: list(take()) } };
+  return {
+    crossovers_hz,
+    levels_db,
+    coherence,
+    lengths_mm,
+    weights,
+    grains: { per_mm, share, scatter, sizes: list(take()), shape: list(take()) },
+  };
 }
 
 /** The numbers of voice_create (src/wasm/touch_voice.cpp), and the bass of each voice, as parts of a material file. */
@@ -57,10 +67,16 @@ function voicesOf(numbers: Float64Array): Omit<Learned, "warnings"> {
   const [level_db, db_per_decade_speed, db_per_decade_force] = list(3) as [number, number, number];
   const voices = Array.from({ length: count }, (): LearnedVoice => {
     const [speed_mm_per_s, force_n, level, sample_rate_hz] = list(4) as [number, number, number, number];
-    const reflection = list(take()), bands = take();
+    const reflection = list(take()),
+      bands = take();
     return {
-      speed_mm_per_s, force_n, level_db: level, sample_rate_hz, reflection,
-      ...(bands > 0 ? { texture: texture(take, list, bands) } : {}), recordings: [],
+      speed_mm_per_s,
+      force_n,
+      level_db: level,
+      sample_rate_hz,
+      reflection,
+      ...(bands > 0 ? { texture: texture(take, list, bands) } : {}),
+      recordings: [],
     };
   });
   for (const voice of voices) {
@@ -76,20 +92,30 @@ export function learn(x: LearnExports, lessons: Lesson[]): Answer {
   const learning = x.learn_create();
   for (const { name, speed, force, sound } of lessons) {
     const { length } = sound.samples;
-    const samples = lendText(x, name, (at, bytes) => x.learn_add(learning, at, bytes, length, sound.rate, speed, force));
+    const samples = lendText(x, name, (at, bytes) =>
+      x.learn_add(learning, at, bytes, length, sound.rate, speed, force),
+    );
     doublesAt(x, samples, length).set(sound.samples);
   }
   const good = x.learn_run(learning, kHighpassHz) !== 0;
   const words = textAt(x, x.learn_text(learning));
   if (!good) return { wrong: words };
-  const learned = { ...voicesOf(doublesAt(x, x.learn_numbers(learning), x.learn_number_count(learning))), warnings: words };
+  const learned = {
+    ...voicesOf(doublesAt(x, x.learn_numbers(learning), x.learn_number_count(learning))),
+    warnings: words,
+  };
   const found = doublesAt(x, x.learn_found(learning), 5 * lessons.length);
   lessons.forEach(({ name, sound }, i) => {
     const [model, seconds, peak, silent, clipped] = found.subarray(5 * i) as unknown as number[];
     learned.voices[model!]!.recordings.push({
-      file: name, seconds: rounded(seconds!, 1e-3), sample_rate_hz: sound.rate, channels: sound.channels,
-      ...(sound.bits > 0 ? { bits: sound.bits } : {}), peak_db: rounded(peak!, 0.01),
-      silent_share: rounded(silent!, 1e-4), clipped_share: clipped!,
+      file: name,
+      seconds: rounded(seconds!, 1e-3),
+      sample_rate_hz: sound.rate,
+      channels: sound.channels,
+      ...(sound.bits > 0 ? { bits: sound.bits } : {}),
+      peak_db: rounded(peak!, 0.01),
+      silent_share: rounded(silent!, 1e-4),
+      clipped_share: clipped!,
     });
   });
   x.learn_destroy(learning);
@@ -110,6 +136,11 @@ self.onmessage = (event: MessageEvent<Lesson[]>) => {
     (error: unknown) => {
       module = undefined;
       const trap = error instanceof WebAssembly.RuntimeError;
-      self.postMessage({ wrong: trap ? "there is not enough memory to learn from all of this; give shorter recordings" : String(error instanceof Error ? error.message : error) });
-    });
+      self.postMessage({
+        wrong: trap
+          ? "there is not enough memory to learn from all of this; give shorter recordings"
+          : String(error instanceof Error ? error.message : error),
+      });
+    },
+  );
 };

@@ -17,7 +17,8 @@ interface Recording {
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const kUsualSpeeds = [50, 100, 200, 400];
-const kRecordS = 4, kWaitS = 1;
+const kRecordS = 4,
+  kWaitS = 1;
 
 const recordings: Recording[] = [];
 let picture: File | undefined;
@@ -31,7 +32,8 @@ function say(text: string, wrong = false): void {
 const words = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
 async function takePicture(file: File): Promise<void> {
-  if (file.type !== "image/png" && file.type !== "image/jpeg") throw new Error(`${file.name}: is neither PNG nor JPEG; convert it to one of them`);
+  if (file.type !== "image/png" && file.type !== "image/jpeg")
+    throw new Error(`${file.name}: is neither PNG nor JPEG; convert it to one of them`);
   try {
     (await createImageBitmap(file)).close();
   } catch {
@@ -48,8 +50,10 @@ function guessedSpeed(name: string): number {
 }
 
 function add(name: string, sound: Sound, speed = guessedSpeed(name)): void {
-  const item = document.createElement("li"), label = document.createElement("label");
-  const input = document.createElement("input"), away = document.createElement("button");
+  const item = document.createElement("li"),
+    label = document.createElement("label");
+  const input = document.createElement("input"),
+    away = document.createElement("button");
   input.type = "number";
   input.min = "1";
   input.max = "10000";
@@ -76,7 +80,12 @@ async function take(files: Iterable<File>): Promise<void> {
       if (file.type.startsWith("image/")) await takePicture(file);
       else {
         say(`reading ${file.name} ...`);
-        add(file.name, await readSound(file).catch((error: unknown) => { throw new Error(`${file.name}: ${words(error)}`); }));
+        add(
+          file.name,
+          await readSound(file).catch((error: unknown) => {
+            throw new Error(`${file.name}: ${words(error)}`);
+          }),
+        );
       }
     } catch (error) {
       wrong.push(words(error));
@@ -87,7 +96,9 @@ async function take(files: Iterable<File>): Promise<void> {
 }
 
 async function fromMicrophone(): Promise<void> {
-  const speed = Number(byId<HTMLInputElement>("make-speed").value), button = byId<HTMLButtonElement>("make-record"), pace = byId("make-pace");
+  const speed = Number(byId<HTMLInputElement>("make-speed").value),
+    button = byId<HTMLButtonElement>("make-record"),
+    pace = byId("make-pace");
   if (!(speed > 0)) return say("give the speed at which you are going to rub, in mm/s", true);
   button.disabled = true;
   pace.style.setProperty("--pace", `${100 / speed}s`);
@@ -120,13 +131,23 @@ function learn(lessons: Lesson[]): Promise<Answer> {
 /** A material file as `tribo learn` writes it. */
 function material(name: string, image: string, width: number, k: number, nu: number, learned: Learned): object {
   return {
-    schema: "tribo.material/1", name, stiffness_n_per_mm: k, viscosity_n_s_per_mm: nu, width_mm: width, image,
-    method: "yule-walker", highpass_hz: kHighpassHz, level_law: learned.level_law, voices: learned.voices,
+    schema: "tribo.material/1",
+    name,
+    stiffness_n_per_mm: k,
+    viscosity_n_s_per_mm: nu,
+    width_mm: width,
+    image,
+    method: "yule-walker",
+    highpass_hz: kHighpassHz,
+    level_law: learned.level_law,
+    voices: learned.voices,
   };
 }
 
-const kStiffness = 4, kViscosity = 0.3;
-const address = (content: object) => URL.createObjectURL(new Blob([JSON.stringify(content, null, 2), "\n"], { type: "application/json" }));
+const kStiffness = 4,
+  kViscosity = 0.3;
+const address = (content: object) =>
+  URL.createObjectURL(new Blob([JSON.stringify(content, null, 2), "\n"], { type: "application/json" }));
 
 async function make(show: Show, present: () => { stiffness: number; damping: number }): Promise<void> {
   if (picture === undefined) return say("choose a picture first: a PNG or a JPEG, seen from straight above", true);
@@ -137,18 +158,25 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
   submit.disabled = true;
   say("learning ...");
   try {
-    const image = picture, begin = performance.now();
-    const said = await learn(recordings.map(({ name, sound, speed }) => ({ name, sound, speed: Number(speed.value), force: 1 })));
+    const image = picture,
+      begin = performance.now();
+    const said = await learn(
+      recordings.map(({ name, sound, speed }) => ({ name, sound, speed: Number(speed.value), force: 1 })),
+    );
     if ("wrong" in said) return say(said.wrong, true);
     const name = byId<HTMLInputElement>("make-name").value.trim() || image.name.replace(/\.\w+$/, "");
-    const { learned } = said, count = learned.voices.length;
+    const { learned } = said,
+      count = learned.voices.length;
     show({ file: address(material(name, URL.createObjectURL(image), width, kStiffness, kViscosity, learned)), name });
-    say(`learned ${count} voice${count === 1 ? "" : "s"} of order ${learned.voices[0]!.reflection.length} in ${((performance.now() - begin) / 1000).toFixed(1)} s; ` +
-      `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${learned.warnings}`);
+    say(
+      `learned ${count} voice${count === 1 ? "" : "s"} of order ${learned.voices[0]!.reflection.length} in ${((performance.now() - begin) / 1000).toFixed(1)} s; ` +
+        `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${learned.warnings}`,
+    );
     const button = byId<HTMLButtonElement>("make-download");
     button.hidden = false;
     button.onclick = () => {
-      const link = document.createElement("a"), { stiffness, damping } = present();
+      const link = document.createElement("a"),
+        { stiffness, damping } = present();
       const digits = (value: number) => Number(value.toPrecision(3));
       link.href = address(material(name, image.name, width, digits(stiffness), digits(damping), learned));
       link.download = `${name}.json`;
@@ -164,7 +192,8 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
 
 /** Brings the form to life; `present` tells the stiffness and the viscosity that the page is set to. */
 export function start(show: Show, present: () => { stiffness: number; damping: number }): void {
-  const own = byId("own"), form = byId<HTMLFormElement>("make");
+  const own = byId("own"),
+    form = byId<HTMLFormElement>("make");
   for (const id of ["make-image", "make-sounds"]) {
     const input = byId<HTMLInputElement>(id);
     input.addEventListener("change", () => void take([...(input.files ?? [])]));

@@ -9,15 +9,22 @@ const kCapture = `registerProcessor("capture", class extends AudioWorkletProcess
 
 /** Waits `wait` seconds, in which hands find their place, then records; throws where there is no microphone. */
 export async function record(seconds: number, wait: number): Promise<Sound> {
-  if (navigator.mediaDevices === undefined) throw new Error("a page that is not secure may not use the microphone; open it by https");
+  if (navigator.mediaDevices === undefined)
+    throw new Error("a page that is not secure may not use the microphone; open it by https");
   const stream = await navigator.mediaDevices.getUserMedia({
     audio: { echoCancellation: false, noiseSuppression: false, autoGainControl: false },
   });
-  const context = new AudioContext(), blob = URL.createObjectURL(new Blob([kCapture], { type: "text/javascript" }));
+  const context = new AudioContext(),
+    blob = URL.createObjectURL(new Blob([kCapture], { type: "text/javascript" }));
   try {
     await context.audioWorklet.addModule(blob);
-    const node = new AudioWorkletNode(context, "capture", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
-    const skip = Math.round(wait * context.sampleRate), samples = new Float64Array(Math.round(seconds * context.sampleRate));
+    const node = new AudioWorkletNode(context, "capture", {
+      numberOfOutputs: 0,
+      channelCount: 1,
+      channelCountMode: "explicit",
+    });
+    const skip = Math.round(wait * context.sampleRate),
+      samples = new Float64Array(Math.round(seconds * context.sampleRate));
     let at = -skip;
     await new Promise<void>((full, fail) => {
       const late = setTimeout(() => fail(new Error("the microphone gives no sound")), 1000 * (wait + seconds) + 5000);

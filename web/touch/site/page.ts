@@ -11,13 +11,15 @@ interface Listed {
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const pictures = [byId<TriboTouch>("ours"), byId<TriboTouch>("published")];
-const stiffness = byId<HTMLInputElement>("stiffness"), damping = byId<HTMLInputElement>("damping");
+const stiffness = byId<HTMLInputElement>("stiffness"),
+  damping = byId<HTMLInputElement>("damping");
 
 /** Two digits, never as a power of ten. */
 const rounded = (value: number) => String(Number(value.toPrecision(2)));
 
 function show(): void {
-  const k = 10 ** Number(stiffness.value), nu = 10 ** Number(damping.value);
+  const k = 10 ** Number(stiffness.value),
+    nu = 10 ** Number(damping.value);
   byId("stiffness-value").textContent = `${k.toPrecision(3)} N/mm`;
   byId("damping-value").textContent = `${nu.toPrecision(3)} N s/mm`;
   byId("meaning").textContent =
@@ -58,7 +60,8 @@ function choose(material: Listed): void {
 
 /** One more choice among the materials. */
 function offer(material: Listed, chosen: boolean): void {
-  const label = document.createElement("label"), input = document.createElement("input");
+  const label = document.createElement("label"),
+    input = document.createElement("input");
   input.type = "radio";
   input.name = "material";
   input.checked = chosen;
@@ -70,7 +73,10 @@ function offer(material: Listed, chosen: boolean): void {
 
 async function learnHere(): Promise<void> {
   const { start: begin } = await import("./make.js");
-  begin(({ file, name }) => offer({ file, name, note: "made on this page" }, true), () => pictures[0]!);
+  begin(
+    ({ file, name }) => offer({ file, name, note: "made on this page" }, true),
+    () => pictures[0]!,
+  );
 }
 
 async function start(): Promise<void> {
@@ -80,7 +86,8 @@ async function start(): Promise<void> {
   byId("reset").addEventListener("click", own);
   document.addEventListener("contact-move", (event) => {
     const { depth_mm, force_n, speed_mm_per_s } = (event as CustomEvent<ContactDetail>).detail;
-    byId("measured").textContent = `${depth_mm.toFixed(2)} mm, ${force_n.toFixed(1)} N, ${speed_mm_per_s.toFixed(0)} mm/s`;
+    byId("measured").textContent =
+      `${depth_mm.toFixed(2)} mm, ${force_n.toFixed(1)} N, ${speed_mm_per_s.toFixed(0)} mm/s`;
   });
   const list = (await (await fetch("materials.json")).json()) as Listed[];
   list.forEach((material, i) => offer(material, i === 0));

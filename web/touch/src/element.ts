@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // <tribo-touch>: an image that yields under fingers and sounds when rubbed. docs/touch.md has the list of
 // attributes, properties, events, slots, parts and CSS properties; custom-elements.json has it for tools.
+import { AttributeElement } from "./attributes.js";
 import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
 import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
@@ -41,12 +42,18 @@ const kMostPixelRatio = 2;
 const kKeyboardStep = 0.02;
 const kNearPixels = 200;
 
-// On a server there are no elements; the class is never made there.
-const Base = typeof HTMLElement === "undefined" ? (class {} as typeof HTMLElement) : HTMLElement;
-
-export class TriboTouch extends Base {
+export class TriboTouch extends AttributeElement {
   static readonly observedAttributes = [
-    "src", "alt", "poster", "disabled", "muted", "sound", "stiffness", "damping", "stiffness-map", "as-published",
+    "src",
+    "alt",
+    "poster",
+    "disabled",
+    "muted",
+    "sound",
+    "stiffness",
+    "damping",
+    "stiffness-map",
+    "as-published",
     "touch-action",
   ];
 
@@ -72,48 +79,27 @@ export class TriboTouch extends Base {
   #lose = () => this.#contextLost();
   #hide = () => document.visibilityState === "hidden" && this.#liftAll();
 
-  // Properties that mirror attributes ---------------------------------------------------------------------------
-
-  get src(): string { return this.getAttribute("src") ?? ""; }
-  set src(value: string) { this.setAttribute("src", value); }
-  get alt(): string { return this.getAttribute("alt") ?? ""; }
-  set alt(value: string) { this.setAttribute("alt", value); }
-  get poster(): string { return this.getAttribute("poster") ?? ""; }
-  set poster(value: string) { this.setAttribute("poster", value); }
-  get loading(): string { return this.getAttribute("loading") ?? "auto"; }
-  set loading(value: string) { this.setAttribute("loading", value); }
-  get reveal(): string { return this.getAttribute("reveal") ?? "auto"; }
-  set reveal(value: string) { this.setAttribute("reveal", value); }
-  get disabled(): boolean { return this.hasAttribute("disabled"); }
-  set disabled(value: boolean) { this.toggleAttribute("disabled", value); }
-  get muted(): boolean { return this.hasAttribute("muted"); }
-  set muted(value: boolean) { this.toggleAttribute("muted", value); }
-  get asPublished(): boolean { return this.hasAttribute("as-published"); }
-  set asPublished(value: boolean) { this.toggleAttribute("as-published", value); }
-  /** K in N/mm: the attribute, or the material's. */
-  get stiffness(): number { return this.#number("stiffness", 1e-3) ?? this.#material?.stiffness_n_per_mm ?? Number.NaN; }
-  set stiffness(value: number) { this.setAttribute("stiffness", String(value)); }
-  /** nu in N s/mm: the attribute, or the material's. */
-  get damping(): number { return this.#number("damping", 0) ?? this.#material?.viscosity_n_s_per_mm ?? Number.NaN; }
-  set damping(value: number) { this.setAttribute("damping", String(value)); }
-
-  get state(): State { return this.#state; }
-  get loaded(): boolean { return this.#state === "ready" || this.#state === "plain"; }
-  get material(): Material | undefined { return this.#material; }
+  get state(): State {
+    return this.#state;
+  }
+  get loaded(): boolean {
+    return this.#state === "ready" || this.#state === "plain";
+  }
+  get material(): Material | undefined {
+    return this.#material;
+  }
   /** Seconds from the worklet to the ear, as far as the system says. */
-  get audioLatency(): number { return this.#voice?.latency ?? 0; }
-
-  #number(name: string, least: number): number | undefined {
-    const value = Number(this.getAttribute(name) ?? Number.NaN);
-    return value >= least && value <= 1e6 ? value : undefined;
+  get audioLatency(): number {
+    return this.#voice?.latency ?? 0;
   }
 
   // Life --------------------------------------------------------------------------------------------------------
 
   connectedCallback(): void {
     this.#parts ??= this.#build();
-    this.#inView = new IntersectionObserver((entries) => this.#seen(entries[entries.length - 1]!.isIntersecting),
-      { rootMargin: `${kNearPixels}px` });
+    this.#inView = new IntersectionObserver((entries) => this.#seen(entries[entries.length - 1]!.isIntersecting), {
+      rootMargin: `${kNearPixels}px`,
+    });
     this.#inView.observe(this);
     this.#sized = new ResizeObserver(() => this.#resize());
     this.#sized.observe(this.#parts.surface);
@@ -125,8 +111,13 @@ export class TriboTouch extends Base {
   /** In view or nearly, without waiting for a frame that tells. */
   #near(): boolean {
     const box = this.getBoundingClientRect();
-    return box.width > 0 && box.top < window.innerHeight + kNearPixels && box.bottom > -kNearPixels &&
-      box.left < window.innerWidth + kNearPixels && box.right > -kNearPixels;
+    return (
+      box.width > 0 &&
+      box.top < window.innerHeight + kNearPixels &&
+      box.bottom > -kNearPixels &&
+      box.left < window.innerWidth + kNearPixels &&
+      box.right > -kNearPixels
+    );
   }
 
   disconnectedCallback(): void {
@@ -171,7 +162,10 @@ export class TriboTouch extends Base {
     surface.addEventListener("contextmenu", (event) => this.#fingers.size > 0 && event.preventDefault());
     surface.addEventListener("keydown", (event) => this.#key(event));
     surface.addEventListener("focus", () => this.#showProbe(surface.matches(":focus-visible")));
-    surface.addEventListener("blur", () => { this.#keyUp(); this.#showProbe(false); });
+    surface.addEventListener("blur", () => {
+      this.#keyUp();
+      this.#showProbe(false);
+    });
     return parts;
   }
 
@@ -235,7 +229,8 @@ export class TriboTouch extends Base {
       await decoded;
       if (stale()) return;
     } catch (error) {
-      if (!stale()) this.#end("failed", "image", error instanceof Error ? `${this.#material.image}: ${error.message}` : error);
+      if (!stale())
+        this.#end("failed", "image", error instanceof Error ? `${this.#material.image}: ${error.message}` : error);
       return;
     }
     let kind: TriboErrorDetail["type"] = "wasm";
@@ -274,7 +269,8 @@ export class TriboTouch extends Base {
 
   /** Finds the small relief in the image, or in a map of its heights. */
   async #relieve(address: string, rmsSlope: number): Promise<void> {
-    const picture = this.#picture, made = await engine();
+    const picture = this.#picture,
+      made = await engine();
     if (picture?.finish === undefined) return;
     picture.relief = await smallRelief(picture, address, rmsSlope, made);
     this.#renderer?.relieve(picture);
@@ -302,7 +298,8 @@ export class TriboTouch extends Base {
   }
 
   async #loadMap(): Promise<void> {
-    const address = this.getAttribute("stiffness-map"), sheet = this.#sheet;
+    const address = this.getAttribute("stiffness-map"),
+      sheet = this.#sheet;
     if (address === null || sheet === undefined) return;
     const levels = await stiffnessLevels(new URL(address, document.baseURI).href, sheet);
     if (sheet === this.#sheet) sheet.setMaterials(levels, stiffnessPalette(this.stiffness, this.damping));
@@ -385,7 +382,8 @@ export class TriboTouch extends Base {
 
   /** Called by the page's animation loop. */
   frame(now: number, seconds: number): boolean {
-    const sheet = this.#sheet, picture = this.#picture;
+    const sheet = this.#sheet,
+      picture = this.#picture;
     if (sheet === undefined || picture === undefined || this.#context === null || this.#renderer!.lost) return false;
     const contacts = [...this.#fingers.values()].map((finger) => finger.contact(now));
     sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point");
@@ -402,7 +400,10 @@ export class TriboTouch extends Base {
   }
 
   #sound(now: number, seconds: number): void {
-    let speed = 0, force = 0, u = 0.5, v = 0.5;
+    let speed = 0,
+      force = 0,
+      u = 0.5,
+      v = 0.5;
     for (const finger of this.#fingers.values()) {
       if (finger.speed(now) < speed) continue;
       speed = finger.speed(now);
@@ -422,9 +423,12 @@ export class TriboTouch extends Base {
   }
 
   #tell(type: string, id: number, finger: Finger, timeStamp: number): void {
-    const now = timeStamp / 1000, [u, v] = this.#place(finger);
+    const now = timeStamp / 1000,
+      [u, v] = this.#place(finger);
     const detail: ContactDetail = {
-      u, v, timeStamp,
+      u,
+      v,
+      timeStamp,
       depth_mm: this.#sheet?.depthAt(finger.x, finger.y) ?? 0,
       force_n: finger.force(now),
       area_mm2: finger.area,
@@ -478,7 +482,8 @@ export class TriboTouch extends Base {
     if (finger === undefined || this.#picture === undefined) return;
     const reports = event.getCoalescedEvents?.() ?? [];
     const ahead = event.getPredictedEvents?.().at(-1);
-    for (const one of reports.length > 0 ? reports : [event]) finger.move(this.#report(one), ahead && this.#report(ahead));
+    for (const one of reports.length > 0 ? reports : [event])
+      finger.move(this.#report(one), ahead && this.#report(ahead));
   }
 
   #lift(id: number, timeStamp: number): void {
@@ -493,7 +498,8 @@ export class TriboTouch extends Base {
 
   #liftAll(): void {
     this.#keyUp();
-    for (const id of [...this.#fingers.keys()]) this.#lift(id, performance.now());
+    const ids = [...this.#fingers.keys()];
+    for (const id of ids) this.#lift(id, performance.now());
   }
 
   // The keyboard's finger, number -1 ----------------------------------------------------------------------------
@@ -509,8 +515,12 @@ export class TriboTouch extends Base {
   #probeReport(): FingerReport {
     const { nodesX, nodesY, spacingMm } = this.#picture!;
     return {
-      x: this.#probe.u * nodesX * spacingMm, y: this.#probe.v * nodesY * spacingMm,
-      width: 0, height: 0, pressure: Number.NaN, time: performance.now() / 1000,
+      x: this.#probe.u * nodesX * spacingMm,
+      y: this.#probe.v * nodesY * spacingMm,
+      width: 0,
+      height: 0,
+      pressure: Number.NaN,
+      time: performance.now() / 1000,
     };
   }
 
@@ -529,7 +539,10 @@ export class TriboTouch extends Base {
     if (this.#picture === undefined || this.disabled || event.ctrlKey || event.altKey || event.metaKey) return;
     const probe = this.#probe;
     const moves: Record<string, [number, number]> = {
-      ArrowLeft: [-kKeyboardStep, 0], ArrowRight: [kKeyboardStep, 0], ArrowUp: [0, -kKeyboardStep], ArrowDown: [0, kKeyboardStep],
+      ArrowLeft: [-kKeyboardStep, 0],
+      ArrowRight: [kKeyboardStep, 0],
+      ArrowUp: [0, -kKeyboardStep],
+      ArrowDown: [0, kKeyboardStep],
     };
     const move = moves[event.key];
     if (move !== undefined) {

@@ -54,8 +54,9 @@ export class Sheet {
 
   /** Levels: a byte a node; palette: stiffness and viscosity of each level. */
   setMaterials(levels: Uint8Array, palette: Float64Array): void {
-    lend(this.#x, levels, (levelsAt) => lend(this.#x, palette, (paletteAt) =>
-      this.#x.sheet_set_materials(this.#handle, levelsAt, paletteAt)));
+    lend(this.#x, levels, (levelsAt) =>
+      lend(this.#x, palette, (paletteAt) => this.#x.sheet_set_materials(this.#handle, levelsAt, paletteAt)),
+    );
   }
 
   press(contacts: Contact[], published: boolean, point = false): void {
@@ -81,7 +82,11 @@ export class Sheet {
   changes(): Changes | null {
     const at = this.#x.sheet_changes(this.#handle);
     const [x, y, width, height] = new Int32Array(this.#x.memory.buffer, at, 4) as unknown as [
-      number, number, number, number];
+      number,
+      number,
+      number,
+      number,
+    ];
     if (width === 0) return null;
     return { x, y, width, height, ...this.#values(x, y, height) };
   }

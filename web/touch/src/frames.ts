@@ -14,7 +14,9 @@ const kLongestWaitMs = 200;
 
 function tick(milliseconds: number): void {
   const now = milliseconds / 1000;
-  for (const [element, last] of [...running]) {
+  // One that is added meanwhile waits for the next frame.
+  const before = [...running];
+  for (const [element, last] of before) {
     if (!running.has(element)) continue;
     const seconds = last < 0 ? 1 / 60 : Math.min(kLongestFrameS, Math.max(0, now - last));
     running.set(element, now);
@@ -34,9 +36,11 @@ export function stop(element: Animated): void {
 
 /** After the next frame, once the page is idle or has not been for a while. */
 export function whenIdle(work: () => void): void {
-  requestAnimationFrame(() => setTimeout(() => {
-    // Not every browser tells when it is idle.
-    if (typeof requestIdleCallback === "function") requestIdleCallback(work, { timeout: kLongestWaitMs });
-    else setTimeout(work, kLongestWaitMs);
-  }));
+  requestAnimationFrame(() =>
+    setTimeout(() => {
+      // Not every browser tells when it is idle.
+      if (typeof requestIdleCallback === "function") requestIdleCallback(work, { timeout: kLongestWaitMs });
+      else setTimeout(work, kLongestWaitMs);
+    }),
+  );
 }

@@ -15,13 +15,20 @@ async function fetched(address: string): Promise<HTMLImageElement> {
 }
 
 /** The small relief of a picture, by its own image or, where `address` is not "", by a map of its heights. */
-export async function smallRelief({ image, nodesX, nodesY }: Picture, address: string, rmsSlope: number, engine: Engine): Promise<ImageData> {
+export async function smallRelief(
+  { image, nodesX, nodesY }: Picture,
+  address: string,
+  rmsSlope: number,
+  engine: Engine,
+): Promise<ImageData> {
   let from = image;
   if (address !== "") {
     from = await fetched(address);
     if (from.naturalWidth !== image.naturalWidth || from.naturalHeight !== image.naturalHeight) {
-      throw new Error(`${address}: the height map has ${from.naturalWidth} x ${from.naturalHeight} pixels; ` +
-        `give one of ${image.naturalWidth} x ${image.naturalHeight}, as the image`);
+      throw new Error(
+        `${address}: the height map has ${from.naturalWidth} x ${from.naturalHeight} pixels; ` +
+          `give one of ${image.naturalWidth} x ${image.naturalHeight}, as the image`,
+      );
     }
   }
   const pixels = pixelsOf(from, nodesX, nodesY);
@@ -37,5 +44,7 @@ export async function stiffnessLevels(address: string, sheet: Sheet): Promise<Ui
 
 /** K and nu of each grey: white has the material's stiffness, black eight times as much. */
 export function stiffnessPalette(stiffness: number, damping: number): Float64Array {
-  return Float64Array.from({ length: 512 }, (_, n) => (n % 2 === 0 ? stiffness * kStrongestFactor ** (1 - n / 510) : damping));
+  return Float64Array.from({ length: 512 }, (_, n) =>
+    n % 2 === 0 ? stiffness * kStrongestFactor ** (1 - n / 510) : damping,
+  );
 }

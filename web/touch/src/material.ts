@@ -72,12 +72,13 @@ function list(from: Record<string, unknown>, key: string, most: number, absent?:
   if (!Array.isArray(values) || values.length > most || !values.every((v) => typeof v === "number")) {
     fail(key, `is not a list of up to ${most} numbers`);
   }
-  return values as number[];
+  return values;
 }
 
 function texture(value: unknown): Texture | undefined {
   if (value === undefined) return undefined;
-  const from = record(value, "texture"), grains = record(from["grains"] ?? {}, "grains");
+  const from = record(value, "texture"),
+    grains = record(from["grains"] ?? {}, "grains");
   const levels = from["levels_db"];
   if (!Array.isArray(levels) || levels.length > 8) fail("levels_db", "is not a list of up to 8 tables");
   const crossovers = list(from, "crossovers_hz", 7);
@@ -137,7 +138,8 @@ export function parseMaterial(json: unknown, base: string): Material {
       db_per_decade_force: number(fixed, "db_per_decade_force", -200, 200, law.db_per_decade_force),
     };
   }
-  const image = text(from, "image"), heightMap = text(from, "height_map");
+  const image = text(from, "image"),
+    heightMap = text(from, "height_map");
   if (heightMap !== "" && image === "") fail("height_map", "is given without an image");
   return {
     name: text(from, "name"),
@@ -163,7 +165,14 @@ export function voiceNumbers(m: Material): Float64Array {
     const t = v.texture;
     numbers.push(t?.levels_db.length ?? 0);
     if (t === undefined) continue;
-    numbers.push(...t.crossovers_hz, ...t.levels_db.flat(), t.coherence, t.lengths_mm.length, ...t.lengths_mm, ...t.weights);
+    numbers.push(
+      ...t.crossovers_hz,
+      ...t.levels_db.flat(),
+      t.coherence,
+      t.lengths_mm.length,
+      ...t.lengths_mm,
+      ...t.weights,
+    );
     const { per_mm, share, scatter, sizes, shape } = t.grains;
     numbers.push(per_mm, share, scatter, sizes.length, ...sizes, shape.length, ...shape);
   }

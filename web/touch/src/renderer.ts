@@ -45,7 +45,11 @@ export class Renderer extends EventTarget {
   constructor() {
     super();
     const gl = this.canvas.getContext("webgl2", {
-      alpha: true, antialias: false, depth: false, stencil: false, powerPreference: "low-power",
+      alpha: true,
+      antialias: false,
+      depth: false,
+      stencil: false,
+      powerPreference: "low-power",
     });
     if (gl === null) throw new Error("WebGL2 is not available");
     this.#gl = gl;
@@ -74,7 +78,7 @@ export class Renderer extends EventTarget {
     const gl = this.#gl;
     this.#floatHeights = gl.getExtension("OES_texture_float_linear") !== null;
     this.#largest = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
-    const program = gl.createProgram()!;
+    const program = gl.createProgram();
     gl.attachShader(program, shader(gl, gl.VERTEX_SHADER, kVertex));
     gl.attachShader(program, shader(gl, gl.FRAGMENT_SHADER, kFragment));
     gl.linkProgram(program);
@@ -92,7 +96,9 @@ export class Renderer extends EventTarget {
   add(picture: Picture): void {
     const gl = this.#gl;
     if (this.lost || this.#textures.has(picture)) return;
-    const image = gl.createTexture()!, heights = gl.createTexture()!, relief = gl.createTexture()!;
+    const image = gl.createTexture(),
+      heights = gl.createTexture(),
+      relief = gl.createTexture();
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, image);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, this.#fitting(picture.image));
@@ -114,7 +120,14 @@ export class Renderer extends EventTarget {
     const gl = this.#gl;
     gl.activeTexture(gl.TEXTURE2);
     gl.bindTexture(gl.TEXTURE_2D, textures.relief);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG8, gl.RG, gl.UNSIGNED_BYTE, picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1));
+    gl.texImage2D(
+      gl.TEXTURE_2D,
+      0,
+      gl.RG8,
+      gl.RG,
+      gl.UNSIGNED_BYTE,
+      picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1),
+    );
     gl.generateMipmap(gl.TEXTURE_2D);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     this.#clamp();
@@ -155,8 +168,17 @@ export class Renderer extends EventTarget {
     gl.activeTexture(gl.TEXTURE1);
     gl.bindTexture(gl.TEXTURE_2D, textures.heights);
     gl.pixelStorei(gl.UNPACK_ROW_LENGTH, changes.stride);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, changes.x, changes.y, changes.width, changes.height, gl.RED, gl.FLOAT,
-      changes.values);
+    gl.texSubImage2D(
+      gl.TEXTURE_2D,
+      0,
+      changes.x,
+      changes.y,
+      changes.width,
+      changes.height,
+      gl.RED,
+      gl.FLOAT,
+      changes.values,
+    );
     gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
   }
 
@@ -164,7 +186,8 @@ export class Renderer extends EventTarget {
   draw(picture: Picture, to: CanvasRenderingContext2D, parallax: boolean): boolean {
     const textures = this.#textures.get(picture);
     if (textures === undefined) return false;
-    const gl = this.#gl, { width, height } = to.canvas;
+    const gl = this.#gl,
+      { width, height } = to.canvas;
     if (this.canvas.width < width || this.canvas.height < height) {
       this.canvas.width = Math.max(this.canvas.width, width);
       this.canvas.height = Math.max(this.canvas.height, height);
@@ -176,7 +199,8 @@ export class Renderer extends EventTarget {
     gl.bindTexture(gl.TEXTURE_2D, textures.heights);
     gl.activeTexture(gl.TEXTURE2);
     gl.bindTexture(gl.TEXTURE_2D, textures.relief);
-    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 }, power = 2 / roughness ** 2 - 2;
+    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 },
+      power = 2 / roughness ** 2 - 2;
     gl.uniform2f(this.#uniforms.gloss, power, (gloss * (power + 2)) / 8);
     const longer = Math.max(picture.nodesX, picture.nodesY);
     gl.uniform2f(this.#uniforms.extent, picture.nodesX / longer, picture.nodesY / longer);

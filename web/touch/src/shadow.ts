@@ -26,8 +26,7 @@ canvas { position: absolute; inset: 0; height: 100%; visibility: hidden; }
 const kHelp =
   "Arrow keys move the finger, Space or Enter presses and lifts it, plus and minus make it firmer and softer, Escape lifts it.";
 
-function make<K extends keyof HTMLElementTagNameMap>(
-  tag: K, part: string, parent: Node): HTMLElementTagNameMap[K] {
+function make<K extends keyof HTMLElementTagNameMap>(tag: K, part: string, parent: Node): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   if (part !== "") element.setAttribute("part", part);
   parent.appendChild(element);

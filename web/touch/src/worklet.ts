@@ -44,7 +44,8 @@ class Friction extends AudioWorkletProcessor {
       if (playing !== undefined) this.#x.voice_destroy(playing.voice);
       const { numbers } = message;
       const voice = lend(this.#x, numbers, (at) =>
-        this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published)));
+        this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published)),
+      );
       if (voice === 0) return;
       this.#voices.set(message.id, { voice, moving: false, tail: 0, pan: 0, panTarget: 0, gain: 1, gainTarget: 1 });
     } else if (playing !== undefined && message.kind === "target") {
@@ -64,7 +65,8 @@ class Friction extends AudioWorkletProcessor {
   }
 
   process(_inputs: Float32Array[][], outputs: Float32Array[][]): boolean {
-    const left = outputs[0]?.[0], right = outputs[0]?.[1] ?? left;
+    const left = outputs[0]?.[0],
+      right = outputs[0]?.[1] ?? left;
     if (left === undefined || right === undefined) return true;
     const frames = Math.min(left.length, kMostFrames);
     for (const p of this.#voices.values()) {
@@ -73,14 +75,16 @@ class Friction extends AudioWorkletProcessor {
       if (!p.moving) --p.tail;
       this.#x.voice_render(p.voice, this.#out, frames);
       const mono = floatsAt(this.#x, this.#out, frames);
-      const panStep = (p.panTarget - p.pan) / frames, gainStep = (p.gainTarget - p.gain) / frames;
+      const panStep = (p.panTarget - p.pan) / frames,
+        gainStep = (p.gainTarget - p.gain) / frames;
       for (let i = 0; i < frames; ++i) {
         p.pan += panStep;
         p.gain += gainStep;
         // Constant power, 1 on both sides in the middle.
-        const sample = mono[i]! * p.gain, angle = (p.pan + 1) * 0.7853981633974483;
-        left[i] = left[i]! + sample * 1.4142135623730951 * Math.cos(angle);
-        right[i] = right[i]! + sample * 1.4142135623730951 * Math.sin(angle);
+        const sample = mono[i]! * p.gain,
+          angle = ((p.pan + 1) * Math.PI) / 4;
+        left[i] = left[i]! + sample * Math.SQRT2 * Math.cos(angle);
+        right[i] = right[i]! + sample * Math.SQRT2 * Math.sin(angle);
       }
     }
     return true;

@@ -31,8 +31,13 @@ declare global {
 const kTag = '<tribo-touch id="t" src="sponge.json" alt="Yellow sponge" style="width:256px"></tribo-touch>';
 const kScript = '<script type="module" src="/dist/tribo-touch.js"></script>';
 /** The prototypes of browsers as a test changes them: one signature in place of many. */
-interface AnyCanvas { getContext(kind: string, ...rest: unknown[]): unknown }
-interface AnyNode { context: AudioContext; connect(to: AudioNode, ...rest: unknown[]): AudioNode }
+interface AnyCanvas {
+  getContext(kind: string, ...rest: unknown[]): unknown;
+}
+interface AnyNode {
+  context: AudioContext;
+  connect(to: AudioNode, ...rest: unknown[]): AudioNode;
+}
 
 const kPatience = { timeout: 20_000 };
 let site: Site, browser: Browser, context: BrowserContext | undefined;
@@ -61,36 +66,49 @@ async function open(body: string, options: BrowserContextOptions & { before?: ()
   errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   if (before !== undefined) await page.addInitScript(before);
-  site.page("/", `<script>window.log = [];
+  site.page(
+    "/",
+    `<script>window.log = [];
     for (const n of ["load", "error", "poster-dismissed", "contact-start", "contact-move", "contact-end"])
       document.addEventListener(n, (e) => e.target.localName === "tribo-touch" && log.push({ n, ...(e.detail ?? {}) }), true);
-    </script>${kScript}${body}`);
+    </script>${kScript}${body}`,
+  );
   await page.goto(`${site.root}/`);
   return page;
 }
 const settled = (page: Page) => page.waitForFunction(() => ["ready", "plain", "failed"].includes(window.t.state));
 const log = (page: Page, name: string) => page.evaluate((n) => window.log.filter((e) => e.n === n), name);
-const heap = (page: Page) => page.evaluate(() => {
-  const { gc, performance } = window as unknown as { gc?(): void; performance: { memory: { usedJSHeapSize: number } } };
-  gc?.();
-  return performance.memory.usedJSHeapSize;
-});
+const heap = (page: Page) =>
+  page.evaluate(() => {
+    const { gc, performance } = window as unknown as {
+      gc?(): void;
+      performance: { memory: { usedJSHeapSize: number } };
+    };
+    gc?.();
+    return performance.memory.usedJSHeapSize;
+  });
 /** How many pixels of #t's canvas differ from what they were at the first call. */
-const changed = (page: Page) => page.evaluate(() => {
-  const canvas = window.t.shadowRoot!.querySelector("canvas")!;
-  const now = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data;
-  window.flat ??= now.slice();
-  let count = 0;
-  for (let i = 0; i < now.length; i += 4) if (Math.abs(now[i]! - window.flat[i]!) > 6) ++count;
-  return count;
-});
-const frames = (page: Page, count: number) => page.evaluate((n) => new Promise<void>((done) => {
-  const next = () => {
-    if (n-- > 0) requestAnimationFrame(next);
-    else done();
-  };
-  next();
-}), count);
+const changed = (page: Page) =>
+  page.evaluate(() => {
+    const canvas = window.t.shadowRoot!.querySelector("canvas")!;
+    const now = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data;
+    window.flat ??= now.slice();
+    let count = 0;
+    for (let i = 0; i < now.length; i += 4) if (Math.abs(now[i]! - window.flat[i]!) > 6) ++count;
+    return count;
+  });
+const frames = (page: Page, count: number) =>
+  page.evaluate(
+    (n) =>
+      new Promise<void>((done) => {
+        const next = () => {
+          if (n-- > 0) requestAnimationFrame(next);
+          else done();
+        };
+        next();
+      }),
+    count,
+  );
 
 describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("yields under a finger, tells of it, and comes to rest", async () => {
@@ -125,19 +143,27 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
       await hand.touch([{ x: 50, y: 50, force: 0.6 }]);
       await page.waitForFunction(() => window.log.some((e) => e.n === "contact-move" && e.depth_mm > 1));
       const differs = await page.evaluate(() => {
-        const canvas = window.t.shadowRoot!.querySelector("canvas")!, { data } = canvas.getContext("2d")!.getImageData(20, 20, 56, 56);
+        const canvas = window.t.shadowRoot!.querySelector("canvas")!,
+          { data } = canvas.getContext("2d")!.getImageData(20, 20, 56, 56);
         let sum = 0;
         for (let i = 4; i < data.length; i += 4) if ((i / 4) % 56 > 0) sum += Math.abs(data[i]! - data[i - 4]!);
         return sum / (56 * 55);
       });
-      const errors = await log(page, "error");
+      const told = await log(page, "error");
       await page.context().close();
-      return { differs, errors };
+      return { differs, errors: told };
     };
-    const plain = await grain("plain.json"), mapped = await grain("mapped.json"), wrong = await grain("mismapped.json");
+    const plain = await grain("plain.json"),
+      mapped = await grain("mapped.json"),
+      wrong = await grain("mismapped.json");
     expect([plain.errors, mapped.errors]).toEqual([[], []]);
     expect(mapped.differs).toBeGreaterThan(2 * plain.differs);
-    expect(wrong.errors[0]).toMatchObject({ type: "image", message: expect.stringContaining("ridges.png: the height map has 96 x 96 pixels; give one of 256 x 192, as the image") });
+    expect(wrong.errors[0]).toMatchObject({
+      type: "image",
+      message: expect.stringContaining(
+        "ridges.png: the height map has 96 x 96 pixels; give one of 256 x 192, as the image",
+      ),
+    });
   });
 
   test("takes five fingers at once, a rub, a cancel and a mouse", async () => {
@@ -187,18 +213,28 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("follows a change of size and of attributes", async () => {
     const page = await open(kTag);
     await settled(page);
-    await page.evaluate(() => { window.t.style.width = "128px"; });
+    await page.evaluate(() => {
+      window.t.style.width = "128px";
+    });
     await page.waitForFunction(() => window.t.shadowRoot!.querySelector("canvas")!.width === 128);
     await page.setViewportSize({ width: 200, height: 400 });
-    await page.evaluate(() => { window.t.stiffness = 7; window.t.damping = 0.3; });
+    await page.evaluate(() => {
+      window.t.stiffness = 7;
+      window.t.damping = 0.3;
+    });
     expect(await page.evaluate(() => [window.t.stiffness, window.t.damping])).toEqual([7, 0.3]);
-    await page.evaluate(() => { window.t.disabled = true; });
+    await page.evaluate(() => {
+      window.t.disabled = true;
+    });
     const hand = await fingers(page);
     await hand.touch([{ x: 50, y: 50 }]);
     await frames(page, 3);
     expect(await log(page, "contact-start")).toHaveLength(0);
     await hand.touch([]);
-    await page.evaluate(() => { window.t.disabled = false; window.t.asPublished = true; });
+    await page.evaluate(() => {
+      window.t.disabled = false;
+      window.t.asPublished = true;
+    });
     await settled(page);
     await hand.touch([{ x: 50, y: 50 }]);
     await page.waitForFunction(() => window.log.some((e) => e.n === "contact-move" && e.depth_mm > 0.03));
@@ -209,11 +245,17 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("is shaded but does not shift where less motion is asked for", async () => {
     // The uniform that shifts the picture, as the shader gets it.
     const shifts = async (reducedMotion: "reduce" | "no-preference") => {
-      const page = await open(kTag, { reducedMotion, before: () => {
-        const set = WebGL2RenderingContext.prototype.uniform1f;
-        window.set = [];
-        WebGL2RenderingContext.prototype.uniform1f = function (at, value) { window.set.push(value); return set.call(this, at, value); };
-      } });
+      const page = await open(kTag, {
+        reducedMotion,
+        before: () => {
+          const set = WebGL2RenderingContext.prototype.uniform1f;
+          window.set = [];
+          WebGL2RenderingContext.prototype.uniform1f = function (at, value) {
+            window.set.push(value);
+            return set.call(this, at, value);
+          };
+        },
+      });
       await settled(page);
       await frames(page, 2);
       const last = await page.evaluate(() => window.set.at(-1));
@@ -249,29 +291,43 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const page = await open(`<div style="height:3000px"></div>${kTag.replace("id=", 'poster="plain.png" id=')}`);
     await page.waitForTimeout(300);
     expect(await page.evaluate(() => window.t.state)).toBe("idle");
-    expect(await page.evaluate(() => window.t.shadowRoot!.querySelector<HTMLElement>("[part=poster]")!.hidden)).toBe(false);
+    expect(await page.evaluate(() => window.t.shadowRoot!.querySelector<HTMLElement>("[part=poster]")!.hidden)).toBe(
+      false,
+    );
     await page.evaluate(() => window.t.scrollIntoView());
     await settled(page);
-    expect(await page.evaluate(() => window.t.shadowRoot!.querySelector<HTMLElement>("[part=poster]")!.hidden)).toBe(true);
+    expect(await page.evaluate(() => window.t.shadowRoot!.querySelector<HTMLElement>("[part=poster]")!.hidden)).toBe(
+      true,
+    );
     expect((await log(page, "load")).length).toBe(1);
   });
 
   test("twenty elements share one context and one worklet", async () => {
-    const many = Array.from({ length: 20 }, (_, i) => kTag.replace('id="t"', `id="t${i}" loading="eager"`).replace("256px", "60px"));
+    const many = Array.from({ length: 20 }, (_, i) =>
+      kTag.replace('id="t"', `id="t${i}" loading="eager"`).replace("256px", "60px"),
+    );
     const page = await open(`<div style="display:flex;flex-wrap:wrap">${many.join("")}</div>`, {
       before: () => {
         window.contexts = 0;
-        const canvas = HTMLCanvasElement.prototype as AnyCanvas, get = canvas.getContext;
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
+          get = canvas.getContext;
         canvas.getContext = function (kind, ...rest) {
           if (kind === "webgl2") ++window.contexts;
           return get.call(this, kind, ...rest);
         };
         const Real = AudioWorkletNode;
         window.nodes = 0;
-        window.AudioWorkletNode = class extends Real { constructor(...args: ConstructorParameters<typeof AudioWorkletNode>) { super(...args); ++window.nodes; } };
+        window.AudioWorkletNode = class extends Real {
+          constructor(...args: ConstructorParameters<typeof AudioWorkletNode>) {
+            super(...args);
+            ++window.nodes;
+          }
+        };
       },
     });
-    await page.waitForFunction(() => [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"));
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"),
+    );
     await page.waitForFunction(() => window.nodes > 0);
     expect(await page.evaluate(() => [window.contexts, window.nodes])).toEqual([1, 1]);
     expect(site.requests.filter((path) => path === "/dist/touch.wasm").length).toBeGreaterThan(0);
@@ -279,31 +335,53 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   });
 
   test("200 times added and removed leave nothing behind", async () => {
-    const page = await open(kTag.replace("sponge.json", "plain.json"), { before: () => {
-      window.made = { webgl: 0, audio: 0, worklets: 0, textures: 0 };
-      const canvas = HTMLCanvasElement.prototype as AnyCanvas, { getContext } = canvas, { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
-      canvas.getContext = function (kind, ...rest) {
-        if (kind === "webgl2") ++window.made.webgl;
-        return getContext.call(this, kind, ...rest);
-      };
-      WebGL2RenderingContext.prototype.createTexture = function () { ++window.made.textures; return createTexture.call(this); };
-      WebGL2RenderingContext.prototype.deleteTexture = function (t) { --window.made.textures; return deleteTexture.call(this, t); };
-      window.AudioContext = class extends AudioContext { constructor(options?: AudioContextOptions) { super(options); ++window.made.audio; } };
-      window.AudioWorkletNode = class extends AudioWorkletNode { constructor(...rest: ConstructorParameters<typeof AudioWorkletNode>) { super(...rest); ++window.made.worklets; } };
-    } });
+    const page = await open(kTag.replace("sponge.json", "plain.json"), {
+      before: () => {
+        window.made = { webgl: 0, audio: 0, worklets: 0, textures: 0 };
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
+          { getContext } = canvas,
+          { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
+        canvas.getContext = function (kind, ...rest) {
+          if (kind === "webgl2") ++window.made.webgl;
+          return getContext.call(this, kind, ...rest);
+        };
+        WebGL2RenderingContext.prototype.createTexture = function () {
+          ++window.made.textures;
+          return createTexture.call(this);
+        };
+        WebGL2RenderingContext.prototype.deleteTexture = function (t) {
+          --window.made.textures;
+          return deleteTexture.call(this, t);
+        };
+        window.AudioContext = class extends AudioContext {
+          constructor(options?: AudioContextOptions) {
+            super(options);
+            ++window.made.audio;
+          }
+        };
+        window.AudioWorkletNode = class extends AudioWorkletNode {
+          constructor(...rest: ConstructorParameters<typeof AudioWorkletNode>) {
+            super(...rest);
+            ++window.made.worklets;
+          }
+        };
+      },
+    });
     await settled(page);
-    const cycle = (count: number) => page.evaluate(async (n) => {
-      for (let i = 0; i < n; ++i) {
-        const element = document.createElement("tribo-touch") as TriboTouch;
-        // Every other one has a voice.
-        element.src = i % 2 === 0 ? "plain.json" : "sponge.json";
-        element.loading = "eager";
-        element.style.width = "64px";
-        document.body.append(element);
-        if (element.state !== "ready") await new Promise((done) => element.addEventListener("load", done, { once: true }));
-        element.remove();
-      }
-    }, count);
+    const cycle = (count: number) =>
+      page.evaluate(async (n) => {
+        for (let i = 0; i < n; ++i) {
+          const element = document.createElement("tribo-touch") as TriboTouch;
+          // Every other one has a voice.
+          element.src = i % 2 === 0 ? "plain.json" : "sponge.json";
+          element.loading = "eager";
+          element.style.width = "64px";
+          document.body.append(element);
+          if (element.state !== "ready")
+            await new Promise((done) => element.addEventListener("load", done, { once: true }));
+          element.remove();
+        }
+      }, count);
     await cycle(20);
     const before = await heap(page);
     await cycle(200);
@@ -319,19 +397,26 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   });
 
   test("draws again after the context was lost", async () => {
-    const page = await open(kTag, { before: () => {
-      const canvas = HTMLCanvasElement.prototype as AnyCanvas, get = canvas.getContext;
-      canvas.getContext = function (kind, ...rest) {
-        const made = get.call(this, kind, ...rest);
-        if (kind === "webgl2") window.gl = made as WebGL2RenderingContext;
-        return made;
-      };
-    } });
+    const page = await open(kTag, {
+      before: () => {
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
+          get = canvas.getContext;
+        canvas.getContext = function (kind, ...rest) {
+          const made = get.call(this, kind, ...rest);
+          if (kind === "webgl2") window.gl = made as WebGL2RenderingContext;
+          return made;
+        };
+      },
+    });
     await settled(page);
     await frames(page, 3);
-    const drawn = () => page.evaluate(() => window.t.shadowRoot!.querySelector(".surface")!.classList.contains("drawn"));
+    const drawn = () =>
+      page.evaluate(() => window.t.shadowRoot!.querySelector(".surface")!.classList.contains("drawn"));
     expect(await drawn()).toBe(true);
-    await page.evaluate(() => { window.lose = window.gl.getExtension("WEBGL_lose_context")!; window.lose.loseContext(); });
+    await page.evaluate(() => {
+      window.lose = window.gl.getExtension("WEBGL_lose_context")!;
+      window.lose.loseContext();
+    });
     await expect.poll(drawn, kPatience).toBe(false);
     await page.evaluate(() => window.lose.restoreContext());
     await expect.poll(drawn, kPatience).toBe(true);
@@ -358,40 +443,49 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
       const { naturalWidth, alt } = window.t.shadowRoot!.querySelector("img")!;
       return { naturalWidth, alt };
     });
-    expect(image).toEqual(state === "failed" ? { naturalWidth: 0, alt: "Yellow sponge" } : { naturalWidth: 256, alt: "" });
+    expect(image).toEqual(
+      state === "failed" ? { naturalWidth: 0, alt: "Yellow sponge" } : { naturalWidth: 256, alt: "" },
+    );
     expect(errors).toEqual([]);
   });
 
   test("without WebGL2 the plain image stays", async () => {
-    const page = await open(kTag, { before: () => {
-      const canvas = HTMLCanvasElement.prototype as AnyCanvas, get = canvas.getContext;
-      canvas.getContext = function (kind, ...rest) {
-        return kind === "webgl2" ? null : get.call(this, kind, ...rest);
-      };
-    } });
+    const page = await open(kTag, {
+      before: () => {
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
+          get = canvas.getContext;
+        canvas.getContext = function (kind, ...rest) {
+          return kind === "webgl2" ? null : get.call(this, kind, ...rest);
+        };
+      },
+    });
     await settled(page);
     expect(await page.evaluate(() => window.t.state)).toBe("plain");
     expect((await log(page, "error"))[0]?.type).toBe("webgl");
   });
 
   test("rubbing makes sound, standing still makes none", async () => {
-    const page = await open(kTag, { before: () => {
-      const node = AudioNode.prototype as unknown as AnyNode, connect = node.connect;
-      node.connect = function (to, ...rest) {
-        if (to instanceof AudioDestinationNode && window.analyser === undefined) {
-          window.analyser = to.context.createAnalyser();
-          connect.call(this, window.analyser);
-        }
-        return connect.call(this, to, ...rest);
-      };
-    } });
+    const page = await open(kTag, {
+      before: () => {
+        const node = AudioNode.prototype as unknown as AnyNode,
+          connect = node.connect;
+        node.connect = function (to, ...rest) {
+          if (to instanceof AudioDestinationNode && window.analyser === undefined) {
+            window.analyser = to.context.createAnalyser();
+            connect.call(this, window.analyser);
+          }
+          return connect.call(this, to, ...rest);
+        };
+      },
+    });
     await settled(page);
     await page.waitForFunction(() => window.analyser !== undefined);
-    const level = () => page.evaluate(() => {
-      const samples = new Float32Array(2048);
-      window.analyser!.getFloatTimeDomainData(samples);
-      return Math.sqrt(samples.reduce((sum, x) => sum + x * x, 0) / samples.length);
-    });
+    const level = () =>
+      page.evaluate(() => {
+        const samples = new Float32Array(2048);
+        window.analyser!.getFloatTimeDomainData(samples);
+        return Math.sqrt(samples.reduce((sum, x) => sum + x * x, 0) / samples.length);
+      });
     const hand = await fingers(page);
     await hand.touch([{ x: 40, y: 100 }]);
     await page.waitForTimeout(400);
@@ -412,10 +506,22 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const page = await open(kTag.replace("id=", 'stiffness-map="halves.png" id='));
     await settled(page);
     const { cdp } = await fingers(page);
-    const pen = (type: "mousePressed" | "mouseReleased", x: number, force: number) => cdp.send("Input.dispatchMouseEvent",
-      { type, x, y: 100, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen", force });
+    const pen = (type: "mousePressed" | "mouseReleased", x: number, force: number) =>
+      cdp.send("Input.dispatchMouseEvent", {
+        type,
+        x,
+        y: 100,
+        button: "left",
+        buttons: type === "mouseReleased" ? 0 : 1,
+        clickCount: 1,
+        pointerType: "pen",
+        force,
+      });
     const last = async () => (await log(page, "contact-move")).at(-1);
-    for (const [x, depth_mm] of [[72, 1.8 / 1.4], [200, 1.8 / 1.4 / 8]] as const) {
+    for (const [x, depth_mm] of [
+      [72, 1.8 / 1.4],
+      [200, 1.8 / 1.4 / 8],
+    ] as const) {
       await pen("mousePressed", x, 0.5 + 0.1);
       await expect.poll(async () => (await last())?.depth_mm ?? 0, kPatience).toBeCloseTo(depth_mm, 2);
       const { pointerType, force_n } = (await last())!;
@@ -425,27 +531,46 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   });
 
   test("phones and gamepads shake while something is rubbed, and not where that is turned off", async () => {
-    const page = await open(kTag, { before: () => {
-      window.shakes = [];
-      window.rumbles = [];
-      // The frame's time, which a late callback does not change.
-      navigator.vibrate = (ms) => window.shakes.push({ ms: Number(ms), at: Number(document.timeline.currentTime) }) > 0;
-      const playEffect = async (kind: string, how: GamepadEffectParameters) => window.rumbles.push([kind, how.weakMagnitude ?? 0]);
-      navigator.getGamepads = () => [null, { vibrationActuator: { playEffect } } as unknown as Gamepad];
-    } });
+    const page = await open(kTag, {
+      before: () => {
+        window.shakes = [];
+        window.rumbles = [];
+        // The frame's time, which a late callback does not change.
+        navigator.vibrate = (ms) =>
+          window.shakes.push({ ms: Number(ms), at: Number(document.timeline.currentTime) }) > 0;
+        const playEffect = async (kind: string, how: GamepadEffectParameters) =>
+          window.rumbles.push([kind, how.weakMagnitude ?? 0]);
+        navigator.getGamepads = () => [null, { vibrationActuator: { playEffect } } as unknown as Gamepad];
+      },
+    });
     await settled(page);
     // To and fro by events made in the page: the browser's own protocol can be slower than a finger that stands still.
-    const rub = (seconds: number) => page.evaluate(async (most) => {
-      const surface = window.t.shadowRoot!.querySelector(".surface")!, begin = performance.now(), box = surface.getBoundingClientRect();
-      const finger = (type: string, x: number) => surface.dispatchEvent(new PointerEvent(type,
-        { pointerId: 7, pointerType: "touch", clientX: box.x + x, clientY: box.y + 90, width: 20, height: 20, pressure: 0.6, button: 0, buttons: 1 }));
-      finger("pointerdown", 30);
-      while (window.shakes.length < 3 && performance.now() - begin < 1000 * most) {
-        finger("pointermove", 30 + 180 * Math.abs(Math.sin((performance.now() - begin) / 300)));
-        await new Promise((done) => setTimeout(done, 4));
-      }
-      finger("pointerup", 30);
-    }, seconds);
+    const rub = (seconds: number) =>
+      page.evaluate(async (most) => {
+        const surface = window.t.shadowRoot!.querySelector(".surface")!,
+          begin = performance.now(),
+          box = surface.getBoundingClientRect();
+        const finger = (type: string, x: number) =>
+          surface.dispatchEvent(
+            new PointerEvent(type, {
+              pointerId: 7,
+              pointerType: "touch",
+              clientX: box.x + x,
+              clientY: box.y + 90,
+              width: 20,
+              height: 20,
+              pressure: 0.6,
+              button: 0,
+              buttons: 1,
+            }),
+          );
+        finger("pointerdown", 30);
+        while (window.shakes.length < 3 && performance.now() - begin < 1000 * most) {
+          finger("pointermove", 30 + 180 * Math.abs(Math.sin((performance.now() - begin) / 300)));
+          await new Promise((done) => setTimeout(done, 4));
+        }
+        finger("pointerup", 30);
+      }, seconds);
     await rub(20);
     const [shakes, rumbles] = await page.evaluate(() => [window.shakes, window.rumbles]);
     expect(shakes.length).toBeGreaterThanOrEqual(3);
@@ -455,7 +580,10 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const [kind, strength] = rumbles[0]!;
     expect(kind).toBe("dual-rumble");
     expect(strength).toBeCloseTo(0.9, 6);
-    await page.evaluate(() => { window.t.setAttribute("haptics", "off"); window.shakes.length = 0; });
+    await page.evaluate(() => {
+      window.t.setAttribute("haptics", "off");
+      window.shakes.length = 0;
+    });
     await rub(1);
     expect(await page.evaluate(() => window.shakes.length)).toBe(0);
   });

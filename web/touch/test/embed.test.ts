@@ -31,7 +31,10 @@ test.skipIf(!hasBrowser)("the five lines of the documentation give a touchable c
     site.pages.set(`/${file}`, await readFile(join(COMPONENT, file)));
   }
   site.pages.set("/example.html", example);
-  site.pages.set("/carpet.jpg", png(64, 48, () => [90, 90, 90]));
+  site.pages.set(
+    "/carpet.jpg",
+    png(64, 48, () => [90, 90, 90]),
+  );
   site.pages.set("/carpet.json", JSON.stringify(material({ name: "carpet", image: "carpet.jpg" })));
   site.requests.length = 0;
   const page = await browser.newPage();
@@ -47,21 +50,54 @@ test("the packed package installs from its tarball, imports on a server and know
   const folder = await mkdtemp(join(tmpdir(), "tribo-pack-"));
   try {
     const here = new URL("..", import.meta.url).pathname;
-    const name = execFileSync("npm", ["pack", "--silent", "--pack-destination", folder], { cwd: here, encoding: "utf8" }).trim().split("\n").at(-1)!;
+    const name = execFileSync("npm", ["pack", "--silent", "--pack-destination", folder], {
+      cwd: here,
+      encoding: "utf8",
+    })
+      .trim()
+      .split("\n")
+      .at(-1)!;
     execFileSync("npm", ["init", "--yes", "--silent"], { cwd: folder });
-    execFileSync("npm", ["install", "--silent", "--no-audit", "--no-fund", "--offline", join(folder, name)], { cwd: folder });
+    execFileSync("npm", ["install", "--silent", "--no-audit", "--no-fund", "--offline", join(folder, name)], {
+      cwd: folder,
+    });
     const installed = JSON.parse(await readFile(join(folder, "node_modules/@tribo/touch/package.json"), "utf8"));
     expect(installed.dependencies).toBeUndefined();
-    for (const file of ["dist/tribo-touch.js", "dist/worklet.js", "dist/touch.wasm", "dist/types/index.d.ts", "custom-elements.json"]) {
+    for (const file of [
+      "dist/tribo-touch.js",
+      "dist/worklet.js",
+      "dist/touch.wasm",
+      "dist/types/index.d.ts",
+      "custom-elements.json",
+    ]) {
       expect((await readFile(join(folder, "node_modules/@tribo/touch", file))).length).toBeGreaterThan(100);
     }
-    const said = execFileSync(process.execPath, ["--input-type=module", "-e", 'import { TriboTouch } from "@tribo/touch"; console.log(typeof TriboTouch)'],
-      { cwd: folder, encoding: "utf8" });
+    const said = execFileSync(
+      process.execPath,
+      ["--input-type=module", "-e", 'import { TriboTouch } from "@tribo/touch"; console.log(typeof TriboTouch)'],
+      { cwd: folder, encoding: "utf8" },
+    );
     expect(said.trim()).toBe("function");
-    await writeFile(join(folder, "user.ts"), 'import { TriboTouch, type ContactDetail } from "@tribo/touch";\nexport const depth = (_: TriboTouch, { depth_mm }: ContactDetail): number => depth_mm;\n');
+    await writeFile(
+      join(folder, "user.ts"),
+      'import { TriboTouch, type ContactDetail } from "@tribo/touch";\nexport const depth = (_: TriboTouch, { depth_mm }: ContactDetail): number => depth_mm;\n',
+    );
     const compiler = join(dirname(createRequire(import.meta.url).resolve("typescript/package.json")), "bin/tsc");
-    const flags = ["--noEmit", "--strict", "--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler", "--types", ""];
-    expect(spawnSync(process.execPath, [compiler, ...flags, "user.ts"], { cwd: folder, encoding: "utf8" }).stdout).toBe("");
+    const flags = [
+      "--noEmit",
+      "--strict",
+      "--target",
+      "es2022",
+      "--module",
+      "esnext",
+      "--moduleResolution",
+      "bundler",
+      "--types",
+      "",
+    ];
+    expect(spawnSync(process.execPath, [compiler, ...flags, "user.ts"], { cwd: folder, encoding: "utf8" }).stdout).toBe(
+      "",
+    );
   } finally {
     await rm(folder, { recursive: true, force: true });
   }
@@ -73,14 +109,19 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   const errors: string[] = [];
   page.on("pageerror", (error) => errors.push(error.message));
   await page.goto(`${site.root}/site/index.html`);
-  const ready = () => page.waitForFunction(() => [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"));
+  const ready = () =>
+    page.waitForFunction(() =>
+      [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"),
+    );
   await ready();
   await page.waitForFunction(() => document.getElementById("stiffness-value")?.textContent === "1.40 N/mm");
   await page.getByText("Paper", { exact: true }).click();
   await page.waitForFunction(() => document.getElementById("stiffness-value")?.textContent === "7.00 N/mm");
   await ready();
   await page.locator("#stiffness").fill("0");
-  expect(await page.evaluate(() => ["#ours", "#published"].map((id) => document.querySelector<TriboTouch>(id)?.stiffness))).toEqual([1, 1]);
+  expect(
+    await page.evaluate(() => ["#ours", "#published"].map((id) => document.querySelector<TriboTouch>(id)?.stiffness)),
+  ).toEqual([1, 1]);
   expect(await page.locator("#meaning").textContent()).toContain("2 mm deep; 63 % of the way takes 300 ms");
   await page.locator("#own summary").click();
   await page.waitForFunction(() => document.querySelector<HTMLFormElement>("#make")?.noValidate);

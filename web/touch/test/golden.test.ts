@@ -21,7 +21,13 @@ test.skipIf(!hasBrowser || !existsSync(wasm))("Chromium computes the elastic ima
     await page.goto(`${site.root}/`);
     const hash = await page.evaluate(async () => {
       const { instance } = await WebAssembly.instantiate(await (await fetch("golden.wasm")).arrayBuffer(), {});
-      const x = instance.exports as unknown as { memory: WebAssembly.Memory; _initialize(): void; golden_count(): number; golden_name(n: number): number; golden_hash(n: number): bigint };
+      const x = instance.exports as unknown as {
+        memory: WebAssembly.Memory;
+        _initialize(): void;
+        golden_count(): number;
+        golden_name(n: number): number;
+        golden_hash(n: number): bigint;
+      };
       x._initialize();
       const name = (i: number) => {
         const bytes = new Uint8Array(x.memory.buffer, x.golden_name(i));

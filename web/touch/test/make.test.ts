@@ -14,12 +14,13 @@ import type { LearnedVoice } from "../site/learner.js";
 import type { TriboTouch } from "../src/element.js";
 import { png, serve, servePage, type Site } from "./site.js";
 
-
 type Filter = [number, number];
 
 /** Noise through x[n] = e[n] - a1 x[n-1] - a2 x[n-2]: what its model is, is known. */
 function rub(seconds: number, seed: number, [a1, a2]: Filter, level: number, rate = 44100): Int16Array {
-  let state = seed, x1 = 0, x2 = 0;
+  let state = seed,
+    x1 = 0,
+    x2 = 0;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5;
   return Int16Array.from({ length: seconds * rate }, () => {
     const x = (uniform() + uniform() + uniform() + uniform()) * Math.sqrt(3) - a1 * x1 - a2 * x2;
@@ -48,9 +49,15 @@ function wav(samples: Int16Array, rate = 44100): Buffer {
 // k2 = a2, k1 = a1 / (1 + a2).
 const filters: Record<number, Filter> = { 60: [-1.2, 0.5], 240: [-0.6, 0.3] };
 const files = Object.entries(filters).map(([speed, filter], i) => ({
-  name: `felt-${speed}.wav`, mimeType: "audio/wav", buffer: wav(rub(2, 7 + i, filter, 0.02 * (i + 1))),
+  name: `felt-${speed}.wav`,
+  mimeType: "audio/wav",
+  buffer: wav(rub(2, 7 + i, filter, 0.02 * (i + 1))),
 }));
-const picture = { name: "felt.png", mimeType: "image/png", buffer: png(200, 150, (x, y) => [120 + ((x * 7) % 40), 90 + ((y * 5) % 40), 80]) };
+const picture = {
+  name: "felt.png",
+  mimeType: "image/png",
+  buffer: png(200, 150, (x, y) => [120 + ((x * 7) % 40), 90 + ((y * 5) % 40), 80]),
+};
 
 let site: Site, browser: Browser, folder: string;
 beforeAll(async () => {
@@ -59,8 +66,11 @@ beforeAll(async () => {
   site = await serve();
   servePage(site);
   if (hasBrowser) {
-    browser = await launch("--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream",
-      `--use-file-for-fake-audio-capture=${join(folder, "microphone.wav")}`);
+    browser = await launch(
+      "--use-fake-ui-for-media-stream",
+      "--use-fake-device-for-media-stream",
+      `--use-file-for-fake-audio-capture=${join(folder, "microphone.wav")}`,
+    );
   }
 });
 afterAll(async () => {
@@ -92,7 +102,10 @@ interface MaterialFile {
 
 async function downloaded(page: Page): Promise<{ name: string; json: MaterialFile }> {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#make-download").click()]);
-  return { name: download.suggestedFilename(), json: JSON.parse(await readFile(await download.path(), "utf8")) as MaterialFile };
+  return {
+    name: download.suggestedFilename(),
+    json: JSON.parse(await readFile(await download.path(), "utf8")) as MaterialFile,
+  };
 }
 
 describe.skipIf(!hasBrowser)("make your own", () => {
@@ -101,10 +114,16 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await page.locator("#make-image").setInputFiles(picture);
     await page.locator("#make-sounds").setInputFiles(files);
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 2);
-    expect(await page.locator("#make-list input").evaluateAll((all) => all.map((i) => (i as HTMLInputElement).value))).toEqual(["60", "240"]);
+    expect(
+      await page.locator("#make-list input").evaluateAll((all) => all.map((i) => (i as HTMLInputElement).value)),
+    ).toEqual(["60", "240"]);
     if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/make.png`, fullPage: true });
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-download")?.hidden === false || document.getElementById("make-said")?.className === "wrong");
+    await page.waitForFunction(
+      () =>
+        document.getElementById("make-download")?.hidden === false ||
+        document.getElementById("make-said")?.className === "wrong",
+    );
     expect(await said()).toContain("learned 2 voices");
     await page.waitForFunction(() => {
       const ours = document.querySelector<TriboTouch>("#ours");
@@ -113,7 +132,13 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await page.locator("#stiffness").fill(String(Math.log10(2.5)));
     const { name, json } = await downloaded(page);
     expect(name).toBe("felt.json");
-    expect([json.schema, json.image, json.width_mm, json.stiffness_n_per_mm, json.viscosity_n_s_per_mm]).toEqual(["tribo.material/1", "felt.png", 80, 2.5, 0.3]);
+    expect([json.schema, json.image, json.width_mm, json.stiffness_n_per_mm, json.viscosity_n_s_per_mm]).toEqual([
+      "tribo.material/1",
+      "felt.png",
+      80,
+      2.5,
+      0.3,
+    ]);
     // What the noise was made with.
     Object.values(filters).forEach(([a1, a2], i) => {
       const [k1 = 0, k2 = 0] = json.voices[i]!.reflection;
@@ -126,30 +151,57 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await writeFile(join(folder, "page.json"), JSON.stringify(json));
   });
 
-  test.skipIf(!existsSync(PROGRAM))("the program learns the same numbers from the same files, and reads the page's file", async () => {
-    for (const { name, buffer } of [...files, picture]) await writeFile(join(folder, name), buffer);
-    execFileSync(PROGRAM, ["learn", "--recording", "60:felt-60.wav", "--recording", "240:felt-240.wav", "--image", "felt.png", "--width-mm", "80", "--out", "felt.json"],
-      { cwd: folder, stdio: "ignore" });
-    const native = JSON.parse(await readFile(join(folder, "felt.json"), "utf8")) as { voices: { line_spectrum_hz?: number[] }[] };
-    const ours: unknown = JSON.parse(await readFile(join(folder, "page.json"), "utf8"));
-    for (const voice of native.voices) delete voice.line_spectrum_hz;
-    expect(ours).toEqual({ ...native, stiffness_n_per_mm: 2.5 });
-    const seen = JSON.parse(execFileSync(PROGRAM, ["inspect", join(folder, "page.json"), "--json"], { encoding: "utf8" })) as { kind: string };
-    expect(seen.kind).toBe("material");
-  });
+  test.skipIf(!existsSync(PROGRAM))(
+    "the program learns the same numbers from the same files, and reads the page's file",
+    async () => {
+      for (const { name, buffer } of [...files, picture]) await writeFile(join(folder, name), buffer);
+      execFileSync(
+        PROGRAM,
+        [
+          "learn",
+          "--recording",
+          "60:felt-60.wav",
+          "--recording",
+          "240:felt-240.wav",
+          "--image",
+          "felt.png",
+          "--width-mm",
+          "80",
+          "--out",
+          "felt.json",
+        ],
+        { cwd: folder, stdio: "ignore" },
+      );
+      const native = JSON.parse(await readFile(join(folder, "felt.json"), "utf8")) as {
+        voices: { line_spectrum_hz?: number[] }[];
+      };
+      const ours: unknown = JSON.parse(await readFile(join(folder, "page.json"), "utf8"));
+      for (const voice of native.voices) delete voice.line_spectrum_hz;
+      expect(ours).toEqual({ ...native, stiffness_n_per_mm: 2.5 });
+      const seen = JSON.parse(
+        execFileSync(PROGRAM, ["inspect", join(folder, "page.json"), "--json"], { encoding: "utf8" }),
+      ) as { kind: string };
+      expect(seen.kind).toBe("material");
+    },
+  );
 
   test("learns from the microphone and from a picture that is dropped in", async () => {
     const { page, errors, said } = await opened();
-    const dataTransfer = await page.evaluateHandle(({ name, mimeType, bytes }) => {
-      const data = new DataTransfer();
-      data.items.add(new File([new Uint8Array(bytes)], name, { type: mimeType }));
-      return data;
-    }, { name: picture.name, mimeType: picture.mimeType, bytes: [...picture.buffer] });
+    const dataTransfer = await page.evaluateHandle(
+      ({ name, mimeType, bytes }) => {
+        const data = new DataTransfer();
+        data.items.add(new File([new Uint8Array(bytes)], name, { type: mimeType }));
+        return data;
+      },
+      { name: picture.name, mimeType: picture.mimeType, bytes: [...picture.buffer] },
+    );
     await page.dispatchEvent("#own", "drop", { dataTransfer });
     await page.waitForFunction(() => document.getElementById("make-said")?.textContent === "felt.png, 0 recordings");
     await page.locator("#make-speed").fill("150");
     await page.locator("#make-record").click();
-    await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1, null, { timeout: 30_000 });
+    await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1, null, {
+      timeout: 30_000,
+    });
     expect(await page.locator("#make-list").textContent()).toContain("4.0 s");
     await page.locator("#make [type=submit]").click();
     await page.locator("#make-download").waitFor();
@@ -176,7 +228,10 @@ describe.skipIf(!hasBrowser)("make your own", () => {
       await page.waitForFunction((w) => document.getElementById("make-said")?.textContent?.includes(w), words);
     }
     for (const [file, words] of [
-      [{ name: "broken.png", mimeType: "image/png", buffer: picture.buffer.subarray(0, 30) }, "broken.png: is no picture"],
+      [
+        { name: "broken.png", mimeType: "image/png", buffer: picture.buffer.subarray(0, 30) },
+        "broken.png: is no picture",
+      ],
       [{ name: "film.gif", mimeType: "image/gif", buffer: picture.buffer }, "film.gif: is neither PNG nor JPEG"],
     ] as const) {
       await page.locator("#make-image").setInputFiles(file);
@@ -191,12 +246,16 @@ describe.skipIf(!hasBrowser)("make your own", () => {
     await page.locator("#make-sounds").setInputFiles(sound("silence.wav", wav(new Int16Array(44100))));
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1);
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-said")?.textContent?.includes("silence.wav: error: is silent"));
+    await page.waitForFunction(() =>
+      document.getElementById("make-said")?.textContent?.includes("silence.wav: error: is silent"),
+    );
     await page.locator("#make-list button").click();
     await page.locator("#make-sounds").setInputFiles(sound("short.wav", wav(rub(0.1, 1, [-0.5, 0], 0.1))));
     await page.waitForFunction(() => document.querySelectorAll("#make-list li").length === 1);
     await page.locator("#make [type=submit]").click();
-    await page.waitForFunction(() => document.getElementById("make-said")?.textContent?.includes("ms of sound; give at least 0.2 s"));
+    await page.waitForFunction(() =>
+      document.getElementById("make-said")?.textContent?.includes("ms of sound; give at least 0.2 s"),
+    );
     expect(errors).toEqual([]);
     await page.close();
   });

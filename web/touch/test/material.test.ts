@@ -13,22 +13,42 @@ test("a material's image is beside it and its voices become numbers", () => {
   expect(read.width_mm).toBe(80);
   expect([read.height_map, read.relief_slope, read.gloss, read.roughness]).toEqual(["", 0.2, 0.04, 0.5]);
   expect(parseMaterial(material({ height_map: "h.png" }), base).height_map).toBe("https://example.org/goods/h.png");
-  expect([...voiceNumbers(read)]).toEqual([2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0]);
+  expect([...voiceNumbers(read)]).toEqual([
+    2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0,
+  ]);
 });
 
 test.each<[unknown, string]>([
-  [null, "file"], [[], "file"], [{}, "schema"], [material({ schema: "tribo.material/9" }), "schema"],
-  [material({ stiffness_n_per_mm: "soft" }), "stiffness"], [material({ stiffness_n_per_mm: 0 }), "stiffness"],
-  [material({ viscosity_n_s_per_mm: -1 }), "viscosity"], [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
+  [null, "file"],
+  [[], "file"],
+  [{}, "schema"],
+  [material({ schema: "tribo.material/9" }), "schema"],
+  [material({ stiffness_n_per_mm: "soft" }), "stiffness"],
+  [material({ stiffness_n_per_mm: 0 }), "stiffness"],
+  [material({ viscosity_n_s_per_mm: -1 }), "viscosity"],
+  [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
   [material({ voices: [{ speed_mm_per_s: 1, level_db: 0, sample_rate_hz: 44100, reflection: [1] }] }), "reflection"],
-  [material({ image: 7 }), "image"], [material({ height_map: 7 }), "height_map"], [material({ height_map: "h.png", image: "" }), "height_map"],
-  [material({ gloss: 1.5 }), "gloss"], [material({ gloss: null }), "gloss"], [material({ gloss: Number.NaN }), "gloss"],
-  [material({ roughness: 0 }), "roughness"], [material({ relief_slope: "steep" }), "relief_slope"],
+  [material({ image: 7 }), "image"],
+  [material({ height_map: 7 }), "height_map"],
+  [material({ height_map: "h.png", image: "" }), "height_map"],
+  [material({ gloss: 1.5 }), "gloss"],
+  [material({ gloss: null }), "gloss"],
+  [material({ gloss: Number.NaN }), "gloss"],
+  [material({ roughness: 0 }), "roughness"],
+  [material({ relief_slope: "steep" }), "relief_slope"],
 ])("a wrong material is refused by its key", (json, key) => {
   expect(() => parseMaterial(json, base)).toThrow(key);
 });
 
-const report = (changes: Partial<FingerReport>) => ({ x: 0, y: 0, width: 0, height: 0, pressure: Number.NaN, time: 0, ...changes });
+const report = (changes: Partial<FingerReport>) => ({
+  x: 0,
+  y: 0,
+  width: 0,
+  height: 0,
+  pressure: Number.NaN,
+  time: 0,
+  ...changes,
+});
 
 test("force grows with time where nothing measures it, and follows pressure where something does", () => {
   const mouse = new Finger(report({}));
@@ -49,7 +69,8 @@ test("speed is way over time, and nothing once the finger stands", () => {
 test("what is expected next takes the lag out of speed and place", () => {
   // 400 mm/s^2: at t the finger is at 200 t^2 and moves at 400 t.
   const at = (t: number) => ({ x: 200 * t * t, y: 0, width: 0, height: 0, pressure: Number.NaN, time: t });
-  const plain = new Finger(at(0)), led = new Finger(at(0));
+  const plain = new Finger(at(0)),
+    led = new Finger(at(0));
   for (let t = 0.01; t < 0.3005; t += 0.01) {
     plain.move(at(t));
     led.move(at(t), at(t + 0.016));

@@ -19,7 +19,7 @@ declare global {
 
 const kSide = 64;
 const striped = (x: number, y: number): Rgb => {
-  const stripe = 6 * Math.abs((x + y) % 20 - 10);
+  const stripe = 6 * Math.abs(((x + y) % 20) - 10);
   return [90 + stripe + x, 60 + stripe + y, 40 + stripe];
 };
 let site: Site, browser: Browser, page: Page, folder: string;
@@ -33,7 +33,10 @@ beforeAll(async () => {
   // Beside touch.wasm, where the engine looks for it.
   site.pages.set("/dist/parts.js", await readFile(file));
   site.pages.set("/striped.png", png(kSide, kSide, striped));
-  site.page("/", '<canvas width="64" height="64"></canvas><script type="module">import * as parts from "/dist/parts.js"; window.parts = parts;</script>');
+  site.page(
+    "/",
+    '<canvas width="64" height="64"></canvas><script type="module">import * as parts from "/dist/parts.js"; window.parts = parts;</script>',
+  );
   browser = await launch();
   page = await browser.newPage();
   await page.goto(`${site.root}/`);
@@ -47,33 +50,42 @@ afterAll(async () => {
 
 type Finish = Parts.Picture["finish"];
 /** RGBA of the picture; of one at rest where nothing presses. */
-const drawn = (finish: Finish, force: number) => page.evaluate(async ([side, finish, force]) => {
-  const { engine, renderer, pixelsOf } = window.parts;
-  const made = await engine(), image = new Image();
-  image.src = "/striped.png";
-  await image.decode();
-  const sheet = made.sheet(side, side, 0.5), picture: Parts.Picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish };
-  if (finish !== undefined) {
-    picture.relief = pixelsOf(image, side, side);
-    made.smallRelief(picture.relief, 0.2);
-  }
-  sheet.setMaterial(2, 0);
-  sheet.press([{ x: 14, y: 17, halfWidth: 4, halfHeight: 4, force, held: 0 }], false);
-  sheet.step(1, false);
-  const context = document.querySelector("canvas")!.getContext("2d")!;
-  renderer().add(picture);
-  renderer().upload(picture, sheet.everything());
-  renderer().draw(picture, context, true);
-  renderer().free(picture);
-  sheet.free();
-  return [...context.getImageData(0, 0, side, side).data];
-}, [kSide, finish, force] as const);
+const drawn = (finish: Finish, force: number) =>
+  page.evaluate(
+    async ({ side, how, newton }) => {
+      const { engine, renderer, pixelsOf } = window.parts;
+      const made = await engine(),
+        image = new Image();
+      image.src = "/striped.png";
+      await image.decode();
+      const sheet = made.sheet(side, side, 0.5),
+        picture: Parts.Picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish: how };
+      if (how !== undefined) {
+        picture.relief = pixelsOf(image, side, side);
+        made.smallRelief(picture.relief, 0.2);
+      }
+      sheet.setMaterial(2, 0);
+      sheet.press([{ x: 14, y: 17, halfWidth: 4, halfHeight: 4, force: newton, held: 0 }], false);
+      sheet.step(1, false);
+      const context = document.querySelector("canvas")!.getContext("2d")!;
+      renderer().add(picture);
+      renderer().upload(picture, sheet.everything());
+      renderer().draw(picture, context, true);
+      renderer().free(picture);
+      sheet.free();
+      return [...context.getImageData(0, 0, side, side).data];
+    },
+    { side: kSide, how: finish, newton: force },
+  );
 const kFinish: Finish = { gloss: 0.1, roughness: 0.3 };
 
 test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", async () => {
   const file = await readFile(join(ROOT, "tests/elastic/pressed.ppm"));
-  const expected = file.subarray(file.length - 3 * kSide * kSide), pixels = await drawn(kFinish, 1);
-  let most = 0, sum = 0, moved = 0;
+  const expected = file.subarray(file.length - 3 * kSide * kSide),
+    pixels = await drawn(kFinish, 1);
+  let most = 0,
+    sum = 0,
+    moved = 0;
   for (let i = 0; i < kSide * kSide; ++i) {
     const flat = striped(i % kSide, Math.floor(i / kSide));
     for (const c of [0, 1, 2] as const) {
@@ -89,7 +101,10 @@ test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", 
   expect(most).toBeLessThanOrEqual(8);
 });
 
-test.skipIf(!hasBrowser).each<[string, Finish]>([["lit", kFinish], ["published", undefined]])("at rest a %s picture is the image byte by byte", async (_, finish) => {
+test.skipIf(!hasBrowser).each<[string, Finish]>([
+  ["lit", kFinish],
+  ["published", undefined],
+])("at rest a %s picture is the image byte by byte", async (_, finish) => {
   const pixels = await drawn(finish, 0);
   for (let i = 0; i < kSide * kSide; ++i) {
     expect(pixels.slice(4 * i, 4 * i + 3)).toEqual(striped(i % kSide, Math.floor(i / kSide)));

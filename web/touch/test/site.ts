@@ -31,17 +31,37 @@ export function png(width: number, height: number, colour: (x: number, y: number
   header.writeUInt32BE(width, 0);
   header.writeUInt32BE(height, 4);
   header.set([8, 2, 0, 0, 0], 8);
-  return Buffer.concat([Buffer.from("89504e470d0a1a0a", "hex"), chunk("IHDR", header), chunk("IDAT", deflateSync(rows)), chunk("IEND", Buffer.alloc(0))]);
+  return Buffer.concat([
+    Buffer.from("89504e470d0a1a0a", "hex"),
+    chunk("IHDR", header),
+    chunk("IDAT", deflateSync(rows)),
+    chunk("IEND", Buffer.alloc(0)),
+  ]);
 }
 
-const checker = (size: number) => (x: number, y: number): Rgb => (((x / size) ^ (y / size)) & 1 ? [190, 140, 70] : [230, 200, 130]);
+const checker =
+  (size: number) =>
+  (x: number, y: number): Rgb =>
+    ((x / size) ^ (y / size)) & 1 ? [190, 140, 70] : [230, 200, 130];
 
 /** A material file, with what a test wants otherwise. */
 export function material(changes: object = {}): object {
   return {
-    schema: "tribo.material/1", name: "sponge", stiffness_n_per_mm: 1.4, viscosity_n_s_per_mm: 0.1, width_mm: 80, image: "sponge.png",
-    method: "yule-walker", highpass_hz: 50, level_law: { level_db: -20, db_per_decade_speed: 10, db_per_decade_force: 10 },
-    voices: [50, 150].map((speed) => ({ speed_mm_per_s: speed, level_db: -22, sample_rate_hz: 44100, reflection: [-0.6, 0.2] })),
+    schema: "tribo.material/1",
+    name: "sponge",
+    stiffness_n_per_mm: 1.4,
+    viscosity_n_s_per_mm: 0.1,
+    width_mm: 80,
+    image: "sponge.png",
+    method: "yule-walker",
+    highpass_hz: 50,
+    level_law: { level_db: -20, db_per_decade_speed: 10, db_per_decade_force: 10 },
+    voices: [50, 150].map((speed) => ({
+      speed_mm_per_s: speed,
+      level_db: -22,
+      sample_rate_hz: 44100,
+      reflection: [-0.6, 0.2],
+    })),
     ...changes,
   };
 }
@@ -61,13 +81,35 @@ const made: Record<string, () => Body> = {
 
 /** The built touch page under /site/, without its materials. */
 export function servePage(site: Site): void {
-  for (const file of ["index.html", "touch.css", "page.js", "make.js", "learner.js", "learn.wasm", "tribo-touch.js", "worklet.js", "touch.wasm"]) {
+  for (const file of [
+    "index.html",
+    "touch.css",
+    "page.js",
+    "make.js",
+    "learner.js",
+    "learn.wasm",
+    "tribo-touch.js",
+    "worklet.js",
+    "touch.wasm",
+  ]) {
     site.pages.set(`/site/${file}`, readFileSync(join(SITE, file)));
   }
-  site.pages.set("/site/materials.json", JSON.stringify([{ file: "a.json", name: "Sponge", note: "made up" }, { file: "b.json", name: "Paper", note: "" }]));
+  site.pages.set(
+    "/site/materials.json",
+    JSON.stringify([
+      { file: "a.json", name: "Sponge", note: "made up" },
+      { file: "b.json", name: "Paper", note: "" },
+    ]),
+  );
   site.pages.set("/site/a.json", JSON.stringify(material()));
-  site.pages.set("/site/b.json", JSON.stringify(material({ name: "Paper", stiffness_n_per_mm: 7, viscosity_n_s_per_mm: 0.3 })));
-  site.pages.set("/site/sponge.png", png(320, 240, (x, y) => [200 + (x % 16), 180, 120 + (y % 16)]));
+  site.pages.set(
+    "/site/b.json",
+    JSON.stringify(material({ name: "Paper", stiffness_n_per_mm: 7, viscosity_n_s_per_mm: 0.3 })),
+  );
+  site.pages.set(
+    "/site/sponge.png",
+    png(320, 240, (x, y) => [200 + (x % 16), 180, 120 + (y % 16)]),
+  );
 }
 
 export interface Site {
@@ -93,6 +135,7 @@ export async function serve(): Promise<Site> {
     requests.push(path);
     return blocked.has(path) ? undefined : (pages.get(path) ?? made[path]?.() ?? packed(path));
   });
-  const page = (path: string, body: string) => pages.set(path, `<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><body>${body}`);
+  const page = (path: string, body: string) =>
+    pages.set(path, `<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><body>${body}`);
   return { root, blocked, pages, requests, page, close };
 }

@@ -50,7 +50,15 @@ export interface LearnExports extends CommonExports {
   learn_create(): number;
   learn_destroy(learning: number): void;
   /** Where the samples, doubles, are to be written before any other call. */
-  learn_add(learning: number, name: Address, nameBytes: number, samples: number, rate: number, speed: number, force: number): Address;
+  learn_add(
+    learning: number,
+    name: Address,
+    nameBytes: number,
+    samples: number,
+    rate: number,
+    speed: number,
+    force: number,
+  ): Address;
   learn_run(learning: number, highpassHz: number): number;
   learn_text(learning: number): Address;
   learn_numbers(learning: number): Address;

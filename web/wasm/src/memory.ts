@@ -15,7 +15,11 @@ export function textAt(x: AnyExports, at: Address): string {
 }
 
 /** Puts data where `use` can point a function of the module at them. */
-export function lend<Result>(x: CommonExports, data: ArrayBufferView, use: (at: Address, length: number) => Result): Result {
+export function lend<Result>(
+  x: CommonExports,
+  data: ArrayBufferView,
+  use: (at: Address, length: number) => Result,
+): Result {
   const length = data.byteLength;
   const at = x.tribo_allocate(length);
   bytesAt(x, at, length).set(new Uint8Array(data.buffer, data.byteOffset, length));

@@ -14,7 +14,9 @@ interface Declared {
 
 /** The interfaces of the file: whom they extend, and each function as name/parameters. */
 const declared = new Map<string, Declared>();
-for (const [, name = "", base, body = ""] of text.matchAll(/export interface (\w+)(?: extends (\w+))? \{\n([^]*?)\n\}/g)) {
+for (const [, name = "", base, body = ""] of text.matchAll(
+  /export interface (\w+)(?: extends (\w+))? \{\n([^]*?)\n\}/g,
+)) {
   const functions = [...body.matchAll(/^ {2}(\w+)\(([^)]*)\)/gm)].map(
     ([, called, parameters = ""]) => `${called}/${parameters.split(",").filter((p) => p.trim() !== "").length}`,
   );
@@ -34,6 +36,8 @@ test.each([
   ["golden", "GoldenExports"],
 ])("%s.wasm exports what %s says", async (module, name) => {
   const exports = Object.entries(await load(module));
-  const functions = exports.flatMap(([called, value]) => (typeof value === "function" ? [`${called}/${value.length}`] : []));
+  const functions = exports.flatMap(([called, value]) =>
+    typeof value === "function" ? [`${called}/${value.length}`] : [],
+  );
   expect(functionsOf(name).sort()).toEqual(functions.sort());
 });

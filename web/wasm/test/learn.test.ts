@@ -25,7 +25,9 @@ async function learn(recordings: Recording[]): Promise<{ numbers: number[]; word
 
 /** Noise through x[n] = e[n] - a1 x[n-1] - a2 x[n-2]. */
 function noise(length: number, a1: number, a2: number, level: number): Float64Array {
-  let state = 1, x1 = 0, x2 = 0;
+  let state = 1,
+    x1 = 0,
+    x2 = 0;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5;
   return Float64Array.from({ length }, () => {
     const x = (uniform() + uniform() + uniform() + uniform()) * level - a1 * x1 - a2 * x2;
@@ -48,7 +50,9 @@ test("what is wrong is said in words", async () => {
   const wrong = async (...recordings: Recording[]) => (await learn(recordings)).words;
   expect(await wrong()).toMatch(/no recording was given; give at least one/);
   expect(await wrong({ samples: new Float64Array(48000), rate: 48000, speed: 100 })).toMatch(/rub: error: is silent/);
-  expect(await wrong({ samples: noise(48000, 0, 0, 0.1), rate: 48000, speed: 0 })).toMatch(/speed or force that is not above 0/);
+  expect(await wrong({ samples: noise(48000, 0, 0, 0.1), rate: 48000, speed: 0 })).toMatch(
+    /speed or force that is not above 0/,
+  );
   const broken = noise(48000, 0, 0, 0.1);
   broken[100] = Number.NaN;
   expect(await wrong({ samples: broken, rate: 48000, speed: 100 })).toMatch(/no numbers/);

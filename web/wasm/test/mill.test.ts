@@ -26,14 +26,19 @@ class Mill {
   }
   /** Whether it takes the job or the program; said() tells why not. */
   take(name: string, cell = 0): boolean {
-    return lendText(this.x, name, (...job) => lendText(this.x, "", (...part) => this.x.mill_open(...job, ...part, cell))) === 1;
+    return (
+      lendText(this.x, name, (...job) => lendText(this.x, "", (...part) => this.x.mill_open(...job, ...part, cell))) ===
+      1
+    );
   }
   /** Frames of a tick, as bytes. */
   tick(seconds: number, looks: number): Uint8Array[] {
     const length = this.x.mill_tick(seconds, looks);
     expect(length, this.said()).toBeGreaterThanOrEqual(0);
-    const at = this.x.mill_frames(), view = new DataView(this.x.memory.buffer), frames: Uint8Array[] = [];
-    for (let n = 0; n < length; ) {
+    const at = this.x.mill_frames(),
+      view = new DataView(this.x.memory.buffer),
+      frames: Uint8Array[] = [];
+    for (let n = 0; n < length;) {
       const bytes = view.getUint32(at + n, true);
       frames.push(bytesAt(this.x, at + n + 8, bytes).slice());
       n += 8 + 8 * Math.ceil(bytes / 8);
@@ -45,11 +50,13 @@ class Mill {
 /** FNV-1a, 64 bits. */
 function fnv(bytes: Uint8Array): bigint {
   // In two halves: BigInt for every byte would take minutes.
-  let low = 0x84222325, high = 0xcbf29ce4;
+  let low = 0x84222325,
+    high = 0xcbf29ce4;
   for (const byte of bytes) {
     low = (low ^ byte) >>> 0;
     // times 0x100000001b3, modulo 2^64
-    const a = (low & 0xffff) * 0x1b3, b = (low >>> 16) * 0x1b3 + (a >>> 16);
+    const a = (low & 0xffff) * 0x1b3,
+      b = (low >>> 16) * 0x1b3 + (a >>> 16);
     const carry = Math.floor(((low >>> 16) * 0x1b3 + Math.floor(((low & 0xffff) * 0x1b3) / 65536)) / 65536);
     high = (Math.imul(high, 0x1b3) + carry + (low << 8)) >>> 0;
     low = (((b & 0xffff) << 16) | (a & 0xffff)) >>> 0;
@@ -62,7 +69,8 @@ test("the plate comes out of the module as it does natively", async () => {
   for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
   expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
   mill.x.mill_seek(1e9);
-  const chunks = new Map<string, bigint>(), sounds: Uint8Array[] = [];
+  const chunks = new Map<string, bigint>(),
+    sounds: Uint8Array[] = [];
   for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
     if (frame[0] === 2) chunks.set(new Int32Array(frame.buffer, 16, 3).join(), fnv(frame.subarray(28)));
     if (frame[0] === 6) sounds.push(frame);
@@ -77,7 +85,7 @@ test("the plate comes out of the module as it does natively", async () => {
 test("a second set-up mills on where the first one stopped", async () => {
   const mill = await Mill.open();
   const text = (lines: string[]) => lines.join("\n");
-  const rest = ['[cutter]', 'kind = "flat"', 'diameter_mm = 6', '[material]', 'name = "al7075-t6"', '[path]'];
+  const rest = ["[cutter]", 'kind = "flat"', "diameter_mm = 6", "[material]", 'name = "al7075-t6"', "[path]"];
   mill.file("a.nc", text(["G21 G90 M3 S6000 F600", "G0 X-5 Y10 Z-2", "G1 X35"]));
   mill.file("a.toml", text(["[stock]", "box_mm = [[0, 0, -10], [30, 20, 0]]", ...rest, 'gcode = "a.nc"']));
   const second = (from: string) => text(["[stock]", `from = "${from}"`, ...rest, 'gcode = "a.nc"']);
@@ -90,7 +98,11 @@ test("a second set-up mills on where the first one stopped", async () => {
   };
   expect(rows("a.toml")).toBeGreaterThan(0);
   expect(rows("b.toml")).toBe(0);
-  for (const [from, words] of [["b.toml", /begins with the stock that it leaves itself/], ["gone.toml", /not here/], ["out", /a page takes the stock from a job alone/]] as const) {
+  for (const [from, words] of [
+    ["b.toml", /begins with the stock that it leaves itself/],
+    ["gone.toml", /not here/],
+    ["out", /a page takes the stock from a job alone/],
+  ] as const) {
     mill.file("b.toml", second(from));
     expect(mill.take("b.toml", 0.5)).toBe(false);
     expect(mill.said()).toMatch(words);
@@ -99,7 +111,8 @@ test("a second set-up mills on where the first one stopped", async () => {
 
 // Amplitude of a tone in the left channel of what the ear gives.
 function tone(samples: number[], hz: number): number {
-  let re = 0, im = 0;
+  let re = 0,
+    im = 0;
   samples.forEach((v, n) => {
     re += v * Math.cos((2 * Math.PI * hz * n) / RATE);
     im -= v * Math.sin((2 * Math.PI * hz * n) / RATE);
@@ -147,12 +160,14 @@ async function slotHeard(alone: boolean): Promise<number[]> {
 }
 
 test("a slot sounds at the frequency of its teeth, and stops where it is paused", async () => {
-  const alone = await slotHeard(true), second = alone.slice(3 * RATE, 4 * RATE);
+  const alone = await slotHeard(true),
+    second = alone.slice(3 * RATE, 4 * RATE);
   const line = tone(second, 200);
   expect(line).toBeGreaterThan(0.01);
   for (const hz of [100, 150, 250, 300, 350]) expect(tone(second, hz), `${hz} Hz`).toBeLessThan(0.02 * line);
   // By default there is a machine around it, whose noise is louder than its teeth.
-  const usual = await slotHeard(false), rms = (x: number[]) => Math.hypot(...x) / Math.sqrt(x.length);
+  const usual = await slotHeard(false),
+    rms = (x: number[]) => Math.hypot(...x) / Math.sqrt(x.length);
   const loud = rms(usual.slice(3 * RATE, 4 * RATE));
   expect(loud).toBeGreaterThan(0.03);
   expect(loud).toBeLessThan(0.3);
@@ -174,7 +189,8 @@ test("what is pressed into the part is pushed back", async () => {
   mill.x.mill_finger(30, 0, -1, 1);
   for (let n = 0; n < 60; ++n) tick();
   expect(felt.getUint32(56, true) & 1).toBe(1);
-  const force = felt.getFloat32(48, true), probe = felt.getFloat32(24, true);
+  const force = felt.getFloat32(48, true),
+    probe = felt.getFloat32(24, true);
   expect(force).toBeGreaterThan(0.1);
   // Held above where the hand wants it.
   expect(probe).toBeGreaterThan(-1);

@@ -12,7 +12,8 @@ test("a sheet goes to force over stiffness and back to exact rest", async () => 
   const sheet = x.sheet_create(101, 64, 1);
   x.sheet_set_material(sheet, 4, 0.3);
   const contacts = (...numbers: number[]) => doublesAt(x, x.sheet_contacts(sheet), 7).set(numbers);
-  const node = (i: number, j: number) => floatsAt(x, x.sheet_heights(sheet) + 4 * (j * x.sheet_stride(sheet) + i), 1)[0]!;
+  const node = (i: number, j: number) =>
+    floatsAt(x, x.sheet_heights(sheet) + 4 * (j * x.sheet_stride(sheet) + i), 1)[0]!;
   contacts(50.5, 30.5, 6, 6, 0, 2, 0);
   x.sheet_press(sheet, 1, 0, 0);
   while (x.sheet_step(sheet, 1 / 60, 0)) expect(node(50, 30)).toBeLessThanOrEqual(0);
@@ -40,7 +41,8 @@ test("memory does not grow over a thousand sheets", async () => {
 
 test("a voice plays what it was told and is silent at rest; numbers that are no voice give none", async () => {
   const x = await load();
-  const create = (numbers: number[]) => lend(x, new Float64Array(numbers), (at) => x.voice_create(at, numbers.length, 48000, 1, 0));
+  const create = (numbers: number[]) =>
+    lend(x, new Float64Array(numbers), (at) => x.voice_create(at, numbers.length, 48000, 1, 0));
   const voice = create([1, -20, 10, 10, 100, 1, -20, 48000, 1, -0.5, 0]);
   const out = x.tribo_allocate(4 * 48000);
   const level = (speed: number, force: number) => {
@@ -52,7 +54,14 @@ test("a voice plays what it was told and is silent at rest; numbers that are no 
   };
   expect(Math.abs(20 * Math.log10(level(100, 1)) + 20)).toBeLessThan(0.5);
   expect(level(0, 1)).toBe(0);
-  for (const numbers of [[], [1], [1, 0, 0, 0, 100, 1, -20, 48000, 1], [1, 0, 0, 0, 100, 1, -20, 48000, 1, 2, 0], [1, 0, 0, 0, Number.NaN, 1, -20, 48000, 0, 0], [2, 0, 0, 0, 100, 1, -20, 48000, 0, 0, 50, 1, -20, 48000, 0, 0]]) {
+  for (const numbers of [
+    [],
+    [1],
+    [1, 0, 0, 0, 100, 1, -20, 48000, 1],
+    [1, 0, 0, 0, 100, 1, -20, 48000, 1, 2, 0],
+    [1, 0, 0, 0, Number.NaN, 1, -20, 48000, 0, 0],
+    [2, 0, 0, 0, 100, 1, -20, 48000, 0, 0, 50, 1, -20, 48000, 0, 0],
+  ]) {
     expect(create(numbers)).toBe(0);
   }
 });
