@@ -2,6 +2,7 @@ import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFi
 import { join } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
+import { COMPACT } from "../tools/bundle.js";
 import { MILL_PAGE, MODULES } from "../tools/places.js";
 
 // The modules beside the page, and of everything that is text or code packed forms for the engine's server.
@@ -44,7 +45,7 @@ function preload(): Plugin {
 export default defineConfig({
   base: "./",
   plugins: [modules(), preload()],
-  worker: { format: "es" },
+  worker: { format: "es", rolldownOptions: COMPACT },
   build: {
     target: "es2022",
     outDir: MILL_PAGE,
@@ -52,5 +53,6 @@ export default defineConfig({
     assetsDir: ".",
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 700,
+    rolldownOptions: COMPACT,
   },
 });

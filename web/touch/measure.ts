@@ -155,8 +155,8 @@ const firstSample = () =>
 async function engineWork(): Promise<{ press: number; step: number }> {
   const x = await instantiate<TouchExports>(await WebAssembly.compile(readFileSync(join(SITE, "touch.wasm"))));
   const sheet = x.sheet_create(512, 512, 1);
-  const press: number[] = [],
-    step: number[] = [];
+  const press: number[] = [];
+  const step: number[] = [];
   x.sheet_set_material(sheet, 1, 1);
   for (let n = 0; n < 600; ++n) {
     doublesAt(x, x.sheet_contacts(sheet), 7).set([256 + (n % 2), 256, 64, 64, 0, 1 + 0.01 * (n % 7), 0]);

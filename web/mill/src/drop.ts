@@ -50,9 +50,9 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
     };
   }
   const cell = 0;
-  const [job] = jobs,
-    [program] = programs,
-    [model] = models;
+  const [job] = jobs;
+  const [program] = programs;
+  const [model] = models;
   if (job) return { order: { files, job: job.name, part: "", cell } };
   if (programs.length > 1) {
     return {

@@ -3,7 +3,7 @@
 // start, and the line to the engine.
 
 import { Connection } from "./connection.js";
-import { element } from "./page.js";
+import { element } from "@tribo/ui/dom";
 
 export const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
 export const canvas = element<HTMLCanvasElement>("scene");

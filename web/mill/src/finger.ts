@@ -2,6 +2,7 @@
 // The finger: mouse, touch or pen on the part, a gamepad, or keys. What presses on the picture presses into
 // the part; what hovers is above it.
 
+import { rumble } from "@tribo/ui/gamepad";
 import type { Scene } from "./scene.js";
 import type { Source } from "./source.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
@@ -74,11 +75,7 @@ export class Finger {
     if (!this.padDown) return;
     const pad = navigator.getGamepads?.().find((g) => g?.connected);
     const strength = Math.min(force / Math.max(limit, 1e-6), 1);
-    void pad?.vibrationActuator?.playEffect("dual-rumble", {
-      duration: 60,
-      weakMagnitude: strength,
-      strongMagnitude: strength,
-    });
+    rumble(pad ?? null, 60, strength, strength);
   }
 
   private press(event: PointerEvent): void {

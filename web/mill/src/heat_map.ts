@@ -105,9 +105,9 @@ export class HeatMap {
   private mark(row: Row, cutter: Cutter): void {
     const verdict = chipVerdict(row, 2 * cutter.radius);
     if (!verdict) return;
-    const key = `${row.line} ${verdict}`,
-      before = this.marks.get(key),
-      thickest = chip(row);
+    const key = `${row.line} ${verdict}`;
+    const before = this.marks.get(key);
+    const thickest = chip(row);
     const worse = !before || (verdict === "rubbing" ? thickest < before.chip : thickest > before.chip);
     if (worse) this.marks.set(key, { line: row.line, verdict, chip: thickest, time: row.time });
   }

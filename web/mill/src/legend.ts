@@ -3,7 +3,7 @@
 
 import { heat } from "./heat.js";
 import { diverging, OVERLOAD_SHARE, RUBBING_MM, type Colouring, type HeatMap } from "./heat_map.js";
-import { element } from "./page.js";
+import { element } from "@tribo/ui/dom";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
 function css(c: Vec3): string {

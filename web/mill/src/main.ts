@@ -11,13 +11,14 @@ import { History } from "./history.js";
 import { listenToKeys } from "./keys.js";
 import { showLegend } from "./legend.js";
 import { Memory } from "./memory.js";
-import { clock, element, recall, remember } from "./page.js";
+import { clock, recall, remember } from "./page.js";
 import { PALETTES } from "./palette.js";
 import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
 import type { Plots } from "./plots.js";
 import { LineList, showServo, showState, showWarnings } from "./readout.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
+import { download, element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./replay.js";
 import { Scene } from "./scene.js";
 import { Sound } from "./sound.js";
@@ -239,7 +240,7 @@ function replay(file: JobFile): void {
     change(() => new Replay(listener, frames, file.name));
     say("");
   } catch (error) {
-    say(`${file.name}: ${(error as Error).message}`);
+    say(`${file.name}: ${wordsOf(error)}`);
   }
 }
 
@@ -272,7 +273,7 @@ async function hear(): Promise<void> {
   try {
     await sound.wake();
   } catch (error) {
-    say(`There is no sound: ${(error as Error).message}`);
+    say(`There is no sound: ${wordsOf(error)}`);
   }
   element("sound").setAttribute("aria-pressed", String(sound.running && !sound.muted));
 }
@@ -405,11 +406,7 @@ record.addEventListener("click", () => {
     for (const bytes of memory.replay()) recorder.take(bytes);
     record.textContent = "Stop and keep";
   } else {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(recorder.file());
-    link.download = `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    download(recorder.file(), `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`);
     recorder = undefined;
     record.textContent = "Record";
   }

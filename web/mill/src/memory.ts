@@ -3,7 +3,8 @@
 
 import type { Frame } from "@tribo/protocol/frames";
 
-const KEPT_SOUNDS = 64;
+/** Frames of sound: the engine keeps as many. */
+export const KEPT_SOUNDS = 64;
 
 export class Memory {
   private job: ArrayBuffer | undefined;

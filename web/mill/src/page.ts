@@ -1,11 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small things that every part of the page asks for.
-
-export function element<T extends HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no #${id}`);
-  return found as T;
-}
+// What the page says of time, and what it remembers.
 
 export function clock(seconds: number): string {
   const s = Math.floor(seconds);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sliders for what can be changed while it mills; what is set everybody who watches shares.
 
-import { element } from "./page.js";
+import { element } from "@tribo/ui/dom";
 import type { Command, ServerInfo, Setting, Settings } from "@tribo/protocol/messages";
 
 interface Parameter {

@@ -2,6 +2,7 @@
 // Peak force over the program as columns, one per pixel: the whole at a glance, and a place to click.
 
 import type { Row } from "@tribo/protocol/frames";
+import { fitToScreen } from "@tribo/ui/canvas";
 
 export class Plot {
   private duration = 1;
@@ -38,9 +39,7 @@ export class Plot {
   }
 
   private lay(): void {
-    const ratio = Math.min(devicePixelRatio, 2);
-    this.canvas.width = Math.max(1, Math.round(this.canvas.clientWidth * ratio));
-    this.canvas.height = Math.max(1, Math.round(this.canvas.clientHeight * ratio));
+    fitToScreen(this.canvas, 2);
     this.columns = new Float32Array(this.canvas.width);
     for (const row of this.rows) this.addRow(row);
     this.draw();

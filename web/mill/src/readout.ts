@@ -2,7 +2,7 @@
 // What the tool does now in figures, places to look at, the servo, and what was assumed.
 
 import type { ServoFrame, StateFrame } from "@tribo/protocol/frames";
-import { element } from "./page.js";
+import { element } from "@tribo/ui/dom";
 
 export function showState(state: StateFrame): void {
   const text: Record<string, string> = {

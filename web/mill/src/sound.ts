@@ -3,22 +3,22 @@
 // the first gesture, as browsers demand.
 
 import type { MillSoundExports } from "@tribo/wasm/exports";
+import { openAudio } from "@tribo/ui/audio";
 import { compile } from "@tribo/wasm/module";
 import type { StateFrame } from "@tribo/protocol/frames";
+import { KEPT_SOUNDS } from "./memory.js";
 import workletUrl from "./sound_worklet.ts?worker&url";
 
 export type ToEar =
   | { kind: "frame"; bytes: ArrayBuffer }
   | { kind: "clock"; time: number; speed: number; playing: boolean; lead: number };
 
-// Frames that the ear must have even if it is opened late: the newest of each kind, and the end of the sound.
-const KEPT_SOUNDS = 64;
-
 export class Sound {
   private context: AudioContext | undefined;
   private node: AudioWorkletNode | undefined;
   private gain: GainNode | undefined;
   private opening: Promise<void> | undefined;
+  // What the ear must have even if it is opened late.
   private job: ArrayBuffer | undefined;
   private listening: ArrayBuffer | undefined;
   private sounds: ArrayBuffer[] = [];
@@ -74,16 +74,8 @@ export class Sound {
   }
 
   private async open(): Promise<void> {
-    const context = new AudioContext({ latencyHint: "interactive" });
-    const [module] = await Promise.all([
-      compile<MillSoundExports>("mill_sound.wasm", document.baseURI),
-      context.audioWorklet.addModule(workletUrl),
-    ]);
-    const node = new AudioWorkletNode(context, "tribo-mill", {
-      numberOfInputs: 0,
-      outputChannelCount: [2],
-      processorOptions: { module },
-    });
+    const module = compile<MillSoundExports>("mill_sound.wasm", document.baseURI);
+    const { context, node } = await openAudio("tribo-mill", workletUrl, module);
     this.gain = new GainNode(context, { gain: this.isMuted ? 0 : 1 });
     this.analyser = new AnalyserNode(context, { fftSize: 4096, smoothingTimeConstant: 0 });
     node.connect(this.gain).connect(context.destination);

@@ -6,13 +6,6 @@ import { bytesAt, floatsAt } from "@tribo/wasm/memory";
 import { instantiateNow, type Compiled } from "@tribo/wasm/module";
 import type { ToEar } from "./sound.js";
 
-// What AudioWorkletGlobalScope has and TypeScript's page library does not know.
-declare const sampleRate: number;
-declare class AudioWorkletProcessor {
-  readonly port: MessagePort;
-}
-declare function registerProcessor(name: string, type: unknown): void;
-
 const LARGEST_FRAME = 1 << 18;
 
 class Ear extends AudioWorkletProcessor {

@@ -174,8 +174,8 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
         return felt();
       };
       await pen("mousePressed", 0.2);
-      const light = await settled(0.2),
-        firm = await settled(0.8);
+      const light = await settled(0.2);
+      const firm = await settled(0.8);
       await pen("mouseReleased", 0);
       expect(light).toBeGreaterThan(0.02);
       expect(firm).toBeGreaterThan(2 * light);
@@ -243,8 +243,8 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
     async () => {
       const other = await browser.newPage({ viewport: { width: 400, height: 300 } });
       await other.addInitScript(() => {
-        const told: number[] = [],
-          late: number[] = [];
+        const told: number[] = [];
+        const late: number[] = [];
         let pictures = 0;
         const count = () => requestAnimationFrame(() => (++pictures, count()));
         count();

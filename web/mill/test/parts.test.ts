@@ -173,8 +173,8 @@ describe("a replay", () => {
       line: () => undefined,
       info: () => undefined,
     } as Partial<Listener> as Listener;
-    const state = frame(3, 96),
-      collision = frame(5, 36);
+    const state = frame(3, 96);
+    const collision = frame(5, 36);
     const frames = [0, 0.2, 0.4].map((seconds) => ({ seconds, bytes: state }));
     const replay = new Replay(listener, [...frames, { seconds: 0.6, bytes: collision }], "run.tribo");
     const after = (ms: number) => (vi.advanceTimersByTime(ms), told.splice(0));
@@ -202,8 +202,8 @@ describe("a drop", () => {
   });
   it("of a chain of set-ups is the last job", () => {
     const job = (name: string, text: string) => ({ name, bytes: new TextEncoder().encode(text).buffer });
-    const first = job("p/a.toml", "[stock]\nbox_mm = 1"),
-      second = job("p/b.toml", "[stock]\nfrom = 'a.toml'");
+    const first = job("p/a.toml", "[stock]\nbox_mm = 1");
+    const second = job("p/b.toml", "[stock]\nfrom = 'a.toml'");
     const third = job("p/c.toml", '[stock]\nfrom="../p/b.toml"');
     expect(sort([third, first, second], undefined)).toMatchObject({ order: { job: "p/c.toml" } });
     expect(sort([second, first], undefined)).toMatchObject({ order: { job: "p/b.toml" } });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A worker that learns: learn.wasm is loaded for the first recordings that come, and the page stays free
 // meanwhile.
+import { wordsOf } from "@tribo/ui/dom";
 import type { LearnExports } from "@tribo/wasm/exports";
 import { doublesAt, lendText, textAt } from "@tribo/wasm/memory";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
@@ -42,11 +43,11 @@ export const kHighpassHz = 50;
 
 function texture(take: () => number, list: (n: number) => number[], bands: number): Texture {
   const crossovers_hz = list(bands - 1);
-  const levels_db = Array.from({ length: bands }, () => list(17)),
-    coherence = take(),
-    lengths = take();
-  const lengths_mm = list(lengths),
-    weights = list(lengths);
+  const levels_db = Array.from({ length: bands }, () => list(17));
+  const coherence = take();
+  const lengths = take();
+  const lengths_mm = list(lengths);
+  const weights = list(lengths);
   const [per_mm, share, scatter] = list(3) as [number, number, number];
   return {
     crossovers_hz,
@@ -67,8 +68,8 @@ function voicesOf(numbers: Float64Array): Omit<Learned, "warnings"> {
   const [level_db, db_per_decade_speed, db_per_decade_force] = list(3) as [number, number, number];
   const voices = Array.from({ length: count }, (): LearnedVoice => {
     const [speed_mm_per_s, force_n, level, sample_rate_hz] = list(4) as [number, number, number, number];
-    const reflection = list(take()),
-      bands = take();
+    const reflection = list(take());
+    const bands = take();
     return {
       speed_mm_per_s,
       force_n,
@@ -137,9 +138,7 @@ self.onmessage = (event: MessageEvent<Lesson[]>) => {
       module = undefined;
       const trap = error instanceof WebAssembly.RuntimeError;
       self.postMessage({
-        wrong: trap
-          ? "there is not enough memory to learn from all of this; give shorter recordings"
-          : String(error instanceof Error ? error.message : error),
+        wrong: trap ? "there is not enough memory to learn from all of this; give shorter recordings" : wordsOf(error),
       });
     },
   );

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // "Make your own": gathers a picture and recordings, has them learned from, and gives the material file.
+import { download, element, wordsOf } from "@tribo/ui/dom";
 import { kHighpassHz, type Answer, type Learned, type Lesson } from "./learner.js";
 import { record } from "./microphone.js";
 import { readSound, type Sound } from "./sound.js";
@@ -15,21 +16,18 @@ interface Recording {
   speed: HTMLInputElement;
 }
 
-const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const kUsualSpeeds = [50, 100, 200, 400];
-const kRecordS = 4,
-  kWaitS = 1;
+const kRecordS = 4;
+const kWaitS = 1;
 
 const recordings: Recording[] = [];
 let picture: File | undefined;
 let worker: Worker | undefined;
 
 function say(text: string, wrong = false): void {
-  byId("make-said").textContent = text;
-  byId("make-said").classList.toggle("wrong", wrong);
+  element("make-said").textContent = text;
+  element("make-said").classList.toggle("wrong", wrong);
 }
-
-const words = (error: unknown) => (error instanceof Error ? error.message : String(error));
 
 async function takePicture(file: File): Promise<void> {
   if (file.type !== "image/png" && file.type !== "image/jpeg")
@@ -50,10 +48,10 @@ function guessedSpeed(name: string): number {
 }
 
 function add(name: string, sound: Sound, speed = guessedSpeed(name)): void {
-  const item = document.createElement("li"),
-    label = document.createElement("label");
-  const input = document.createElement("input"),
-    away = document.createElement("button");
+  const item = document.createElement("li");
+  const label = document.createElement("label");
+  const input = document.createElement("input");
+  const away = document.createElement("button");
   input.type = "number";
   input.min = "1";
   input.max = "10000";
@@ -69,7 +67,7 @@ function add(name: string, sound: Sound, speed = guessedSpeed(name)): void {
     item.remove();
   });
   item.append(label, away);
-  byId("make-list").append(item);
+  element("make-list").append(item);
   recordings.push(recording);
 }
 
@@ -83,12 +81,12 @@ async function take(files: Iterable<File>): Promise<void> {
         add(
           file.name,
           await readSound(file).catch((error: unknown) => {
-            throw new Error(`${file.name}: ${words(error)}`);
+            throw new Error(`${file.name}: ${wordsOf(error)}`);
           }),
         );
       }
     } catch (error) {
-      wrong.push(words(error));
+      wrong.push(wordsOf(error));
     }
   }
   const have = `${picture === undefined ? "no picture" : picture.name}, ${recordings.length} recording${recordings.length === 1 ? "" : "s"}`;
@@ -96,9 +94,9 @@ async function take(files: Iterable<File>): Promise<void> {
 }
 
 async function fromMicrophone(): Promise<void> {
-  const speed = Number(byId<HTMLInputElement>("make-speed").value),
-    button = byId<HTMLButtonElement>("make-record"),
-    pace = byId("make-pace");
+  const speed = Number(element<HTMLInputElement>("make-speed").value);
+  const button = element<HTMLButtonElement>("make-record");
+  const pace = element("make-pace");
   if (!(speed > 0)) return say("give the speed at which you are going to rub, in mm/s", true);
   button.disabled = true;
   pace.style.setProperty("--pace", `${100 / speed}s`);
@@ -109,7 +107,7 @@ async function fromMicrophone(): Promise<void> {
     add(`microphone ${recordings.length + 1}`, sound, speed);
     say("recorded; rub at another speed, or learn");
   } catch (error) {
-    say(`no recording: ${words(error)}`, true);
+    say(`no recording: ${wordsOf(error)}`, true);
   }
   pace.hidden = true;
   button.disabled = false;
@@ -144,47 +142,43 @@ function material(name: string, image: string, width: number, k: number, nu: num
   };
 }
 
-const kStiffness = 4,
-  kViscosity = 0.3;
-const address = (content: object) =>
-  URL.createObjectURL(new Blob([JSON.stringify(content, null, 2), "\n"], { type: "application/json" }));
+const kStiffness = 4;
+const kViscosity = 0.3;
+const fileOf = (content: object) => new Blob([JSON.stringify(content, null, 2), "\n"], { type: "application/json" });
 
 async function make(show: Show, present: () => { stiffness: number; damping: number }): Promise<void> {
   if (picture === undefined) return say("choose a picture first: a PNG or a JPEG, seen from straight above", true);
   if (recordings.length === 0) return say("choose at least one recording, or record one", true);
-  const width = Number(byId<HTMLInputElement>("make-width").value);
+  const width = Number(element<HTMLInputElement>("make-width").value);
   if (!(width > 0 && width <= 1e4)) return say("give the width of the picture in mm of the surface: 1 to 10000", true);
-  const submit = byId<HTMLFormElement>("make").querySelector<HTMLButtonElement>("[type=submit]")!;
+  const submit = element<HTMLFormElement>("make").querySelector<HTMLButtonElement>("[type=submit]")!;
   submit.disabled = true;
   say("learning ...");
   try {
-    const image = picture,
-      begin = performance.now();
+    const image = picture;
+    const begin = performance.now();
     const said = await learn(
       recordings.map(({ name, sound, speed }) => ({ name, sound, speed: Number(speed.value), force: 1 })),
     );
     if ("wrong" in said) return say(said.wrong, true);
-    const name = byId<HTMLInputElement>("make-name").value.trim() || image.name.replace(/\.\w+$/, "");
-    const { learned } = said,
-      count = learned.voices.length;
-    show({ file: address(material(name, URL.createObjectURL(image), width, kStiffness, kViscosity, learned)), name });
+    const name = element<HTMLInputElement>("make-name").value.trim() || image.name.replace(/\.\w+$/, "");
+    const { learned } = said;
+    const count = learned.voices.length;
+    const here = material(name, URL.createObjectURL(image), width, kStiffness, kViscosity, learned);
+    show({ file: URL.createObjectURL(fileOf(here)), name });
     say(
       `learned ${count} voice${count === 1 ? "" : "s"} of order ${learned.voices[0]!.reflection.length} in ${((performance.now() - begin) / 1000).toFixed(1)} s; ` +
         `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${learned.warnings}`,
     );
-    const button = byId<HTMLButtonElement>("make-download");
+    const button = element<HTMLButtonElement>("make-download");
     button.hidden = false;
     button.onclick = () => {
-      const link = document.createElement("a"),
-        { stiffness, damping } = present();
+      const { stiffness, damping } = present();
       const digits = (value: number) => Number(value.toPrecision(3));
-      link.href = address(material(name, image.name, width, digits(stiffness), digits(damping), learned));
-      link.download = `${name}.json`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+      download(fileOf(material(name, image.name, width, digits(stiffness), digits(damping), learned)), `${name}.json`);
     };
   } catch (error) {
-    say(words(error), true);
+    say(wordsOf(error), true);
   } finally {
     submit.disabled = false;
   }
@@ -192,10 +186,10 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
 
 /** Brings the form to life; `present` tells the stiffness and the viscosity that the page is set to. */
 export function start(show: Show, present: () => { stiffness: number; damping: number }): void {
-  const own = byId("own"),
-    form = byId<HTMLFormElement>("make");
+  const own = element("own");
+  const form = element<HTMLFormElement>("make");
   for (const id of ["make-image", "make-sounds"]) {
-    const input = byId<HTMLInputElement>(id);
+    const input = element<HTMLInputElement>(id);
     input.addEventListener("change", () => void take([...(input.files ?? [])]));
     // What was chosen before this ran.
     if (input.files?.length) void take([...input.files]);
@@ -210,7 +204,7 @@ export function start(show: Show, present: () => { stiffness: number; damping: n
     own.classList.remove("dropping");
     void take([...(event.dataTransfer?.files ?? [])]);
   });
-  byId("make-record").addEventListener("click", () => void fromMicrophone());
+  element("make-record").addEventListener("click", () => void fromMicrophone());
   form.noValidate = true;
   form.addEventListener("submit", (event) => {
     event.preventDefault();

@@ -14,8 +14,8 @@ export async function record(seconds: number, wait: number): Promise<Sound> {
   const stream = await navigator.mediaDevices.getUserMedia({
     audio: { echoCancellation: false, noiseSuppression: false, autoGainControl: false },
   });
-  const context = new AudioContext(),
-    blob = URL.createObjectURL(new Blob([kCapture], { type: "text/javascript" }));
+  const context = new AudioContext();
+  const blob = URL.createObjectURL(new Blob([kCapture], { type: "text/javascript" }));
   try {
     await context.audioWorklet.addModule(blob);
     const node = new AudioWorkletNode(context, "capture", {
@@ -23,8 +23,8 @@ export async function record(seconds: number, wait: number): Promise<Sound> {
       channelCount: 1,
       channelCountMode: "explicit",
     });
-    const skip = Math.round(wait * context.sampleRate),
-      samples = new Float64Array(Math.round(seconds * context.sampleRate));
+    const skip = Math.round(wait * context.sampleRate);
+    const samples = new Float64Array(Math.round(seconds * context.sampleRate));
     let at = -skip;
     await new Promise<void>((full, fail) => {
       const late = setTimeout(() => fail(new Error("the microphone gives no sound")), 1000 * (wait + seconds) + 5000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The touch page: chooses the material, turns K and nu, says what they mean.
+import { element } from "@tribo/ui/dom";
 import type { ContactDetail, TriboTouch } from "../src/element.js";
 
 interface Listed {
@@ -9,20 +10,19 @@ interface Listed {
   image?: string;
 }
 
-const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
-const pictures = [byId<TriboTouch>("ours"), byId<TriboTouch>("published")];
-const stiffness = byId<HTMLInputElement>("stiffness"),
-  damping = byId<HTMLInputElement>("damping");
+const pictures = [element<TriboTouch>("ours"), element<TriboTouch>("published")];
+const stiffness = element<HTMLInputElement>("stiffness");
+const damping = element<HTMLInputElement>("damping");
 
 /** Two digits, never as a power of ten. */
 const rounded = (value: number) => String(Number(value.toPrecision(2)));
 
 function show(): void {
-  const k = 10 ** Number(stiffness.value),
-    nu = 10 ** Number(damping.value);
-  byId("stiffness-value").textContent = `${k.toPrecision(3)} N/mm`;
-  byId("damping-value").textContent = `${nu.toPrecision(3)} N s/mm`;
-  byId("meaning").textContent =
+  const k = 10 ** Number(stiffness.value);
+  const nu = 10 ** Number(damping.value);
+  element("stiffness-value").textContent = `${k.toPrecision(3)} N/mm`;
+  element("damping-value").textContent = `${nu.toPrecision(3)} N s/mm`;
+  element("meaning").textContent =
     `A finger of 2 N goes ${rounded(2 / k)} mm deep; 63 % of the way takes ${rounded((1000 * nu) / k)} ms.`;
 }
 
@@ -55,19 +55,19 @@ function choose(material: Listed): void {
     picture.src = material.file;
     picture.alt = `${material.name}, ${picture.asPublished ? "as published" : "by Tribo"}`;
   }
-  byId("note").textContent = material.note;
+  element("note").textContent = material.note;
 }
 
 /** One more choice among the materials. */
 function offer(material: Listed, chosen: boolean): void {
-  const label = document.createElement("label"),
-    input = document.createElement("input");
+  const label = document.createElement("label");
+  const input = document.createElement("input");
   input.type = "radio";
   input.name = "material";
   input.checked = chosen;
   input.addEventListener("change", () => choose(material));
   label.append(input, material.name);
-  byId("materials").append(label);
+  element("materials").append(label);
   if (chosen) choose(material);
 }
 
@@ -83,17 +83,17 @@ async function start(): Promise<void> {
   pictures[0]!.addEventListener("load", own);
   stiffness.addEventListener("input", turn);
   damping.addEventListener("input", turn);
-  byId("reset").addEventListener("click", own);
+  element("reset").addEventListener("click", own);
   document.addEventListener("contact-move", (event) => {
     const { depth_mm, force_n, speed_mm_per_s } = (event as CustomEvent<ContactDetail>).detail;
-    byId("measured").textContent =
+    element("measured").textContent =
       `${depth_mm.toFixed(2)} mm, ${force_n.toFixed(1)} N, ${speed_mm_per_s.toFixed(0)} mm/s`;
   });
   const list = (await (await fetch("materials.json")).json()) as Listed[];
   list.forEach((material, i) => offer(material, i === 0));
   // Learning and what belongs to it is loaded for those who want it.
-  byId("own").addEventListener("toggle", () => void learnHere(), { once: true });
-  byId("own").addEventListener("dragenter", () => byId("own").setAttribute("open", ""));
+  element("own").addEventListener("toggle", () => void learnHere(), { once: true });
+  element("own").addEventListener("dragenter", () => element("own").setAttribute("open", ""));
 }
 
 void start();

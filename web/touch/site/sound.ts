@@ -10,8 +10,8 @@ export interface Sound {
   bits: number;
 }
 
-const kLeastHz = 4000,
-  kMostHz = 384_000;
+const kLeastHz = 4000;
+const kMostHz = 384_000;
 export const kLongestS = 300;
 
 function loudest(channels: Float64Array[]): Float64Array {
@@ -33,16 +33,16 @@ function reader(view: DataView, floating: boolean, bytes: number): ((at: number)
 
 /** A RIFF WAV file, PCM or floating point; one that ends too early is read as far as it goes. */
 export function readWav(bytes: ArrayBuffer): Sound {
-  const view = new DataView(bytes),
-    word = (at: number) => String.fromCharCode(...new Uint8Array(bytes, at, 4));
-  let rate = 0,
-    channels = 0,
-    bits = 0,
-    format = 0;
+  const view = new DataView(bytes);
+  const word = (at: number) => String.fromCharCode(...new Uint8Array(bytes, at, 4));
+  let rate = 0;
+  let channels = 0;
+  let bits = 0;
+  let format = 0;
   for (let at = 12; at + 8 <= bytes.byteLength;) {
-    const kind = word(at),
-      length = view.getUint32(at + 4, true),
-      from = at + 8;
+    const kind = word(at);
+    const length = view.getUint32(at + 4, true);
+    const from = at + 8;
     if (kind === "fmt " && from + 16 <= bytes.byteLength) {
       format = view.getUint16(from, true);
       channels = view.getUint16(from + 2, true);
@@ -51,8 +51,8 @@ export function readWav(bytes: ArrayBuffer): Sound {
       // The extensible format says in its GUID what it really is.
       if (format === 0xfffe && length >= 40 && from + 26 <= bytes.byteLength) format = view.getUint16(from + 24, true);
     } else if (kind === "data") {
-      const size = bits / 8,
-        read = format === 1 || format === 3 ? reader(view, format === 3, size) : undefined;
+      const size = bits / 8;
+      const read = format === 1 || format === 3 ? reader(view, format === 3, size) : undefined;
       if (read === undefined || channels < 1 || channels > 64)
         throw new Error(`is a WAV of a kind that is not read (format ${format}, ${bits} bits); give 16 or 24 bit PCM`);
       if (!(rate >= kLeastHz && rate <= kMostHz))
@@ -72,8 +72,8 @@ export function readWav(bytes: ArrayBuffer): Sound {
 
 /** Any sound file; throws an Error that says what is wrong with it. */
 export async function readSound(file: Blob): Promise<Sound> {
-  const bytes = await file.arrayBuffer(),
-    head = new Uint8Array(bytes, 0, Math.min(32, bytes.byteLength));
+  const bytes = await file.arrayBuffer();
+  const head = new Uint8Array(bytes, 0, Math.min(32, bytes.byteLength));
   if (bytes.byteLength === 0) throw new Error("is empty; give a recording of friction");
   const name = String.fromCharCode(...head);
   if (name.startsWith("RIFF") && name.startsWith("WAVE", 8)) return readWav(bytes);

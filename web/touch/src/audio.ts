@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Friction sound for all elements of a page: one AudioContext, one AudioWorkletNode. It is made ready while
 // nothing is touched yet and begins with the first gesture, as browsers demand.
+import { openAudio } from "@tribo/ui/audio";
 import { engine } from "./engine.js";
 import { voiceNumbers, type Material } from "./material.js";
 
@@ -36,17 +37,8 @@ let loading: Promise<Sound> | undefined;
 
 async function load(): Promise<Sound> {
   if (typeof AudioContext === "undefined") throw new Error("Web Audio is not available");
-  const context = new AudioContext({ latencyHint: "interactive" });
-  if (context.audioWorklet === undefined) throw new Error("AudioWorklet needs a secure page (https or localhost)");
-  const [{ module }] = await Promise.all([
-    engine(),
-    context.audioWorklet.addModule(new URL("./worklet.js", import.meta.url)),
-  ]);
-  const node = new AudioWorkletNode(context, "tribo-friction", {
-    numberOfInputs: 0,
-    outputChannelCount: [2],
-    processorOptions: { module },
-  });
+  const module = engine().then((made) => made.module);
+  const { context, node } = await openAudio("tribo-friction", new URL("./worklet.js", import.meta.url), module);
   return new Sound(context, node);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // <tribo-touch>: an image that yields under fingers and sounds when rubbed. docs/touch.md has the list of
 // attributes, properties, events, slots, parts and CSS properties; custom-elements.json has it for tools.
+import { wordsOf } from "@tribo/ui/dom";
 import { AttributeElement } from "./attributes.js";
 import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
@@ -189,8 +190,7 @@ export class TriboTouch extends AttributeElement {
   }
 
   #fail(type: TriboErrorDetail["type"], error: unknown): void {
-    const message = error instanceof Error ? error.message : String(error);
-    this.dispatchEvent(new CustomEvent<TriboErrorDetail>("error", { detail: { type, message } }));
+    this.dispatchEvent(new CustomEvent<TriboErrorDetail>("error", { detail: { type, message: wordsOf(error) } }));
   }
 
   async #load(): Promise<void> {
@@ -269,8 +269,8 @@ export class TriboTouch extends AttributeElement {
 
   /** Finds the small relief in the image, or in a map of its heights. */
   async #relieve(address: string, rmsSlope: number): Promise<void> {
-    const picture = this.#picture,
-      made = await engine();
+    const picture = this.#picture;
+    const made = await engine();
     if (picture?.finish === undefined) return;
     picture.relief = await smallRelief(picture, address, rmsSlope, made);
     this.#renderer?.relieve(picture);
@@ -298,8 +298,8 @@ export class TriboTouch extends AttributeElement {
   }
 
   async #loadMap(): Promise<void> {
-    const address = this.getAttribute("stiffness-map"),
-      sheet = this.#sheet;
+    const address = this.getAttribute("stiffness-map");
+    const sheet = this.#sheet;
     if (address === null || sheet === undefined) return;
     const levels = await stiffnessLevels(new URL(address, document.baseURI).href, sheet);
     if (sheet === this.#sheet) sheet.setMaterials(levels, stiffnessPalette(this.stiffness, this.damping));
@@ -382,8 +382,8 @@ export class TriboTouch extends AttributeElement {
 
   /** Called by the page's animation loop. */
   frame(now: number, seconds: number): boolean {
-    const sheet = this.#sheet,
-      picture = this.#picture;
+    const sheet = this.#sheet;
+    const picture = this.#picture;
     if (sheet === undefined || picture === undefined || this.#context === null || this.#renderer!.lost) return false;
     const contacts = [...this.#fingers.values()].map((finger) => finger.contact(now));
     sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point");
@@ -400,10 +400,10 @@ export class TriboTouch extends AttributeElement {
   }
 
   #sound(now: number, seconds: number): void {
-    let speed = 0,
-      force = 0,
-      u = 0.5,
-      v = 0.5;
+    let speed = 0;
+    let force = 0;
+    let u = 0.5;
+    let v = 0.5;
     for (const finger of this.#fingers.values()) {
       if (finger.speed(now) < speed) continue;
       speed = finger.speed(now);
@@ -423,8 +423,8 @@ export class TriboTouch extends AttributeElement {
   }
 
   #tell(type: string, id: number, finger: Finger, timeStamp: number): void {
-    const now = timeStamp / 1000,
-      [u, v] = this.#place(finger);
+    const now = timeStamp / 1000;
+    const [u, v] = this.#place(finger);
     const detail: ContactDetail = {
       u,
       v,

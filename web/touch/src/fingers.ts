@@ -19,8 +19,8 @@ const kFullForceN = 2;
 const kGrowthS = 0.25;
 const kMeasuredForceN = 3;
 const kDefaultRadiusMm = 6;
-const kLeastRadiusMm = 1,
-  kMostRadiusMm = 15;
+const kLeastRadiusMm = 1;
+const kMostRadiusMm = 15;
 // Speed is the way of the last reports over their time; a finger that reports nothing stands still.
 const kSpeedWindowS = 0.03;
 const kStandsStillS = 0.05;
@@ -89,8 +89,8 @@ export class Finger {
   }
 
   contact(now: number): Contact {
-    const last = this.#trail[this.#trail.length - 1]!,
-      ahead = this.#ahead ?? last;
+    const last = this.#trail[this.#trail.length - 1]!;
+    const ahead = this.#ahead ?? last;
     // A report is some milliseconds old once it is drawn: the dent is to be under the finger.
     const part = ahead === last ? 0 : Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time)));
     return {

@@ -77,8 +77,8 @@ function list(from: Record<string, unknown>, key: string, most: number, absent?:
 
 function texture(value: unknown): Texture | undefined {
   if (value === undefined) return undefined;
-  const from = record(value, "texture"),
-    grains = record(from["grains"] ?? {}, "grains");
+  const from = record(value, "texture");
+  const grains = record(from["grains"] ?? {}, "grains");
   const levels = from["levels_db"];
   if (!Array.isArray(levels) || levels.length > 8) fail("levels_db", "is not a list of up to 8 tables");
   const crossovers = list(from, "crossovers_hz", 7);
@@ -138,8 +138,8 @@ export function parseMaterial(json: unknown, base: string): Material {
       db_per_decade_force: number(fixed, "db_per_decade_force", -200, 200, law.db_per_decade_force),
     };
   }
-  const image = text(from, "image"),
-    heightMap = text(from, "height_map");
+  const image = text(from, "image");
+  const heightMap = text(from, "height_map");
   if (heightMap !== "" && image === "") fail("height_map", "is given without an image");
   return {
     name: text(from, "name"),

@@ -96,9 +96,9 @@ export class Renderer extends EventTarget {
   add(picture: Picture): void {
     const gl = this.#gl;
     if (this.lost || this.#textures.has(picture)) return;
-    const image = gl.createTexture(),
-      heights = gl.createTexture(),
-      relief = gl.createTexture();
+    const image = gl.createTexture();
+    const heights = gl.createTexture();
+    const relief = gl.createTexture();
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, image);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, this.#fitting(picture.image));
@@ -186,8 +186,8 @@ export class Renderer extends EventTarget {
   draw(picture: Picture, to: CanvasRenderingContext2D, parallax: boolean): boolean {
     const textures = this.#textures.get(picture);
     if (textures === undefined) return false;
-    const gl = this.#gl,
-      { width, height } = to.canvas;
+    const gl = this.#gl;
+    const { width, height } = to.canvas;
     if (this.canvas.width < width || this.canvas.height < height) {
       this.canvas.width = Math.max(this.canvas.width, width);
       this.canvas.height = Math.max(this.canvas.height, height);
@@ -199,8 +199,8 @@ export class Renderer extends EventTarget {
     gl.bindTexture(gl.TEXTURE_2D, textures.heights);
     gl.activeTexture(gl.TEXTURE2);
     gl.bindTexture(gl.TEXTURE_2D, textures.relief);
-    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 },
-      power = 2 / roughness ** 2 - 2;
+    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 };
+    const power = 2 / roughness ** 2 - 2;
     gl.uniform2f(this.#uniforms.gloss, power, (gloss * (power + 2)) / 8);
     const longer = Math.max(picture.nodesX, picture.nodesY);
     gl.uniform2f(this.#uniforms.extent, picture.nodesX / longer, picture.nodesY / longer);

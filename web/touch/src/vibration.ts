@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a device can shake: navigator.vibrate (phones with Chromium) and a gamepad's actuator. A rub is short
 // pulses, one every few millimetres, stronger and denser the faster and firmer it is.
+import { rumble } from "@tribo/ui/gamepad";
 
 const kMillimetresPerPulse = 4;
 const kLeastPauseS = 0.03;
@@ -17,12 +18,8 @@ export class Vibration {
     this.#way = 0;
     this.#last = now;
     const strength = Math.min(1, force / 2);
-    // Without a gesture, or where vibration is off, the browser refuses; nothing is lost by that.
+    // Refused without a gesture, and where vibration is off.
     navigator.vibrate?.(Math.max(2, Math.round(kLongestPulseMs * strength)));
-    for (const pad of navigator.getGamepads?.() ?? []) {
-      void pad?.vibrationActuator
-        ?.playEffect("dual-rumble", { duration: 2 * kLongestPulseMs, weakMagnitude: strength, strongMagnitude: 0 })
-        .catch(() => undefined);
-    }
+    for (const pad of navigator.getGamepads?.() ?? []) rumble(pad, 2 * kLongestPulseMs, strength, 0);
   }
 }

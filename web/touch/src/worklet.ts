@@ -5,13 +5,6 @@ import { floatsAt, lend } from "@tribo/wasm/memory";
 import { instantiateNow, type Compiled } from "@tribo/wasm/module";
 import type { VoiceMessage } from "./audio.js";
 
-// What AudioWorkletGlobalScope has and TypeScript's page library does not know.
-declare const sampleRate: number;
-declare class AudioWorkletProcessor {
-  readonly port: MessagePort;
-}
-declare function registerProcessor(name: string, type: unknown): void;
-
 interface Playing {
   voice: number;
   moving: boolean;
@@ -65,8 +58,8 @@ class Friction extends AudioWorkletProcessor {
   }
 
   process(_inputs: Float32Array[][], outputs: Float32Array[][]): boolean {
-    const left = outputs[0]?.[0],
-      right = outputs[0]?.[1] ?? left;
+    const left = outputs[0]?.[0];
+    const right = outputs[0]?.[1] ?? left;
     if (left === undefined || right === undefined) return true;
     const frames = Math.min(left.length, kMostFrames);
     for (const p of this.#voices.values()) {
@@ -75,14 +68,14 @@ class Friction extends AudioWorkletProcessor {
       if (!p.moving) --p.tail;
       this.#x.voice_render(p.voice, this.#out, frames);
       const mono = floatsAt(this.#x, this.#out, frames);
-      const panStep = (p.panTarget - p.pan) / frames,
-        gainStep = (p.gainTarget - p.gain) / frames;
+      const panStep = (p.panTarget - p.pan) / frames;
+      const gainStep = (p.gainTarget - p.gain) / frames;
       for (let i = 0; i < frames; ++i) {
         p.pan += panStep;
         p.gain += gainStep;
         // Constant power, 1 on both sides in the middle.
-        const sample = mono[i]! * p.gain,
-          angle = ((p.pan + 1) * Math.PI) / 4;
+        const sample = mono[i]! * p.gain;
+        const angle = ((p.pan + 1) * Math.PI) / 4;
         left[i] = left[i]! + sample * Math.SQRT2 * Math.cos(angle);
         right[i] = right[i]! + sample * Math.SQRT2 * Math.sin(angle);
       }

@@ -40,7 +40,9 @@ interface AnyNode {
 }
 
 const kPatience = { timeout: 20_000 };
-let site: Site, browser: Browser, context: BrowserContext | undefined;
+let site: Site;
+let browser: Browser;
+let context: BrowserContext | undefined;
 let errors: string[] = [];
 
 beforeAll(async () => {
@@ -143,8 +145,8 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
       await hand.touch([{ x: 50, y: 50, force: 0.6 }]);
       await page.waitForFunction(() => window.log.some((e) => e.n === "contact-move" && e.depth_mm > 1));
       const differs = await page.evaluate(() => {
-        const canvas = window.t.shadowRoot!.querySelector("canvas")!,
-          { data } = canvas.getContext("2d")!.getImageData(20, 20, 56, 56);
+        const canvas = window.t.shadowRoot!.querySelector("canvas")!;
+        const { data } = canvas.getContext("2d")!.getImageData(20, 20, 56, 56);
         let sum = 0;
         for (let i = 4; i < data.length; i += 4) if ((i / 4) % 56 > 0) sum += Math.abs(data[i]! - data[i - 4]!);
         return sum / (56 * 55);
@@ -153,9 +155,9 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
       await page.context().close();
       return { differs, errors: told };
     };
-    const plain = await grain("plain.json"),
-      mapped = await grain("mapped.json"),
-      wrong = await grain("mismapped.json");
+    const plain = await grain("plain.json");
+    const mapped = await grain("mapped.json");
+    const wrong = await grain("mismapped.json");
     expect([plain.errors, mapped.errors]).toEqual([[], []]);
     expect(mapped.differs).toBeGreaterThan(2 * plain.differs);
     expect(wrong.errors[0]).toMatchObject({
@@ -309,8 +311,8 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const page = await open(`<div style="display:flex;flex-wrap:wrap">${many.join("")}</div>`, {
       before: () => {
         window.contexts = 0;
-        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
-          get = canvas.getContext;
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas;
+        const get = canvas.getContext;
         canvas.getContext = function (kind, ...rest) {
           if (kind === "webgl2") ++window.contexts;
           return get.call(this, kind, ...rest);
@@ -338,9 +340,9 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const page = await open(kTag.replace("sponge.json", "plain.json"), {
       before: () => {
         window.made = { webgl: 0, audio: 0, worklets: 0, textures: 0 };
-        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
-          { getContext } = canvas,
-          { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas;
+        const { getContext } = canvas;
+        const { createTexture, deleteTexture } = WebGL2RenderingContext.prototype;
         canvas.getContext = function (kind, ...rest) {
           if (kind === "webgl2") ++window.made.webgl;
           return getContext.call(this, kind, ...rest);
@@ -399,8 +401,8 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("draws again after the context was lost", async () => {
     const page = await open(kTag, {
       before: () => {
-        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
-          get = canvas.getContext;
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas;
+        const get = canvas.getContext;
         canvas.getContext = function (kind, ...rest) {
           const made = get.call(this, kind, ...rest);
           if (kind === "webgl2") window.gl = made as WebGL2RenderingContext;
@@ -452,8 +454,8 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("without WebGL2 the plain image stays", async () => {
     const page = await open(kTag, {
       before: () => {
-        const canvas = HTMLCanvasElement.prototype as AnyCanvas,
-          get = canvas.getContext;
+        const canvas = HTMLCanvasElement.prototype as AnyCanvas;
+        const get = canvas.getContext;
         canvas.getContext = function (kind, ...rest) {
           return kind === "webgl2" ? null : get.call(this, kind, ...rest);
         };
@@ -467,8 +469,8 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test("rubbing makes sound, standing still makes none", async () => {
     const page = await open(kTag, {
       before: () => {
-        const node = AudioNode.prototype as unknown as AnyNode,
-          connect = node.connect;
+        const node = AudioNode.prototype as unknown as AnyNode;
+        const connect = node.connect;
         node.connect = function (to, ...rest) {
           if (to instanceof AudioDestinationNode && window.analyser === undefined) {
             window.analyser = to.context.createAnalyser();
@@ -547,9 +549,9 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     // To and fro by events made in the page: the browser's own protocol can be slower than a finger that stands still.
     const rub = (seconds: number) =>
       page.evaluate(async (most) => {
-        const surface = window.t.shadowRoot!.querySelector(".surface")!,
-          begin = performance.now(),
-          box = surface.getBoundingClientRect();
+        const surface = window.t.shadowRoot!.querySelector(".surface")!;
+        const begin = performance.now();
+        const box = surface.getBoundingClientRect();
         const finger = (type: string, x: number) =>
           surface.dispatchEvent(
             new PointerEvent(type, {

@@ -13,7 +13,8 @@ import type { TriboTouch } from "../src/element.js";
 import { violations } from "../../testing/axe.js";
 import { material, png, serve, servePage, type Site } from "./site.js";
 
-let site: Site, browser: Browser;
+let site: Site;
+let browser: Browser;
 beforeAll(async () => {
   site = await serve();
   if (hasBrowser) browser = await launch();

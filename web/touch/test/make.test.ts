@@ -18,9 +18,9 @@ type Filter = [number, number];
 
 /** Noise through x[n] = e[n] - a1 x[n-1] - a2 x[n-2]: what its model is, is known. */
 function rub(seconds: number, seed: number, [a1, a2]: Filter, level: number, rate = 44100): Int16Array {
-  let state = seed,
-    x1 = 0,
-    x2 = 0;
+  let state = seed;
+  let x1 = 0;
+  let x2 = 0;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5;
   return Int16Array.from({ length: seconds * rate }, () => {
     const x = (uniform() + uniform() + uniform() + uniform()) * Math.sqrt(3) - a1 * x1 - a2 * x2;
@@ -59,7 +59,9 @@ const picture = {
   buffer: png(200, 150, (x, y) => [120 + ((x * 7) % 40), 90 + ((y * 5) % 40), 80]),
 };
 
-let site: Site, browser: Browser, folder: string;
+let site: Site;
+let browser: Browser;
+let folder: string;
 beforeAll(async () => {
   folder = await mkdtemp(join(tmpdir(), "tribo-make-"));
   await writeFile(join(folder, "microphone.wav"), wav(rub(8, 3, [-0.9, 0.2], 0.05, 48000), 48000));

@@ -69,8 +69,8 @@ test("speed is way over time, and nothing once the finger stands", () => {
 test("what is expected next takes the lag out of speed and place", () => {
   // 400 mm/s^2: at t the finger is at 200 t^2 and moves at 400 t.
   const at = (t: number) => ({ x: 200 * t * t, y: 0, width: 0, height: 0, pressure: Number.NaN, time: t });
-  const plain = new Finger(at(0)),
-    led = new Finger(at(0));
+  const plain = new Finger(at(0));
+  const led = new Finger(at(0));
   for (let t = 0.01; t < 0.3005; t += 0.01) {
     plain.move(at(t));
     led.move(at(t), at(t + 0.016));

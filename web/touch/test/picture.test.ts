@@ -22,7 +22,10 @@ const striped = (x: number, y: number): Rgb => {
   const stripe = 6 * Math.abs(((x + y) % 20) - 10);
   return [90 + stripe + x, 60 + stripe + y, 40 + stripe];
 };
-let site: Site, browser: Browser, page: Page, folder: string;
+let site: Site;
+let browser: Browser;
+let page: Page;
+let folder: string;
 
 beforeAll(async () => {
   if (!hasBrowser) return;
@@ -54,12 +57,12 @@ const drawn = (finish: Finish, force: number) =>
   page.evaluate(
     async ({ side, how, newton }) => {
       const { engine, renderer, pixelsOf } = window.parts;
-      const made = await engine(),
-        image = new Image();
+      const made = await engine();
+      const image = new Image();
       image.src = "/striped.png";
       await image.decode();
-      const sheet = made.sheet(side, side, 0.5),
-        picture: Parts.Picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish: how };
+      const sheet = made.sheet(side, side, 0.5);
+      const picture: Parts.Picture = { image, nodesX: side, nodesY: side, spacingMm: 0.5, finish: how };
       if (how !== undefined) {
         picture.relief = pixelsOf(image, side, side);
         made.smallRelief(picture.relief, 0.2);
@@ -81,11 +84,11 @@ const kFinish: Finish = { gloss: 0.1, roughness: 0.3 };
 
 test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", async () => {
   const file = await readFile(join(ROOT, "tests/elastic/pressed.ppm"));
-  const expected = file.subarray(file.length - 3 * kSide * kSide),
-    pixels = await drawn(kFinish, 1);
-  let most = 0,
-    sum = 0,
-    moved = 0;
+  const expected = file.subarray(file.length - 3 * kSide * kSide);
+  const pixels = await drawn(kFinish, 1);
+  let most = 0;
+  let sum = 0;
+  let moved = 0;
   for (let i = 0; i < kSide * kSide; ++i) {
     const flat = striped(i % kSide, Math.floor(i / kSide));
     for (const c of [0, 1, 2] as const) {

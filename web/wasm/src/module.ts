@@ -13,9 +13,8 @@ export interface Compiled<Exports extends AnyExports> extends WebAssembly.Module
 export async function compile<Exports extends AnyExports>(name: string, base: string): Promise<Compiled<Exports>> {
   const response = await fetch(new URL(name, base));
   if (!response.ok) throw new Error(`${name}: HTTP ${response.status}`);
-  // Not every server knows the type that compiling on the way asks for.
-  const known = response.headers.get("Content-Type") === "application/wasm";
-  return known ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  // To compile on the way asks for a type that not every server knows.
+  return WebAssembly.compileStreaming(new Response(response.body, { headers: { "Content-Type": "application/wasm" } }));
 }
 
 function ready<Exports extends AnyExports>(instance: WebAssembly.Instance): Exports {

@@ -25,9 +25,9 @@ async function learn(recordings: Recording[]): Promise<{ numbers: number[]; word
 
 /** Noise through x[n] = e[n] - a1 x[n-1] - a2 x[n-2]. */
 function noise(length: number, a1: number, a2: number, level: number): Float64Array {
-  let state = 1,
-    x1 = 0,
-    x2 = 0;
+  let state = 1;
+  let x1 = 0;
+  let x2 = 0;
   const uniform = () => (state = (Math.imul(state, 1664525) + 1013904223) >>> 0) / 2 ** 32 - 0.5;
   return Float64Array.from({ length }, () => {
     const x = (uniform() + uniform() + uniform() + uniform()) * level - a1 * x1 - a2 * x2;

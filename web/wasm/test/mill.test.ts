@@ -35,9 +35,9 @@ class Mill {
   tick(seconds: number, looks: number): Uint8Array[] {
     const length = this.x.mill_tick(seconds, looks);
     expect(length, this.said()).toBeGreaterThanOrEqual(0);
-    const at = this.x.mill_frames(),
-      view = new DataView(this.x.memory.buffer),
-      frames: Uint8Array[] = [];
+    const at = this.x.mill_frames();
+    const view = new DataView(this.x.memory.buffer);
+    const frames: Uint8Array[] = [];
     for (let n = 0; n < length;) {
       const bytes = view.getUint32(at + n, true);
       frames.push(bytesAt(this.x, at + n + 8, bytes).slice());
@@ -50,13 +50,13 @@ class Mill {
 /** FNV-1a, 64 bits. */
 function fnv(bytes: Uint8Array): bigint {
   // In two halves: BigInt for every byte would take minutes.
-  let low = 0x84222325,
-    high = 0xcbf29ce4;
+  let low = 0x84222325;
+  let high = 0xcbf29ce4;
   for (const byte of bytes) {
     low = (low ^ byte) >>> 0;
     // times 0x100000001b3, modulo 2^64
-    const a = (low & 0xffff) * 0x1b3,
-      b = (low >>> 16) * 0x1b3 + (a >>> 16);
+    const a = (low & 0xffff) * 0x1b3;
+    const b = (low >>> 16) * 0x1b3 + (a >>> 16);
     const carry = Math.floor(((low >>> 16) * 0x1b3 + Math.floor(((low & 0xffff) * 0x1b3) / 65536)) / 65536);
     high = (Math.imul(high, 0x1b3) + carry + (low << 8)) >>> 0;
     low = (((b & 0xffff) << 16) | (a & 0xffff)) >>> 0;
@@ -69,8 +69,8 @@ test("the plate comes out of the module as it does natively", async () => {
   for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
   expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
   mill.x.mill_seek(1e9);
-  const chunks = new Map<string, bigint>(),
-    sounds: Uint8Array[] = [];
+  const chunks = new Map<string, bigint>();
+  const sounds: Uint8Array[] = [];
   for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
     if (frame[0] === 2) chunks.set(new Int32Array(frame.buffer, 16, 3).join(), fnv(frame.subarray(28)));
     if (frame[0] === 6) sounds.push(frame);
@@ -111,8 +111,8 @@ test("a second set-up mills on where the first one stopped", async () => {
 
 // Amplitude of a tone in the left channel of what the ear gives.
 function tone(samples: number[], hz: number): number {
-  let re = 0,
-    im = 0;
+  let re = 0;
+  let im = 0;
   samples.forEach((v, n) => {
     re += v * Math.cos((2 * Math.PI * hz * n) / RATE);
     im -= v * Math.sin((2 * Math.PI * hz * n) / RATE);
@@ -160,14 +160,14 @@ async function slotHeard(alone: boolean): Promise<number[]> {
 }
 
 test("a slot sounds at the frequency of its teeth, and stops where it is paused", async () => {
-  const alone = await slotHeard(true),
-    second = alone.slice(3 * RATE, 4 * RATE);
+  const alone = await slotHeard(true);
+  const second = alone.slice(3 * RATE, 4 * RATE);
   const line = tone(second, 200);
   expect(line).toBeGreaterThan(0.01);
   for (const hz of [100, 150, 250, 300, 350]) expect(tone(second, hz), `${hz} Hz`).toBeLessThan(0.02 * line);
   // By default there is a machine around it, whose noise is louder than its teeth.
-  const usual = await slotHeard(false),
-    rms = (x: number[]) => Math.hypot(...x) / Math.sqrt(x.length);
+  const usual = await slotHeard(false);
+  const rms = (x: number[]) => Math.hypot(...x) / Math.sqrt(x.length);
   const loud = rms(usual.slice(3 * RATE, 4 * RATE));
   expect(loud).toBeGreaterThan(0.03);
   expect(loud).toBeLessThan(0.3);
@@ -189,8 +189,8 @@ test("what is pressed into the part is pushed back", async () => {
   mill.x.mill_finger(30, 0, -1, 1);
   for (let n = 0; n < 60; ++n) tick();
   expect(felt.getUint32(56, true) & 1).toBe(1);
-  const force = felt.getFloat32(48, true),
-    probe = felt.getFloat32(24, true);
+  const force = felt.getFloat32(48, true);
+  const probe = felt.getFloat32(24, true);
   expect(force).toBeGreaterThan(0.1);
   // Held above where the hand wants it.
   expect(probe).toBeGreaterThan(-1);

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+
+/** Gives a canvas as many pixels as the screen has under it, at most `most` squared a CSS pixel. How many a CSS pixel. */
+export function fitToScreen(canvas: HTMLCanvasElement, most = Infinity): number {
+  const ratio = Math.min(devicePixelRatio || 1, most);
+  const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  const height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+  // To set a size clears the canvas even where it is the same.
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  return ratio;
+}
