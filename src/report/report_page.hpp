@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts of report/, built into the library (CMakeLists.txt makes the source from report_page.cpp.in).
+// The texts of page/, built into the library (CMakeLists.txt makes the source from report_page.cpp.in).
 #pragma once
 
 #include <string_view>

@@ -29,13 +29,16 @@ export interface Bundle {
   file: string;
   /** Text before the code. */
   banner?: string;
-  /** A module, if nothing is said. */
-  format?: "esm" | "iife";
+  /** A classic script that leaves its exports there; otherwise a module. */
+  global?: string;
   /** Imports that stay imports. */
   external?: string[];
+  /** A classic script that takes them from there. */
+  externalGlobal?: string;
 }
 
-export async function bundle({ entry, file, banner, format = "esm", external }: Bundle): Promise<void> {
+export async function bundle({ entry, file, banner, global, external, externalGlobal }: Bundle): Promise<void> {
+  const classic = global !== undefined || externalGlobal !== undefined;
   await build({
     ...COMPACT,
     input: entry,
@@ -44,10 +47,12 @@ export async function bundle({ entry, file, banner, format = "esm", external }: 
     transform: { target: TARGET },
     output: {
       file,
-      format,
-      banner,
+      format: classic ? "iife" : "esm",
+      name: global,
+      globals: () => externalGlobal ?? "",
+      postBanner: banner,
       comments: false,
-      minify: { compress: { target: TARGET }, mangle: { toplevel: true } },
+      minify: { compress: { target: TARGET }, mangle: { toplevel: !classic } },
     },
   });
 }

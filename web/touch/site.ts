@@ -4,10 +4,10 @@
 import { existsSync } from "node:fs";
 import { copyFile, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { basename, join } from "node:path";
-import { bundle } from "../../tools/bundle.js";
-import { COMPONENT, MODULES, ROOT, SITE } from "../../tools/places.js";
-import { shortStyle } from "../../tools/shorten.js";
-import { version } from "../package.json";
+import { bundle } from "../tools/bundle.js";
+import { COMPONENT, MODULES, ROOT, SITE } from "../tools/places.js";
+import { shortStyle } from "../tools/shorten.js";
+import { version } from "./package.json";
 
 interface MaterialFile {
   schema: string;
@@ -17,7 +17,7 @@ interface MaterialFile {
   height_map?: string;
 }
 
-const here = import.meta.dirname;
+const here = join(import.meta.dirname, "site");
 
 /** Material files of the examples, deepest folders last. */
 async function materialFiles(folder: string): Promise<string[]> {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What the program writes into the page (src/report/report_html.cpp): JSON, and the part's bytes.
+
+import { element } from "@tribo/ui/dom";
+
+type Pair = [number, number];
+export type Triple = [number, number, number];
+
+/** A stretch of the cut has one number in each list. Units: mm, N, s, degrees, rpm, mm/min. */
+export interface Rows {
+  t: number[];
+  dt: number[];
+  line: number[];
+  x: number[];
+  y: number[];
+  z: number[];
+  mean: number[];
+  peak: number[];
+  entry: number[];
+  exit: number[];
+  depth: number[];
+  rpm: number[];
+  feed: number[];
+}
+
+/** The turn with the largest force, and its spectrum. */
+export interface Turn {
+  t: number;
+  rpm: number;
+  line: number;
+  x: number[];
+  y: number[];
+  z: number[];
+  hz: number[];
+  amplitude: number[];
+}
+
+/** Least and largest sound pressure in equal steps over the whole; `heard`: where the played stretch begins, s. */
+export interface Envelope {
+  seconds: number;
+  heard: number;
+  low: number[];
+  high: number[];
+}
+
+export interface Wave {
+  label: string;
+  rate: number;
+  samples: number[];
+}
+
+/** How the part's bytes are to be read. */
+export interface Part {
+  vertices: number;
+  triangles: number;
+  origin: Triple;
+  step: number;
+  deviation_step?: number;
+  deviation_range?: number;
+}
+
+interface ReportData {
+  schema: "tribo.report/1";
+  /** The largest force may be as low and as high as these factors say. */
+  band: Pair;
+  rows: Rows;
+  turn?: Turn;
+  envelope?: Envelope;
+  waves?: Wave[];
+  part?: Part;
+}
+
+export const data = JSON.parse(element("data").textContent ?? "") as ReportData;
+export const { rows } = data;
+export const count = rows.t.length;

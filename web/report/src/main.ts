@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// The report's page: what the program measured becomes plots. The part in 3D is a script of its own (part_view.ts), which a
+// page without a part is spared.
+
+import { element } from "@tribo/ui/dom";
+import { count, data, rows } from "./data.js";
+import { forcePlot } from "./force_plot.js";
+import { largest } from "./numbers.js";
+import { pathPlot } from "./path_plot.js";
+import { listenToSlider, select } from "./selection.js";
+import { envelopePlot, wavePlots } from "./sound_plots.js";
+import { turnPlots } from "./turn_plots.js";
+
+export * from "./shared.js";
+
+const remove = (id: string) => element(id).remove();
+
+if (count) {
+  listenToSlider();
+  forcePlot();
+  pathPlot();
+  select(rows.peak.indexOf(largest(rows.peak)));
+} else {
+  remove("forces");
+  remove("path");
+}
+if (data.turn) turnPlots(data.turn);
+else remove("turn");
+if (data.envelope) {
+  envelopePlot(data.envelope);
+  wavePlots(data.waves ?? []);
+} else {
+  remove("sound");
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+
+export const clamp = (v: number, low: number, high: number) => Math.min(Math.max(v, low), high);
+export const largest = (list: number[]) => list.reduce((m, v) => Math.max(m, v), 0);
+
+/** Three significant digits, without exponents where a person would not use one. */
+export function short(v: number): string {
+  const size = Math.abs(v);
+  if (size >= 1e6 || (size > 0 && size < 1e-3)) return v.toExponential(2);
+  return String(Number(v.toPrecision(size >= 1000 ? 4 : 3)));
+}
+
+/** Round steps, so that between four and nine ticks cover the range. */
+export function ticks(low: number, high: number, wanted: number): number[] {
+  const raw = (high - low) / wanted;
+  if (!(raw > 0)) return [low];
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * (raw > 5 * power ? 10 : raw > 2 * power ? 5 : raw > power ? 2 : 1);
+  const found = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) found.push(i * step);
+  return found;
+}
