@@ -11,7 +11,7 @@ import { COMPONENT, MODULES } from "../tools/places.js";
 /** What a page may have to fetch for the component, packed. */
 const MOST_BYTES = 39_000;
 
-/** Of the declarations in a folder those that the entries import, by whatever way: a user has no use for the others. */
+/** Removes declarations that the entries do not import, directly or through others. */
 async function keepReachable(folder: string, entries: string[]): Promise<void> {
   const reached = new Set(entries);
   for (const file of reached) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-/** Gives a canvas as many pixels as the screen has under it, at most `most` squared a CSS pixel. How many a CSS pixel. */
+/** Gives a canvas the pixels of the screen under it. Returns how many a CSS pixel is wide: the screen's ratio, at most `most`. */
 export function fitToScreen(canvas: HTMLCanvasElement, most = Infinity): number {
   const ratio = Math.min(devicePixelRatio || 1, most);
   const width = Math.max(1, Math.round(canvas.clientWidth * ratio));
