@@ -26,16 +26,16 @@ std::string slot_job(const std::string& cutter, const char* edges, const std::st
 }
 
 // The row nearest the middle of the block, where all of the tool is in it.
-const KeptRow& middle(const JobRun& run) {
-    const KeptRow* best = &run.rows.at(0);
-    for (const KeptRow& row : run.rows) {
-        if (std::abs(row.values.tip_mm.x - 20) < std::abs(best->values.tip_mm.x - 20)) best = &row;
+const session::KeptRow& middle(const JobRun& run) {
+    const session::KeptRow* best = &run.rows.at(0);
+    for (const session::KeptRow& kept : run.rows) {
+        if (std::abs(kept.row.pose.tip_mm.x - 20) < std::abs(best->row.pose.tip_mm.x - 20)) best = &kept;
     }
     return *best;
 }
 
-reference::Cut definition(const JobRun& run, const KeptRow& row) {
-    return {run.job.cutters.at(row.cutter), run.coefficients, row.engagement, row.feed};
+reference::Cut definition(const JobRun& run, const session::KeptRow& kept) {
+    return {run.job.cutters.at(kept.row.cutter), run.coefficients, kept.row.engagement, kept.row.feed};
 }
 
 double size(const contact::ForceHarmonic& h) {
@@ -45,24 +45,24 @@ double size(const contact::ForceHarmonic& h) {
 TEST(JobCutter, of_equal_pitch_has_no_line_at_the_spindles_frequency) {
     const JobRun run = run_job({{"job.toml", slot_job("helix_deg = 30\n", kEdges)}, {"p.nc", kSlot}});
     ASSERT_EQ(run.error, "");
-    EXPECT_EQ(middle(run).spectrum.order_step, 2);  // only multiples of the tooth passing
+    EXPECT_EQ(middle(run).force.spectrum.order_step, 2);  // only multiples of the tooth passing
 }
 
 TEST(JobCutter, of_unequal_pitch_has_lines_at_the_spindles_frequency) {
     const JobRun run = run_job(
         {{"job.toml", slot_job("helix_deg = 30\npitch_deg = [150, 210]\n", kEdges)}, {"p.nc", kSlot}});
     ASSERT_EQ(run.error, "");
-    const KeptRow& row = middle(run);
-    EXPECT_NEAR(row.feed.across_mm, 0.1, 1e-6);
-    ASSERT_EQ(row.spectrum.order_step, 1);
-    const reference::Cut cut = definition(run, row);
-    const double mean = size(row.spectrum.harmonics.at(0));
-    EXPECT_GT(size(row.spectrum.harmonics.at(1)), 0.05 * mean);
+    const session::KeptRow& kept = middle(run);
+    EXPECT_NEAR(kept.row.feed.across_mm, 0.1, 1e-6);
+    ASSERT_EQ(kept.force.spectrum.order_step, 1);
+    const reference::Cut cut = definition(run, kept);
+    const double mean = size(kept.force.spectrum.harmonics.at(0));
+    EXPECT_GT(size(kept.force.spectrum.harmonics.at(1)), 0.05 * mean);
     for (int order = 0; order <= 8; ++order) {
         const auto expected = reference::harmonic(cut, order, 8, 100, reference::worn_chip);
-        EXPECT_LT(
-            reference::difference(row.spectrum.harmonics.at(static_cast<std::size_t>(order)), expected, 5),
-            1e-3 * mean)
+        EXPECT_LT(reference::difference(kept.force.spectrum.harmonics.at(static_cast<std::size_t>(order)),
+                                        expected, 5),
+                  1e-3 * mean)
             << order;
     }
 }
@@ -74,8 +74,9 @@ TEST(JobCutter, spindle_line_of_straight_unequal_teeth_is_the_sum_of_their_turne
         const JobRun run =
             run_job({{"job.toml", slot_job("helix_deg = 0\n" + cutter, kNoEdges)}, {"p.nc", kSlot}});
         EXPECT_EQ(run.error, "");
-        const KeptRow& row = middle(run);
-        return row.spectrum.harmonics.at(order / static_cast<std::size_t>(row.spectrum.order_step));
+        const session::KeptRow& kept = middle(run);
+        return kept.force.spectrum.harmonics.at(order /
+                                                static_cast<std::size_t>(kept.force.spectrum.order_step));
     };
     const auto uneven = harmonic("pitch_deg = [150, 210]\n", 2);
     const auto even = harmonic("", 2);
@@ -93,23 +94,23 @@ TEST(JobCutter, run_out_leaves_the_sum_of_the_chips_and_makes_the_teeth_differ) 
         return done;
     };
     const JobRun true_run = run("", kNoEdges), off = run("runout_mm = 0.02\nrunout_deg = 30\n", kNoEdges);
-    const KeptRow &a = middle(true_run), &b = middle(off);
-    EXPECT_EQ(a.chip_mm3_per_s, b.chip_mm3_per_s);
+    const session::KeptRow &a = middle(true_run), &b = middle(off);
+    EXPECT_EQ(a.row.chip_mm3_per_s(), b.row.chip_mm3_per_s());
     EXPECT_EQ(true_run.totals.removed_mm3, off.totals.removed_mm3);
     // What one tooth misses the next one takes: without edge forces the mean cannot tell.
-    EXPECT_LT(reference::difference(b.spectrum.harmonics[0], a.spectrum.harmonics[0], 5),
-              1e-6 * size(a.spectrum.harmonics[0]));
+    EXPECT_LT(reference::difference(b.force.spectrum.harmonics[0], a.force.spectrum.harmonics[0], 5),
+              1e-6 * size(a.force.spectrum.harmonics[0]));
     // The teeth differ: a line at the spindle's frequency and a higher peak.
-    ASSERT_EQ(b.spectrum.order_step, 1);
-    EXPECT_GT(size(b.spectrum.harmonics[1]), 0.1 * size(b.spectrum.harmonics[0]));
-    EXPECT_GT(b.values.peak_fxy_n, 1.1 * a.values.peak_fxy_n);
+    ASSERT_EQ(b.force.spectrum.order_step, 1);
+    EXPECT_GT(size(b.force.spectrum.harmonics[1]), 0.1 * size(b.force.spectrum.harmonics[0]));
+    EXPECT_GT(b.force.peaks.peak_xy_n, 1.1 * a.force.peaks.peak_xy_n);
     // With edges the definition, tooth by tooth in the history of the cut, decides.
     const JobRun edged = run("runout_mm = 0.02\nrunout_deg = 30\n", kEdges);
     const reference::Cut cut = definition(edged, middle(edged));
     for (int order = 0; order <= 6; ++order) {
-        const auto& h = middle(edged).spectrum.harmonics.at(static_cast<std::size_t>(order));
+        const auto& h = middle(edged).force.spectrum.harmonics.at(static_cast<std::size_t>(order));
         EXPECT_LT(reference::difference(h, reference::harmonic(cut, order, 16, 200, reference::worn_chip), 5),
-                  0.01 * size(middle(edged).spectrum.harmonics[0]))
+                  0.01 * size(middle(edged).force.spectrum.harmonics[0]))
             << order;
     }
 }
@@ -122,7 +123,7 @@ TEST(JobCutter, run_out_the_other_way_lets_the_other_tooth_take_more) {
                                            kNoEdges)},
                      {"p.nc", kSlot}});
         EXPECT_EQ(run.error, "");
-        return middle(run).spectrum.harmonics.at(1);
+        return middle(run).force.spectrum.harmonics.at(1);
     };
     const auto there = first_line("30"), back = first_line("210");
     EXPECT_GT(size(there), 1);
@@ -137,20 +138,21 @@ TEST(JobCutter, engagement_that_the_job_prescribes_is_what_the_forces_are_of) {
     ASSERT_EQ(run.error, "");
     // The slot is cut as before...
     EXPECT_NEAR(run.totals.removed_mm3, 10 * 2 * 40, 0.003 * 800);
-    for (const KeptRow& row : run.rows) {
-        EXPECT_NEAR(row.values.entry_deg, 60, 1e-9);
-        EXPECT_NEAR(row.values.exit_deg, 135, 1e-9);
-        EXPECT_EQ(row.values.axial_depth_mm, 3);
+    for (const session::KeptRow& kept : run.rows) {
+        const milling::EngagementHull hull = milling::hull(kept.row.engagement);
+        EXPECT_NEAR(hull.entry_rad, reference::rad(60), 1e-11);
+        EXPECT_NEAR(hull.exit_rad, reference::rad(135), 1e-11);
+        EXPECT_EQ(hull.axial_depth_mm, 3);
     }
     // ...and the force is that of the prescribed one.
-    const KeptRow& row = middle(run);
+    const session::KeptRow& kept = middle(run);
     reference::Cut cut{run.job.cutters[0], run.coefficients, {}, {0.1, 0}};
     cut.engagement.bands.push_back({0, 3, reference::rad(60), reference::rad(135)});
     const auto mean = reference::harmonic(cut, 0, 4, 40);
-    EXPECT_NEAR(row.values.mean_n.x, mean.x.real(), 1e-3);
-    EXPECT_NEAR(row.values.mean_n.y, mean.y.real(), 1e-3);
-    EXPECT_NEAR(row.values.mean_n.z, mean.z.real(), 1e-3);
-    EXPECT_NEAR(row.values.mean_torque_nm, 1e-3 * mean.torque.real(), 1e-6);
+    EXPECT_NEAR(kept.force.peaks.mean_n.x, mean.x.real(), 1e-3);
+    EXPECT_NEAR(kept.force.peaks.mean_n.y, mean.y.real(), 1e-3);
+    EXPECT_NEAR(kept.force.peaks.mean_n.z, mean.z.real(), 1e-3);
+    EXPECT_NEAR(1e-3 * kept.force.peaks.mean_torque_nmm, 1e-3 * mean.torque.real(), 1e-6);
 }
 
 constexpr const char* kTwoTools = R"(
@@ -178,12 +180,12 @@ TEST(JobCutter, is_the_one_whose_number_the_program_calls) {
     EXPECT_NEAR(run.totals.removed_mm3, 40 * (10 * 2 + 4 * 3), 0.003 * 1280);
     EXPECT_TRUE(run.totals.collisions.empty());
     int rows_of[2] = {0, 0};
-    for (const KeptRow& row : run.rows) {
-        ++rows_of[row.cutter];
-        EXPECT_EQ(row.cutter, row.values.tip_mm.y < 15 ? 0u : 1u);
-        EXPECT_EQ(row.values.spindle_rpm, row.cutter == 0 ? 6000 : 12000);
+    for (const session::KeptRow& kept : run.rows) {
+        ++rows_of[kept.row.cutter];
+        EXPECT_EQ(kept.row.cutter, kept.row.pose.tip_mm.y < 15 ? 0u : 1u);
+        EXPECT_EQ(kept.row.spindle_rpm, kept.row.cutter == 0 ? 6000 : 12000);
         // mm per minute over teeth per minute
-        EXPECT_NEAR(row.feed.across_mm, row.cutter == 0 ? 0.05 : 600.0 / 36000, 1e-6);
+        EXPECT_NEAR(kept.row.feed.across_mm, kept.row.cutter == 0 ? 0.05 : 600.0 / 36000, 1e-6);
     }
     EXPECT_GT(rows_of[0], 70);
     EXPECT_GT(rows_of[1], 70);

@@ -41,7 +41,7 @@ std::vector<Vec3> tips(double (*weight)(int)) {
                                0.5);
     EXPECT_EQ(run.error, "");
     std::vector<Vec3> tips;
-    for (const KeptRow& row : run.rows) tips.push_back(row.values.tip_mm);
+    for (const session::KeptRow& kept : run.rows) tips.push_back(kept.row.pose.tip_mm);
     return tips;
 }
 

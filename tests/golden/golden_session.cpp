@@ -36,26 +36,31 @@ std::uint64_t milled(const job::Job& job, motion::Program program) {
     sound::Soundtrack track(sounds);
     std::vector<float> block_of_sound(1000);
     session::MillSinks sinks;
-    sinks.row = [&](const session::MillRow& row) {
-        const milling::ForceRow& v = row.values;
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+        constexpr double kDegPerRad = 180 / math::kPi;
+        const milling::EngagementHull hull = milling::hull(row.engagement);
+        const milling::ForcePeaks& peaks = force.peaks;
         for (const double value :
-             {v.t_s, v.entry_deg, v.exit_deg, v.axial_depth_mm, v.peak_fxy_n, v.mean_torque_nm,
-              v.peak_torque_nm, v.removed_mm3, row.chip_mm3_per_s, row.spindle_angle_rad})
+             {row.start_s, hull.entry_rad * kDegPerRad, hull.exit_rad * kDegPerRad, hull.axial_depth_mm,
+              peaks.peak_xy_n, 1e-3 * peaks.mean_torque_nmm, 1e-3 * peaks.peak_torque_nmm, row.removed_mm3,
+              row.chip_mm3_per_s(), row.phase_rad})
             hash.add(value);
-        for (const Vec3 value : {v.tip_mm, v.axis, v.mean_n, v.peak_n, row.frame.x}) hash.add(value);
-        hash.add(v.line);
-        for (const contact::ForceHarmonic& h : row.spectrum.harmonics) {
+        for (const Vec3 value :
+             {row.pose.tip_mm, row.pose.frame.z, peaks.mean_n, peaks.peak_n, row.pose.frame.x})
+            hash.add(value);
+        hash.add(row.line);
+        for (const contact::ForceHarmonic& h : force.spectrum.harmonics) {
             hash.add(h.x.real());
             hash.add(h.torque.imag());
         }
         contact::ContactSample sample;
-        sample.t_s = v.t_s;
-        sample.position_mm = v.tip_mm;
-        sample.force_n = v.mean_n;
-        sample.removed_mm3_per_s = row.chip_mm3_per_s;
-        sample.phase_rad = row.spindle_angle_rad;
-        sample.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
-        sample.spectrum = &row.spectrum;
+        sample.t_s = row.start_s;
+        sample.position_mm = row.pose.tip_mm;
+        sample.force_n = peaks.mean_n;
+        sample.removed_mm3_per_s = row.chip_mm3_per_s();
+        sample.phase_rad = row.phase_rad;
+        sample.phase_rate_rad_per_s = row.spindle_rad_per_s();
+        sample.spectrum = &force.spectrum;
         track.excite(sample);
         track.render(block_of_sound);
         for (const float value : block_of_sound) hash.add(value);

@@ -44,7 +44,7 @@ Cut cut(MillSetup setup) {
     Cut c;
     c.session = std::make_unique<MillSession>(std::move(setup), serial_for);
     MillSinks sinks;
-    sinks.row = [&](const MillRow& row) { c.record.add(row); };
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce&) { c.record.add(row); };
     c.session->run(sinks);
     return c;
 }
@@ -73,10 +73,10 @@ TEST(CutRecord, gives_the_sessions_own_spectra_where_nothing_changes) {
     CutRecord record;
     MillSession session(slot(), serial_for);
     MillSinks sinks;
-    sinks.row = [&](const MillRow& row) {
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
         record.add(row);
-        spectra.push_back(row.spectrum);
-        phases.push_back(row.spindle_angle_rad);
+        spectra.push_back(force.spectrum);
+        phases.push_back(row.phase_rad);
     };
     session.run(sinks);
     ASSERT_GT(spectra.size(), 30U);

@@ -13,6 +13,7 @@
 #include "milling/tool/materials.hpp"
 #include "motion/path/moves.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/kept_rows.hpp"
 
 namespace tribo::session {
 namespace {
@@ -120,7 +121,7 @@ EarlierCuts turned(EarlierCuts cuts, const motion::WorkFrame& frame) {
 }
 
 struct Rows {
-    std::vector<milling::ForceRow> rows;
+    std::vector<KeptRow> rows;
     MillTotals totals;
     std::unique_ptr<MillSession> session;
 };
@@ -129,7 +130,7 @@ struct Rows {
 Rows milled(MillSetup setup, double stop_s = 0) {
     Rows result;
     result.session = std::make_unique<MillSession>(std::move(setup), serial_for);
-    const MillSinks sinks{[&](const MillRow& row) { result.rows.push_back(row.values); }, {}};
+    const MillSinks sinks = keep_rows(result.rows);
     result.session->run_to(stop_s, sinks);
     result.session->run(sinks);
     result.totals = result.session->totals();
@@ -206,17 +207,21 @@ TEST(EarlierCuts, and_the_rest_are_one_job_that_pauses_in_between_to_the_last_bi
         ASSERT_EQ(t.first.rows.size() + t.chain.rows.size(), t.one.rows.size()) << seed;
         ASSERT_GT(t.chain.rows.size(), 20u);
         for (std::size_t n = 0; n < t.chain.rows.size(); ++n) {
-            const milling::ForceRow& row = t.chain.rows[n];
-            const milling::ForceRow& same = t.one.rows[t.first.rows.size() + n];
+            const auto& [row, force] = t.chain.rows[n];
+            const auto& [same, same_force] = t.one.rows[t.first.rows.size() + n];
             EXPECT_EQ(row.line, same.line);
-            EXPECT_EQ(row.tip_mm, same.tip_mm);
-            EXPECT_EQ(row.entry_deg, same.entry_deg) << "seed " << seed << " row " << n;
-            EXPECT_EQ(row.exit_deg, same.exit_deg);
-            EXPECT_EQ(row.axial_depth_mm, same.axial_depth_mm);
+            EXPECT_EQ(row.pose.tip_mm, same.pose.tip_mm);
+            const milling::EngagementHull hull = milling::hull(row.engagement);
+            const milling::EngagementHull same_hull = milling::hull(same.engagement);
+            EXPECT_EQ(hull.entry_rad, same_hull.entry_rad) << "seed " << seed << " row " << n;
+            EXPECT_EQ(hull.exit_rad, same_hull.exit_rad);
+            EXPECT_EQ(hull.axial_depth_mm, same_hull.axial_depth_mm);
             EXPECT_EQ(row.removed_mm3, same.removed_mm3);
             // The feed is a length over a difference of times, which are later in the one job.
             for (int k = 0; k < 3; ++k)
-                EXPECT_NEAR(row.mean_n[k], same.mean_n[k], 1e-9 * (1 + length(same.mean_n))) << n;
+                EXPECT_NEAR(force.peaks.mean_n[k], same_force.peaks.mean_n[k],
+                            1e-9 * (1 + length(same_force.peaks.mean_n)))
+                    << n;
         }
         for (int n = 0; n < 2000; ++n) {
             const Vec3 p = draw.point(Twice::kBlank);
@@ -233,12 +238,13 @@ TEST(EarlierCuts, and_the_rest_are_one_job_as_well_as_a_curved_sweep_is_found) {
         EXPECT_NEAR(t.chain.totals.remaining_mm3, t.one.totals.remaining_mm3, 1e-6);
         ASSERT_EQ(t.first.rows.size() + t.chain.rows.size(), t.one.rows.size()) << seed;
         for (std::size_t n = 0; n < t.chain.rows.size(); ++n) {
-            const milling::ForceRow& row = t.chain.rows[n];
-            const milling::ForceRow& same = t.one.rows[t.first.rows.size() + n];
+            const auto& [row, force] = t.chain.rows[n];
+            const auto& [same, same_force] = t.one.rows[t.first.rows.size() + n];
             // Which of the sweeps just made are still looked at one by one depends on how the moves are taken
             // together; the search for the nearest instant of a curved one then starts elsewhere.
             for (int k = 0; k < 3; ++k)
-                EXPECT_NEAR(row.mean_n[k], same.mean_n[k], 1e-4 * (1 + length(same.mean_n)))
+                EXPECT_NEAR(force.peaks.mean_n[k], same_force.peaks.mean_n[k],
+                            1e-4 * (1 + length(same_force.peaks.mean_n)))
                     << seed << " " << n;
         }
     }

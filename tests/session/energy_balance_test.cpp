@@ -25,9 +25,9 @@ struct Outcome {
 Outcome mill(MillSetup setup) {
     MillSession session(std::move(setup), serial_for);
     Outcome out;
-    session.run({[&](const MillRow& row) {
-                     out.rows_mm3 += row.values.removed_mm3;
-                     if (row.chip_mm3_per_s == 0 && row.peaks.peak_force_n != 0)
+    session.run({[&](const milling::CutRow& row, const milling::RowForce& force) {
+                     out.rows_mm3 += row.removed_mm3;
+                     if (row.chip_mm3 == 0 && force.peaks.peak_force_n != 0)
                          out.silent_where_nothing_goes = false;
                  },
                  {}});
@@ -74,9 +74,9 @@ TEST(EnergyBalance, a_plunge_that_only_just_touches_has_rows) {
         s.rpm_of_move = {6000};
         MillSession session(std::move(s), serial_for);
         double seconds = 0, volume = 0;
-        session.run({[&](const MillRow& row) {
-                         seconds += row.values.duration_s;
-                         volume += row.values.removed_mm3;
+        session.run({[&](const milling::CutRow& row, const milling::RowForce&) {
+                         seconds += row.duration_s();
+                         volume += row.removed_mm3;
                      },
                      {}});
         const double row_mm = 0.5;

@@ -93,12 +93,11 @@ std::optional<Row> row_at(const Cutter& cutter, const std::vector<motion::Move>&
     }
     MillSession session(std::move(s), serial_for);
     std::optional<Row> found;
-    session.run({[&](const MillRow& row) {
-                     const milling::ForceRow& v = row.values;
-                     if (time_s < v.t_s || time_s >= v.t_s + v.duration_s) return;
-                     found = Row{
-                         {v.mean_n, v.peak_n, v.peak_fxy_n, v.mean_torque_nm * 1e3, v.peak_torque_nm * 1e3},
-                         v.t_s + 0.5 * v.duration_s};
+    session.run({[&](const milling::CutRow& row, const milling::RowForce& force) {
+                     if (time_s < row.start_s || time_s >= row.end_s) return;
+                     const milling::ForcePeaks& p = force.peaks;
+                     found = Row{{p.mean_n, p.peak_n, p.peak_xy_n, p.mean_torque_nmm, p.peak_torque_nmm},
+                                 row.start_s + 0.5 * row.duration_s()};
                  },
                  {}});
     return found;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/path/path.hpp"
+#include "session/kept_rows.hpp"
 #include "session/random_cut.hpp"
 
 namespace tribo::session {
@@ -75,13 +76,13 @@ TEST(JoinedMoves, end_where_anything_changes) {
 
 struct Milled {
     MillTotals totals;
-    std::vector<milling::ForceRow> rows;
+    std::vector<KeptRow> rows;
 };
 
 Milled mill(MillSetup setup, double step_s) {
     MillSession session(std::move(setup), serial_for);
     Milled out;
-    const MillSinks sinks{[&](const MillRow& row) { out.rows.push_back(row.values); }, {}};
+    const MillSinks sinks = keep_rows(out.rows);
     for (double t = step_s; session.milled_s() < session.duration_s(); t += step_s) session.run_to(t, sinks);
     out.totals = session.totals();
     return out;
@@ -137,10 +138,11 @@ TEST(JoinedMoves, are_the_same_rows_however_often_the_run_stops) {
         // at.
         const double share = turns(cut.motion) ? 5e-3 : 1e-3;
         for (std::size_t n = 0; n < once.rows.size(); ++n) {
-            const milling::ForceRow &a = once.rows[n], &b = often.rows[n];
-            EXPECT_EQ(a.line, b.line);
-            EXPECT_NEAR(a.t_s, b.t_s, 1e-9);
-            EXPECT_NEAR(length(a.mean_n - b.mean_n), 0, share * (1 + length(a.mean_n)))
+            const KeptRow &a = once.rows[n], &b = often.rows[n];
+            const Vec3 was = a.force.peaks.mean_n;
+            EXPECT_EQ(a.row.line, b.row.line);
+            EXPECT_NEAR(a.row.start_s, b.row.start_s, 1e-9);
+            EXPECT_NEAR(length(was - b.force.peaks.mean_n), 0, share * (1 + length(was)))
                 << seed << " " << n << ": " << cut.words;
         }
     }

@@ -229,7 +229,7 @@ TEST(LiveMill, ShowsThePartAsItIsCut) {
     MillSession alone(*slot(), serial_for);
     std::vector<double> times;
     MillSinks sinks;
-    sinks.row = [&](const MillRow& row) { times.push_back(row.values.t_s); };
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce&) { times.push_back(row.start_s); };
     alone.run(sinks);
     EXPECT_EQ(viewer.row_times, times);
     EXPECT_EQ(viewer.sound_times, times);
@@ -327,7 +327,9 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
     MillSession alone(*changed(), serial_for);
     std::vector<double> forces;
     MillSinks sinks;
-    sinks.row = [&](const MillRow& row) { forces.push_back(length(row.values.mean_n)); };
+    sinks.row = [&](const milling::CutRow&, const milling::RowForce& force) {
+        forces.push_back(length(force.peaks.mean_n));
+    };
     alone.run(sinks);
 
     auto live = *LiveMill::create(slot, serial_for);

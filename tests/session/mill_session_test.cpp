@@ -136,18 +136,18 @@ TEST(MillSession, forces_of_a_rendered_cut_are_those_of_the_closed_form) {
         s.coefficients = milling::find_material(c.material)->coefficients;
         MillSession session(std::move(s), serial_for);
         int rows = 0;
-        ASSERT_TRUE(
-            session.run({[&](const MillRow& row) {
-                             if (row.values.tip_mm.x < 12 || row.values.tip_mm.x > 28) return;
-                             ++rows;
-                             for (int k = 0; k < 3; ++k) {
-                                 EXPECT_NEAR(row.values.peak_n[k] / c.peak[k], 1, 0.02) << c.name << k;
-                                 EXPECT_NEAR(row.values.mean_n[k] / c.mean[k], 1, 0.02) << c.name << k;
-                             }
-                             EXPECT_NEAR(row.values.peak_fxy_n / c.peak_xy, 1, 0.02) << c.name;
-                             EXPECT_NEAR(row.values.peak_torque_nm / c.peak_torque_nm, 1, 0.02) << c.name;
-                         },
-                         {}}));
+        ASSERT_TRUE(session.run(
+            {[&](const milling::CutRow& row, const milling::RowForce& force) {
+                 if (row.pose.tip_mm.x < 12 || row.pose.tip_mm.x > 28) return;
+                 ++rows;
+                 for (int k = 0; k < 3; ++k) {
+                     EXPECT_NEAR(force.peaks.peak_n[k] / c.peak[k], 1, 0.02) << c.name << k;
+                     EXPECT_NEAR(force.peaks.mean_n[k] / c.mean[k], 1, 0.02) << c.name << k;
+                 }
+                 EXPECT_NEAR(force.peaks.peak_xy_n / c.peak_xy, 1, 0.02) << c.name;
+                 EXPECT_NEAR(1e-3 * force.peaks.peak_torque_nmm / c.peak_torque_nm, 1, 0.02) << c.name;
+             },
+             {}}));
         EXPECT_GT(rows, 20) << c.name;
     }
 }
@@ -301,10 +301,10 @@ TEST(MillSession, takes_the_engagement_that_the_job_prescribes) {
     s.engagement = PrescribedEngagement{0, pi / 2, 5};
     MillSession session(std::move(s), serial_for);
     int rows = 0;
-    ASSERT_TRUE(session.run({[&](const MillRow& row) {
+    ASSERT_TRUE(session.run({[&](const milling::CutRow& row, const milling::RowForce&) {
                                  ++rows;
-                                 EXPECT_NEAR(row.values.exit_deg, 90, 1e-9);
-                                 EXPECT_NEAR(row.values.axial_depth_mm, 5, 1e-12);
+                                 EXPECT_NEAR(milling::hull(row.engagement).exit_rad, pi / 2, 1e-11);
+                                 EXPECT_NEAR(milling::hull(row.engagement).axial_depth_mm, 5, 1e-12);
                              },
                              {}}));
     EXPECT_GT(rows, 50);
@@ -317,10 +317,10 @@ TEST(MillSession, gives_the_same_bits_on_one_thread_and_on_two) {
         MillSession session(setup_of(cutter(CutterKind::bull, 6, 3), {{0, 0, -5}, {40, 30, 0}}, 0.2, moves),
                             std::move(loop));
         std::vector<double> numbers;
-        EXPECT_TRUE(session.run({[&](const MillRow& row) {
-                                     numbers.push_back(row.values.t_s);
-                                     numbers.push_back(row.values.peak_fxy_n);
-                                     numbers.push_back(row.values.removed_mm3);
+        EXPECT_TRUE(session.run({[&](const milling::CutRow& row, const milling::RowForce& force) {
+                                     numbers.push_back(row.start_s);
+                                     numbers.push_back(force.peaks.peak_xy_n);
+                                     numbers.push_back(row.removed_mm3);
                                  },
                                  {}}));
         return numbers;

@@ -65,7 +65,9 @@ bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
     };
     milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel, milling("earlier jobs"));
     session::MillSinks sinks;
-    if (call_.mode == "cut") sinks.row = [this](const session::MillRow& row) { record_.add(row); };
+    if (call_.mode == "cut") {
+        sinks.row = [this](const milling::CutRow& row, const milling::RowForce&) { record_.add(row); };
+    }
     sinks.progress = milling("milling");
     return milled_->run(sinks);
 }
@@ -102,7 +104,7 @@ void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     table_bytes_ = table.bytes();
     force_ = std::make_unique<session::TableForce>(std::move(table), scaling_, call_.rate_hz);
     if (call_.texture && milled_)
-        textures_ = session::texture_map(record_.stretches(), milled_->stock(), parallel);
+        textures_ = session::texture_map(record_.rows(), milled_->stock(), parallel);
     texture_records_ = textures_.records().size();
     session::CutSourceOptions options;
     options.start_s = start_s_;

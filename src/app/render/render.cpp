@@ -115,7 +115,9 @@ int render(const RenderCall& call) {
     if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
     session::MillSinks sinks;
     if (outputs.needs_rows()) {
-        sinks.row = [&](const session::MillRow& row) { outputs.add(row, session.setup()); };
+        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            outputs.add(row, force, session.setup());
+        };
     }
     sinks.progress = milling("milling");
     if (!session.run(sinks)) return interrupted_exit_code();

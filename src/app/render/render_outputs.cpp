@@ -78,11 +78,12 @@ FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
     return {};
 }
 
-void RenderOutputs::add(const session::MillRow& row, const session::MillSetup& setup) {
-    if (forces_) forces_->add(row);
+void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& force,
+                        const session::MillSetup& setup) {
+    if (forces_) forces_->add(row, force.peaks);
     if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
-    if (sound_) sound_->add(row, setup.cutters[row.cutter].flutes);
-    if (call_.wants("report")) report_.add(row);
+    if (sound_) sound_->add(row, force, setup.cutters[row.cutter].flutes);
+    if (call_.wants("report")) report_.add(row, force.peaks);
 }
 
 FileResult<void> RenderOutputs::finish(const session::MillSession& session, report::Summary& summary) {

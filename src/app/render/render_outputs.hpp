@@ -23,7 +23,7 @@ class RenderOutputs {
     // Before the session runs.
     FileResult<void> open(double duration_s, const Box3& blank);
     bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
-    void add(const session::MillRow& row, const session::MillSetup& setup);
+    void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup);
     // After it; `summary` gains what comes out here. Takes the designed part's mesh.
     FileResult<void> finish(const session::MillSession& session, report::Summary& summary);
 

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "readers/tables/forces_csv.hpp"
+#include "session/cut/contact_of_cut.hpp"
 #include "sound/play/calibration.hpp"
 #include "sound/play/workshop.hpp"
 
@@ -20,27 +21,6 @@ constexpr double kSameCutS = 1e-6;
 // Length of the waveforms of figure 8, s.
 constexpr double kWaveS = 0.02;
 
-contact::ContactSample sample_of(const session::MillRow& row, int edges, double t_s) {
-    const milling::ToolFrame& f = row.frame;
-    const milling::ForceRow& v = row.values;
-    contact::ContactSample s;
-    s.t_s = t_s;
-    s.position_mm = v.tip_mm;
-    s.normal = v.axis;
-    s.force_n = v.mean_n.x * f.x + v.mean_n.y * f.y + v.mean_n.z * f.z;
-    const double speed = v.feed_mm_per_min / 60;
-    const double tooth = row.feed.across_mm, down = row.feed.down_mm;
-    const double whole = std::hypot(tooth, down);
-    if (whole > 0) s.slip_mm_per_s = speed * ((tooth / whole) * f.x - (down / whole) * f.z);
-    s.area_mm2 = speed > 0 ? row.chip_mm3_per_s / speed : 0;
-    s.removed_mm3_per_s = row.chip_mm3_per_s;
-    s.phase_rate_rad_per_s = v.spindle_rpm / 60 * math::kTwoPi;
-    s.phase_rad = row.spindle_angle_rad + s.phase_rate_rad_per_s * (t_s - v.t_s);
-    s.spectrum = &row.spectrum;
-    s.edges = edges;
-    return s;
-}
-
 }  // namespace
 
 FileResult<ForceFile> ForceFile::create(const std::string& path) {
@@ -50,9 +30,9 @@ FileResult<ForceFile> ForceFile::create(const std::string& path) {
     return ForceFile(std::move(*file));
 }
 
-void ForceFile::add(const session::MillRow& row) {
+void ForceFile::add(const milling::CutRow& row, const milling::ForcePeaks& force) {
     line_.clear();
-    readers::append_force_row(line_, row.values);
+    readers::append_force_row(line_, row, force);
     file_.write(line_);
 }
 
@@ -69,7 +49,7 @@ FileResult<PublishedForceFile> PublishedForceFile::create(const std::string& pat
     return PublishedForceFile(std::move(*file));
 }
 
-void PublishedForceFile::add(const session::MillRow& row, const milling::Cutter& cutter,
+void PublishedForceFile::add(const milling::CutRow& row, const milling::Cutter& cutter,
                              const milling::CuttingCoefficients& k) {
     const auto cut = milling::published_cut(cutter, k, row.feed.across_mm);
     if (!cut) return;
@@ -78,9 +58,9 @@ void PublishedForceFile::add(const session::MillRow& row, const milling::Cutter&
     const Vec3 printed = milling::published_peaks(milling::PublishedForm::printed, *cut, edges).peak_n;
     const Vec3 corrected = milling::published_peaks(milling::PublishedForm::corrected, *cut, edges).peak_n;
     char line[256];
-    const int n = std::snprintf(line, sizeof line, "%.6f,%d,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f\n", row.values.t_s,
-                                row.values.line, printed.x, printed.y, printed.z, corrected.x, corrected.y,
-                                corrected.z);
+    const int n =
+        std::snprintf(line, sizeof line, "%.6f,%d,%.4f,%.4f,%.4f,%.3f,%.3f,%.3f\n", row.start_s, row.line,
+                      printed.x, printed.y, printed.z, corrected.x, corrected.y, corrected.z);
     file_.write({line, static_cast<std::size_t>(n)});
 }
 
@@ -116,35 +96,27 @@ void SoundFile::write(std::span<const float> block) {
     file_.write(block);
 }
 
-void SoundFile::add(const session::MillRow& row, int edges) {
+void SoundFile::add(const milling::CutRow& row, const milling::RowForce& force, int edges) {
     const auto sink = [this](std::span<const float> block) { write(block); };
-    const double start = row.values.t_s;
+    const double start = row.start_s;
     if (start > last_end_s_ + kSameCutS) {
         // The tool was in the air: no cut until it meets material again.
         end_cut();
-        contact::ContactSample none;
-        none.position_mm = row.values.tip_mm;
-        none.phase_rate_rad_per_s = row.values.spindle_rpm / 60 * math::kTwoPi;  // it idles
         if (heard_from_ < 0) {
-            none.t_s = std::max(0.0, start - kLeadInS);
-            track_->play_to(none, sink);
+            track_->play_to(session::contact_in_air(row, std::max(0.0, start - kLeadInS)), sink);
             heard_from_ = track_->frames_rendered();
         }
-        none.t_s = start;
-        track_->play_to(none, sink);
-        track_->play_to(sample_of(row, edges, start), sink);
+        track_->play_to(session::contact_in_air(row, start), sink);
+        track_->play_to(session::contact_of_cut(row, force, edges, start), sink);
     }
-    track_->play_to(sample_of(row, edges, 0.5 * (start + row.end_s)), sink);
+    track_->play_to(session::contact_of_cut(row, force, edges, 0.5 * (start + row.end_s)), sink);
     last_end_s_ = row.end_s;
-    idle_ = {};
-    idle_.position_mm = row.values.tip_mm;
-    idle_.phase_rate_rad_per_s = row.values.spindle_rpm / 60 * math::kTwoPi;
+    idle_ = session::contact_in_air(row, row.end_s);
 }
 
 void SoundFile::end_cut() {
     if (last_end_s_ < 0) return;
     track_->play_on(last_end_s_, [this](std::span<const float> block) { write(block); });
-    idle_.t_s = last_end_s_;
     track_->excite(idle_);
 }
 
@@ -169,24 +141,26 @@ report::ReportSound SoundFile::for_report() const {
     return sound;
 }
 
-void ReportRows::add(const session::MillRow& row) {
-    const milling::ForceRow& v = row.values;
-    rows.push_back({v.t_s, row.end_s - v.t_s, v.line, v.tip_mm, length(v.mean_n), row.peaks.peak_force_n,
-                    v.entry_deg, v.exit_deg, v.axial_depth_mm, v.spindle_rpm, v.feed_mm_per_min});
-    if (row.peaks.peak_force_n > worst_.force_n) {
-        worst_ = {row.peaks.peak_force_n, row.engagement,         row.feed,           row.cutter, v.t_s,
-                  v.spindle_rpm,          v.feed_mm_per_min / 60, row.chip_mm3_per_s, v.line};
+void ReportRows::add(const milling::CutRow& row, const milling::ForcePeaks& force) {
+    constexpr double kDegPerRad = 180 / math::kPi;
+    const milling::EngagementHull hull = milling::hull(row.engagement);
+    rows.push_back({row.start_s, row.duration_s(), row.line, row.pose.tip_mm, length(force.mean_n),
+                    force.peak_force_n, hull.entry_rad * kDegPerRad, hull.exit_rad * kDegPerRad,
+                    hull.axial_depth_mm, row.spindle_rpm, row.feed_mm_per_s() * 60});
+    if (force.peak_force_n > worst_force_n_) {
+        worst_force_n_ = force.peak_force_n;
+        worst_ = row;
     }
 }
 
 std::optional<report::ReportTurn> ReportRows::turn(const session::MillSetup& setup) const {
-    if (worst_.force_n <= 0) return std::nullopt;
+    if (worst_force_n_ <= 0) return std::nullopt;
     constexpr int kSteps = 360;
     milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
     model.engage(worst_.engagement, worst_.feed);
     report::ReportTurn turn;
-    turn.t_s = worst_.t_s;
-    turn.rpm = worst_.rpm;
+    turn.t_s = worst_.start_s;
+    turn.rpm = worst_.spindle_rpm;
     turn.line = worst_.line;
     for (int n = 0; n < kSteps; ++n) turn.force_n.push_back(model.at(n * math::kTwoPi / kSteps).force_n);
     contact::ForceSpectrum spectrum;
@@ -194,7 +168,7 @@ std::optional<report::ReportTurn> ReportRows::turn(const session::MillSetup& set
     for (std::size_t n = 1; n < spectrum.harmonics.size(); ++n) {
         const contact::ForceHarmonic& h = spectrum.harmonics[n];
         const double amplitude = 2 * std::sqrt(std::norm(h.x) + std::norm(h.y));
-        turn.spectrum.emplace_back(spectrum.order(n) * worst_.rpm / 60, amplitude);
+        turn.spectrum.emplace_back(spectrum.order(n) * worst_.spindle_rpm / 60, amplitude);
     }
     return turn;
 }
@@ -202,26 +176,29 @@ std::optional<report::ReportTurn> ReportRows::turn(const session::MillSetup& set
 std::vector<report::ReportWave> ReportRows::waves(const session::MillSetup& setup,
                                                   const sound::SoundtrackOptions& options) const {
     std::vector<report::ReportWave> waves;
-    if (worst_.force_n <= 0) return waves;
+    if (worst_force_n_ <= 0) return waves;
     // The force's own wave: chips and machine would hide it.
     sound::SoundtrackOptions force_alone = options;
     sound::furnish({}, force_alone);
     force_alone.chips.learned.reset();
     const auto wave = [&](double speed, double feed) {
-        milling::ForceModel model(setup.cutters[worst_.cutter], setup.coefficients);
-        model.engage(worst_.engagement, (feed / speed) * worst_.feed);
-        contact::ForceSpectrum spectrum;
-        model.spectrum(setup.harmonics, spectrum);
-        contact::ContactSample cut;
-        cut.position_mm = options.listener_mm;
-        cut.force_n = model.mean().force_n;
-        cut.phase_rate_rad_per_s = worst_.rpm * speed / 60 * math::kTwoPi;
-        cut.spectrum = &spectrum;
-        cut.edges = setup.cutters[worst_.cutter].flutes;
+        milling::CutRow cut = worst_;
+        cut.spindle_rpm *= speed;
+        cut.feed = (feed / speed) * worst_.feed;
+        const milling::Cutter& cutter = setup.cutters[cut.cutter];
+        milling::ForceModel model(cutter, setup.coefficients);
+        model.engage(cut.engagement, cut.feed);
+        milling::RowForce force;
+        force.peaks = model.peaks();
+        model.spectrum(setup.harmonics, force.spectrum);
+        contact::ContactSample sample = session::contact_of_cut(cut, force, cutter.flutes, 0);
+        sample.position_mm = options.listener_mm;
+        sample.phase_rad = 0;
+        sample.removed_mm3_per_s = 0;
         char label[80];
-        std::snprintf(label, sizeof label, "%.0f rpm, %.0f mm/min, peak %.0f N", worst_.rpm * speed,
-                      worst_.feed_mm_per_s * feed * 60, model.peaks().peak_force_n);
-        std::vector<float> samples = sound::steady_wave(cut, force_alone, kWaveS);
+        std::snprintf(label, sizeof label, "%.0f rpm, %.0f mm/min, peak %.0f N", cut.spindle_rpm,
+                      worst_.feed_mm_per_s() * feed * 60, force.peaks.peak_force_n);
+        std::vector<float> samples = sound::steady_wave(sample, force_alone, kWaveS);
         for (float& sample : samples) sample *= static_cast<float>(sound::kFullScalePascal);
         waves.push_back({label, static_cast<double>(options.sample_rate_hz), std::move(samples)});
     };

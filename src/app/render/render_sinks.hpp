@@ -22,7 +22,7 @@ namespace tribo::app {
 class ForceFile {
   public:
     static FileResult<ForceFile> create(const std::string& path);
-    void add(const session::MillRow& row);
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force);
     FileResult<void> finish();
 
   private:
@@ -36,7 +36,7 @@ class ForceFile {
 class PublishedForceFile {
   public:
     static FileResult<PublishedForceFile> create(const std::string& path);
-    void add(const session::MillRow& row, const milling::Cutter& cutter,
+    void add(const milling::CutRow& row, const milling::Cutter& cutter,
              const milling::CuttingCoefficients& k);
     FileResult<void> finish();
 
@@ -55,7 +55,7 @@ class SoundFile {
   public:
     static FileResult<SoundFile> create(const std::string& path, const SoundFileOptions& options,
                                         double duration_s);
-    void add(const session::MillRow& row, int edges);
+    void add(const milling::CutRow& row, const milling::RowForce& force, int edges);
     FileResult<void> finish(double duration_s);
     report::ReportSound for_report() const;
     const sound::SoundtrackOptions& options() const { return options_.track; }
@@ -79,7 +79,7 @@ class SoundFile {
 // Rows for the plots, and the turn with the largest force.
 class ReportRows {
   public:
-    void add(const session::MillRow& row);
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force);
     std::vector<report::ReportRow> rows;
     // Works the worst turn out again, instant by instant.
     std::optional<report::ReportTurn> turn(const session::MillSetup& setup) const;
@@ -89,14 +89,8 @@ class ReportRows {
                                           const sound::SoundtrackOptions& options) const;
 
   private:
-    struct Worst {
-        double force_n = 0;
-        milling::Engagement engagement;
-        milling::ToolTravel feed;
-        std::size_t cutter = 0;
-        double t_s = 0, rpm = 0, feed_mm_per_s = 0, chip_mm3_per_s = 0;
-        int line = 0;
-    } worst_;
+    milling::CutRow worst_;  // with the largest force
+    double worst_force_n_ = 0;
 };
 
 }  // namespace tribo::app

@@ -3,6 +3,7 @@
 // cuts.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace tribo::milling {
@@ -31,5 +32,25 @@ struct Engagement {
         bottom.clear();
     }
 };
+
+// The hull over all bands of the lateral edge; all zero without one.
+struct EngagementHull {
+    double entry_rad = 0, exit_rad = 0;
+    double axial_depth_mm = 0;  // from the lowest band's bottom to the highest band's top
+};
+
+inline EngagementHull hull(const Engagement& engagement) {
+    if (engagement.bands.empty()) return {};
+    EngagementHull hull{engagement.bands[0].entry_rad, engagement.bands[0].exit_rad, 0};
+    double low = engagement.bands[0].z0_mm, high = engagement.bands[0].z1_mm;
+    for (const EngagementBand& b : engagement.bands) {
+        hull.entry_rad = std::min(hull.entry_rad, b.entry_rad);
+        hull.exit_rad = std::max(hull.exit_rad, b.exit_rad);
+        low = std::min(low, b.z0_mm);
+        high = std::max(high, b.z1_mm);
+    }
+    hull.axial_depth_mm = high - low;
+    return hull;
+}
 
 }  // namespace tribo::milling

@@ -8,29 +8,19 @@
 
 #include "base/parallel.hpp"
 #include "field/carved/carved_view.hpp"
+#include "milling/engagement/cut_row.hpp"
 #include "milling/engagement/engagement_probe.hpp"
 #include "milling/tool/cutter.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::milling {
 
-// One elementary move (motion::to_elementary) of one of the cutters. The move must outlive the run.
+// One elementary move (motion::to_elementary) of one of the cutters. The move must outlive the run. A pass is
+// one step with those that join it.
 struct Step {
     const motion::Move* move;
     std::size_t cutter;
     bool joins = false;  // makes one pass with the step before it (JoinedMoves)
-};
-
-// A stretch of a pass short enough for one engagement. A pass is one step with those that join it.
-struct CutRow {
-    std::size_t step = 0;     // the first one of the pass
-    double from = 0, to = 0;  // fractions of the elementary move; of the path where others join it
-    double length_mm = 0;     // of the tip path
-    CutPose pose;             // in the middle; its travel is that of the whole row
-    Engagement engagement;    // in the middle
-    double chip_mm3 = 0;      // what the engagement says is cut
-    double removed_mm3 = 0;   // this row's share of what the stock lost
-    double reconciled = 1;    // what chips are multiplied by so that they fill what the stock lost
 };
 
 enum class CollisionKind { rapid_through_stock, shank, holder, tool_in_fixture, holder_in_fixture };

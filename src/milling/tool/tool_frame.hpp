@@ -8,6 +8,8 @@ namespace tribo::milling {
 
 struct ToolFrame {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+
+    Vec3 in_stock(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }  // of a vector in this frame
 };
 
 // Frame for an axis and a direction of travel. A plunge has no feed direction across the axis: `last_x`,

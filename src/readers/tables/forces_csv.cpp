@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/tables/forces_csv.hpp"
 
+#include "base/math.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers {
@@ -23,24 +24,26 @@ void append(std::string& csv, Vec3 value, int decimals) {
 
 }  // namespace
 
-void append_force_row(std::string& csv, const milling::ForceRow& row) {
-    append_fixed(csv, row.t_s, kTimeDecimals);
+void append_force_row(std::string& csv, const milling::CutRow& row, const milling::ForcePeaks& force) {
+    constexpr double kDegPerRad = 180 / math::kPi;
+    const milling::EngagementHull hull = milling::hull(row.engagement);
+    append_fixed(csv, row.start_s, kTimeDecimals);
     csv += ',';
     csv += std::to_string(row.line);
-    append(csv, row.tip_mm, kLengthDecimals);
-    append(csv, row.axis, kAxisDecimals);
+    append(csv, row.pose.tip_mm, kLengthDecimals);
+    append(csv, row.pose.frame.z, kAxisDecimals);
     append(csv, row.spindle_rpm, kSpeedDecimals);
-    append(csv, row.feed_mm_per_min, kSpeedDecimals);
-    append(csv, row.entry_deg, kAngleDecimals);
-    append(csv, row.exit_deg, kAngleDecimals);
-    append(csv, row.axial_depth_mm, kLengthDecimals);
-    append(csv, row.mean_n, kForceDecimals);
-    append(csv, row.peak_n, kForceDecimals);
-    append(csv, row.peak_fxy_n, kForceDecimals);
-    append(csv, row.mean_torque_nm, kTorqueDecimals);
-    append(csv, row.peak_torque_nm, kTorqueDecimals);
+    append(csv, row.feed_mm_per_s() * 60, kSpeedDecimals);
+    append(csv, hull.entry_rad * kDegPerRad, kAngleDecimals);
+    append(csv, hull.exit_rad * kDegPerRad, kAngleDecimals);
+    append(csv, hull.axial_depth_mm, kLengthDecimals);
+    append(csv, force.mean_n, kForceDecimals);
+    append(csv, force.peak_n, kForceDecimals);
+    append(csv, force.peak_xy_n, kForceDecimals);
+    append(csv, 1e-3 * force.mean_torque_nmm, kTorqueDecimals);
+    append(csv, 1e-3 * force.peak_torque_nmm, kTorqueDecimals);
     append(csv, row.removed_mm3, kVolumeDecimals);
-    append(csv, row.duration_s, kDurationDecimals);
+    append(csv, row.duration_s(), kDurationDecimals);
     append(csv, row.reconciled, kFactorDecimals);
     csv += '\n';
 }

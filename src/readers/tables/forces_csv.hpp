@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "milling/force/force_row.hpp"
+#include "milling/engagement/cut_row.hpp"
+#include "milling/force/force_peaks.hpp"
 
 namespace tribo::readers {
 
@@ -16,6 +17,6 @@ inline constexpr std::string_view forces_csv_header =
 
 // Appends the row and a line end. Decimals: volume and duration 9; torque 8; time, places and axis 6; force
 // 5; reconciled 4; angles 3; speeds 2.
-void append_force_row(std::string& csv, const milling::ForceRow& row);
+void append_force_row(std::string& csv, const milling::CutRow& row, const milling::ForcePeaks& force);
 
 }  // namespace tribo::readers

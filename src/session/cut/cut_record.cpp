@@ -20,24 +20,18 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 
 }  // namespace
 
-void CutRecord::add(const MillRow& row) {
-    stretches_.push_back({row.values.t_s, row.end_s, row.spindle_angle_rad, row.spindle_turns,
-                          row.values.spindle_rpm, row.values.tip_mm, row.frame, row.feed, row.cutter,
-                          row.engagement, row.chip_mm3_per_s});
-}
-
-double changed_phase_rad(const CutStretch& stretch, const CutChange& change) {
+double changed_phase_rad(const milling::CutRow& row, const CutChange& change) {
     const double factor = change.angle_factor();
-    if (factor == 1) return stretch.phase_rad;
-    const double turns = factor * (stretch.turns + stretch.phase_rad / math::kTwoPi);
+    if (factor == 1) return row.phase_rad;
+    const double turns = factor * (row.phase_turns + row.phase_rad / math::kTwoPi);
     return math::kTwoPi * (turns - std::floor(turns));
 }
 
 namespace {
 
-// Calls visit(n, stretch, engaged model) for the stretches, shared among threads.
+// Calls visit(n, row, engaged model) for the rows, shared among threads.
 template <class Visit>
-void each_engaged(std::span<const CutStretch> stretches, const MillSetup& setup, const CutChange& change,
+void each_engaged(std::span<const milling::CutRow> rows, const MillSetup& setup, const CutChange& change,
                   const ParallelFor& parallel, const Visit& visit) {
     std::vector<milling::Cutter> cutters = setup.cutters;
     if (change.helix_deg) {
@@ -47,49 +41,47 @@ void each_engaged(std::span<const CutStretch> stretches, const MillSetup& setup,
     parallel(kShares, [&](std::size_t share) {
         std::vector<milling::ForceModel> models;
         for (const milling::Cutter& cutter : cutters) models.emplace_back(cutter, coefficients);
-        const std::size_t last = stretches.size() * (share + 1) / kShares;
-        for (std::size_t n = stretches.size() * share / kShares; n < last; ++n) {
-            const CutStretch& s = stretches[n];
-            milling::ForceModel& model = models[s.cutter];
-            model.engage(s.engagement, change.chip_factor() * s.feed);
-            visit(n, s, model);
+        const std::size_t last = rows.size() * (share + 1) / kShares;
+        for (std::size_t n = rows.size() * share / kShares; n < last; ++n) {
+            const milling::CutRow& row = rows[n];
+            milling::ForceModel& model = models[row.cutter];
+            model.engage(row.engagement, change.chip_factor() * row.feed);
+            visit(n, row, model);
         }
     });
 }
 
 }  // namespace
 
-std::vector<contact::ForceStretch> force_stretches(std::span<const CutStretch> stretches,
+std::vector<contact::ForceStretch> force_stretches(std::span<const milling::CutRow> rows,
                                                    const MillSetup& setup, const CutChange& change,
                                                    const ParallelFor& parallel) {
     const double per_second = 1 / change.feed_factor;
-    std::vector<contact::ForceStretch> out(stretches.size());
-    const auto visit = [&](std::size_t n, const CutStretch& row, milling::ForceModel& model) {
+    std::vector<contact::ForceStretch> out(rows.size());
+    const auto visit = [&](std::size_t n, const milling::CutRow& row, milling::ForceModel& model) {
         contact::ForceStretch& s = out[n];
         model.spectrum(setup.harmonics, s.spectrum);
         s.start_s = per_second * row.start_s;
         s.end_s = per_second * row.end_s;
         s.rate_rad_per_s = change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi;
         s.phase_rad = changed_phase_rad(row, change);
-        s.x = row.frame.x;
-        s.y = row.frame.y;
-        s.z = row.frame.z;
+        s.x = row.pose.frame.x;
+        s.y = row.pose.frame.y;
+        s.z = row.pose.frame.z;
     };
-    each_engaged(stretches, setup, change, parallel, visit);
+    each_engaged(rows, setup, change, parallel, visit);
     return out;
 }
 
 std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
                                          const CutChange& change, std::size_t first,
                                          const ParallelFor& parallel) {
-    std::vector<StretchForce> out(record.stretches().size() - first);
-    const auto visit = [&](std::size_t n, const CutStretch& row, milling::ForceModel& model) {
+    std::vector<StretchForce> out(record.rows().size() - first);
+    const auto visit = [&](std::size_t n, const milling::CutRow& row, milling::ForceModel& model) {
         const milling::ForcePeaks peaks = model.peaks();
-        const milling::ToolFrame& f = row.frame;
-        out[n] = {peaks.mean_n.x * f.x + peaks.mean_n.y * f.y + peaks.mean_n.z * f.z, peaks.peak_force_n,
-                  1e-3 * peaks.mean_torque_nmm};
+        out[n] = {row.pose.frame.in_stock(peaks.mean_n), peaks.peak_force_n, 1e-3 * peaks.mean_torque_nmm};
     };
-    each_engaged(record.stretches().subspan(first), setup, change, parallel, visit);
+    each_engaged(record.rows().subspan(first), setup, change, parallel, visit);
     return out;
 }
 
@@ -97,10 +89,10 @@ std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, con
                                                     const CutChange& change, std::size_t first,
                                                     std::size_t count) {
     std::vector<contact::ForceSpectrum> out(count);
-    const auto visit = [&](std::size_t n, const CutStretch&, milling::ForceModel& model) {
+    const auto visit = [&](std::size_t n, const milling::CutRow&, milling::ForceModel& model) {
         model.spectrum(setup.harmonics, out[n]);
     };
-    each_engaged(record.stretches().subspan(first, count), setup, change, serial_for, visit);
+    each_engaged(record.rows().subspan(first, count), setup, change, serial_for, visit);
     return out;
 }
 

@@ -14,27 +14,14 @@
 
 namespace tribo::session {
 
-struct CutStretch {
-    double start_s = 0, end_s = 0;  // of the program as written
-    double phase_rad = 0;           // spindle angle at start_s
-    double turns = 0;               // whole turns before that angle
-    double spindle_rpm = 0;
-    Vec3 tip_mm;  // in the middle
-    milling::ToolFrame frame;
-    milling::ToolTravel feed;
-    std::size_t cutter = 0;
-    milling::Engagement engagement;
-    double chip_mm3_per_s = 0;
-};
-
-// Collects rows: hand add() to MillSinks::row.
+// Collects rows: call add() from MillSinks::row.
 class CutRecord {
   public:
-    void add(const MillRow& row);
-    std::span<const CutStretch> stretches() const { return stretches_; }
+    void add(const milling::CutRow& row) { rows_.push_back(row); }
+    std::span<const milling::CutRow> rows() const { return rows_; }
 
   private:
-    std::vector<CutStretch> stretches_;
+    std::vector<milling::CutRow> rows_;
 };
 
 // What may change while it runs.
@@ -48,22 +35,22 @@ struct CutChange {
     double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
 };
 
-// The spindle's angle where a stretch begins with something changed; whole turns are left out.
-double changed_phase_rad(const CutStretch& stretch, const CutChange& change);
+// The spindle's angle where a row begins with something changed; whole turns are left out.
+double changed_phase_rad(const milling::CutRow& row, const CutChange& change);
 
-// The spectra of a record with something changed, on all threads; times are those of the program at the
+// The spectra of rows with something changed, on all threads; times are those of the program at the
 // changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know
 // them).
-std::vector<contact::ForceStretch> force_stretches(std::span<const CutStretch> stretches,
+std::vector<contact::ForceStretch> force_stretches(std::span<const milling::CutRow> rows,
                                                    const MillSetup& setup, const CutChange& change = {},
                                                    const ParallelFor& parallel = serial_for);
 inline std::vector<contact::ForceStretch> force_stretches(const CutRecord& record, const MillSetup& setup,
                                                           const CutChange& change = {},
                                                           const ParallelFor& parallel = serial_for) {
-    return force_stretches(record.stretches(), setup, change, parallel);
+    return force_stretches(record.rows(), setup, change, parallel);
 }
 
-// The force over a turn of the stretches from the `first` on, with something changed.
+// The force over a turn of the rows from the `first` on, with something changed.
 struct StretchForce {
     Vec3 mean_n;  // stock frame
     double peak_force_n = 0, mean_torque_nm = 0;
@@ -72,7 +59,7 @@ std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetu
                                          const CutChange& change, std::size_t first = 0,
                                          const ParallelFor& parallel = serial_for);
 
-// The spectra of `count` stretches from the `first` on.
+// The spectra of `count` rows from the `first` on.
 std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
                                                     const CutChange& change, std::size_t first,
                                                     std::size_t count);

@@ -17,25 +17,6 @@ constexpr std::size_t kOfferedMoves = 64;
 // Force models, so that several threads may each use their own.
 constexpr std::size_t kShares = 8;
 
-constexpr double kDegPerRad = 180 / math::kPi;
-
-// The range over all bands, in degrees and mm.
-struct Hull {
-    double entry_deg = 0, exit_deg = 0, axial_depth_mm = 0;
-};
-
-Hull hull(const milling::Engagement& e) {
-    if (e.bands.empty()) return {};
-    double entry = math::kTwoPi, exit = 0, low = e.bands[0].z0_mm, high = 0;
-    for (const milling::EngagementBand& b : e.bands) {
-        entry = std::min(entry, b.entry_rad);
-        exit = std::max(exit, b.exit_rad);
-        low = std::min(low, b.z0_mm);
-        high = std::max(high, b.z1_mm);
-    }
-    return {entry * kDegPerRad, exit * kDegPerRad, high - low};
-}
-
 }  // namespace
 
 class MillSession::Run {
@@ -69,7 +50,7 @@ class MillSession::Run {
         while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
             evaluate(static_cast<bool>(sinks.row));
-            for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], sinks);
+            for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], forces_[n], sinks);
             if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
                 return false;
         }
@@ -87,15 +68,6 @@ class MillSession::Run {
     bool stopped_ = false;            // while their cuts were carved
 
   private:
-    struct Row {
-        std::size_t move = 0, cutter = 0;
-        double start_s = 0, end_s = 0, angle_rad = 0, turns = 0;
-        milling::ToolTravel feed;
-        milling::ForcePeaks peaks;
-        double edge_torque_nmm = 0;  // mean, of kte alone
-        contact::ForceSpectrum spectrum;
-        milling::CutRow cut;
-    };
     // Offers the next moves to the cut, up to the end of time, and books what it took.
     void cut() {
         steps_.clear();
@@ -178,24 +150,28 @@ class MillSession::Run {
 
     void add_row(std::size_t move, std::size_t cutter, milling::CutRow& cut, double start, double end,
                  double rpm, double move_start) {
-        if (rows_.size() == row_count_) rows_.emplace_back();
-        Row& row = rows_[row_count_++];
-        row.move = move;
+        if (rows_.size() == row_count_) {
+            rows_.emplace_back();
+            forces_.emplace_back();
+        }
+        milling::CutRow& row = rows_[row_count_++];
+        std::swap(row, cut);  // both keep their room
+        row.line = setup_.moves[move].line;
         row.cutter = cutter;
         row.start_s = start;
         row.end_s = end;
-        row.turns = turns_;
-        row.angle_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
-        std::swap(row.cut, cut);  // both keep their room
+        row.spindle_rpm = rpm;
+        row.phase_turns = turns_;
+        row.phase_rad = angle_rad_ + rpm / 60 * math::kTwoPi * (start - move_start);
         const double teeth = (end - start) * rpm / 60 * setup_.cutters[cutter].flutes;
-        row.feed = (teeth > 0 ? 1 / teeth : 0) * row.cut.pose.travel;
+        row.feed = (teeth > 0 ? 1 / teeth : 0) * row.pose.travel;
         if (!setup_.engagement) {
-            row.feed = row.cut.reconciled * row.feed;
+            row.feed = row.reconciled * row.feed;
         } else {
-            row.cut.reconciled = 1;
-            row.cut.engagement.clear();
-            row.cut.engagement.bands.push_back({0, setup_.engagement->axial_depth_mm,
-                                                setup_.engagement->entry_rad, setup_.engagement->exit_rad});
+            row.reconciled = 1;
+            row.engagement.clear();
+            row.engagement.bands.push_back({0, setup_.engagement->axial_depth_mm,
+                                            setup_.engagement->entry_rad, setup_.engagement->exit_rad});
         }
     }
 
@@ -204,53 +180,33 @@ class MillSession::Run {
         parallel_(kShares, [&](std::size_t share) {
             const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
             for (std::size_t n = from; n < to; ++n) {
-                Row& row = rows_[n];
+                const milling::CutRow& row = rows_[n];
+                milling::RowForce& force = forces_[n];
                 milling::ForceModel& model = models_[share][row.cutter];
-                model.engage(row.cut.engagement, row.feed);
-                if (spectra) model.spectrum(setup_.harmonics, row.spectrum);
-                row.peaks = model.peaks();
-                row.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
+                model.engage(row.engagement, row.feed);
+                if (spectra) model.spectrum(setup_.harmonics, force.spectrum);
+                force.peaks = model.peaks();
+                force.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
             }
         });
     }
 
-    void finish_row(const Row& row, const MillSinks& sinks) {
-        const double rpm = setup_.rpm_of_move[row.move], seconds = row.end_s - row.start_s;
-        const milling::ForcePeaks& p = row.peaks;
+    void finish_row(const milling::CutRow& row, const milling::RowForce& force, const MillSinks& sinks) {
+        const double seconds = row.duration_s();
+        const milling::ForcePeaks& p = force.peaks;
         totals_.cutting_s += seconds;
         cutting_at_[row.cutter] += seconds;
         force_seconds_ += length(p.mean_n) * seconds;
-        const double turned_rad = rpm / 60 * math::kTwoPi * seconds;
+        const double turned_rad = row.spindle_rad_per_s() * seconds;
         totals_.work_j += 1e-3 * p.mean_torque_nmm * turned_rad;
-        totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - row.edge_torque_nmm) * turned_rad;
-        totals_.chip_mm3 += row.cut.chip_mm3;
+        totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - force.edge_torque_nmm) * turned_rad;
+        totals_.chip_mm3 += row.chip_mm3;
         totals_.peak_force_n = std::max(totals_.peak_force_n, p.peak_force_n);
         totals_.peak_torque_nmm = std::max(totals_.peak_torque_nmm, p.peak_torque_nmm);
         totals_.peak_power_w =
-            std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * rpm / 60 * math::kTwoPi);
+            std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * row.spindle_rpm / 60 * math::kTwoPi);
         ++totals_.rows;
-        if (!sinks.row) return;
-        const Hull h = hull(row.cut.engagement);
-        milling::ForceRow values;
-        values.t_s = row.start_s;
-        values.duration_s = seconds;
-        values.line = setup_.moves[row.move].line;
-        values.tip_mm = row.cut.pose.tip_mm;
-        values.axis = row.cut.pose.frame.z;
-        values.spindle_rpm = rpm;
-        values.feed_mm_per_min = seconds > 0 ? row.cut.length_mm / seconds * 60 : 0;
-        values.entry_deg = h.entry_deg;
-        values.exit_deg = h.exit_deg;
-        values.axial_depth_mm = h.axial_depth_mm;
-        values.mean_n = p.mean_n;
-        values.peak_n = p.peak_n;
-        values.peak_fxy_n = p.peak_xy_n;
-        values.mean_torque_nm = 1e-3 * p.mean_torque_nmm;
-        values.peak_torque_nm = 1e-3 * p.peak_torque_nmm;
-        values.removed_mm3 = row.cut.removed_mm3;
-        values.reconciled = row.cut.reconciled;
-        sinks.row({values, row.cut.engagement, row.spectrum, row.cut.pose.frame, row.feed, p, row.cutter,
-                   row.end_s, row.angle_rad, seconds > 0 ? row.cut.chip_mm3 / seconds : 0, row.turns});
+        if (sinks.row) sinks.row(row, force);
     }
 
     void add_collision(const MillCollision& c) {
@@ -283,7 +239,8 @@ class MillSession::Run {
     std::array<std::vector<milling::ForceModel>, kShares> models_;
     std::vector<milling::Step> steps_;
     milling::Machined machined_;
-    std::vector<Row> rows_;  // of the moves just cut; the first row_count_ count
+    std::vector<milling::CutRow> rows_;      // of the moves just cut; the first row_count_ count
+    std::vector<milling::RowForce> forces_;  // one a row
     std::size_t row_count_ = 0;
     motion::Move last_move_;          // cut short by the end of time
     double last_share_ = 1;           // of its path

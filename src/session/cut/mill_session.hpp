@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "contact/force_spectrum.hpp"
 #include "field/carved/field_reader.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/force/force.hpp"
-#include "milling/force/force_row.hpp"
+#include "milling/force/row_force.hpp"
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
 #include "motion/path/program.hpp"
@@ -46,21 +45,6 @@ struct MillSetup {
         16;  // multiples of the tooth passing frequency (of the spindle's where teeth differ: times flutes)
 };
 
-// What one row hands to the senses. References are valid during the call only.
-struct MillRow {
-    const milling::ForceRow& values;
-    const milling::Engagement& engagement;
-    const contact::ForceSpectrum& spectrum;
-    milling::ToolFrame frame;
-    milling::ToolTravel feed;
-    milling::ForcePeaks peaks;
-    std::size_t cutter = 0;
-    double end_s = 0;              // values.t_s is the start
-    double spindle_angle_rad = 0;  // at the start
-    double chip_mm3_per_s = 0;     // feed times chip area
-    double spindle_turns = 0;      // whole turns before that angle, since the program began
-};
-
 struct MillCollision {
     milling::CollisionKind kind;
     int line = 0;
@@ -88,7 +72,8 @@ struct MillTotals {
 };
 
 struct MillSinks {
-    std::function<void(const MillRow&)> row;        // in the order of time, while cutting only; may be empty
+    // In the order of time, while cutting only; may be empty. References are valid during the call only.
+    std::function<void(const milling::CutRow&, const milling::RowForce&)> row;
     std::function<bool(double fraction)> progress;  // now and then; false stops the run; may be empty
 };
 

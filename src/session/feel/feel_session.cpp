@@ -51,20 +51,22 @@ Vec3 TableForce::force_n(double at_s) noexcept {
     return scaling_.apply(force);
 }
 
-haptics::TextureMap texture_map(std::span<const CutStretch> cut, const contact::DistanceField& machined,
+haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const contact::DistanceField& machined,
                                 const ParallelFor& parallel, double spacing_mm) {
-    std::vector<const CutStretch*> places;
-    for (const CutStretch& s : cut) {
-        if (places.empty() || distance(places.back()->tip_mm, s.tip_mm) >= spacing_mm) places.push_back(&s);
+    std::vector<const milling::CutRow*> places;
+    for (const milling::CutRow& row : cut) {
+        if (places.empty() || distance(places.back()->pose.tip_mm, row.pose.tip_mm) >= spacing_mm)
+            places.push_back(&row);
     }
     // Evenly thinned where there would be too many.
     const std::size_t step = places.size() / kMostRecords + 1;
     std::vector<std::optional<contact::TextureRecord>> found((places.size() + step - 1) / step);
     parallel(found.size(), [&](std::size_t n) {
-        const CutStretch& s = *places[n * step];
+        const milling::CutRow& row = *places[n * step];
         surface::TextureOptions options;
-        options.pitch_along_mm = s.feed.across_mm;
-        found[n] = surface::textured_triangles(machined, {s.tip_mm, s.frame.z, s.frame.x}, options);
+        options.pitch_along_mm = row.feed.across_mm;
+        found[n] = surface::textured_triangles(
+            machined, {row.pose.tip_mm, row.pose.frame.z, row.pose.frame.x}, options);
     });
     std::vector<contact::TextureRecord> records;
     for (const auto& r : found) {

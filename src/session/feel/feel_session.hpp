@@ -64,7 +64,7 @@ class TableForce final : public haptics::CuttingForce {
 };
 
 // Eight textured triangles for places along the cut, at least `spacing_mm` of path apart.
-haptics::TextureMap texture_map(std::span<const CutStretch> cut, const contact::DistanceField& machined,
+haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const contact::DistanceField& machined,
                                 const ParallelFor& parallel, double spacing_mm = 2);
 
 struct CutSourceOptions {

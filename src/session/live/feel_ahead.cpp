@@ -11,7 +11,7 @@ FeelAhead::FeelAhead(MillSetup setup, ParallelFor parallel)
 
 bool FeelAhead::run(const std::function<bool()>& may_go_on) {
     MillSinks sinks;
-    sinks.row = [this](const MillRow& row) { record_.add(row); };
+    sinks.row = [this](const milling::CutRow& row, const milling::RowForce&) { record_.add(row); };
     sinks.progress = [&](double) { return may_go_on(); };
     return session_.run(sinks);
 }
@@ -24,7 +24,7 @@ contact::ForceTable FeelAhead::table(const CutChange& change,
 }
 
 haptics::TextureMap FeelAhead::textures() const {
-    return texture_map(record_.stretches(), session_.stock(), parallel_);
+    return texture_map(record_.rows(), session_.stock(), parallel_);
 }
 
 }  // namespace tribo::session

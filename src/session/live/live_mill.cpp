@@ -115,19 +115,19 @@ void LiveMill::set_clock(double t_s) {
     set_back_ = clock_s_ < session_->milled_s();
 }
 
-void LiveMill::add_row(const MillRow& row) {
-    const milling::ForceRow& v = row.values;
+void LiveMill::add_row(const milling::CutRow& row) {
+    const milling::EngagementHull hull = milling::hull(row.engagement);
     protocol::LiveRow told;
-    told.t_s = v.t_s;
+    told.t_s = row.start_s;
     told.end_s = row.end_s;
-    told.tip_mm = v.tip_mm;
-    told.entry_rad = v.entry_deg * math::kRadPerDeg;
-    told.exit_rad = v.exit_deg * math::kRadPerDeg;
-    told.axial_depth_mm = v.axial_depth_mm;
-    told.line = static_cast<std::uint32_t>(v.line);
+    told.tip_mm = row.pose.tip_mm;
+    told.entry_rad = hull.entry_rad;
+    told.exit_rad = hull.exit_rad;
+    told.axial_depth_mm = hull.axial_depth_mm;
+    told.line = static_cast<std::uint32_t>(row.line);
     rows_.push_back(told);
     const double before = felt_.empty() ? 0 : felt_.back().removed_mm3;
-    felt_.push_back({{}, 0, 0, before + v.removed_mm3});
+    felt_.push_back({{}, 0, 0, before + row.removed_mm3});
     record_.add(row);
 }
 
@@ -136,7 +136,7 @@ void LiveMill::work_out_forces(std::size_t first) {
     const auto forces = stretch_forces(record_, session_->setup(), change_, first, parallel_);
     for (std::size_t n = first; n < rows_.size(); ++n) {
         const StretchForce& force = forces[n - first];
-        const CutStretch& s = record_.stretches()[n];
+        const milling::CutRow& s = record_.rows()[n];
         rows_[n].mean_force_n = length(force.mean_n);
         rows_[n].peak_force_n = force.peak_force_n;
         rows_[n].mean_torque_nm = force.mean_torque_nm;
@@ -156,7 +156,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
     const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
     const std::size_t rows_before = rows_.size();
     MillSinks sinks;
-    sinks.row = [this](const MillRow& row) { add_row(row); };
+    sinks.row = [this](const milling::CutRow& row, const milling::RowForce&) { add_row(row); };
     sinks.progress = [&](double) { return may_go_on(); };
     session_->run_to(target, sinks);
     work_out_forces(rows_before);
@@ -224,11 +224,12 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
         const auto forces = stretch_spectra(record_, session_->setup(), change_, pieces_told_, now);
         pieces.clear();
         for (std::size_t n = 0; n < now; ++n) {
-            const CutStretch& s = record_.stretches()[pieces_told_ + n];
+            const milling::CutRow& s = record_.rows()[pieces_told_ + n];
             const double rad_per_s = change_.speed_factor * s.spindle_rpm / 60 * math::kTwoPi;
             const int edges = session_->setup().cutters[s.cutter].flutes;
-            pieces.push_back({s.start_s, s.end_s, s.tip_mm, changed_phase_rad(s, change_), rad_per_s,
-                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s, edges, forces[n]});
+            pieces.push_back({s.start_s, s.end_s, s.pose.tip_mm, changed_phase_rad(s, change_), rad_per_s,
+                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s(), edges,
+                              forces[n]});
         }
         protocol::write_sound_frame(pieces, frame_);
         frames(frame_);

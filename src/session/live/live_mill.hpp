@@ -63,7 +63,7 @@ class LiveMill {
     LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
         : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)), extras_(std::move(extras)) {}
     Result<void> begin();
-    void add_row(const MillRow& row);
+    void add_row(const milling::CutRow& row);
     void work_out_forces(std::size_t first_row);
     void show_job(const protocol::FrameSink& frames);
     void show_part(const Box3& box_mm, const protocol::FrameSink& frames);

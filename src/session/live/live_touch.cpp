@@ -49,7 +49,7 @@ void SingleThreadedTouch::set(const LiveTouchSettings& settings) {
 }
 
 void SingleThreadedTouch::renew() {
-    const auto all = mill_.record().stretches();
+    const auto all = mill_.record().rows();
     if (all.size() == stretches_ || mill_.pace() <= 0 || now_s_ - renewed_s_ < kRenewS) return;
     renewed_s_ = now_s_;
     stretches_ = all.size();

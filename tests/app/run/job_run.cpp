@@ -30,11 +30,7 @@ JobRun run_job(const std::map<std::string, std::string>& files, double cell_mm) 
     run.job = *job;
     run.coefficients = setup->coefficients;
     session::MillSession session(std::move(*setup), serial_for);
-    session.run({[&](const session::MillRow& row) {
-                     run.rows.push_back({row.values, row.engagement, row.spectrum, row.feed, row.cutter,
-                                         row.chip_mm3_per_s});
-                 },
-                 {}});
+    session.run(session::keep_rows(run.rows));
     run.totals = session.totals();
     return run;
 }

@@ -7,25 +7,15 @@
 #include <vector>
 
 #include "job/job.hpp"
-#include "session/cut/mill_session.hpp"
+#include "session/kept_rows.hpp"
 
 namespace tribo::test {
-
-// What a row of a session refers to, kept.
-struct KeptRow {
-    milling::ForceRow values;
-    milling::Engagement engagement;
-    contact::ForceSpectrum spectrum;
-    milling::ToolTravel feed;
-    std::size_t cutter = 0;
-    double chip_mm3_per_s = 0;
-};
 
 struct JobRun {
     std::string error;  // of reading or setting up; everything else is then empty
     job::Job job;
     milling::CuttingCoefficients coefficients;
-    std::vector<KeptRow> rows;
+    std::vector<session::KeptRow> rows;
     session::MillTotals totals;
     Warnings warnings;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include "base/math.hpp"
+
 namespace tribo::readers {
 namespace {
 
@@ -16,26 +18,26 @@ TEST(ForcesCsv, HasTheColumnsThatOthersReadInTheirOrder) {
 }
 
 TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
-    milling::ForceRow row;
-    row.t_s = 0.03;
+    milling::CutRow row;
+    row.start_s = 0.03;
+    row.end_s = 0.155;
+    row.length_mm = 1.875;
     row.line = 12;
-    row.tip_mm = {1.5, -2, 0.0000004};
-    row.axis = {0, 0.6, 0.8};
+    row.pose.tip_mm = {1.5, -2, 0.0000004};
+    row.pose.frame.z = {0, 0.6, 0.8};
     row.spindle_rpm = 6000;
-    row.feed_mm_per_min = 900;
-    row.entry_deg = 90;
-    row.exit_deg = 180.12345;
-    row.axial_depth_mm = 2;
-    row.mean_n = {-50.75, 111.97, 29.67};
-    row.peak_n = {-171.1, 218.4, 45.7};
-    row.peak_fxy_n = 225.6;
-    row.mean_torque_nm = 0.5;
-    row.peak_torque_nm = 1.251;
+    constexpr double kRad = math::kPi / 180;
+    row.engagement.bands = {{0.5, 1, 100 * kRad, 180.12345 * kRad}, {1, 2.5, 90 * kRad, 120 * kRad}};
     row.removed_mm3 = 6;
-    row.duration_s = 0.125;
     row.reconciled = 1.0125;
+    milling::ForcePeaks force;
+    force.mean_n = {-50.75, 111.97, 29.67};
+    force.peak_n = {-171.1, 218.4, 45.7};
+    force.peak_xy_n = 225.6;
+    force.mean_torque_nmm = 500;
+    force.peak_torque_nmm = 1251;
     std::string csv;
-    append_force_row(csv, row);
+    append_force_row(csv, row, force);
     EXPECT_EQ(
         csv,
         "0.030000,12,1.500000,-2.000000,0.000000,0.000000,0.600000,0.800000,6000.00,900.00,90.000,180.123,"

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// One moment of a cut: a stretch of the path that is short enough for one engagement. This is the record that
+// forces.csv, report, sound, hand and page show, each in its own form. Its force stands beside it
+// (milling/force/row_force.hpp). Angles in rad, speeds in mm/s; times from the start of the program.
+//
+// Machining fills in what stands under "The cut"; the session adds time and spindle.
+#pragma once
+
+#include "base/math.hpp"
+#include "milling/engagement/engagement.hpp"
+#include "milling/tool/cut_pose.hpp"
+
+namespace tribo::milling {
+
+struct CutRow {
+    // The cut.
+    std::size_t step = 0;     // of a run of Machining: the first one of the row's pass
+    double from = 0, to = 0;  // fractions of that step; of the pass's path where other steps join it
+    double length_mm = 0;     // of the tip's path
+    CutPose pose;             // in the middle, stock frame; its travel is that of the whole row
+    Engagement engagement;    // in the middle
+    double chip_mm3 = 0;      // the volume that the engagement cuts
+    double removed_mm3 = 0;   // this row's share of the volume that the stock lost
+    double reconciled = 1;    // factor on the chips: with it they fill the volume that the stock lost
+    // Time and spindle.
+    int line = 0;  // of the program, from 1
+    std::size_t cutter = 0;
+    double start_s = 0, end_s = 0;
+    double spindle_rpm = 0;
+    double phase_rad = 0;    // of the spindle at start_s
+    double phase_turns = 0;  // whole turns before that angle
+    ToolTravel feed;         // travel per tooth, with `reconciled`
+
+    double duration_s() const { return end_s - start_s; }
+    double feed_mm_per_s() const { return duration_s() > 0 ? length_mm / duration_s() : 0; }  // of the tip
+    double chip_mm3_per_s() const { return duration_s() > 0 ? chip_mm3 / duration_s() : 0; }
+    double spindle_rad_per_s() const { return spindle_rpm / 60 * math::kTwoPi; }
+    double phase_at_rad(double t_s) const { return phase_rad + spindle_rad_per_s() * (t_s - start_s); }
+};
+
+}  // namespace tribo::milling
