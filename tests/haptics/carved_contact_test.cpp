@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-#include "base/allocation_count.hpp"
+#include "base/counted_allocations.hpp"
 #include "field/carved/field_reader.hpp"
 #include "field/mesh/mesh_shape.hpp"
 #include "field/shape/box_shape.hpp"
-#include "haptics/contact/force_field.hpp"
+#include "haptics/contact/field_contact.hpp"
 #include "milling/sweep/sweep.hpp"
 
 namespace tribo::haptics {
@@ -152,19 +152,14 @@ TEST(CarvedContact, allocates_nothing) {
         options.friction_static = 0.4;
         options.friction_kinetic = 0.3;
         FieldContact contact(reader, options);
-        BandVibration vibration(1000, {});
-        ForceField force({});
-        force.set_contact(&contact);
-        force.set_vibration(&vibration);
-        force.set_mode(FeelMode::inspect);
-        FieldMoment m;
         const long before = allocations;
         double sum = 0;
         for (int n = 0; n < 2000; ++n) {
             reader.refresh();
-            m.finger.end_mm = {6 + 3 * std::sin(0.01 * n), 6 + 3 * std::cos(0.013 * n),
-                               -1.2 + radius + std::sin(0.02 * n)};
-            sum += force.render(m).total_n().z;
+            sum += contact
+                       .update({6 + 3 * std::sin(0.01 * n), 6 + 3 * std::cos(0.013 * n),
+                                -1.2 + radius + std::sin(0.02 * n)})
+                       .force_n.z;
         }
         EXPECT_EQ(allocations - before, 0);
         EXPECT_GT(sum, 0);

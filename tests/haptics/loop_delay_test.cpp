@@ -191,28 +191,5 @@ TEST(LoopDelay, a_delayed_hand_is_the_hand_of_some_ticks_ago) {
     }
 }
 
-// A surface that comes while the hand already presses pushes it out once, and does not rattle.
-TEST(LoopDelay, a_surface_that_fades_in_under_a_pressing_hand_does_not_chatter) {
-    PassivityController controller;
-    const double tick_s = 1e-3, stiffness = 1;
-    HandBody body({0, 0, -1}, tick_s, {});
-    double share = 0, last = 0;
-    int drops = 0;
-    for (int n = 0; n < 600; ++n) {
-        const double before = share;
-        share = std::min(1.0, n / 300.0);
-        const double depth = std::max(0.0, -body.position_mm().z);
-        const Vec3 wall{0, 0, share * stiffness * depth};
-        const Vec3 sent = controller.tick(wall, body.position_mm(), depth > 0,
-                                          (share - before) * 0.5 * stiffness * depth * depth);
-        if (sent.z < 0.8 * last) ++drops;
-        last = sent.z;
-        body.step({0, 0, -1}, {}, sent);
-    }
-    EXPECT_EQ(drops, 0);
-    // Spring against spring.
-    EXPECT_NEAR(-body.position_mm().z, 0.3 / 1.3, 0.02);
-}
-
 }  // namespace
 }  // namespace tribo::haptics

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "haptics/device/device_log.hpp"
 #include "haptics/servo/servo.hpp"
 
 namespace tribo::haptics {
@@ -222,31 +221,6 @@ TEST(Servo, gives_a_device_that_never_spoke_no_force) {
         EXPECT_EQ(hand.sent, Vec3{});
     }
     EXPECT_EQ(servo.safety().fault(), Fault::device_silent);
-}
-
-// A logged hand played back stands where it stood, and meets the same wall.
-TEST(DeviceLog, can_be_played_back_to_the_same_forces) {
-    SimulatedHand hand(Stroke({{0, {0, 0, 1}}, {0.2, {0, 0, -1}}, {0.5, {3, 0, -1}}}), 1e-3);
-    DeviceLog log(hand, 400);
-    Wall wall(0.5);
-    SafetyLimits limits;
-    limits.ramp_s = 0;
-    Servo servo(log, wall, limits);
-    std::vector<Vec3> felt;
-    for (int n = 0; n < 500; ++n) felt.push_back(servo.tick(n * 1e-3).force_n);
-    ASSERT_EQ(log.rows().size(), 400U);  // its room
-    std::vector<StrokePoint> stroke;
-    for (const DeviceLogRow& row : log.rows()) {
-        EXPECT_EQ(row.force_n, felt[row.tick]);
-        stroke.push_back({static_cast<double>(row.tick) * 1e-3, row.reading.position_mm});
-    }
-    PlaybackHand again{Stroke(stroke), 1e-3};
-    Servo second(again, wall, limits);
-    for (int n = 0; n < 400; ++n) {
-        const Vec3 force = second.tick(n * 1e-3).force_n;
-        // But for what the controller withheld from the hand that yields.
-        EXPECT_NEAR(force.z, std::max(0.0, -0.5 * stroke[static_cast<std::size_t>(n)].position_mm.z), 1e-9);
-    }
 }
 
 }  // namespace

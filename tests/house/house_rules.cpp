@@ -76,7 +76,7 @@ const std::vector<Room>& rooms() {
         {"milling", "base contact motion field", {"base", "contact", "motion", "field"}, true},
         {"noise", "base", {"base"}, true},
         {"elastic", "base contact", {"base", "contact"}, true},
-        {"haptics", "base contact noise", {"base", "contact", "noise"}, true},
+        {"haptics", "base contact", {"base", "contact"}, true},
         {"sound", "base contact noise", {"base", "contact", "noise"}, true},
         {"readers", "base contact motion milling", {"base", "contact", "motion", "milling"}, true},
         {"files", "base contact sound readers", {"base", "contact", "sound", "readers"}, false},

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
-// What `tribo feel` and `tribo live` run on the servo's thread neither allocates nor locks, tick by tick, on
-// a part that is milled and while it is milled.
+// What `tribo feel` and `tribo live` run on the servo's thread neither allocates, locks nor prints, tick by
+// tick, on a part that is milled and while it is milled.
+#include <cstdio>
 #include <gtest/gtest.h>
+#include <string>
+#include <utility>
 
 #include "base/counted_allocations.hpp"
 #include "base/counted_locks.hpp"
 #include "field/shape/box_shape.hpp"
 #include "haptics/servo/simulated_hand.hpp"
+#include "haptics/servo/swapped_force.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/stock_in_time.hpp"
 #include "session/feel/feel_session.hpp"
+#include "session/live/feel_ahead.hpp"
 #include "session/live/live_finger.hpp"
 #include "session/live/live_mill.hpp"
 
@@ -48,36 +53,53 @@ haptics::Stroke rub() {
     return haptics::Stroke({{0, {5, 10, 4}}, {0.1, {10, 10, -3}}, {0.7, {30, 14, -3}}, {0.8, {30, 10, 4}}});
 }
 
+// What a tick may not do, summed over all ticks. A throw would end this program: a tick is noexcept.
 struct Counted {
     long allocations = 0, locks = 0;
     int touching = 0;
+    std::string output;
 };
+static_assert(noexcept(std::declval<haptics::Servo&>().tick(0)));
+static_assert(noexcept(std::declval<LiveFinger&>().tick(0)));
 
-// Between the ticks `between(now_s)` may do what it likes.
-template <class Between>
-Counted run(haptics::ForceSource& source, const Between& between) {
-    haptics::SimulatedHand hand(rub(), kTickS);
-    haptics::SafetyLimits limits = safety_limits(hand, 1 / kTickS);
-    haptics::Servo servo(hand, source, limits, 2e-3);
+// Calls `tick(n)` for each n and `between(n)` before it, which may do what it likes.
+template <class Tick, class Between>
+Counted count(int ticks, const Between& between, const Tick& tick) {
     Counted counted;
-    for (int n = 0; n < 800; ++n) {
-        between(n * kTickS);
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    for (int n = 0; n < ticks; ++n) {
+        between(n);
         const long allocations = test::allocations, locks = test::locks;
-        const haptics::ServoTick tick = servo.tick(n * kTickS);
+        const bool touching = tick(n);
         counted.allocations += test::allocations - allocations;
         counted.locks += test::locks - locks;
-        counted.touching += tick.touching ? 1 : 0;
+        counted.touching += touching ? 1 : 0;
     }
+    counted.output = testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
     return counted;
 }
 
 void expect_none(const Counted& counted) {
     EXPECT_EQ(counted.allocations, 0);
     EXPECT_EQ(counted.locks, 0);
+    EXPECT_EQ(counted.output, "");
     EXPECT_GT(counted.touching, 200);
 }
 
-TEST(ServoSources, feeling_a_milled_part_neither_allocates_nor_locks) {
+// The rub on a servo, with a jump of its clock at the end.
+template <class Between>
+Counted run(haptics::ForceSource& source, const Between& between) {
+    haptics::SimulatedHand hand(rub(), kTickS);
+    haptics::Servo servo(hand, source, safety_limits(hand, 1 / kTickS), 2e-3);
+    Counted counted = count(
+        800, [&](int n) { between(n * kTickS); },
+        [&](int n) { return servo.tick(n < 780 ? n * kTickS : n * kTickS + 10).touching; });
+    EXPECT_EQ(servo.safety().count(haptics::Fault::clock_jump), 1U);
+    return counted;
+}
+
+TEST(ServoSources, feeling_a_milled_part_neither_allocates_nor_locks_nor_prints) {
     MillSession milled(*slot(), serial_for);
     ASSERT_TRUE(milled.run({}));
     haptics::ContactOptions options;
@@ -93,46 +115,77 @@ TEST(ServoSources, feeling_a_milled_part_neither_allocates_nor_locks) {
     expect_none(run(finger, [](double) {}));
 }
 
-TEST(ServoSources, feeling_the_cut_neither_allocates_nor_locks) {
-    class Steady final : public haptics::CuttingForce {
-        Vec3 force_n(double) noexcept override { return {0.5, 0, 0}; }
-    };
-    Steady steady;
+// The table of forces and the textures of the slot, as the program and the live view make them.
+class ServoSourcesOfACut : public testing::Test {
+  protected:
+    ServoSourcesOfACut() : ahead_(*slot(), serial_for) {
+        (void)ahead_.run([] { return true; });
+        force_.replace(ahead_.table({}, {}), {});
+        textures_ = ahead_.textures();
+    }
+    FeelAhead ahead_;
+    haptics::SwappedForce force_{1 / kTickS};
+    haptics::TextureMap textures_;
+};
+
+TEST_F(ServoSourcesOfACut, feeling_the_cut_neither_allocates_nor_locks_nor_prints) {
     const CutterTrack track(*slot());
-    const haptics::TextureMap none;
+    ASSERT_FALSE(textures_.records().empty());
     StockInTime stock(*slot(), serial_for, 0);
     CutSourceOptions options;
     options.part = &stock.reader();
     options.tick_s = options.contact.tick_s = kTickS;
-    CutSource source(track, steady, none, options);
+    options.finger_mm = 8;
+    CutSource source(track, force_, textures_, options);
     expect_none(run(source, [&](double now_s) { stock.advance(now_s); }));
 }
 
-TEST(ServoSources, the_live_finger_neither_allocates_nor_locks) {
+// With another table, other textures, the switches and a stop on the way.
+TEST_F(ServoSourcesOfACut, the_live_finger_neither_allocates_nor_locks_nor_prints) {
     const auto live = *LiveMill::create(slot, serial_for);
-    LiveFinger finger({}, nullptr, {20, 10, 2});
+    LiveFeelOptions options;
+    options.finger_mm = 8;
+    LiveFinger finger(options, nullptr, {20, 10, 2});
     live->watch([&](MillSession* session) { finger.feel().set_session(session); });
+    finger.feel().set_force(ahead_.table({}, {}), {});
+    finger.feel().set_textures(ahead_.textures());
+    live->play(true);
     LiveScene scene;
-    Counted counted;
     double force_n = 0;
-    for (int n = 0; n < 1500; ++n) {
-        if (n % 16 == 0) {
-            ASSERT_TRUE(live->tick(16e-3, [] { return true; }, [](auto) {}));
-            scene.program_s = live->clock_s();
-            scene.pace = live->pace();
-            finger.lead({20 + 5e-3 * n, 10, -3}, true);
-            finger.show(scene, live->state().tool.tip_mm, [](auto) {});
-        }
-        const long allocations = test::allocations, locks = test::locks;
-        ASSERT_TRUE(finger.tick(n * kTickS));
-        counted.allocations += test::allocations - allocations;
-        counted.locks += test::locks - locks;
-        force_n = std::max(force_n, static_cast<double>(finger.servo().largest_force_n));
-    }
-    EXPECT_EQ(counted.allocations, 0);
-    EXPECT_EQ(counted.locks, 0);
+    const auto picture = [&](int n) {
+        if (n % 16 != 0) return;
+        ASSERT_TRUE(live->tick(16e-3, [] { return true; }, [](auto) {}));
+        if (n == 160) finger.feel().set_force(ahead_.table({}, {}), {});
+        if (n == 320) finger.feel().set_textures(ahead_.textures());
+        scene.program_s = live->clock_s();
+        scene.pace = live->pace();
+        scene.cutting_force = n < 480 || n > 640;
+        if (n == 1440) finger.stop(scene);
+        finger.lead({20 + 5e-3 * n, 10, -3}, true);
+        finger.show(scene, live->state().tool.tip_mm, [](auto) {});
+    };
+    expect_none(count(1500, picture, [&](int n) {
+        EXPECT_TRUE(finger.tick(n * kTickS));
+        force_n = std::max(force_n, finger.servo().largest_force_n);
+        return finger.feel().touched().contact;
+    }));
     EXPECT_GT(force_n, 0.1);
     finger.feel().set_session(nullptr);
+}
+
+TEST(ServoSources, the_counters_count) {
+#ifdef TRIBO_NOT_COUNTED
+    GTEST_SKIP() << "the sanitizer has these functions";
+#endif
+    const long allocations_before = test::allocations, locks_before = test::locks;
+    // Called by name: a new-expression without use may be left out by the compiler.
+    ::operator delete(::operator new(8));
+    pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&mutex);
+    pthread_mutex_unlock(&mutex);
+    EXPECT_GT(test::allocations, allocations_before);
+    EXPECT_EQ(test::locks, locks_before + 1);
+    EXPECT_EQ(count(1, [](int) {}, [](int) { return std::puts("") > 0; }).output, "\n");
 }
 
 }  // namespace

@@ -102,7 +102,8 @@ void FeelSource::inspect(const contact::DistanceField& surface) {
 void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     knots_ = table.table().knots();
     table_bytes_ = table.bytes();
-    force_ = std::make_unique<session::TableForce>(std::move(table), scaling_, call_.rate_hz);
+    force_ = std::make_unique<haptics::SwappedForce>(call_.rate_hz);
+    force_->replace(std::move(table), scaling_);
     if (call_.texture && milled_)
         textures_ = session::texture_map(record_.rows(), milled_->stock(), parallel);
     texture_records_ = textures_.records().size();

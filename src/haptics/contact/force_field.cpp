@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "haptics/texture/haptic_texture.hpp"
+
 namespace tribo::haptics {
 namespace {
 
@@ -30,17 +32,11 @@ double cylinder_distance_mm(const Cylinder& a, const Cylinder& b) {
     return length(r + s * u - t * v) - a.radius_mm - b.radius_mm;
 }
 
-double ForceField::Fader::step(bool on, double share) {
-    way = std::clamp(way + (on ? share : -share), 0.0, 1.0);
-    return smooth(way);
-}
-
 FieldForce ForceField::render(const FieldMoment& m) noexcept {
     FieldForce out;
     const double share = options_.tick_s / options_.switch_s;
-    const double cut = cut_.step(mode_ == FeelMode::cut && cutting_on_, share);
-    const double inspected = smooth(inspect_.way);
-    const double inspect = inspect_.step(mode_ == FeelMode::inspect, share);
+    way_ = std::clamp(way_ + (cutting_on_ ? share : -share), 0.0, 1.0);
+    const double cut = smooth(way_);
     if (!is_finite(m.finger.end_mm)) {
         begun_ = false;
         return out;
@@ -48,46 +44,16 @@ FieldForce ForceField::render(const FieldMoment& m) noexcept {
     const Vec3 feed = begun_ ? (m.cutter.end_mm - last_cutter_) / options_.tick_s : Vec3{};
     last_cutter_ = m.cutter.end_mm;
     begun_ = true;
-
-    // The contact follows the hand even where it is not felt, so that it is there when it is.
-    touch_ = contact_ != nullptr ? contact_->update(m.finger.end_mm) : Contact{};
-    out.in_contact = touch_.in_contact && inspect > 0;
-    out.surface_n = inspect * touch_.force_n;
-    if (contact_ != nullptr) {
-        out.lent_nmm = (inspect - inspected) * 0.5 * squared_length(touch_.force_n) /
-                       contact_->options().stiffness_n_per_mm;
-    }
-    const double press_n = dot(touch_.force_n, touch_.normal);
-
-    if (cut > 0) {
-        const double gap = cylinder_distance_mm(m.cutter, m.finger);
-        out.nearness = smooth((options_.far_mm - gap) / (options_.far_mm - options_.near_mm));
-        if (out.nearness > 0) {
-            const double felt = cut * out.nearness;
-            if (cutting_ != nullptr) out.cutting_n = felt * cutting_->force_n(m.at_s);
-            if (m.texture != nullptr) {
-                const TextureTouch touch{m.cutter.end_mm, feed, options_.texture_press_mm};
-                out.texture_n += felt * texture_force(*m.texture, touch, options_.texture_stiffness_n_per_mm,
-                                                      1 / options_.tick_s, options_.texture_gain_cut);
-            }
-        }
-    }
-    if (inspect > 0 && touch_.in_contact) {
-        const contact::TextureRecord* record = textures_ != nullptr && options_.texture_gain_inspect > 0
-                                                   ? textures_->nearest(touch_.proxy_mm)
-                                                   : nullptr;
-        if (record != nullptr) {
-            const TextureTouch touch{touch_.proxy_mm, touch_.slip_mm_per_s, touch_.penetration_mm};
-            // Comes in over the first tenth of a millimetre: a record may stand higher than the hand presses.
-            const double onset = smooth(touch_.penetration_mm / 0.1);
-            out.texture_n += inspect * onset *
-                             texture_force(*record, touch, options_.texture_stiffness_n_per_mm,
-                                           1 / options_.tick_s, options_.texture_gain_inspect);
-        }
-    }
-    if (vibration_ != nullptr) {
-        const double v = vibration_->next(length(touch_.slip_mm_per_s), touch_.in_contact ? press_n : 0);
-        out.texture_n += inspect * v * touch_.normal;
+    if (cut <= 0) return out;
+    const double gap = cylinder_distance_mm(m.cutter, m.finger);
+    out.nearness = smooth((options_.far_mm - gap) / (options_.far_mm - options_.near_mm));
+    if (out.nearness <= 0) return out;
+    const double felt = cut * out.nearness;
+    out.cutting_n = felt * cutting_.force_n(m.at_s);
+    if (m.texture != nullptr) {
+        const TextureTouch touch{m.cutter.end_mm, feed, options_.texture_press_mm};
+        out.texture_n =
+            felt * texture_force(*m.texture, touch, options_.texture_stiffness_n_per_mm, 1 / options_.tick_s);
     }
     return out;
 }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The force that a hand meets near a cutter ("Haptic and aural rendering of a virtual milling process", 3.2
-// and 4.1: FEMForceField): inside a volume about the cutter the cutting force and the texture of the grooves;
-// when cutting is switched off, the machined surface itself.
-//
-//   cut:      F = F_fem + F_tex,       faded by the distance between the finger's and the cutter's cylinder
-//   inspect:  F = F_reaction + F_tex,  F_reaction = k N_sur: contact with the surface, at any place
+// and 4.1: FEMForceField): inside a volume about the cutter F = F_fem + F_tex, the cutting force and the
+// texture of the grooves, faded by the distance between the finger's and the cutter's cylinder. Contact with
+// the surface (F_reaction) is field_contact.hpp.
 #pragma once
 
-#include "haptics/contact/field_contact.hpp"
-#include "haptics/texture/haptic_texture.hpp"
-#include "haptics/texture/vibration.hpp"
+#include "base/vec3.hpp"
+#include "contact/texture_record.hpp"
 
 namespace tribo::haptics {
 
@@ -33,82 +30,49 @@ class CuttingForce {
     virtual Vec3 force_n(double at_s) noexcept = 0;
 };
 
-enum class FeelMode { cut, inspect };
-
 struct ForceFieldOptions {
     // The cutting force is felt in full up to `near_mm` between finger and cutter, not at all from `far_mm`
     // on, smoothly less between: far_mm is the field's bounding volume.
     double near_mm = 2, far_mm = 10;  // 0 <= near < far
-    double switch_s = 0.1;            // that turning cutting on or off, or changing mode, takes; > 0
+    double switch_s = 0.1;            // that turning cutting on or off takes; > 0
     double texture_stiffness_n_per_mm = 0.5;
-    double texture_press_mm = 0.2;  // in cut mode, where nothing says how hard the hand presses
-    // In inspect mode the contact is with the real grooves; the texture adds to them: 0 leaves them as they
-    // are.
-    double texture_gain_cut = 1, texture_gain_inspect = 0;
+    double texture_press_mm = 0.2;  // near the cutter nothing says how hard the hand presses
     double tick_s = 1e-3;
 };
 
-// What is around the hand at this tick. Null: nothing of the kind.
+// What is around the hand at this tick.
 struct FieldMoment {
     double at_s = 0;
     Cylinder cutter;
     Cylinder finger;                                  // end_mm is the probe's position
-    const contact::TextureRecord* texture = nullptr;  // of the cutter's position
+    const contact::TextureRecord* texture = nullptr;  // of the cutter's position; null: none
 };
 
 struct FieldForce {
     Vec3 cutting_n;       // F_fem, faded and switched
-    Vec3 surface_n;       // F_reaction with friction, switched
-    Vec3 texture_n;       // F_tex and the vibration that rides on it
-    double lent_nmm = 0;  // energy that the surface gets in this tick as it is faded in, and loses as it goes
+    Vec3 texture_n;       // F_tex, likewise
     double nearness = 0;  // of finger and cutter: 0 ... 1
-    bool in_contact = false;
-    Vec3 total_n() const { return cutting_n + surface_n + texture_n; }
+    Vec3 total_n() const { return cutting_n + texture_n; }
 };
 
-// One thread; render() is real-time safe. No force steps: modes and switch fade over switch_s, the volume's
-// border by the distance.
+// One thread; render() is real-time safe. No force steps: the switch fades over switch_s, the volume's border
+// by the distance.
 class ForceField {
   public:
-    explicit ForceField(const ForceFieldOptions& options) : options_(options) {}
+    // `cutting` must outlive the field.
+    ForceField(CuttingForce& cutting, const ForceFieldOptions& options)
+        : options_(options), cutting_(cutting) {}
 
-    // What may be there; each must live as long as the field, or be replaced. Null: none.
-    void set_cutting(CuttingForce* force) { cutting_ = force; }
-    void set_contact(FieldContact* contact) { contact_ = contact; }
-    void set_textures(const TextureMap* textures) { textures_ = textures; }
-    void set_vibration(Vibration* vibration) { vibration_ = vibration; }
-
-    void set_mode(FeelMode mode) { mode_ = mode; }
-    // Begins in a mode instead of fading it in: for whoever fades the whole force, or has no motors.
-    void begin_in(FeelMode mode) {
-        mode_ = mode;
-        cut_.way = mode == FeelMode::cut ? 1 : 0;
-        inspect_.way = 1 - cut_.way;
-    }
-    // The user's switch for the cutting force.
+    // The user's switch for the cutting force; on at first.
     void switch_cutting(bool on) { cutting_on_ = on; }
-    FeelMode mode() const { return mode_; }
 
     FieldForce render(const FieldMoment& moment) noexcept;
-    // The contact of the last render.
-    const Contact& contact() const { return touch_; }
 
   private:
-    // Goes from 0 to 1 and back in switch_s; its output is smooth.
-    struct Fader {
-        double way = 0;
-        double step(bool on, double share);
-    };
-
     ForceFieldOptions options_;
-    CuttingForce* cutting_ = nullptr;
-    FieldContact* contact_ = nullptr;
-    const TextureMap* textures_ = nullptr;
-    Vibration* vibration_ = nullptr;
-    FeelMode mode_ = FeelMode::cut;
+    CuttingForce& cutting_;
     bool cutting_on_ = true;
-    Fader cut_, inspect_;
-    Contact touch_;
+    double way_ = 1;  // of the switch: 0 off, 1 on
     Vec3 last_cutter_;
     bool begun_ = false;
 };

@@ -8,14 +8,14 @@ namespace tribo::haptics {
 PassivityController::PassivityController(double resolution_mm, int delay_ticks)
     : play_(0.5 * resolution_mm), sent_(static_cast<std::size_t>(std::max(delay_ticks, 0)) + 1) {}
 
-Vec3 PassivityController::tick(Vec3 force_n, Vec3 position_mm, bool touching, double lent_nmm) noexcept {
+Vec3 PassivityController::tick(Vec3 force_n, Vec3 position_mm, bool touching) noexcept {
     if (!started_) place_ = position_mm;
     started_ = true;
     const Vec3 away = position_mm - place_;
     const double far = length(away);
     const Vec3 moved = far > play_ ? ((far - play_) / far) * away : Vec3{};
     place_ += moved;
-    energy_ += lent_nmm - dot(sent_[oldest_], moved);
+    energy_ -= dot(sent_[oldest_], moved);
     lowest_ = std::min(lowest_, energy_);
     sent_[oldest_] = {};
     const bool under_way = std::any_of(sent_.begin(), sent_.end(), [](Vec3 f) { return f != Vec3{}; });

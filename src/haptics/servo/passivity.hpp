@@ -23,9 +23,8 @@ class PassivityController {
     explicit PassivityController(double resolution_mm = 0, int delay_ticks = 0);
 
     // The force to send instead of `force_n` in this tick. `touching`: the surface pushes at all; energy that
-    // friction swallowed in one contact is no credit for the next. `lent_nmm`: what the surface has got from
-    // elsewhere in this tick, as where it is faded in under a hand that presses.
-    Vec3 tick(Vec3 force_n, Vec3 position_mm, bool touching, double lent_nmm = 0) noexcept;
+    // friction swallowed in one contact is no credit for the next.
+    Vec3 tick(Vec3 force_n, Vec3 position_mm, bool touching) noexcept;
 
     // What the hand has put in and not got back since the contact began, N mm.
     double energy_nmm() const { return energy_; }

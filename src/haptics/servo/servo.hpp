@@ -16,7 +16,6 @@ struct RenderedForce {
     Vec3 contact_n;           // of surfaces, friction and their texture: kept passive
     Vec3 driven_n;            // of the machine (the cutting force): work is its business
     bool touching = false;    // a surface pushes or the cut is felt
-    double lent_nmm = 0;      // energy that the surface got in this tick without the hand: it is faded in
     double simulation_s = 0;  // how new the state is that this was rendered from, servo's clock
 };
 

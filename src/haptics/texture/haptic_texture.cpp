@@ -73,12 +73,12 @@ const contact::TextureRecord* TextureMap::nearest(Vec3 place_mm) const {
 }
 
 Vec3 texture_force(const contact::TextureRecord& record, const TextureTouch& touch, double stiffness_n_per_mm,
-                   double rate_hz, double gain) {
+                   double rate_hz) {
     const contact::GrooveGeometry& g = record.grooves;
     const contact::TextureBand band{
         carried_share(dot(touch.velocity_mm_per_s, record.along), g.pitch_along_mm, rate_hz),
         carried_share(dot(touch.velocity_mm_per_s, record.across()), g.pitch_across_mm, rate_hz)};
-    return gain * stiffness_n_per_mm * contact::texture_normal(record, touch.place_mm, touch.press_mm, band);
+    return stiffness_n_per_mm * contact::texture_normal(record, touch.place_mm, touch.press_mm, band);
 }
 
 }  // namespace tribo::haptics

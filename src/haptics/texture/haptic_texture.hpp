@@ -48,8 +48,8 @@ struct TextureTouch {
     double press_mm = 0;     // how deep the hand presses, >= 0
 };
 
-// F_tex = k N_tex. Real-time safe. `gain` 1: as high as the grooves are.
+// F_tex = k N_tex. Real-time safe.
 Vec3 texture_force(const contact::TextureRecord& record, const TextureTouch& touch, double stiffness_n_per_mm,
-                   double rate_hz, double gain = 1);
+                   double rate_hz);
 
 }  // namespace tribo::haptics

@@ -39,7 +39,7 @@ class ModelNoise {
     // mean square 1. Small steps from block to block do not click, as the past samples stay.
     void retune(std::span<const double> predictor, double gain);
 
-    // Samples `first` ... of the stream, as BandNoise gives them; follows on or starts anew.
+    // Samples `first` ... of the stream; follows on or starts anew.
     void render(std::uint64_t first, std::span<double> out);
 
   private:

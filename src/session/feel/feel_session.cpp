@@ -16,12 +16,16 @@ constexpr double kFreeSlew = 20;
 
 }  // namespace
 
+haptics::Contact SurfaceTouch::update(const haptics::HandReading& hand) noexcept {
+    if (probe_.size() <= 1) return contact_.update(hand.position_mm);
+    const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
+    probe_.turned(hand.stylus, balls);
+    return contact_.update(hand.position_mm, balls);
+}
+
 haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, double now_s,
                                              double /*tick_s*/) noexcept {
-    const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
-    if (probe_.size() > 1) probe_.turned(hand.stylus, balls);
-    const haptics::Contact contact =
-        probe_.size() > 1 ? contact_.update(hand.position_mm, balls) : contact_.update(hand.position_mm);
+    const haptics::Contact contact = touch_.update(hand);
     haptics::RenderedForce felt;
     felt.contact_n = contact.force_n;
     felt.touching = contact.in_contact;
@@ -45,10 +49,22 @@ haptics::Cylinder CutterTrack::at(double t_s) const noexcept {
     return cutter;
 }
 
-Vec3 TableForce::force_n(double at_s) noexcept {
-    Vec3 force;
-    if (!table_.force_at(at_s, rate_hz_, cursor_, force)) return {};
-    return scaling_.apply(force);
+NearCutter::NearCutter(haptics::CuttingForce& force, double finger_mm, double tick_s)
+    : finger_mm_(finger_mm), field_(force, [&] {
+          haptics::ForceFieldOptions field;
+          field.tick_s = tick_s;
+          return field;
+      }()) {}
+
+haptics::FieldForce NearCutter::render(const haptics::HandReading& hand, double at_s,
+                                       const CutterTrack& track,
+                                       const haptics::TextureMap* textures) noexcept {
+    haptics::FieldMoment moment;
+    moment.at_s = at_s;
+    moment.cutter = track.at(at_s);
+    moment.finger = {hand.position_mm, hand.stylus, finger_mm_, kFingerMm};
+    if (textures != nullptr) moment.texture = textures->nearest(moment.cutter.end_mm);
+    return field_.render(moment);
 }
 
 haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const contact::DistanceField& machined,
@@ -77,32 +93,27 @@ haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const cont
 
 CutSource::CutSource(const CutterTrack& track, haptics::CuttingForce& force,
                      const haptics::TextureMap& textures, const CutSourceOptions& options)
-    : track_(track), textures_(textures), options_(options), field_([&] {
-          haptics::ForceFieldOptions field;
-          field.tick_s = options.tick_s;
-          return field;
-      }()) {
-    field_.set_cutting(&force);
-    field_.begin_in(haptics::FeelMode::cut);
+    : track_(track),
+      textures_(textures),
+      options_(options),
+      near_cutter_(force, options.finger_mm, options.tick_s) {
     if (options.part != nullptr) touch_.emplace(*options.part, options.contact, options.probe);
 }
 
 haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, double now_s,
-                                         double tick_s) noexcept {
-    haptics::FieldMoment moment;
-    moment.at_s = options_.start_s + now_s;
-    moment.cutter = track_.at(moment.at_s);
-    moment.finger = {hand.position_mm, hand.stylus, options_.finger_mm, kFingerMm};
-    if (options_.texture) moment.texture = textures_.nearest(moment.cutter.end_mm);
-    const haptics::FieldForce force = field_.render(moment);
+                                         double /*tick_s*/) noexcept {
+    const haptics::FieldForce force =
+        near_cutter_.render(hand, options_.start_s + now_s, track_, options_.texture ? &textures_ : nullptr);
     haptics::RenderedForce felt;
     felt.simulation_s = now_s;
     if (touch_) {
         (void)options_.part->refresh();
-        felt = touch_->render(hand, now_s, tick_s);
+        const haptics::Contact contact = touch_->update(hand);
+        felt.contact_n = contact.force_n;
+        felt.touching = contact.in_contact;
     }
     // Both come from the machine that moves the cutter: the hand's work has no part in them.
-    felt.driven_n = force.cutting_n + force.texture_n;
+    felt.driven_n = force.total_n();
     felt.touching = felt.touching || squared_length(force.cutting_n) > 0;
     return felt;
 }

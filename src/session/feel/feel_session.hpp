@@ -8,31 +8,48 @@
 #include <vector>
 
 #include "contact/distance_field.hpp"
-#include "contact/force_table.hpp"
+#include "haptics/contact/field_contact.hpp"
 #include "haptics/contact/force_field.hpp"
 #include "haptics/contact/probe_shape.hpp"
-#include "haptics/servo/force_scaling.hpp"
 #include "haptics/servo/safety.hpp"
 #include "haptics/servo/servo.hpp"
+#include "haptics/texture/haptic_texture.hpp"
 #include "session/cut/cut_record.hpp"
 
 namespace tribo::session {
 
-// Inspect mode: F_reaction = k N_sur from a god-object on the surface (the paper's section 3.2).
-class InspectSource final : public haptics::ForceSource {
+// Contact of what the hand holds with a surface: F_reaction = k N_sur from a god-object on it (the paper's
+// section 3.2). One thread; update() is real-time safe.
+class SurfaceTouch {
   public:
-    // `surface` must outlive this and stay as it is.
-    InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options,
-                  haptics::ProbeShape probe = {})
+    // `surface` must outlive this. It may change between updates.
+    SurfaceTouch(const contact::DistanceField& surface, const haptics::ContactOptions& options,
+                 haptics::ProbeShape probe = {})
         : contact_(surface, options), probe_(std::move(probe)) {}
 
-    haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
-                                  double tick_s) noexcept override;
+    haptics::Contact update(const haptics::HandReading& hand) noexcept;
+    // The next update begins at the hand's place.
+    void reset() noexcept { contact_.reset(); }
 
   private:
     haptics::FieldContact contact_;
     haptics::ProbeShape probe_;
     std::array<Vec3, haptics::ProbeGap::kMostBalls> balls_{};
+};
+
+// Inspect mode: the finished part.
+class InspectSource final : public haptics::ForceSource {
+  public:
+    // `surface` must outlive this and stay as it is.
+    InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options,
+                  haptics::ProbeShape probe = {})
+        : touch_(surface, options, std::move(probe)) {}
+
+    haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
+                                  double tick_s) noexcept override;
+
+  private:
+    SurfaceTouch touch_;
 };
 
 // Where the cutter is at a time of the program. Real-time safe; any thread.
@@ -49,18 +66,21 @@ class CutterTrack {
     std::vector<haptics::Cylinder> cutters_;  // radius and length
 };
 
-// The cutting force from a table, scaled for the hand.
-class TableForce final : public haptics::CuttingForce {
+// F_fem + F_tex about the cutter on its track (the paper's section 3.2). One thread; render() is real-time
+// safe.
+class NearCutter {
   public:
-    TableForce(contact::ForceTable table, const haptics::ForceScaling& scaling, double rate_hz)
-        : table_(std::move(table)), scaling_(scaling), rate_hz_(rate_hz) {}
-    Vec3 force_n(double at_s) noexcept override;
+    // `force` must outlive this. `finger_mm`: radius of the finger's cylinder.
+    NearCutter(haptics::CuttingForce& force, double finger_mm, double tick_s);
+
+    void switch_cutting(bool on) { field_.switch_cutting(on); }
+    // At this moment of the program. `textures`: null for none.
+    haptics::FieldForce render(const haptics::HandReading& hand, double at_s, const CutterTrack& track,
+                               const haptics::TextureMap* textures) noexcept;
 
   private:
-    contact::ForceTable table_;
-    haptics::ForceScaling scaling_;
-    double rate_hz_;
-    contact::ForceTable::Cursor cursor_;
+    double finger_mm_;
+    haptics::ForceField field_;
 };
 
 // Eight textured triangles for places along the cut, at least `spacing_mm` of path apart.
@@ -78,8 +98,8 @@ struct CutSourceOptions {
     haptics::ProbeShape probe{};
 };
 
-// Cut mode: F_fem + F_tex near the cutter while the program runs (the paper's section 3.2), and contact where
-// the probe touches the part as it stands at that moment.
+// Cut mode: the force near the cutter while the program runs, and contact where the probe touches the part as
+// it stands at that moment.
 class CutSource final : public haptics::ForceSource {
   public:
     // Everything must outlive this; no force where the table holds none.
@@ -93,8 +113,8 @@ class CutSource final : public haptics::ForceSource {
     const CutterTrack& track_;
     const haptics::TextureMap& textures_;
     CutSourceOptions options_;
-    haptics::ForceField field_;
-    std::optional<InspectSource> touch_;
+    NearCutter near_cutter_;
+    std::optional<SurfaceTouch> touch_;
 };
 
 // Limits for a device: its own numbers. Where no motors move a hand there is no ramp, and the slew limit is

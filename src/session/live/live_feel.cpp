@@ -8,8 +8,6 @@
 namespace tribo::session {
 namespace {
 
-// Of the hand's cylinder: beyond it, it is the arm.
-constexpr double kFingerMm = 40;
 // Share of the program clock's error that a tick takes back: scenes come by the picture's clock, 60 times a
 // second and not quite evenly, and the teeth must not stutter with them.
 constexpr double kClockPull = 0.005;
@@ -20,21 +18,17 @@ constexpr double kClockJumpS = 0.05;
 
 struct LiveFeel::Part {
     Part(MillSession& session, const haptics::ContactOptions& options)
-        : reader(session.read_stock()), contact(*reader, options), track(session.setup()) {}
+        : reader(session.read_stock()), touch(*reader, options), track(session.setup()) {}
     std::unique_ptr<field::FieldReader> reader;
-    haptics::FieldContact contact;
+    SurfaceTouch touch;
     CutterTrack track;
 };
 
 LiveFeel::LiveFeel(const LiveFeelOptions& options)
-    : options_(options), force_(options.rate_hz), field_([&] {
-          haptics::ForceFieldOptions field;
-          field.tick_s = 1 / options.rate_hz;
-          return field;
-      }()) {
+    : options_(options),
+      force_(options.rate_hz),
+      near_cutter_(force_, options.finger_mm, 1 / options.rate_hz) {
     options_.contact.tick_s = 1 / options.rate_hz;
-    field_.set_cutting(&force_);
-    field_.begin_in(haptics::FeelMode::cut);
 }
 
 LiveFeel::~LiveFeel() = default;
@@ -91,31 +85,27 @@ haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double
     part.get()->reader->refresh();
     if (!scene_.hand) {
         // The next one begins where it is.
-        part.get()->contact.reset();
+        part.get()->touch.reset();
         must_leave_ = false;
         return felt;
     }
-    const haptics::Contact contact = part.get()->contact.update(hand.position_mm);
+    const haptics::Contact contact = part.get()->touch.update(hand);
     touched_.proxy_mm = contact.proxy_mm;
     touched_.slip_mm_per_s = length(contact.slip_mm_per_s);
     touched_.contact = contact.in_contact;
 
-    haptics::FieldMoment moment;
-    moment.at_s = program_s_;
-    moment.cutter = part.get()->track.at(program_s_);
-    moment.finger = {hand.position_mm, hand.stylus, options_.finger_mm, kFingerMm};
-    if (textures.get() != nullptr) moment.texture = textures.get()->nearest(moment.cutter.end_mm);
     // A cutter that stands does not cut.
-    field_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
+    near_cutter_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
     if (scene_.pace > 0) force_.set_pace(scene_.pace);
-    const haptics::FieldForce near_cutter = field_.render(moment);
+    const haptics::FieldForce near_cutter =
+        near_cutter_.render(hand, program_s_, part.get()->track, textures.get());
 
     // A surface that comes back under a hand that presses would throw it out: it must leave first.
     if (scene_.stopped) must_leave_ = true;
     if (!contact.in_contact && !scene_.stopped) must_leave_ = false;
     if (scene_.stopped) return felt;
     if (!must_leave_) felt.contact_n = contact.force_n;
-    felt.driven_n = near_cutter.cutting_n + near_cutter.texture_n;
+    felt.driven_n = near_cutter.total_n();
     felt.touching = (contact.in_contact && !must_leave_) || squared_length(near_cutter.cutting_n) > 0;
     return felt;
 }

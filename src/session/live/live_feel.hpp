@@ -74,7 +74,7 @@ class LiveFeel final : public haptics::ForceSource {
     int current_ = 0, textures_set_ = 0;
     Loan<const haptics::TextureMap> lent_textures_;
     // The servo's.
-    haptics::ForceField field_;
+    NearCutter near_cutter_;
     LiveScene scene_;
     double seen_s_ = 0, program_s_ = 0;
     bool begun_ = false, must_leave_ = false;
