@@ -7,8 +7,8 @@
 //     voice.render(block);               // in the audio callback
 //
 // Speed and force are taken up at the next quantum (1.33 ms) and smoothed by a millisecond; steps of either
-// are free of clicks. Where they come from a touch screen, FingerMotion (finger_motion.hpp) makes them out of
-// positions. The output depends on seed, targets and the frames at which they came, never on block lengths.
+// are free of clicks. The output depends on seed, targets and the frames at which they came, never on block
+// lengths.
 #pragma once
 
 #include <array>

@@ -24,6 +24,8 @@ const kMostRadiusMm = 15;
 // Speed is the way of the last reports over their time; a finger that reports nothing stands still.
 const kSpeedWindowS = 0.03;
 const kStandsStillS = 0.05;
+// A finger that stood until now moved in this time alone: a report of a 60 Hz screen.
+const kReportS = 1 / 60;
 
 interface Place {
   x: number;
@@ -63,6 +65,9 @@ export class Finger {
       size > 0 ? Math.min(kMostRadiusMm, Math.max(kLeastRadiusMm, size / 2)) : kDefaultRadiusMm;
     this.#halfWidth = radius(report.width);
     this.#halfHeight = radius(report.height);
+    const last = this.#trail.at(-1);
+    if (last !== undefined && report.time - last.time > kStandsStillS)
+      this.#trail = [{ ...last, time: report.time - kReportS }];
     this.#trail.push({ x: report.x, y: report.y, time: report.time });
     while (this.#trail.length > 2 && this.#trail[1]!.time <= report.time - kSpeedWindowS) this.#trail.shift();
   }
