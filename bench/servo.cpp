@@ -19,10 +19,10 @@
 #include "contact/jnd_profile.hpp"
 #include "cuts.hpp"
 #include "devices/servo/servo_thread.hpp"
+#include "force_grid.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "harness.hpp"
 #include "milling/force/force.hpp"
-#include "milling/force/force_grid.hpp"
 
 namespace tribo::bench {
 namespace {
@@ -70,9 +70,9 @@ void measure_tables(Report& report, const fs::path& folder) {
 void measure_grid(Report& report) {
     report.section("The paper's other table: rotation, entry, exit, helix, feed, against the closed form");
     const milling::Cutter cutter = end_mill(milling::CutterKind::flat, 12, 2, 40);
-    const milling::ForceGridOptions options;
+    const ForceGridOptions options;
     const double built = wall_s();
-    const milling::ForceGrid grid(cutter, kAluminium, options);
+    const ForceGrid grid(cutter, kAluminium, options);
     report.add({"table, to build", wall_s() - built, "s"});
     report.add({"table", static_cast<double>(grid.bytes()) / 1e6, "MB"});
     struct Case {

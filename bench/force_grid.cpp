@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "milling/force/force_grid.hpp"
+#include "force_grid.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,7 @@
 #include "base/math.hpp"
 #include "milling/force/force.hpp"
 
-namespace tribo::milling {
+namespace tribo::bench {
 namespace {
 
 double at(double from, double to, int n, int count) {
@@ -17,8 +17,8 @@ double at(double from, double to, int n, int count) {
 
 }  // namespace
 
-ForceGrid::ForceGrid(Cutter cutter, const CuttingCoefficients& coefficients, const ForceGridOptions& o,
-                     const ParallelFor& parallel)
+ForceGrid::ForceGrid(milling::Cutter cutter, const milling::CuttingCoefficients& coefficients,
+                     const ForceGridOptions& o, const ParallelFor& parallel)
     : options_(o), period_rad_(math::kTwoPi / cutter.flutes) {
     assert(o.rotations >= 2 && o.entries >= 2 && o.exits >= 2 && o.helices >= 2 && o.feeds >= 2);
     const std::array counts{o.rotations, o.entries, o.exits, o.helices, o.feeds};
@@ -29,16 +29,16 @@ ForceGrid::ForceGrid(Cutter cutter, const CuttingCoefficients& coefficients, con
     }
     values_.assign(size, 0.0F);
     parallel(static_cast<std::size_t>(o.helices), [&](std::size_t helix) {
-        Cutter turned = cutter;
+        milling::Cutter turned = cutter;
         turned.helix_deg = at(o.helix_from_deg, o.helix_to_deg, static_cast<int>(helix), o.helices);
-        ForceModel model(turned, coefficients);
+        milling::ForceModel model(turned, coefficients);
         for (int feed = 0; feed < o.feeds; ++feed) {
             for (int exit = 0; exit < o.exits; ++exit) {
                 for (int entry = 0; entry < o.entries; ++entry) {
                     const double from = at(0, math::kPi, entry, o.entries),
                                  to = at(0, math::kPi, exit, o.exits);
                     if (from >= to) continue;  // nothing cuts
-                    Engagement engagement;
+                    milling::Engagement engagement;
                     engagement.bands.push_back({0, o.axial_depth_mm, from, to});
                     model.engage(engagement, {at(o.feed_from_mm, o.feed_to_mm, feed, o.feeds), 0});
                     float* out = values_.data() + stride_[1] * static_cast<std::size_t>(entry) +
@@ -84,4 +84,4 @@ Vec3 ForceGrid::force_n(double rotation_rad, double entry_rad, double exit_rad, 
     return sum;
 }
 
-}  // namespace tribo::milling
+}  // namespace tribo::bench

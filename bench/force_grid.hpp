@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The paper's look-up table ("Haptic and aural rendering of a virtual milling process", 4.1): force samples
-// over the rotation of the tool, entry and exit angle, helix and feed per tooth, straight in between. Built
-// to be compared (bench/servo.cpp): everything else here uses the closed form (force.hpp), which is exact and
-// needs no table.
+// over the rotation of the tool, entry and exit angle, helix and feed per tooth, straight in between.
+// The closed form (milling/force/force.hpp) is exact and needs no table; this one is here to be compared.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
 
-namespace tribo::milling {
+namespace tribo::bench {
 
 struct ForceGridOptions {
     double axial_depth_mm = 2;  // > 0: of the one band, from the tip up
@@ -27,8 +26,8 @@ struct ForceGridOptions {
 class ForceGrid {
   public:
     // A flat end mill of uniform pitch without run-out.
-    ForceGrid(Cutter cutter, const CuttingCoefficients& coefficients, const ForceGridOptions& options,
-              const ParallelFor& parallel = serial_for);
+    ForceGrid(milling::Cutter cutter, const milling::CuttingCoefficients& coefficients,
+              const ForceGridOptions& options, const ParallelFor& parallel = serial_for);
 
     // Clamped to the grid; entry <= exit within 0 ... pi. Real-time safe.
     Vec3 force_n(double rotation_rad, double entry_rad, double exit_rad, double helix_deg,
@@ -48,4 +47,4 @@ class ForceGrid {
     std::vector<float> values_;  // x, y, z; rotation runs fastest, feed slowest
 };
 
-}  // namespace tribo::milling
+}  // namespace tribo::bench
