@@ -316,7 +316,8 @@ INSTANTIATE_TEST_SUITE_P(
         // Words that are not among the choices.
         BadJob{"\"flat\"", "\"flta\"", 6, "'kind' cannot be 'flta'; try 'flat' (one of flat, ball, bull)"},
         BadJob{"distance_factor = 1.0", "mode = \"stereo\"", 20, "try one of hrtf, sphere, pan"},
-        BadJob{"\"bowl.csv\"", "\"bowl.csv\"\ninterpolation = \"cubic\"", 18, "try one of spline, linear"},
+        BadJob{"\"bowl.csv\"", "\"bowl.csv\"\ninterpolation = \"cubic\"", 18,
+               "try one of spline, linear, fit"},
         BadJob{"force_scale = 0.01", "probe = \"pt\"", 22, "'probe' cannot be 'pt'"},
         BadJob{"\"al7075-t6\"", "\"\"", 12, "'name' is empty"},
         BadJob{"\"al7075-t6\"", "\"al7057-t6\"", 12, "al7075-t6"},

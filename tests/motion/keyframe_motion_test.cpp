@@ -258,6 +258,48 @@ TEST(Keyframes, linear_interpolation_keeps_the_corners) {
     EXPECT_FALSE((*moves)[1].quadratic);
 }
 
+// A quarter circle of many keyframes between two straight lines, the second at a right angle.
+TEST(Keyframes, fitted_ones_are_smooth_between_corners_and_keep_the_corners) {
+    std::vector<Keyframe> keys;
+    const auto add = [&](double x, double y) {
+        keys.push_back({{{x, y, 0}}});
+        keys.back().line = static_cast<int>(keys.size());
+    };
+    for (int i = 0; i < 10; ++i) add(i, 0);
+    for (int i = 0; i <= 90; ++i) {
+        const double a = i * std::numbers::pi / 180;
+        add(10 + 20 * std::sin(a), 20 - 20 * std::cos(a));
+    }
+    for (int i = 1; i <= 10; ++i) add(30 - i, 20);
+    KeyframeOptions o;
+    o.interpolation = Interpolation::fit;
+    const Result<std::vector<Move>> moves = keyframe_moves(keys, 900, o);
+    ASSERT_TRUE(moves);
+    double length = 0;
+    int corners = 0;
+    for (std::size_t n = 0; n < moves->size(); ++n) {
+        const Move& m = (*moves)[n];
+        length += path_length_mm(m);
+        if (n == 0) continue;
+        const Move& last = (*moves)[n - 1];
+        EXPECT_LT(distance(m.start.tip_mm, last.end.tip_mm), 1e-9) << n;
+        const double turn = angle_rad(tip_derivative_mm(last, 1), tip_derivative_mm(m, 0));
+        if (turn > 1) {
+            ++corners;
+            EXPECT_LT(distance(m.start.tip_mm, {30, 20, 0}), 1e-9);
+        } else {
+            EXPECT_LT(turn, 0.05) << n;
+        }
+        if (m.line == last.line) continue;
+        EXPECT_LT(distance(m.start.tip_mm, keys[static_cast<std::size_t>(m.line) - 2].pose.tip_mm), 0.0101);
+    }
+    EXPECT_EQ(corners, 1);
+    EXPECT_NEAR(length, 20 + 10 * std::numbers::pi, 0.02);
+    EXPECT_FALSE(keyframe_moves(std::span(keys).first(1), 900, o));
+    keys[4].weight = 0;
+    EXPECT_FALSE(keyframe_moves(keys, 900, o));
+}
+
 TEST(Keyframes, bad_ones_are_refused_with_their_line_and_a_remedy) {
     std::vector<Keyframe> keys = wave(4);
     const auto refused = [](const std::vector<Keyframe>& k, int line, const char* word) {

@@ -26,7 +26,7 @@ constexpr std::array kPathKinds{"keyframes"sv, "gcode"sv, "apt"sv};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
 constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
-constexpr std::array kInterpolationWords{"spline"sv, "linear"sv};
+constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv,
                                 "distance_factor"sv,

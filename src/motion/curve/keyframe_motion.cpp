@@ -6,6 +6,7 @@
 #include <string>
 
 #include "motion/algebra/direction.hpp"
+#include "motion/curve/fitting.hpp"
 
 namespace tribo::motion {
 
@@ -97,6 +98,49 @@ Move move_to(const Keyframe& k, double feed_mm_per_min) {
     return m;
 }
 
+// Refuses a motion that runs to infinity, at the keyframe after the pole.
+Result<void> check_poles(const BSplineMotion& motion, std::span<const double> parameters,
+                         std::span<const Keyframe> keyframes) {
+    for (const MotionPiece& piece : bezier_pieces(motion)) {
+        if (!has_pole(piece.motion)) continue;
+        const auto after = std::upper_bound(parameters.begin(), parameters.end(), piece.start);
+        const std::size_t i =
+            std::min(static_cast<std::size_t>(after - parameters.begin()), keyframes.size() - 1);
+        return refuse(keyframes[i], "the motion to this keyframe runs to infinity",
+                      "add keyframes where the axis turns by more than 90 degrees");
+    }
+    return {};
+}
+
+struct MoveMaker {
+    double feed_mm_per_min;
+    const PieceTolerance& tolerance;
+    std::vector<Move> moves = {};
+
+    void add(const BSplineMotion& motion, std::span<const double> parameters,
+             std::span<const Keyframe> keyframes) {
+        const std::vector<MotionPiece> pieces = bezier_pieces(motion);
+        for (std::size_t i = 1; i < keyframes.size(); ++i)
+            append_moves(pieces, parameters[i - 1], parameters[i], move_to(keyframes[i], feed_mm_per_min),
+                         tolerance, moves);
+    }
+};
+
+Result<std::vector<Move>> fitted_moves(std::span<const Keyframe> keyframes, MoveMaker maker) {
+    if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
+    std::vector<ToolPose> poses;
+    for (const Keyframe& k : keyframes) poses.push_back(k.pose);
+    const Result<MotionFit> fit = fit_motion(poses);
+    if (!fit) return std::unexpected(fit.error());
+    for (const FittedRun& run : fit->runs) {
+        const auto keys = keyframes.subspan(run.first, run.last - run.first + 1);
+        if (const Result<void> good = check_poles(run.motion, run.parameters, keys); !good)
+            return std::unexpected(good.error());
+        maker.add(run.motion, run.parameters, keys);
+    }
+    return std::move(maker.moves);
+}
+
 }  // namespace
 
 double pose_chord(const ToolPose& a, const ToolPose& b) {
@@ -110,20 +154,17 @@ Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes
     if (s.poses.size() < 2)
         return fail("a motion needs at least two different keyframes", "add keyframes along the path");
     KeyframeMotion result{motion_through(s, options), s.all};
-    for (const MotionPiece& piece : bezier_pieces(result.motion)) {
-        if (!has_pole(piece.motion)) continue;
-        const auto after = std::upper_bound(s.all.begin(), s.all.end(), piece.start);
-        const std::size_t i = std::min(static_cast<std::size_t>(after - s.all.begin()), keyframes.size() - 1);
-        return refuse(keyframes[i], "the motion to this keyframe runs to infinity",
-                      "add keyframes where the axis turns by more than 90 degrees");
-    }
+    if (const Result<void> good = check_poles(result.motion, s.all, keyframes); !good)
+        return std::unexpected(good.error());
     return result;
 }
 
 Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, double feed_mm_per_min,
                                          const KeyframeOptions& options, const PieceTolerance& tolerance) {
-    std::vector<Move> moves;
+    if (options.interpolation == Interpolation::fit)
+        return fitted_moves(keyframes, {feed_mm_per_min, tolerance});
     if (options.interpolation == Interpolation::linear) {
+        std::vector<Move> moves;
         if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
         if (stations_of(keyframes, options.spacing).poses.size() < 2)
             return fail("a motion needs at least two different keyframes", "add keyframes along the path");
@@ -137,11 +178,9 @@ Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, do
     }
     const Result<KeyframeMotion> curve = interpolate_keyframes(keyframes, options);
     if (!curve) return std::unexpected(curve.error());
-    const std::vector<MotionPiece> pieces = bezier_pieces(curve->motion);
-    for (std::size_t i = 1; i < keyframes.size(); ++i)
-        append_moves(pieces, curve->parameters[i - 1], curve->parameters[i],
-                     move_to(keyframes[i], feed_mm_per_min), tolerance, moves);
-    return moves;
+    MoveMaker maker{feed_mm_per_min, tolerance};
+    maker.add(curve->motion, curve->parameters, keyframes);
+    return std::move(maker.moves);
 }
 
 }  // namespace tribo::motion

@@ -23,7 +23,9 @@
 
 namespace tribo::motion {
 
-enum class Interpolation { spline, linear };
+// One motion through all keyframes; straight moves from one to the next; or smooth motions from corner to
+// corner (fitting.hpp), for paths of many keyframes that have corners.
+enum class Interpolation { spline, linear, fit };
 enum class Curve { tip, dual_quaternion };
 // Distance in the parameter between keyframes: of their tips, or its square root (Lee 1989), which swings
 // less where long and short stretches meet but no longer runs evenly along a straight line.
@@ -53,9 +55,11 @@ struct KeyframeMotion {
 Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes,
                                              const KeyframeOptions& options = {});
 
-// The same as moves: the spline cut into pieces within `tolerance`, or (linear) straight moves from keyframe
-// to keyframe. Each move has the line of the keyframe it runs to, and its feed, or `feed_mm_per_min` where
-// the keyframe says none. Repeated poses make no move.
+// The same as moves: the spline cut into pieces within `tolerance`, (linear) straight moves from keyframe to
+// keyframe, or (fit) fit_motion() with its own options, in pieces likewise: within 0.01 mm and 0.05 degrees
+// of each keyframe, exact at corners and ends, and weights do not count. Each move has the line of the
+// keyframe it runs to, and its feed, or `feed_mm_per_min` where the keyframe says none. Repeated poses make
+// no move.
 Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, double feed_mm_per_min,
                                          const KeyframeOptions& options = {},
                                          const PieceTolerance& tolerance = {});
