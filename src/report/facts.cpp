@@ -9,6 +9,8 @@
 #include "base/math.hpp"
 #include "base/mesh_edges.hpp"
 #include "files/json/json.hpp"
+#include "milling/sweep/scallop.hpp"
+#include "motion/path/close_passes.hpp"
 
 namespace tribo::report {
 namespace {
@@ -190,6 +192,26 @@ void add_unit_warning(Builder& b, const Box3& box, const readers::Model& model) 
     b.facts.warnings.push_back({"", 0, text});
 }
 
+// Less of the path than this is a lead-in, a corner or the end of a raster.
+constexpr double kLeastShareOfPasses = 0.1;
+
+// How far passes run apart and the cusps that they leave between them, by the shape of the cutter as it leans
+// there (Xia and Ge 2001: effective cutting shape).
+void add_passes(Builder& b, const milling::Cutter& cutter, std::span<const motion::Move> moves) {
+    const motion::ClosePasses passes = motion::close_passes(moves, cutter.diameter_mm);
+    if (passes.share < kLeastShareOfPasses) return;
+    b.json["passes"] = {{"share", passes.share}, {"sidestep_mm", passes.sidestep_mm}};
+    std::string text = number(passes.sidestep_mm) + " mm aside over " +
+                       number(std::floor(100 * passes.share)) + " % of the feed path";
+    const double scallop =
+        milling::scallop_height_mm(cutter, {passes.tilt_rad, passes.turn_rad}, passes.sidestep_mm);
+    if (std::isfinite(scallop)) {
+        b.json["passes"]["scallop_mm"] = scallop;
+        text += ", cusps of " + number(scallop) + " mm on a plane";
+    }
+    b.line("passes", text);
+}
+
 }  // namespace
 
 Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min) {
@@ -291,7 +313,8 @@ Facts describe(const readers::Model& model) {
     return b.finish();
 }
 
-Facts describe(const job::Job& job, const Facts* program, const Facts* part) {
+Facts describe(const job::Job& job, const Facts* program, const Facts* part,
+               std::span<const motion::Move> moves) {
     Builder b("job");
     b.line("format", "job");
     if (job.stock_from) {
@@ -316,6 +339,7 @@ Facts describe(const job::Job& job, const Facts* program, const Facts* part) {
     }
     b.json["path"][std::string(path_name(job.path.kind))] = job.path.file;
     b.line("path", job.path.file);
+    if (job.cutters.size() == 1) add_passes(b, job.cutters[0], moves);
     if (!job.fixtures.empty()) {
         b.json["fixtures"] = job.fixtures.size();
         b.line("fixtures", std::to_string(job.fixtures.size()));

@@ -2,6 +2,7 @@
 // What a file holds, said twice: for a machine as JSON, for a person as aligned lines.
 #pragma once
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,8 +28,11 @@ Facts describe(const motion::Program& program, const motion::ProgramMeter& meter
                double rapid_mm_per_min = 10000);
 // {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}
 Facts describe(const readers::Model& model);
-// {kind: "job", ...}; what is known of the files that it names stands under "program" and "part".
-Facts describe(const job::Job& job, const Facts* program, const Facts* part);
+// {kind: "job", ...}; what is known of the files that it names stands under "program" and "part". `moves`: of
+// its program, for {passes: {share, sidestep_mm, scallop_mm}} where passes of its one cutter run side by
+// side.
+Facts describe(const job::Job& job, const Facts* program, const Facts* part,
+               std::span<const motion::Move> moves = {});
 
 // {kind: "material", stiffness_n_per_mm, viscosity_n_s_per_mm, width_mm, image, voices: [{speed_mm_per_s,
 // ...}], ...}

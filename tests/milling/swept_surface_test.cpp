@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "milling/sweep/swept_surface.hpp"
+#include "milling/swept_surface.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
 #include "milling/sweep/scallop.hpp"
+#include "milling/sweep/sweep.hpp"
 #include "motion/curve/keyframe_motion.hpp"
 
 using namespace tribo;
@@ -126,6 +128,43 @@ TEST(SweptCircle, shows_the_effective_cutting_shape_and_its_scallop) {
     Cutter cutter;
     cutter.diameter_mm = 12;
     EXPECT_NEAR(scallop_height_mm(cutter, {tilt, turn}, sidestep), high, 1e-6);
+}
+
+// The solid that the engine takes away under a five-axis motion, move by move, has the exact surface on its
+// border: the bottom circle inside or on it, the flank's envelope on it.
+TEST(SweptCircle, borders_the_solid_that_is_cut) {
+    std::vector<Keyframe> keys;
+    for (int i = 0; i <= 6; ++i) {
+        const double x = 5.0 * i;
+        keys.push_back({{{x, 2 * std::sin(0.2 * x), -0.01 * x * x},
+                         normalized(Vec3{0.1 * std::cos(0.1 * x), 0.2 + 0.01 * x, 1})}});
+    }
+    Cutter cutter;
+    cutter.diameter_mm = 8;
+    cutter.length_mm = 30;
+    const auto moves = keyframe_moves(keys, 900);
+    const auto motion = interpolate_keyframes(keys);
+    ASSERT_TRUE(moves && motion);
+    std::vector<std::unique_ptr<field::Shape>> sweeps;
+    for (const Move& move : *moves)
+        for (const Move& piece : to_elementary(move)) sweeps.push_back(make_sweep(cutter, piece));
+    const auto distance_to_cut = [&](Vec3 p) {
+        double least = 1e300;
+        for (const auto& sweep : sweeps) least = std::min(least, sweep->distance_mm(p));
+        return least;
+    };
+    constexpr double kOffMm = 3e-4;  // moves stand for the motion to 0.1 um at the tip and 2.5 urad
+    for (const auto& piece : swept_circle(motion->motion, cutter.radius_mm()))
+        for (const SweptPatch& patch : piece)
+            for (int i = 0; i <= 4; ++i)
+                for (int j = 0; j <= 8; ++j)
+                    EXPECT_LT(distance_to_cut(patch.point(0.25 * i, 0.125 * j)), kOffMm);
+    for (int i = 1; i < 20; ++i) {
+        const double u = motion->motion.end() * i / 20;
+        const auto flank = flank_grazing_points(motion->motion.rates(u), cutter.radius_mm(), 12);
+        ASSERT_TRUE(flank);
+        for (const Vec3& p : *flank) EXPECT_NEAR(distance_to_cut(p), 0, kOffMm) << i;
+    }
 }
 
 RC_GTEST_PROP(FlankEnvelope, touches_the_flank_where_it_moves_along_itself, ()) {

@@ -46,6 +46,27 @@ TEST(ClosePasses, are_those_of_a_raster_and_as_far_apart_as_it_steps) {
     }
 }
 
+// A raster with a leaning axis; the plane of the passes turned about x does not change how it leans in it.
+TEST(ClosePasses, say_how_the_tool_leans_from_the_plane_that_they_run_in) {
+    const double tilt = 0.3, turn = 0.7, slope = 0.4;
+    const auto turned = [&](Vec3 v) {
+        return Vec3{v.x, v.y * std::cos(slope) - v.z * std::sin(slope),
+                    v.y * std::sin(slope) + v.z * std::cos(slope)};
+    };
+    std::vector<Move> moves = raster(30, 0.3, 5);
+    const Vec3 axis =
+        turned({std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)});
+    for (Move& m : moves) {
+        m.start = {turned(m.start.tip_mm), axis};
+        m.end = {turned(m.end.tip_mm), axis};
+    }
+    const ClosePasses found = close_passes(moves, 0.5);
+    EXPECT_NEAR(found.sidestep_mm, 0.3, 1e-9);
+    EXPECT_NEAR(found.tilt_rad, tilt, 1e-9);
+    EXPECT_NEAR(found.turn_rad, turn, 1e-9);
+    EXPECT_EQ(close_passes(raster(30, 0.3, 5), 0.5).tilt_rad, 0);
+}
+
 TEST(ClosePasses, count_by_the_share_of_the_path_that_has_them) {
     // 30 passes 1 mm apart and, far from them, 10 passes 0.2 mm apart.
     std::vector<Move> moves = raster(30, 1, 40);

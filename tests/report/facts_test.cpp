@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/facts.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -111,6 +112,31 @@ TEST(Facts, of_a_job_hold_those_of_its_files) {
     EXPECT_EQ(json["program"]["path_mm"], 2.0);
     EXPECT_FALSE(json["warnings"].empty());
     EXPECT_FALSE(json.contains("part"));
+    EXPECT_FALSE(json.contains("passes"));
+}
+
+// A ball of radius 3 in passes 2 mm apart: cusps of 3 - sqrt(8).
+TEST(Facts, of_a_job_tell_the_cusps_between_its_passes) {
+    const auto job = job::parse_job(
+        "[stock]\nbox_mm=[[0,0,0],[40,40,9]]\n[cutter]\nkind=\"ball\"\ndiameter_mm=6\n"
+        "[material]\nname=\"al7075-t6\"\n[path]\ngcode=\"p.ngc\"\n",
+        "j.toml");
+    ASSERT_TRUE(job) << job.error().text();
+    std::vector<motion::Move> moves;
+    for (int n = 0; n < 10; ++n) {
+        motion::Move move;
+        move.start.tip_mm = {0, 2.0 * n, 5};
+        move.end.tip_mm = {40, 2.0 * n, 5};
+        moves.push_back(move);
+    }
+    const Facts facts = describe(*job, nullptr, nullptr, moves);
+    const Json passes = Json::parse(facts.json)["passes"];
+    EXPECT_NEAR(passes["sidestep_mm"].get<double>(), 2, 1e-9);
+    EXPECT_NEAR(passes["scallop_mm"].get<double>(), 3 - std::sqrt(8.0), 1e-9);
+    EXPECT_NE(
+        aligned(facts.lines).find("2 mm aside over 100 % of the feed path, cusps of 0.172 mm on a plane"),
+        std::string::npos)
+        << aligned(facts.lines);
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
         found.mesh = std::move(model->mesh);
         make_room(found.mesh, found.lines[0].points_mm);
     }
-    found.facts = report::describe(*job, &found.facts, part ? &*part : nullptr);
+    found.facts = report::describe(*job, &found.facts, part ? &*part : nullptr, program->moves);
     return found;
 }
 

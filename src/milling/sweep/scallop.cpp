@@ -77,13 +77,6 @@ double sagitta(double r, double chord) {
 
 }  // namespace
 
-double effective_radius_mm(const Cutter& cutter, Inclination inclination) {
-    const double corner = cutter.corner_radius_mm(), radius = cutter.radius_mm() - corner;
-    if (radius == 0) return corner;
-    const double c = math::cos(inclination.turn_rad);
-    return corner + radius * c * c / math::sin(inclination.tilt_rad);
-}
-
 double effective_width_mm(const Cutter& cutter, Inclination inclination, double height_mm) {
     const double radius = cutter.radius_mm(), corner = cutter.corner_radius_mm();
     const Outline outline(cutter, inclination);
@@ -112,19 +105,6 @@ double scallop_height_mm(const Cutter& cutter, Inclination inclination, double s
         (outline.width(middle) >= sidestep_mm ? high : low) = middle;
     }
     return high;
-}
-
-double scallop_height_mm(double effective_radius_mm, double curvature_per_mm, double sidestep_mm) {
-    return sidestep_mm * sidestep_mm / 8 * (1 / effective_radius_mm + curvature_per_mm);
-}
-
-double feed_mark_height_mm(double radius_mm, double feed_mm) {
-    return feed_mm <= 2 * radius_mm ? sagitta(radius_mm, feed_mm) : kInfinity;
-}
-
-double rear_gouge_tilt_rad(double radius_mm, double hollow_curvature_per_mm) {
-    const double sine = radius_mm * hollow_curvature_per_mm;
-    return sine < 1 ? math::asin(std::max(0.0, sine)) : math::kHalfPi;
 }
 
 }  // namespace tribo::milling

@@ -18,10 +18,6 @@ struct Inclination {
     double turn_rad = 0;
 };
 
-// Radius of curvature of the cutting shape where it touches the surface: r + (R - r) cos^2(turn) / sin(tilt).
-// Infinite for an upright flat bottom.
-double effective_radius_mm(const Cutter& cutter, Inclination inclination);
-
 // Width of the cutting shape at this height above its lowest point, h >= 0. Exact: closed form below the
 // flank of flat and ball, to 1e-12 of the cutter's radius else.
 double effective_width_mm(const Cutter& cutter, Inclination inclination, double height_mm);
@@ -30,17 +26,5 @@ double effective_width_mm(const Cutter& cutter, Inclination inclination, double 
 // sidestep. Exact likewise; for a flat end mill below its flank R sin(tilt) (1 - sqrt(1 - (s / (2 R
 // cos(turn)))^2)). Infinite where the passes do not meet.
 double scallop_height_mm(const Cutter& cutter, Inclination inclination, double sidestep_mm);
-
-// To second order in the sidestep, on a surface of this curvature across the feed (1/mm, convex > 0):
-// s^2 / 8 (1 / rho + curvature).
-double scallop_height_mm(double effective_radius_mm, double curvature_per_mm, double sidestep_mm);
-
-// Height of the feed marks that edges at the radius R leave on a wall, one every `feed_mm` (per tooth, with
-// run-out per turn): R - sqrt(R^2 - f^2 / 4), about f^2 / (8 R). Infinite for f > 2 R.
-double feed_mark_height_mm(double radius_mm, double feed_mm);
-
-// The lead that keeps the heel of a flat bottom of radius R out of a surface that is hollow along the feed
-// with this curvature (1/mm, > 0): asin(R curvature), to first order; pi / 2 where no lead does.
-double rear_gouge_tilt_rad(double radius_mm, double hollow_curvature_per_mm);
 
 }  // namespace tribo::milling

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/math.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::motion {
@@ -27,6 +28,7 @@ struct Place {
     Vec3 tip_mm, along, axis;
     double at_mm = 0;       // along the feed path
     double nearest_mm = 0;  // of the passes beside it
+    Vec3 aside;             // unit, to the nearest
 };
 
 struct Entry {
@@ -59,17 +61,30 @@ class Search {
             }
             at += length;
         }
-        std::vector<double> near;
+        std::vector<const Place*> near;
         for (const Place& p : places_) {
-            if (p.nearest_mm < within_) near.push_back(p.nearest_mm);
+            if (p.nearest_mm < within_) near.push_back(&p);
         }
         if (near.empty()) return {};
         const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
-        std::nth_element(near.begin(), middle, near.end());
-        return {static_cast<double>(near.size()) / static_cast<double>(places_.size()), *middle};
+        std::nth_element(near.begin(), middle, near.end(), [](const Place* a, const Place* b) {
+            return a->nearest_mm != b->nearest_mm ? a->nearest_mm < b->nearest_mm : a->at_mm < b->at_mm;
+        });
+        return described(**middle, static_cast<double>(near.size()) / static_cast<double>(places_.size()));
     }
 
   private:
+    static ClosePasses described(const Place& p, double share) {
+        const Vec3 across = cross(p.along, p.aside);
+        const Vec3 normal = normalized(dot(across, p.axis) < 0 ? -1.0 * across : across, p.axis);
+        ClosePasses found{share, p.nearest_mm};
+        const double forward = std::abs(dot(p.axis, p.along)),
+                     sideways = std::abs(dot(p.axis, cross(normal, p.along)));
+        found.tilt_rad = math::atan2(math::hypot(forward, sideways), dot(p.axis, normal));
+        found.turn_rad = math::atan2(sideways, forward);
+        return found;
+    }
+
     Key key_of(Vec3 p) const {
         const auto part = [&](double v) {
             return static_cast<std::int64_t>(std::clamp(std::floor(v / edge_), -1e15, 1e15));
@@ -88,7 +103,7 @@ class Search {
                 const double t = parameter_at_length(m, at - before);
                 const ToolPose pose = pose_at(m, t);
                 places_.push_back(
-                    {pose.tip_mm, normalized(tip_derivative_mm(m, t), {}), pose.axis, at, within_});
+                    {pose.tip_mm, normalized(tip_derivative_mm(m, t), {}), pose.axis, at, within_, {}});
             }
             before += length;
         }
@@ -117,8 +132,9 @@ class Search {
             const Vec3 off = from + t * way - place.tip_mm;
             const double d = tribo::length(off),
                          sideways = std::abs(dot(off, cross(place.axis, place.along)));
-            if (d > kSameTrack * within_ && sideways > kLeastSideways * d) {
-                place.nearest_mm = std::min(place.nearest_mm, d);
+            if (d > kSameTrack * within_ && sideways > kLeastSideways * d && d < place.nearest_mm) {
+                place.nearest_mm = d;
+                place.aside = off / d;
             }
         }
     }

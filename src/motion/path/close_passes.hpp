@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How near neighbouring passes of a program come to each other: what a grid must resolve to show the ridges
-// that they leave.
+// that they leave, and how the tool leans there.
 #pragma once
 
 #include <span>
@@ -12,6 +12,9 @@ namespace tribo::motion {
 struct ClosePasses {
     double share = 0;        // of the feed path, 0..1: has another pass beside it, nearer than asked for
     double sidestep_mm = 0;  // median distance to it over that share; 0 where there is none
+    // At the place of the median: the tool axis from the normal of the plane through both passes, 0..pi/2,
+    // and the direction in which it leans from that of the feed, 0..pi/2.
+    double tilt_rad = 0, turn_rad = 0;
 };
 
 // Looks from 2000 places spread evenly over the feed path for other passes within `within_mm` > 0. A pass is

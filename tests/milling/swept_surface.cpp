@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "milling/sweep/swept_surface.hpp"
+#include "milling/swept_surface.hpp"
 
 #include <cmath>
 
