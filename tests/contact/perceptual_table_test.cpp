@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "contact/jnd_error.hpp"
+#include "contact/jnd_profile.hpp"
 
 namespace tribo::contact {
 namespace {
@@ -80,6 +80,20 @@ TEST(PerceptualTable, keeps_a_jump_between_pieces) {
     EXPECT_FALSE(table.look_up(4, {&value, 1}, cursor));
     ASSERT_TRUE(table.look_up(5.5, {&value, 1}, cursor));
     EXPECT_EQ(value, 4);
+}
+
+// Difference of levels in JNDs; one channel, an amplitude > 0.
+ErrorInJnd level_error(const JndProfile& profile) {
+    return [jnd_db = profile.sound_level_db](std::span<const double> truth, std::span<const double> shown) {
+        return std::abs(20 * std::log10(shown[0] / truth[0])) / jnd_db;
+    };
+}
+
+// Ratio of frequencies in JNDs; one channel, a factor > 0.
+ErrorInJnd pitch_error(const JndProfile& profile) {
+    return [jnd = profile.pitch](std::span<const double> truth, std::span<const double> shown) {
+        return std::abs(shown[0] / truth[0] - 1) / jnd;
+    };
 }
 
 // Rolloff 1/r from 5 cm to 5 m, and the pitch of a tool that passes a listener at 10 m/s in 0.2 m: the other

@@ -9,6 +9,7 @@
 #include "field/contour/contour.hpp"
 #include "field/shape/box_shape.hpp"
 #include "golden/golden.hpp"
+#include "motion/curve/keyframe_motion.hpp"
 #include "readers/gcode/reader.hpp"
 #include "session/cut/mill_setup.hpp"
 #include "sound/play/workshop.hpp"
@@ -126,8 +127,11 @@ std::uint64_t mill_five_axes() {
         keyframe.line = i + 1;
         keyframes.push_back(keyframe);
     }
-    auto program = session::keyframe_program(job, keyframes, "keyframes");
-    return program ? milled(job, std::move(*program)) : 0;
+    auto moves = motion::keyframe_moves(keyframes, job.process.feed_mm_per_min);
+    if (!moves) return 0;
+    motion::Program program;
+    program.moves = std::move(*moves);
+    return milled(job, std::move(program));
 }
 
 }  // namespace tribo::golden

@@ -124,21 +124,12 @@ class Watch {
     std::size_t frames_ = 0;
 };
 
-// The listener walks and turns at random too.
-void listen_at_random(sound::Soundtrack& track, Random& random, double t_s, bool leaps) {
-    sound::Listener pose;
-    pose.position_m = {random.in(-1500, 1500), random.in(-1500, 1500), random.in(-500, 500)};
-    pose.forward = {random.in(-1, 1), random.in(-1, 1), random.in(-0.3, 0.3)};
-    track.listen(pose, t_s + (leaps ? random.in(0, 3) : random.in(1, 3)));
-}
-
 void play(sound::Soundtrack& track, const Kind& kind, Watch& watch, double seconds) {
     RandomCut cut(1, kind);
     Random random(99);
     const auto hear = [&](std::span<const float> block) { watch.hear(block); };
     while (static_cast<double>(watch.frames()) < seconds * kRate) {
         const contact::ContactSample next = cut.next();
-        if (random.one_in(25)) listen_at_random(track, random, next.t_s, kind.leaps);
         if (random.one_in(200)) track.release();
         track.play_to(next, hear);
     }
@@ -174,7 +165,7 @@ TEST_P(LongSound, of_tones_from_all_around_never_clicks) {
     const Kind kind;
     sound::SoundtrackOptions options;
     options.head = sound::Head::sphere(kRate);
-    // Source and listener at 8 and 6 m/s: at most 1.05 times the pitch; amplitudes that move add a little.
+    // A source at 8 m/s: at most 1.05 times the pitch; amplitudes that move add a little.
     const double bound = 1.02 * roughest_possible(kind, *options.head, 1.05);
     sound::Soundtrack track(options);
     Watch watch(bound);

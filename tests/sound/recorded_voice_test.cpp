@@ -120,40 +120,6 @@ TEST(RecordedVoice, refuses_what_cannot_be_looped) {
               std::string::npos);
 }
 
-// A force that swings at 300 Hz, from 0.5 s to 1 s.
-class Swinging : public ForceSignal {
-  public:
-    bool next(std::int64_t first, Quantum& force_n) override {
-        if (first < 24000 || first >= 48000) return false;
-        for (std::size_t n = 0; n < force_n.size(); ++n) {
-            const double t = (static_cast<double>(first) + static_cast<double>(n)) / 48000;
-            force_n[n] = 500 + 30 * std::sin(2 * kPi * 300 * t);
-        }
-        return true;
-    }
-};
-
-TEST(ForceSignal, drives_the_voice_in_place_of_the_spectrum) {
-    const contact::ForceSpectrum spectrum = test::falling_spectrum(4, 1);
-    Soundtrack track{SoundtrackOptions{}};
-    Swinging signal;
-    track.drive_by(&signal);
-    std::vector<float> wave;
-    const auto keep = [&](std::span<const float> block) {
-        for (std::size_t n = 0; n < block.size(); n += 2) wave.push_back(block[n]);
-    };
-    for (const double t : {0.0, 1.5}) track.play_to(test::cut_at(t, &spectrum, 6000), keep);
-    const auto level = [&](double hz, std::size_t from) {
-        return test::tone_amplitude(std::span(wave).subspan(from, 12000), hz, 48000) / test::kSamplePerNewton;
-    };
-    EXPECT_NEAR(level(400, 6000), 40, 0.1);
-    EXPECT_NEAR(level(300, 34000), 30, 0.1);
-    EXPECT_LT(level(400, 34000), 0.1);
-    EXPECT_NEAR(level(400, 58000), 40, 0.1);
-    EXPECT_LT(test::roughest(std::span(wave).subspan(34000, 12000)),
-              30 * test::kSamplePerNewton * std::pow(2 * kPi * 300 / 48000, 2) * 1.1);
-}
-
 TEST(Body, has_the_modes_of_a_clamped_bar_and_leaves_low_sound_alone) {
     // 12 mm carbide, 60 mm out: 0.5595 / L^2 sqrt(E I / (rho A)) with a core of 9.6 mm (Blevins 1979, table
     // 8-1).

@@ -6,7 +6,6 @@
 
 #include "base/decimal.hpp"
 #include "base/math.hpp"
-#include "motion/curve/keyframe_motion.hpp"
 #include "motion/path/close_passes.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
@@ -100,23 +99,6 @@ Result<milling::Material> job_material(const job::Job& job) {
     own.spread_low = own.spread_high = 1;
     if (auto ok = milling::check(own.coefficients); !ok) return std::unexpected(ok.error());
     return own;
-}
-
-Result<motion::Program> keyframe_program(const job::Job& job, std::span<const motion::Keyframe> keyframes,
-                                         const std::string& source) {
-    motion::KeyframeOptions options;
-    if (job.path.interpolation == motion::Interpolation::linear)
-        options.interpolation = motion::Interpolation::linear;
-    auto moves = motion::keyframe_moves(keyframes, job.process.feed_mm_per_min, options);
-    if (!moves) {
-        Error error = moves.error();
-        error.file = source;
-        return std::unexpected(error);
-    }
-    motion::Program program;
-    program.source = source;
-    program.moves = std::move(*moves);
-    return program;
 }
 
 Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& program,

@@ -3,18 +3,16 @@
 // pieces.
 #pragma once
 
-#include <span>
-
 #include "job/job.hpp"
 #include "milling/tool/materials.hpp"
-#include "motion/curve/keyframe.hpp"
+#include "motion/path/program.hpp"
 #include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 
 // What the job's files held, read by whoever may read files.
 struct MillInputs {
-    motion::Program program;  // of keyframes: made by keyframe_program()
+    motion::Program program;
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
     std::vector<EarlierCuts> earlier;  // as in MillSetup
@@ -35,10 +33,6 @@ double default_cell_mm(const job::Job& job, const Box3& blank_mm);
 
 // The material of the job: from the library, or its own coefficients with no spread but their own.
 Result<milling::Material> job_material(const job::Job& job);
-
-// Keyframes as a program: one C2 rational motion through them, or straight from one to the next.
-Result<motion::Program> keyframe_program(const job::Job& job, std::span<const motion::Keyframe> keyframes,
-                                         const std::string& source);
 
 // The part of prepare_mill() that needs no stock: moves, cutters, speeds and times. Without a grid.
 Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& program,

@@ -61,35 +61,6 @@ CuttingVoice::CuttingVoice(const CuttingVoiceOptions& options)
     pink_gain_ = gain > 0 ? 1 / gain : 0;
 }
 
-void CuttingVoice::drive(const Quantum& force_n) {
-    // What does not change is not heard: a high-pass of first order at 10 Hz.
-    constexpr double kLowestHz = 10;
-    const double keep = 1 - math::kTwoPi * kLowestHz / options_.sample_rate_hz;
-    for (std::size_t j = 0; j < driven_.size(); ++j) {
-        tone_before_ = keep * (tone_before_ + kPascalPerNewton * (force_n[j] - force_before_));
-        force_before_ = force_n[j];
-        driven_[j] = tone_before_;
-    }
-    drive_next_ = 1;
-}
-
-void CuttingVoice::mix_driven(Quantum& tone) {
-    constexpr double kPerQuantum = 0.25;
-    const double to = std::clamp(drive_next_, drive_share_ - kPerQuantum, drive_share_ + kPerQuantum);
-    for (std::size_t j = 0; j < tone.size(); ++j) {
-        const double share =
-            drive_share_ + static_cast<double>(j) * (1.0 / kQuantumFrames) * (to - drive_share_);
-        tone[j] += share * (driven_[j] - tone[j]);
-    }
-    drive_share_ = to;
-    if (drive_next_ == 0) {
-        // Nobody drives any more: what is left of the last force dies away with its share.
-        for (double& v : driven_) v = tone_before_ *= 0.98;
-        if (drive_share_ == 0) force_before_ = tone_before_ = 0;
-    }
-    drive_next_ = 0;
-}
-
 CuttingVoice::Excitation CuttingVoice::now() const {
     if (elapsed_ >= length_) return to_;
     if (waits_) return from_;
@@ -166,7 +137,6 @@ void CuttingVoice::add(Quantum& pressure_pa) {
     if (!before_.partials.silent() || !here_.partials.silent() || !after_.partials.silent()) {
         play(before_.partials, here_.partials, after_.partials, phase, step_, sound);
     }
-    if (drive_next_ > 0 || drive_share_ > 0) mix_driven(sound);
     const bool noisy = before_.noisy() || here_.noisy() || after_.noisy();
     if (noisy) swing(sound, louder);
     const auto at = [](std::size_t n) { return static_cast<double>(n) * (1.0 / kQuantumFrames); };

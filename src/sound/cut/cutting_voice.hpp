@@ -52,7 +52,6 @@ class CuttingVoice final : public Voice {
 
     void excite(const contact::ContactSample& next, std::int64_t quanta) override;
     void release() override;
-    void drive(const Quantum& force_n) override;
     void add(Quantum& pressure_pa) override;
 
   private:
@@ -76,8 +75,6 @@ class CuttingVoice final : public Voice {
     }
     // How much louder noise is in each frame, as the teeth come and go.
     void swing(const Quantum& tone, Quantum& out) const;
-    // Its share of the tone, crossfaded.
-    void mix_driven(Quantum& tone);
 
     CuttingVoiceOptions options_;
     noise::PinkNoise pink_;
@@ -85,9 +82,6 @@ class CuttingVoice final : public Voice {
     BodyFilter body_;
     double pink_gain_ = 0;  // that the body makes a level of 1 of
     int ringing_ = 0;       // quanta for which the body is still heard
-    // A force that came at audio rate: its tone, and how much of the sound it makes.
-    Quantum driven_{};
-    double drive_share_ = 0, drive_next_ = 0, force_before_ = 0, tone_before_ = 0;
     SpindlePhase phase_;
     Excitation from_, to_;
     std::int64_t length_ = 0, elapsed_ = 0;  // of the way from one to the other, quanta

@@ -15,15 +15,6 @@ namespace tribo::sound {
 inline constexpr int kQuantumFrames = 64;
 using Quantum = std::array<double, kQuantumFrames>;
 
-// A force at audio rate: what a simulated vibration gives in place of a spectrum.
-class ForceSignal {
-  public:
-    virtual ~ForceSignal() = default;
-    // The in-plane force in N at frames first ... first + 63 of the track; false: none in this quantum.
-    // Real-time safe.
-    virtual bool next(std::int64_t first_frame, Quantum& force_n) = 0;
-};
-
 // One source of sound. All calls are real-time safe (no allocation, lock or throw), from one thread at
 // a time. Pressure is continuous whatever the excitation does, and exactly zero where there is none.
 class Voice {
@@ -35,10 +26,6 @@ class Voice {
     virtual void excite(const contact::ContactSample& next, std::int64_t quanta) = 0;
     // From the next quantum on there is no contact.
     virtual void release() = 0;
-    // The next quantum is excited by this force as well, in place of the force's spectrum: the in-plane force
-    // on the tool in N, frame by frame, from whoever simulates the tool's vibration. Voices that sound of
-    // something else than the force do not listen.
-    virtual void drive(const Quantum& /*force_n*/) {}
     // Adds the next quantum: sound pressure in Pa, 1 m from the source.
     virtual void add(Quantum& pressure_pa) = 0;
 };

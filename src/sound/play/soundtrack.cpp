@@ -113,9 +113,8 @@ Soundtrack::Soundtrack(const SoundtrackOptions& options, std::vector<std::unique
                                                   options.sample_rate_hz, options.head->ears_apart_m());
     }
     ring_s_ = std::max(ring_seconds(options.machine.radiation), ring_seconds(options.tool));
-    listener_m_.lead(in_metres(options.listener_mm), 0, true);
-    forward_.lead({0, 1, 0}, 0, true);
-    up_.lead({0, 0, 1}, 0, true);
+    listener_.reference_m = options.reference_distance_m;
+    listener_.position_m = in_metres(options.listener_mm);
 }
 
 std::int64_t Soundtrack::frame_at(double t_s) const {
@@ -155,17 +154,6 @@ void Soundtrack::release() {
     released_ = true;
 }
 
-bool Soundtrack::listen(const Listener& pose_mm, double t_s) {
-    if (!is_finite(pose_mm.position_m) || !is_finite(pose_mm.forward) || !is_finite(pose_mm.up)) return false;
-    const std::int64_t asked = (frame_at(t_s) + kQuantumFrames / 2) / kQuantumFrames;
-    const std::int64_t quanta = std::max<std::int64_t>(asked - quantum_, 0);
-    const bool unheard = !source_ || !source_->sounding();
-    listener_m_.lead(in_metres(pose_mm.position_m), quanta, unheard && quanta == 0);
-    forward_.lead(normalized(pose_mm.forward, {0, 1, 0}), quanta, unheard && quanta == 0);
-    up_.lead(normalized(pose_mm.up, {0, 0, 1}), quanta, unheard && quanta == 0);
-    return true;
-}
-
 double Soundtrack::tail_seconds() const {
     const double air =
         std::max(source_ ? source_->seconds_to_silence() : 0, room_ ? room_->seconds_to_silence() : 0);
@@ -184,10 +172,6 @@ void Soundtrack::make_quantum() {
         release();
     }
     Quantum pressure_pa{};
-    if (signal_ != nullptr && signal_->next(quantum_ * kQuantumFrames, pressure_pa)) {
-        for (const auto& voice : voices_) voice->drive(pressure_pa);
-    }
-    pressure_pa.fill(0);
     for (const auto& voice : voices_) voice->add(pressure_pa);
     if (source_) {
         place(pressure_pa);
@@ -207,15 +191,10 @@ void Soundtrack::make_quantum() {
 }
 
 void Soundtrack::place(const Quantum& pressure_pa) {
-    Listener listener;
-    listener.reference_m = options_.reference_distance_m;
-    listener.position_m = listener_m_.advance();
-    listener.forward = forward_.advance();
-    listener.up = up_.advance();
     made_ = {};
     const Vec3 place_m = source_m_.advance();
-    source_->add(pressure_pa, place_m, listener, made_);
-    if (room_) room_->add(pressure_pa, place_m, listener, made_);
+    source_->add(pressure_pa, place_m, listener_, made_);
+    if (room_) room_->add(pressure_pa, place_m, listener_, made_);
     for (EarQuantum* ear : {&made_.left, &made_.right}) {
         for (float& v : *ear) v = static_cast<float>(limited(samples_per_pascal_ * static_cast<double>(v)));
     }

@@ -33,7 +33,7 @@ inline constexpr int kHighestSampleRateHz = 192000;
 struct SoundtrackOptions {
     int sample_rate_hz = 48000;                        // kLowestSampleRateHz ... kHighestSampleRateHz
     double gain_db = 0;                                // -120 ... 60
-    Vec3 listener_mm;                                  // stock frame
+    Vec3 listener_mm;                                  // stock frame; looks along +y, up is +z
     double reference_distance_m = kReferenceDistance;  // nearer it gets no louder; kLeast... to 100
     double distance_factor = 1;  // > 0; distances count times this (the paper's; > 1 enlarges a small part)
     // How places are heard, of the same sample rate; null: both channels alike, distance is loudness.
@@ -81,13 +81,6 @@ class Soundtrack {
     std::int64_t frames_left() const { return std::max<std::int64_t>(arrival_ * kQuantumFrames - frame_, 0); }
     // No contact from now on.
     void release();
-    // The listener moves on, in a straight line, to be at `pose` (in mm, stock frame) at t_s; a time that has
-    // passed: at once, smoothly. Until the first call: at options' place, looking along +y, up is +z. Only a
-    // head hears it. A pose that is not finite is refused.
-    bool listen(const Listener& pose_mm, double t_s);
-    // The force at audio rate comes from here for as long as it gives any (null: from the spectra alone). It
-    // has to live until the next call.
-    void drive_by(ForceSignal* signal) { signal_ = signal; }
     // Longest time that a release sounds on.
     double tail_seconds() const;
     // interleaved.size() / 2 frames.
@@ -138,8 +131,7 @@ class Soundtrack {
     SoundtrackOptions options_;
     std::vector<std::unique_ptr<Voice>> voices_;
     double samples_per_pascal_ = 0;
-    double ring_s_ = 0;  // of the bodies
-    ForceSignal* signal_ = nullptr;
+    double ring_s_ = 0;             // of the bodies
     std::int64_t quantum_ = 0;      // the next one to be made
     std::int64_t frame_ = 0;        // the next one to be given out
     std::int64_t arrival_ = 0;      // quantum at which the last sample is reached
@@ -151,7 +143,8 @@ class Soundtrack {
     double before_ = 1, here_ = 1, after_ = 1;  // smooth, a quantum apart
     std::unique_ptr<SpatialSource> source_;     // none: both channels alike
     std::unique_ptr<RoomReflections> room_;     // none: no room
-    Glide source_m_, listener_m_, forward_, up_;
+    Glide source_m_;
+    Listener listener_;
     Ears made_;  // the last quantum; frame_ says how much of it is out
 };
 
