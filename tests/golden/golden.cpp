@@ -13,7 +13,10 @@ std::span<const Golden> goldens() {
                                           {"elastic", elastic},
                                           {"formats", readers},
                                           {"mill_three_axes", mill_three_axes},
-                                          {"mill_five_axes", mill_five_axes}};
+                                          {"mill_five_axes", mill_five_axes},
+                                          {"surface", surface},
+                                          {"haptics", haptics},
+                                          {"learning", learning}};
     return kGoldens;
 }
 

@@ -24,6 +24,9 @@ std::uint64_t field();
 std::uint64_t force();
 std::uint64_t elastic();
 std::uint64_t readers();
+std::uint64_t surface();
+std::uint64_t haptics();
+std::uint64_t learning();
 std::uint64_t mill_three_axes();
 std::uint64_t mill_five_axes();
 
