@@ -16,10 +16,11 @@ target_compile_features(tribo_options INTERFACE cxx_std_23)
 target_include_directories(tribo_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tribo>)
 
-# tribo_room(NAME LINKS room... [PRIVATE lib...] [WASI_LEAVES stem...]): all sources of src/NAME as the library tribo::NAME,
-# linking only the rooms that its row of the table in README.md allows. WASI_LEAVES are sources that no page's module takes.
+# tribo_room(NAME LINKS room... [PRIVATE lib...] [FINDS package...] [WASI_LEAVES stem...]): all sources of src/NAME as the library
+# tribo::NAME, linking only the rooms that its row of the table in README.md allows. FINDS are the packages that an installed
+# tribo::NAME needs: a CMake package, or PREFIX=module for pkg-config. WASI_LEAVES are sources that no page's module takes.
 function(tribo_room name)
-  cmake_parse_arguments(ROOM "" "" "LINKS;PRIVATE;WASI_LEAVES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "LINKS;PRIVATE;FINDS;WASI_LEAVES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   if(WASI)
     foreach(stem ${ROOM_WASI_LEAVES})
@@ -39,6 +40,10 @@ function(tribo_room name)
   endforeach()
   target_link_libraries(tribo_${name} PRIVATE ${ROOM_PRIVATE})
   set_target_properties(tribo_${name} PROPERTIES EXPORT_NAME ${name})
+  # For the installed package (TriboInstall.cmake).
+  set_property(GLOBAL APPEND PROPERTY TRIBO_ROOMS ${name})
+  set_property(GLOBAL PROPERTY TRIBO_LINKS_${name} ${ROOM_LINKS})
+  set_property(GLOBAL PROPERTY TRIBO_FINDS_${name} ${ROOM_FINDS})
   # A hot kernel `NAME_v3.cpp` is the same source as `NAME_sse2.cpp`, compiled for x86-64-v3 and chosen at start.
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     foreach(source ${sources})

@@ -1,9 +1,9 @@
-# Toolchain of the `wasm` preset: Debian's clang 19 with wasi-libc; no threads, no exceptions, zero imports (src/wasm/README.md).
+# Toolchain of the `wasm` preset: Debian's clang with wasi-libc; no threads, no exceptions, zero imports (src/wasm/README.md).
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(WASI TRUE)
-set(CMAKE_CXX_COMPILER clang++-19)
-# Binutils' ar cannot index WebAssembly, and lld 19 does without an index: no need for the llvm-19 package.
+include(${CMAKE_CURRENT_LIST_DIR}/clang.cmake)
+# Binutils' ar cannot index WebAssembly, and lld does without an index: no need for the llvm package.
 set(CMAKE_AR ar)
 set(CMAKE_RANLIB ranlib)
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)

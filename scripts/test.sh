@@ -9,6 +9,7 @@ say "form of the sources"
 step "clang-format" scripts/check_format.sh
 test_preset release
 test_preset dev
+step "clang-tidy" scripts/tidy.sh --changed
 say "wasm"
 step "wasm: build" configure_and_build wasm
 say "web"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The part as it is, and a magnet at (40, 30, 5) that pulls the hand within 10 mm. */
-#include "devices/arm/force_plugin.h"
+#include "devices/force_plugin.h"
 static int state;
 void* tribo_force_open(int version, double rate_hz) { return version == 1 && rate_hz > 0 ? &state : 0; }
 void tribo_force_close(void* s) { (void)s; }

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/noise_hash.hpp"
-#include "devices/arm/serial_packets.h"
+#include "devices/serial_packets.h"
 
 namespace tribo::devices {
 namespace {

@@ -5,6 +5,9 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
+#include <regex>
+#include <sstream>
 
 #include "house/house_rules.hpp"
 
@@ -64,6 +67,63 @@ TEST(House, the_table_of_the_readme_is_the_one_that_is_checked) {
     for (const auto& entry : fs::directory_iterator(kRoot / "src")) {
         const std::string row = "| `" + entry.path().filename().string() + "/` |";
         EXPECT_TRUE(!entry.is_directory() || readme.find(row) != std::string::npos) << row;
+    }
+}
+
+// The version stands in CMakeLists.txt; what else must say it says the same.
+TEST(House, the_version_is_one) {
+    std::smatch found;
+    const std::string cmake = read(kRoot / "CMakeLists.txt");
+    ASSERT_TRUE(std::regex_search(cmake, found, std::regex(R"(project\(tribo VERSION ([0-9.]+) )")));
+    const std::string version = found[1];
+    EXPECT_NE(read(kRoot / "web/touch/package.json").find("\"version\": \"" + version + "\""),
+              std::string::npos);
+    EXPECT_NE(read(kRoot / "CHANGELOG.md").find("## " + version), std::string::npos);
+}
+
+// Every library that the program or the pages are made with stands in NOTICE with its licence.
+TEST(House, the_notice_names_what_is_linked_and_bundled) {
+    const std::string notice = read(kRoot / "NOTICE");
+    const std::map<std::string, std::string> libraries{
+        {"libtbb-dev", "oneTBB"},
+        {"libeigen3-dev", "Eigen"},
+        {"libcli11-dev", "CLI11"},
+        {"libtomlplusplus-dev", "toml++"},
+        {"nlohmann-json3-dev", "JSON for Modern C++"},
+        {"libtinygltf-dev", "tinygltf"},
+        {"libsndfile1-dev", "libsndfile"},
+        {"libmysofa-dev", "libmysofa"},
+        {"librtaudio-dev", "RtAudio"},
+        {"libboost-dev", "Boost"},
+        {"libssl-dev", "OpenSSL"},
+        {"zlib1g-dev", "zlib"},
+        {"libstb-dev", "stb"},
+        {"wasi-libc", "wasi-libc"},
+        {"libc++-19-dev-wasm32", "libc++"},
+        {"libc++abi-19-dev-wasm32", "libc++"},
+        {"libclang-rt-19-dev-wasm32", "compiler-rt"},
+        {"libclang-rt-19-dev", "compiler-rt"},
+        {"\"three\"", "three.js"},
+        {"\"uplot\"", "uPlot"},
+    };
+    std::istringstream packages(read(kRoot / "packages.txt"));
+    std::string line, section;
+    while (std::getline(packages, line)) {
+        if (line.starts_with("[")) section = line;
+        const bool library = line.ends_with("-dev") || line.ends_with("-wasm32") || line == "wasi-libc";
+        if (section != "[run]" || !library) continue;
+        ASSERT_TRUE(libraries.contains(line)) << line << ": name it in NOTICE and here";
+        EXPECT_NE(notice.find(libraries.at(line)), std::string::npos) << line;
+    }
+    const std::string page = read(kRoot / "web/mill/package.json");
+    const std::size_t at = page.find("\"dependencies\"");
+    ASSERT_NE(at, std::string::npos);
+    const std::string bundled = page.substr(at, page.find('}', at) - at);
+    static const std::regex name(R"re("([^"@]+)": "[^"]*[0-9])re");
+    for (std::sregex_iterator it(bundled.begin(), bundled.end(), name), end; it != end; ++it) {
+        const std::string quoted = "\"" + (*it)[1].str() + "\"";
+        ASSERT_TRUE(libraries.contains(quoted)) << quoted << ": name it in NOTICE and here";
+        EXPECT_NE(notice.find(libraries.at(quoted)), std::string::npos) << quoted;
     }
 }
 

@@ -38,7 +38,7 @@ else()
   message(STATUS "the pages are not built here: tribo live and tribo site of the installation were not tried")
 endif()
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX}
-    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
+    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -DTRIBO_INCLUDES=${prefix}/include/tribo)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/stranger)
 message(STATUS "a stranger computes ${said}")

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/result.hpp"
-#include "devices/arm/force_plugin.h"
+#include "devices/force_plugin.h"
 #include "devices/arm/shared_library.hpp"
 #include "haptics/servo/servo.hpp"
 

@@ -15,7 +15,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "devices/arm/serial_packets.h"
+#include "devices/serial_packets.h"
 
 namespace tribo::devices {
 namespace {

@@ -40,6 +40,7 @@ void each_engaged(std::span<const milling::CutRow> rows, const MillSetup& setup,
     const milling::CuttingCoefficients coefficients = change.coefficients.value_or(setup.coefficients);
     parallel(kShares, [&](std::size_t share) {
         std::vector<milling::ForceModel> models;
+        models.reserve(cutters.size());
         for (const milling::Cutter& cutter : cutters) models.emplace_back(cutter, coefficients);
         const std::size_t last = rows.size() * (share + 1) / kShares;
         for (std::size_t n = rows.size() * share / kShares; n < last; ++n) {
