@@ -70,6 +70,23 @@ TEST(House, the_table_of_the_readme_is_the_one_that_is_checked) {
     }
 }
 
+// What is installed can be used: a public header includes public headers alone, and is there.
+TEST(House, public_headers_include_only_public_headers) {
+    const std::string list = read(kRoot / "cmake/public_headers.cmake");
+    static const std::regex entry(R"re(\n +([a-z_0-9/]+\.(hpp|h)))re");
+    static const std::regex include(R"re(#include "([^"]+)")re");
+    std::set<std::string> headers;
+    for (std::sregex_iterator it(list.begin(), list.end(), entry), end; it != end; ++it)
+        headers.insert((*it)[1]);
+    ASSERT_GT(headers.size(), 20u);
+    for (const std::string& header : headers) {
+        ASSERT_TRUE(fs::exists(kRoot / "src" / header)) << header;
+        const std::string text = read(kRoot / "src" / header);
+        for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it)
+            EXPECT_TRUE(headers.contains((*it)[1])) << header << " includes " << (*it)[1];
+    }
+}
+
 // The version stands in CMakeLists.txt; what else must say it says the same.
 TEST(House, the_version_is_one) {
     std::smatch found;
