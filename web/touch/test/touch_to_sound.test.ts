@@ -11,8 +11,8 @@ import { Finger, type FingerReport } from "../src/fingers.js";
 import { parseMaterial, voiceNumbers } from "../src/material.js";
 import { material } from "./site.js";
 
-const kRate = 48000,
-  kFrames = 128;
+const kRate = 48000;
+const kFrames = 128;
 const wasm = join(MODULES, "touch.wasm");
 
 interface Worklet {
@@ -40,9 +40,9 @@ const report = (x: number, time: number): FingerReport => ({ x, y: 0, width: 0, 
 /** Mean power in steps of a quarter of a millisecond from the report on that shows the movement at 120 mm/s of a
  * finger that was down before; reports come at 60 Hz, the picture's loop asks for the speed right after. */
 async function powerAfterTheReport(starts: number): Promise<number[]> {
-  const kStep = 12,
-    kSteps = 400;
-  const power = new Array<number>(kSteps).fill(0);
+  const kStep = 12;
+  const kSteps = 400;
+  const power = Array.from({ length: kSteps }, () => 0);
   const Processor = await workletClass();
   const module = await WebAssembly.compile(await readFile(wasm));
   const numbers = voiceNumbers(parseMaterial(material(), "https://example.org/m.json"));
