@@ -24,8 +24,8 @@ const kMostRadiusMm = 15;
 // Speed is the way of the last reports over their time; a finger that reports nothing stands still.
 const kSpeedWindowS = 0.03;
 const kStandsStillS = 0.05;
-// A finger that stood until now moved in this time alone: a report of a 60 Hz screen.
-const kReportS = 1 / 60;
+// A finger that did not move within the window moved in this time alone: a report of a 60 Hz screen.
+const kReportS = 0.016;
 
 interface Place {
   x: number;
@@ -35,10 +35,10 @@ interface Place {
 
 export class Finger {
   /** Where it was last reported. */
-  x: number;
-  y: number;
+  x = 0;
+  y = 0;
   #since: number;
-  #pressure: number;
+  #pressure = 0;
   #halfWidth = kDefaultRadiusMm;
   #halfHeight = kDefaultRadiusMm;
   #trail: Place[] = [];
@@ -48,16 +48,13 @@ export class Finger {
   firmness = 1;
 
   constructor(report: FingerReport) {
-    this.x = report.x;
-    this.y = report.y;
     this.#since = report.time;
-    this.#pressure = report.pressure;
     this.move(report);
   }
 
   /** `ahead`: where it is expected to be soon, if anybody knows. */
   move(report: FingerReport, ahead?: Place): void {
-    this.#ahead = ahead !== undefined && ahead.time > report.time ? ahead : undefined;
+    this.#ahead = ahead && ahead.time > report.time ? ahead : undefined;
     this.x = report.x;
     this.y = report.y;
     this.#pressure = report.pressure;
@@ -66,10 +63,10 @@ export class Finger {
     this.#halfWidth = radius(report.width);
     this.#halfHeight = radius(report.height);
     const last = this.#trail.at(-1);
-    if (last !== undefined && report.time - last.time > kStandsStillS)
-      this.#trail = [{ ...last, time: report.time - kReportS }];
-    this.#trail.push({ x: report.x, y: report.y, time: report.time });
-    while (this.#trail.length > 2 && this.#trail[1]!.time <= report.time - kSpeedWindowS) this.#trail.shift();
+    const from = report.time - kSpeedWindowS;
+    if (last && last.time < from) this.#trail = [{ ...last, time: report.time - kReportS }];
+    this.#trail.push(report);
+    while (this.#trail.length > 2 && this.#trail[1]!.time <= from) this.#trail.shift();
   }
 
   held(now: number): number {
@@ -84,23 +81,23 @@ export class Finger {
 
   /** mm/s along the surface: over the last reports and the way expected next, so that it lags little behind. */
   speed(now: number): number {
-    const last = this.#trail[this.#trail.length - 1]!;
+    const last = this.#trail.at(-1)!;
     if (now - last.time > kStandsStillS) return 0;
-    const way = this.#ahead === undefined ? this.#trail : [...this.#trail, this.#ahead];
+    const way = this.#ahead ? [...this.#trail, this.#ahead] : this.#trail;
     let length = 0;
     for (let i = 1; i < way.length; ++i) length += Math.hypot(way[i]!.x - way[i - 1]!.x, way[i]!.y - way[i - 1]!.y);
-    const seconds = way[way.length - 1]!.time - way[0]!.time;
+    const seconds = way.at(-1)!.time - way[0]!.time;
     return seconds > 0 ? length / seconds : 0;
   }
 
   contact(now: number): Contact {
-    const last = this.#trail[this.#trail.length - 1]!;
+    const last = this.#trail.at(-1)!;
     const ahead = this.#ahead ?? last;
     // A report is some milliseconds old once it is drawn: the dent is to be under the finger.
-    const part = ahead === last ? 0 : Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time)));
+    const part = Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time || 1)));
     return {
-      x: this.x + part * (ahead.x - this.x),
-      y: this.y + part * (ahead.y - this.y),
+      x: last.x + part * (ahead.x - last.x),
+      y: last.y + part * (ahead.y - last.y),
       halfWidth: this.#halfWidth,
       halfHeight: this.#halfHeight,
       force: this.force(now),
