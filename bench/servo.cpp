@@ -23,6 +23,7 @@
 #include "haptics/servo/simulated_hand.hpp"
 #include "harness.hpp"
 #include "milling/force/force.hpp"
+#include "session/feel/feel_session.hpp"
 
 namespace tribo::bench {
 namespace {
@@ -119,18 +120,8 @@ void measure_grid(Report& report) {
                 Better::lower, "the table", 1e9 * table_s / count});
 }
 
-class Plane final : public haptics::ForceSource {
-  public:
-    haptics::RenderedForce render(const haptics::HandReading& hand, double now_s, double) noexcept override {
-        haptics::RenderedForce felt;
-        felt.simulation_s = now_s;
-        felt.touching = hand.position_mm.z < 0;
-        if (felt.touching) felt.contact_n.z = -0.5 * hand.position_mm.z;
-        return felt;
-    }
-};
-
-// Five seconds at 1 kHz while every core is busy; how often safety was violated is counted on the way.
+// Five seconds at 1 kHz on the milled part while every core is busy; how often safety was violated is counted
+// on the way.
 void measure_load(Report& report, bool real_time) {
     std::atomic<bool> over{false};
     std::vector<std::thread> burners;
@@ -143,10 +134,15 @@ void measure_load(Report& report, bool real_time) {
             }
         });
     }
-    haptics::SimulatedHand hand(haptics::Stroke({{0, {0, 0, 2}}, {0.2, {0, 0, -1}}, {5, {50, 0, -1}}}), 1e-3);
-    Plane plane;
-    haptics::SafetyLimits limits;
-    haptics::Servo servo(hand, plane, limits);
+    haptics::SimulatedHand hand(haptics::Stroke({{0, {0, 0, 2}}, {0.2, {0, 0, -2}}, {5, {50, 0, -2}}}), 1e-3);
+    session::MillSession milled(
+        session_setup({{-5, -10, -8}, {55, 10, 0}}, end_mill(milling::CutterKind::ball, 8, 2, 20),
+                      {straight({-10, 0, -1}, {60, 0, -1})}),
+        serial_for);
+    (void)milled.run({});
+    session::InspectSource part(milled.stock(), {});
+    const haptics::SafetyLimits limits = session::safety_limits(hand, 1000);
+    haptics::Servo servo(hand, part, limits);
     Vec3 last;
     int violations = 0, ticks = 0;
     devices::ServoThread loop({1000, real_time, false}, [&](double now_s) {
