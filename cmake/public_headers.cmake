@@ -30,6 +30,7 @@ set(TRIBO_MILL_HEADERS
     field/carved/field_show.hpp
     field/carved/steady_array.hpp
     field/shape/shape.hpp
+    milling/engagement/chip.hpp
     milling/engagement/contact_scout.hpp
     milling/engagement/cut_row.hpp
     milling/engagement/engaged_edges.hpp

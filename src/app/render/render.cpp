@@ -12,8 +12,8 @@
 #include "app/render/job_files.hpp"
 #include "app/render/render_outputs.hpp"
 #include "app/threads.hpp"
-#include "base/decimal.hpp"
 #include "files/memory.hpp"
+#include "session/cut/mill_warnings.hpp"
 
 namespace tribo::app {
 namespace {
@@ -44,22 +44,9 @@ report::Summary summary_of(const RenderCall& call, const LoadedJob& loaded,
     s.stock_record = session::stock_record(session.setup(), loaded.stock_hash);
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
-    if (t.removed_mm3 == 0) {
-        s.warnings.push_back(
-            {call.job, 0,
-             "nothing was cut: the tool never meets the stock; check the path's units and zero, "
-             "and the stock's place"});
-        report(Warnings{s.warnings.back()});
-    }
-    constexpr double kBalanced = 0.01;
-    if (t.energy_balance && std::abs(*t.energy_balance - 1) > kBalanced) {
-        s.warnings.push_back(
-            {call.job, 0,
-             "the spindle's work is " + format_decimal(std::round(1000 * *t.energy_balance) / 1000) +
-                 " of what the metal removed asks for: the force is off by about as much; try a "
-                 "finer --resolution"});
-        report(Warnings{s.warnings.back()});
-    }
+    const Warnings found = session::warnings_of(t, call.job, loaded.job.path.file);
+    report(found);
+    s.warnings.insert(s.warnings.end(), found.begin(), found.end());
     for (const session::MillCollision& c : t.collisions) {
         s.collisions.push_back({c.line, c.t_s, milling::name(c.kind), c.tip_mm});
     }

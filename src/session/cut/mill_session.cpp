@@ -206,6 +206,7 @@ class MillSession::Run {
         totals_.peak_power_w =
             std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * row.spindle_rpm / 60 * math::kTwoPi);
         ++totals_.rows;
+        totals_.chips.add(row, setup_.cutters[row.cutter]);
         if (sinks.row) sinks.row(row, force);
     }
 

@@ -11,6 +11,7 @@
 
 #include "base/parallel.hpp"
 #include "field/carved/field_reader.hpp"
+#include "milling/engagement/chip.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/force/force.hpp"
 #include "milling/force/row_force.hpp"
@@ -69,6 +70,7 @@ struct MillTotals {
     // the metal, whatever the cut. Absent where nothing was cut or the engagement is prescribed.
     std::optional<double> energy_balance;
     std::vector<MillCollision> collisions;  // one per line and kind
+    milling::ChipFindings chips;
 };
 
 struct MillSinks {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "session/cut/mill_warnings.hpp"
+
+#include <cmath>
+
+#include "base/decimal.hpp"
+
+namespace tribo::session {
+namespace {
+
+// A balance that is off by more is told.
+constexpr double kBalanced = 0.01;
+// Every cut begins and ends with thin chips: rubbing is told from this share of the cutting time on.
+constexpr double kRubbingShare = 0.1;
+
+// To one part in `parts`.
+std::string rounded(double value, double parts) {
+    return format_decimal(std::round(value * parts) / parts);
+}
+
+}  // namespace
+
+Warnings warnings_of(const MillTotals& totals, const std::string& job, const std::string& program) {
+    Warnings warnings;
+    if (totals.removed_mm3 == 0) {
+        warnings.push_back({job, 0,
+                            "nothing was cut: the tool never meets the stock; check the path's units and "
+                            "zero, and the stock's place"});
+    }
+    if (totals.energy_balance && std::abs(*totals.energy_balance - 1) > kBalanced) {
+        warnings.push_back({job, 0,
+                            "the spindle's work is " + rounded(*totals.energy_balance, 1000) +
+                                " of what the metal removed asks for: the force is off by about as much; "
+                                "try a finer --resolution"});
+    }
+    const milling::ChipFindings& chips = totals.chips;
+    if (chips.rubbing_s > kRubbingShare * totals.cutting_s) {
+        warnings.push_back(
+            {program, chips.rubbing_line,
+             "the teeth rub rather than cut in " + rounded(100 * chips.rubbing_s / totals.cutting_s, 1) +
+                 " % of the cutting time, longest here: the chip is thinner than " +
+                 format_decimal(milling::kRubbingChipMm) + " mm (a rule of thumb); try more feed per tooth"});
+    }
+    if (chips.overload > 1) {
+        const std::size_t others = chips.overloaded_lines - 1;
+        warnings.push_back(
+            {program, chips.overload_line,
+             "a tooth takes a chip of " + rounded(chips.overload_mm, 1000) + " mm, " +
+                 rounded(chips.overload, 10) + " times " + format_decimal(100 * milling::kOverloadShare) +
+                 " % of the cutter's diameter (a rule of thumb)" +
+                 (others > 0 ? ", and " + std::to_string(others) + " more lines overload" : "") +
+                 "; try less feed per tooth"});
+    }
+    return warnings;
+}
+
+}  // namespace tribo::session
