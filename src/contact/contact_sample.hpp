@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Contact rendered to three senses: this is the record that carries it. Whoever makes contact (a cutter in
-// stock, a finger on a surface or on a screen) writes ContactSamples; whoever renders it (sight, haptics,
-// sound) reads them. Neither side knows the other.
+// A contact at a moment, as a sense needs to know it. Whoever makes contact (a cutter in stock, a finger on a
+// surface or on a screen) writes ContactSamples; sound reads them. Neither side knows the other. Of a cut,
+// session/cut/contact_of_cut.hpp makes them.
 //
 //   field        a cutter                               a finger or probe
 //   position     tool tip                               point of contact
