@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Binary frames of the live view (docs/live-protocol.md): what a viewer draws, from a server or from the
-// module in its own page, or out of a recording. All little-endian; angles in rad, lengths in mm.
+// Binary frames of the live view (docs/live-protocol.md): from an engine, from the module in a page, or out
+// of a recording. live_fields.hpp describes the bytes of each. Little-endian; angles in rad, lengths in mm.
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <compare>
+#include <complex>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/mesh.hpp"
-#include "contact/force_spectrum.hpp"
-#include "contact/texture_record.hpp"
 #include "job/listening.hpp"
-#include "milling/tool/cutter.hpp"
-#include "motion/path/program.hpp"
 
 namespace tribo::protocol {
 
@@ -40,10 +38,42 @@ enum class LiveFrame : std::uint8_t {
 // Takes one whole frame; the bytes are valid during the call only.
 using FrameSink = std::function<void(std::span<const std::uint8_t>)>;
 
+struct LiveHolderStep {
+    double radius_mm = 0, length_mm = 0;
+};
+struct LiveCutter {
+    int number = 0, flutes = 0;
+    double radius_mm = 0, corner_radius_mm = 0, length_mm = 0;
+    std::vector<LiveHolderStep> holder;  // from the shank upwards
+};
+// All that was sent before is void.
+struct LiveJob {
+    double duration_s = 0, cell_mm = 0;
+    Box3 blank_mm;
+    std::vector<LiveCutter> cutters;
+};
+
+struct LiveChunkPlace {
+    std::int32_t i = 0, j = 0, k = 0;
+    auto operator<=>(const LiveChunkPlace&) const = default;
+};
+// A piece of the part's surface. Vertices are rounded to 1/65535 of the longest edge of the mesh's box; at
+// most 65,536 of them.
+struct LiveChunk {
+    double t_s = 0;
+    LiveChunkPlace at;  // replaces the chunk of the same place
+    TriangleMesh mesh;
+};
+
+// A piece of the designed surface, as a chunk is written.
+struct LiveDesigned {
+    TriangleMesh mesh;
+};
+
 // What the tool does at one moment of the program.
 struct LiveState {
     double t_s = 0;
-    motion::ToolPose tool;
+    Vec3 tip_mm, axis{0, 0, 1};
     Vec3 force_n;  // on the tool, mean over a turn, stock frame
     double peak_force_n = 0, mean_torque_nm = 0;
     double spindle_rpm = 0, feed_mm_per_min = 0, spindle_angle_rad = 0;
@@ -63,12 +93,37 @@ struct LiveRow {
     double feed_per_tooth_mm = 0;
     std::uint32_t line = 0;
 };
+struct LiveRows {
+    bool anew = false;  // all rows before are void
+    std::vector<LiveRow> rows;
+};
 
-// A point of the tool path in time.
-struct LivePathPoint {
+struct LiveCollision {
     double t_s = 0;
+    int kind = 0;  // as in milling::CollisionKind
+    int line = 0;
     Vec3 tip_mm;
-    bool rapid = false;  // of the way that ends here
+};
+
+// Force along the feed, to its left, to the shank, N.
+using LiveHarmonic = std::array<std::complex<float>, 3>;
+// A piece of the cut for the ear, in the precision of the frame: a sound made in this process and one made
+// from the frames are the same, bit by bit.
+struct LiveSoundPiece {
+    double t_s = 0;  // of the program as it was written
+    float duration_s = 0;
+    Point3f tip_mm{};
+    float spindle_angle_rad = 0;  // at t_s, within a turn
+    float spindle_rad_per_s = 0;  // as it turns
+    float pace = 1;               // seconds of the program as it was written per second
+    float chip_mm3_per_s = 0;
+    int order_step = 1;                   // spindle orders per harmonic
+    std::vector<LiveHarmonic> harmonics;  // the mean first
+    int edges = 0;                        // of the cutter
+    float mean_torque_nmm = 0;
+};
+struct LiveSoundPieces {
+    std::vector<LiveSoundPiece> pieces;
 };
 
 // The hand's finger, and what it feels.
@@ -82,49 +137,44 @@ struct LiveTouch {
 
 // How the servo does. Durations in us: median, 99 %, 99.9 %, most.
 struct LiveServo {
+    double t_s = 0;                                // of the program
     std::uint32_t ticks = 0, late = 0, fault = 0;  // fault as haptics::Fault
     double rate_hz = 0, force_limit_n = 0, largest_force_n = 0;
     std::array<double, 4> lateness_us{}, cpu_us{};
 };
 
-// A piece of the cut as the ear needs it: all that makes a contact::ContactSample of a moment in it.
-struct LiveSoundPiece {
-    double t_s = 0, end_s = 0;  // of the program as it was written
+// The surface near the cutter, and the force that each of its triangles adds to a finger there.
+struct LiveTextureTriangle {
+    std::array<Vec3, 3> corners_mm;
+    Vec3 force_n;
+};
+struct LiveTexture {
+    double t_s = 0;
+    std::vector<LiveTextureTriangle> triangles;  // eight; empty: there is none
+};
+
+// A point of the tool path in time.
+struct LivePathPoint {
+    double t_s = 0;
     Vec3 tip_mm;
-    double spindle_angle_rad = 0;  // at t_s
-    double spindle_rad_per_s = 0;  // as it turns
-    double pace = 1;               // seconds of the program as it was written per second
-    double chip_mm3_per_s = 0;
-    int edges = 0;                    // of the cutter
-    contact::ForceSpectrum spectrum;  // of the torque only the mean is told
+    bool rapid = false;  // of the way that ends here
+};
+struct LivePath {
+    std::vector<LivePathPoint> points;
 };
 
-struct LiveJob {
-    double duration_s = 0, cell_mm = 0;
-    Box3 blank_mm;
-    std::span<const milling::Cutter> cutters;
-};
+// The kind of what begins like a frame of this version; none of anything else.
+std::optional<LiveFrame> frame_kind(std::span<const std::uint8_t> bytes);
+// The flag of rows, LiveRows::anew, without reading them.
+bool header_flag(std::span<const std::uint8_t> bytes);
 
-// Each replaces the contents of `out` by one frame.
-void write_job_frame(const LiveJob& job, std::vector<std::uint8_t>& out);
-void write_path_frame(std::span<const LivePathPoint> path, std::vector<std::uint8_t>& out);
-// Vertices are rounded to 1/65535 of the longest edge of the mesh's box. At most 65,536 of them.
-void write_chunk_frame(double t_s, const std::array<std::int32_t, 3>& chunk, const TriangleMesh& mesh,
-                       std::vector<std::uint8_t>& out);
-// A piece of the designed surface, as a chunk is written. At most 65,536 vertices.
-void write_designed_frame(const TriangleMesh& mesh, std::vector<std::uint8_t>& out);
-void write_state_frame(const LiveState& state, std::vector<std::uint8_t>& out);
-// `anew`: what rows were told before is void.
-void write_rows_frame(std::span<const LiveRow> rows, bool anew, std::vector<std::uint8_t>& out);
-// `kind` as in milling::CollisionKind.
-void write_collision_frame(double t_s, int kind, int line, Vec3 tip_mm, std::vector<std::uint8_t>& out);
-void write_sound_frame(std::span<const LiveSoundPiece> pieces, std::vector<std::uint8_t>& out);
-void write_listening_frame(const job::Listening& listening, std::vector<std::uint8_t>& out);
-void write_finger_frame(const LiveTouch& touch, std::vector<std::uint8_t>& out);
-void write_servo_frame(double t_s, const LiveServo& servo, std::vector<std::uint8_t>& out);
-// The eight triangles and the force that each adds when pressed `press_mm` deep into stiffness
-// `stiffness_n_per_mm`; null: there are none.
-void write_texture_frame(double t_s, const contact::TextureRecord* texture, double press_mm,
-                         double stiffness_n_per_mm, std::vector<std::uint8_t>& out);
+// `Frame` is one of the structs above, or job::Listening for the listener. LiveChunkPlace can be read alone.
+// Replaces the contents of `out` by one frame.
+template <class Frame>
+void write_frame(const Frame& frame, std::vector<std::uint8_t>& out);
+// False, with anything in `frame`: another kind or version, or cut off. What later versions of the program
+// add at its end is left unread. Keeps the room of the vectors in `frame`.
+template <class Frame>
+bool read_frame(std::span<const std::uint8_t> bytes, Frame& frame);
 
 }  // namespace tribo::protocol

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "session/live/live_sound.hpp"
@@ -18,6 +19,7 @@ constexpr std::uint32_t kMostFrames = 1024;
 
 struct Ear {
     std::unique_ptr<LiveSound> sound;
+    tribo::protocol::LiveSoundPieces pieces;
     std::vector<float> out;
 };
 
@@ -42,8 +44,20 @@ TRIBO_EXPORT(sound_open) std::uint32_t sound_open(double sample_rate_hz) {
     return 1;
 }
 
-TRIBO_EXPORT(sound_take) void sound_take(const std::uint8_t* frame, std::uint32_t length) {
-    if (ear().sound) ear().sound->take({frame, length});
+// Frames of kinds job, listening and sound count; others and damaged ones are left alone.
+TRIBO_EXPORT(sound_take) void sound_take(const std::uint8_t* bytes, std::uint32_t length) {
+    using tribo::protocol::LiveFrame;
+    if (!ear().sound) return;
+    const std::span<const std::uint8_t> frame(bytes, length);
+    const auto kind = tribo::protocol::frame_kind(frame);
+    tribo::job::Listening listening;
+    if (kind == LiveFrame::job) {
+        ear().sound->begin_job();
+    } else if (kind == LiveFrame::listening && tribo::protocol::read_frame(frame, listening)) {
+        ear().sound->take(listening);
+    } else if (kind == LiveFrame::sound && tribo::protocol::read_frame(frame, ear().pieces)) {
+        ear().sound->take(ear().pieces);
+    }
 }
 TRIBO_EXPORT(sound_follow)
 void sound_follow(double t_s, double speed, std::uint32_t playing, double lead_s) {

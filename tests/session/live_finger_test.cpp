@@ -3,7 +3,6 @@
 #include "session/live/live_finger.hpp"
 
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
@@ -52,19 +51,6 @@ bool always() {
 
 void drop(std::span<const std::uint8_t>) {}
 
-// Of a frame's data, which begin at byte 16.
-std::uint32_t word_at(std::span<const std::uint8_t> frame, std::size_t at) {
-    std::uint32_t bits = 0;
-    for (std::size_t n = 0; n < 4; ++n) bits |= std::uint32_t{frame[16 + at + n]} << (8 * n);
-    return bits;
-}
-Vec3 vec3_at(std::span<const std::uint8_t> frame, std::size_t at) {
-    const auto v = [&](std::size_t k) {
-        return static_cast<double>(std::bit_cast<float>(word_at(frame, k)));
-    };
-    return {v(at), v(at + 4), v(at + 8)};
-}
-
 // Mill, picture and servo in one thread: a picture, then the ticks until the next.
 class Bench {
   public:
@@ -78,33 +64,28 @@ class Bench {
             ASSERT_TRUE(live->tick(1 / pictures_per_s, always, drop));
             scene.program_s = live->clock_s();
             scene.pace = live->pace();
-            finger.show(scene, live->state().tool.tip_mm, [this](auto frame) { take(frame); });
+            finger.show(scene, live->state().tip_mm, [this](auto frame) { take(frame); });
             pictures_ += 1 / pictures_per_s;
             while (ticks_ / kRateHz < pictures_) ASSERT_TRUE(finger.tick(ticks_++ / kRateHz));
         }
-        finger.show(scene, live->state().tool.tip_mm, [this](auto frame) { take(frame); });
+        finger.show(scene, live->state().tip_mm, [this](auto frame) { take(frame); });
     }
 
     std::unique_ptr<LiveMill> live;
     LiveFinger finger;
     LiveScene scene;
-    Vec3 probe, proxy, force;
-    std::uint32_t flags = 0;
+    protocol::LiveTouch touch;
     int textures = 0;
 
   private:
     void take(std::span<const std::uint8_t> frame) {
-        if (frame[0] == static_cast<std::uint8_t>(protocol::LiveFrame::texture)) {
-            EXPECT_TRUE(frame.size() == 16 || frame.size() == 16 + 8 * 48);
-            textures += frame.size() > 16 ? 1 : 0;
+        protocol::LiveTexture texture;
+        if (protocol::read_frame(frame, texture)) {
+            EXPECT_TRUE(texture.triangles.empty() || texture.triangles.size() == 8);
+            textures += texture.triangles.empty() ? 0 : 1;
             return;
         }
-        ASSERT_EQ(frame[0], static_cast<std::uint8_t>(protocol::LiveFrame::finger));
-        ASSERT_EQ(frame.size(), 60u);
-        probe = vec3_at(frame, 0);
-        proxy = vec3_at(frame, 12);
-        force = vec3_at(frame, 24);
-        flags = word_at(frame, 40);
+        ASSERT_TRUE(protocol::read_frame(frame, touch));
     }
 
     double pictures_ = 0;
@@ -118,10 +99,11 @@ TEST(LiveFinger, RestsOnTheSurfaceWithTheForceOfItsSprings) {
     bench.finger.lead({20, 4, -1}, true);
     bench.run(2);
     const double hand = haptics::HandModel{}.stiffness_n_per_mm, surface = 0.5;
-    EXPECT_NEAR(bench.force.z, hand * surface / (hand + surface), 1e-3);
-    EXPECT_NEAR(bench.probe.z, -hand / (hand + surface), 2e-3);
-    EXPECT_NEAR(bench.proxy.z, 0, 1e-6);
-    EXPECT_EQ(bench.flags, 1u + 2 + 16);
+    EXPECT_NEAR(bench.touch.force_n.z, hand * surface / (hand + surface), 1e-3);
+    EXPECT_NEAR(bench.touch.probe_mm.z, -hand / (hand + surface), 2e-3);
+    EXPECT_NEAR(bench.touch.proxy_mm.z, 0, 1e-6);
+    EXPECT_TRUE(bench.touch.contact && bench.touch.cutting_force && bench.touch.hand);
+    EXPECT_FALSE(bench.touch.cut_mode || bench.touch.stopped);
 }
 
 TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
@@ -129,11 +111,11 @@ TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
     bench.scene.cut_mode = false;
     bench.finger.lead({20, 10, -3}, true);
     bench.run(1);
-    EXPECT_NEAR(bench.proxy.z, 0, 1e-6);
+    EXPECT_NEAR(bench.touch.proxy_mm.z, 0, 1e-6);
     bench.live->play(true);
     bench.run(1.1 * bench.live->duration_s());
-    EXPECT_NEAR(bench.proxy.z, -2, 1e-6);  // the slot's floor
-    EXPECT_NEAR(bench.force.z, 1 * 0.3 * 0.5 / 0.8, 1e-3);
+    EXPECT_NEAR(bench.touch.proxy_mm.z, -2, 1e-6);  // the slot's floor
+    EXPECT_NEAR(bench.touch.force_n.z, 1 * 0.3 * 0.5 / 0.8, 1e-3);
 }
 
 // The table that a servo plays is the cut's: the mean over turns of what the hand feels is the row's mean
@@ -146,13 +128,13 @@ TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
     bench.finger.feel().set_textures(ahead.textures());
     bench.live->play(true);
     bench.run(1);
-    bench.finger.lead(bench.live->state().tool.tip_mm + Vec3{8, 0, 8}, true);  // where the tool will be
+    bench.finger.lead(bench.live->state().tip_mm + Vec3{8, 0, 8}, true);  // where the tool will be
     bench.run(0.5);
     Vec3 sum;
     constexpr int count = 200;  // ticks: twenty turns
     for (int n = 0; n < count; ++n) {
         bench.run(1 / kRateHz, kRateHz);
-        sum += bench.force;
+        sum += bench.touch.force_n;
     }
     const Vec3 cut = bench.live->state().force_n;
     ASSERT_GT(length(cut), 50);
@@ -161,11 +143,11 @@ TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
 
     bench.scene.cutting_force = false;
     bench.run(0.2);
-    EXPECT_EQ(length(bench.force), 0);
+    EXPECT_EQ(length(bench.touch.force_n), 0);
     bench.scene.cutting_force = true;
     bench.finger.lead({20, 10, 60}, true);
     bench.run(0.5);
-    EXPECT_EQ(length(bench.force), 0);
+    EXPECT_EQ(length(bench.touch.force_n), 0);
 }
 
 TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
@@ -173,25 +155,25 @@ TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
     bench.scene.cut_mode = false;
     bench.finger.lead({20, 4, -1}, true);
     bench.run(1);
-    ASSERT_GT(bench.force.z, 0.1);
+    ASSERT_GT(bench.touch.force_n.z, 0.1);
     bench.finger.stop(bench.scene);
     bench.scene.stopped = true;
     bench.run(2.0 / 60);
-    EXPECT_EQ(length(bench.force), 0);
+    EXPECT_EQ(length(bench.touch.force_n), 0);
     // Released, the surface stays away until the finger has left it.
     bench.scene.stopped = false;
     bench.run(0.5);
-    EXPECT_EQ(length(bench.force), 0);
+    EXPECT_EQ(length(bench.touch.force_n), 0);
     bench.finger.lead({20, 4, 2}, true);
     bench.run(0.5);
     bench.finger.lead({20, 4, -1}, true);
     bench.run(1);
-    EXPECT_GT(bench.force.z, 0.1);
+    EXPECT_GT(bench.touch.force_n.z, 0.1);
     // Nobody there: nothing is felt, and nothing is told.
     bench.finger.lead({}, false);
     bench.run(0.2);
-    EXPECT_EQ(bench.flags & 16, 0u);
-    EXPECT_EQ(length(bench.force), 0);
+    EXPECT_FALSE(bench.touch.hand);
+    EXPECT_EQ(length(bench.touch.force_n), 0);
 }
 
 // At equal times of the program the tooth's phase in the force felt is that of the spindle that is shown.
@@ -252,7 +234,7 @@ TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
         ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
         scene.program_s = live->clock_s();
         scene.pace = live->pace();
-        finger.show(scene, live->state().tool.tip_mm, drop);
+        finger.show(scene, live->state().tip_mm, drop);
         if (!begun_again && live->clock_s() > 0.8 * live->duration_s()) {
             begun_again = true;
             live->set_clock(0.5);
@@ -287,13 +269,12 @@ TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
     live->play(true);
     for (int picture = 0; picture < 120; ++picture) {
         ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
-        touch.lead(live->state().tool.tip_mm, true);
+        touch.lead(live->state().tip_mm, true);
         touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
-            if (frame[0] == static_cast<std::uint8_t>(protocol::LiveFrame::texture)) {
-                textures += frame.size() == 16 + 8 * 48 ? 1 : 0;
-            } else {
-                most_n = std::max(most_n, length(vec3_at(frame, 24)));
-            }
+            protocol::LiveTexture texture;
+            protocol::LiveTouch felt;
+            if (protocol::read_frame(frame, texture)) textures += texture.triangles.size() == 8 ? 1 : 0;
+            if (protocol::read_frame(frame, felt)) most_n = std::max(most_n, length(felt.force_n));
         });
     }
     EXPECT_GT(textures, 5);

@@ -2,7 +2,6 @@
 // The live view against the session that it shows: its chunks make the part, its rows are the session's.
 #include "session/live/live_mill.hpp"
 
-#include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -62,149 +61,85 @@ class Viewer {
     }
 
     int jobs = 0;
-    double duration_s = 0, state_s = 0, force_n = 0;
-    std::uint32_t flags = 0, line = 0, path_points = 0;
+    double duration_s = 0;
+    protocol::LiveState state;
+    std::size_t path_points = 0;
     std::vector<double> row_times, row_forces, sound_times;
     Vec3 listener;
 
   private:
+    template <class Frame>
+    static Frame read(std::span<const std::uint8_t> bytes) {
+        Frame frame;
+        EXPECT_TRUE(protocol::read_frame(bytes, frame));
+        return frame;
+    }
     void take(std::span<const std::uint8_t> frame) {
-        frame_ = frame;
-        at_ = 16;
-        ASSERT_GE(frame.size(), 16u);
-        EXPECT_EQ(frame[1], protocol::kLiveFrameVersion);
         EXPECT_EQ(frame.size() % 4, 0u);
-        switch (static_cast<protocol::LiveFrame>(frame[0])) {
+        const auto kind = protocol::frame_kind(frame);
+        ASSERT_TRUE(kind);
+        switch (*kind) {
             case protocol::LiveFrame::job:
-                job();
+                job(read<protocol::LiveJob>(frame));
                 break;
             case protocol::LiveFrame::path:
-                path_points = u32();
-                at_ += 20 * path_points;
+                path_points = read<protocol::LivePath>(frame).points.size();
                 break;
-            case protocol::LiveFrame::chunk:
-                chunk();
+            case protocol::LiveFrame::chunk: {
+                auto chunk = read<protocol::LiveChunk>(frame);
+                chunks_[chunk.at] = std::move(chunk.mesh);
                 break;
+            }
             case protocol::LiveFrame::state:
-                state();
+                state = read<protocol::LiveState>(frame);
                 break;
             case protocol::LiveFrame::rows:
-                rows();
+                rows(read<protocol::LiveRows>(frame));
                 break;
             case protocol::LiveFrame::collision:
-                at_ += 20;
+                (void)read<protocol::LiveCollision>(frame);
                 break;
             case protocol::LiveFrame::sound:
-                sound();
+                sound(read<protocol::LiveSoundPieces>(frame));
                 break;
             case protocol::LiveFrame::listening:
-                listener = vec3();
-                at_ += 56;
+                listener = read<job::Listening>(frame).listener_mm;
                 break;
             default:
                 ADD_FAILURE() << "not the mill's";
         }
-        EXPECT_EQ(at_, frame.size());
     }
-    std::uint64_t bits(int bytes) {
-        std::uint64_t v = 0;
-        for (int n = 0; n < bytes; ++n) v |= std::uint64_t{frame_[at_++]} << (8 * n);
-        return v;
-    }
-    std::uint32_t u32() { return static_cast<std::uint32_t>(bits(4)); }
-    double f32() { return static_cast<double>(std::bit_cast<float>(u32())); }
-    double f64() { return std::bit_cast<double>(bits(8)); }
-    Vec3 vec3() {
-        const double x = f32(), y = f32();
-        return {x, y, f32()};
-    }
-    void job() {
+    void job(const protocol::LiveJob& job) {
         ++jobs;
         chunks_.clear();
         row_times.clear();
         row_forces.clear();
         sound_times.clear();
-        duration_s = f64();
-        f32();
-        EXPECT_EQ(vec3(), kBlank.min);
-        EXPECT_EQ(vec3(), kBlank.max);
-        const std::uint32_t cutters = u32();
-        for (std::uint32_t n = 0; n < cutters; ++n) {
-            at_ += 20;
-            at_ += 8 * u32();
-        }
+        duration_s = job.duration_s;
+        EXPECT_EQ(job.blank_mm.min, kBlank.min);
+        EXPECT_EQ(job.blank_mm.max, kBlank.max);
     }
-    void chunk() {
-        std::array<std::uint32_t, 3> coord;
-        for (std::uint32_t& c : coord) c = u32();
-        TriangleMesh mesh;
-        mesh.positions.resize(u32());
-        mesh.triangles.resize(u32());
-        const Vec3 origin = vec3();
-        const double step = f32();
-        for (Point3f& p : mesh.positions) {
-            for (int axis = 0; axis < 3; ++axis) {
-                p[static_cast<std::size_t>(axis)] =
-                    static_cast<float>(origin[axis] + step * static_cast<double>(bits(2)));
-            }
-        }
-        at_ += (4 - at_ % 4) % 4;
-        for (Triangle& t : mesh.triangles) {
-            for (std::uint32_t& v : t) {
-                v = static_cast<std::uint32_t>(bits(2));
-                ASSERT_LT(v, mesh.positions.size());
-            }
-        }
-        at_ += (4 - at_ % 4) % 4;
-        chunks_[coord] = mesh;
-    }
-    void state() {
-        state_s = std::bit_cast<double>([this] {
-            const std::size_t kept = std::exchange(at_, 8);
-            const std::uint64_t v = bits(8);
-            at_ = kept;
-            return v;
-        }());
-        at_ += 24;
-        force_n = length(vec3());
-        at_ += 32;
-        line = u32();
-        u32();
-        flags = u32();
-    }
-    void rows() {
-        if (frame_[2] != 0) {
+    void rows(const protocol::LiveRows& told) {
+        if (told.anew) {
             row_times.clear();
             row_forces.clear();
         }
-        const std::uint32_t count = u32();
-        for (std::uint32_t n = 0; n < count; ++n) {
-            row_times.push_back(f64());
-            at_ += 16;
-            row_forces.push_back(f32());
-            at_ += 28;
+        for (const protocol::LiveRow& row : told.rows) {
+            row_times.push_back(row.t_s);
+            row_forces.push_back(row.mean_force_n);
+        }
+    }
+    void sound(const protocol::LiveSoundPieces& told) {
+        for (const protocol::LiveSoundPiece& piece : told.pieces) {
+            sound_times.push_back(piece.t_s);
+            EXPECT_EQ(piece.order_step, 2);          // two flutes alike
+            EXPECT_EQ(piece.harmonics.size(), 17u);  // the mean and 16
+            EXPECT_EQ(piece.edges, 2);
+            EXPECT_GT(piece.mean_torque_nmm, 0);
         }
     }
 
-    void sound() {
-        const std::uint32_t count = u32();
-        for (std::uint32_t n = 0; n < count; ++n) {
-            sound_times.push_back(f64());
-            at_ += 32;
-            EXPECT_EQ(u32(), 2u);  // orders a harmonic: two flutes alike
-            const std::uint32_t harmonics = u32();
-            EXPECT_EQ(harmonics, 17u);  // the mean and 16
-            at_ += 24 * harmonics;
-        }
-        for (std::uint32_t n = 0; n < count; ++n) {
-            EXPECT_EQ(u32(), 2u);  // edges
-            EXPECT_GT(f32(), 0);   // torque
-        }
-    }
-
-    std::span<const std::uint8_t> frame_;
-    std::size_t at_ = 0;
-    std::map<std::array<std::uint32_t, 3>, TriangleMesh> chunks_;
+    std::map<protocol::LiveChunkPlace, TriangleMesh> chunks_;
 };
 
 bool always() {
@@ -223,7 +158,7 @@ TEST(LiveMill, ShowsThePartAsItIsCut) {
     live->play(true);
     while (live->playing()) ASSERT_TRUE(live->tick(1.0 / 60, always, viewer.sink()));
     EXPECT_EQ(viewer.jobs, 1);
-    EXPECT_DOUBLE_EQ(viewer.state_s, viewer.duration_s);
+    EXPECT_DOUBLE_EQ(viewer.state.t_s, viewer.duration_s);
     EXPECT_NEAR(viewer.part_volume_mm3() / live->session().totals().remaining_mm3, 1, 2e-3);
     // The same rows as a session that nobody watches.
     MillSession alone(*slot(), serial_for);
@@ -242,16 +177,17 @@ TEST(LiveMill, SaysWhatTheToolDoesNow) {
     Viewer viewer;
     live->set_clock(1.25);  // 25 mm on: in the middle of the first groove
     ASSERT_TRUE(live->tick(0, always, viewer.sink()));
-    EXPECT_DOUBLE_EQ(viewer.state_s, 1.25);
-    EXPECT_EQ(viewer.line, 7u);
-    EXPECT_EQ(viewer.flags, 1u);  // cutting, not playing
+    EXPECT_DOUBLE_EQ(viewer.state.t_s, 1.25);
+    EXPECT_EQ(viewer.state.line, 7u);
+    EXPECT_TRUE(viewer.state.cutting);
+    EXPECT_FALSE(viewer.state.playing);
     // A full groove with a ball: the mean force of the rows there.
-    EXPECT_GT(viewer.force_n, 1);
+    EXPECT_GT(length(viewer.state.force_n), 1);
     live->set_clock(0.05);  // in the air before the blank
     ASSERT_TRUE(live->tick(0, always, viewer.sink()));
     EXPECT_EQ(viewer.jobs, 2);
-    EXPECT_EQ(viewer.flags, 0u);
-    EXPECT_EQ(viewer.force_n, 0);
+    EXPECT_FALSE(viewer.state.cutting);
+    EXPECT_EQ(length(viewer.state.force_n), 0);
     EXPECT_NEAR(viewer.part_volume_mm3(), kBlank.volume(), 0.01 * kBlank.volume());
 }
 
@@ -263,14 +199,14 @@ TEST(LiveMill, WaitsForThePart) {
     int asked = 0;
     const auto once = [&] { return ++asked % 2 == 0; };
     ASSERT_TRUE(live->tick(1, once, viewer.sink()));
-    EXPECT_LT(viewer.state_s, live->duration_s());
-    EXPECT_DOUBLE_EQ(viewer.state_s, std::min(live->session().milled_s(), live->duration_s()));
+    EXPECT_LT(viewer.state.t_s, live->duration_s());
+    EXPECT_DOUBLE_EQ(viewer.state.t_s, std::min(live->session().milled_s(), live->duration_s()));
     for (int n = 0; n < 1000 && live->playing(); ++n) ASSERT_TRUE(live->tick(1, once, viewer.sink()));
     EXPECT_FALSE(live->playing());
-    EXPECT_DOUBLE_EQ(viewer.state_s, live->duration_s());
+    EXPECT_DOUBLE_EQ(viewer.state.t_s, live->duration_s());
     live->play(true);
     ASSERT_TRUE(live->tick(0, always, viewer.sink()));
-    EXPECT_EQ(viewer.state_s, 0);
+    EXPECT_EQ(viewer.state.t_s, 0);
 }
 
 TEST(LiveMill, KeepsItsClockWhateverItIsTold) {
@@ -287,7 +223,7 @@ TEST(LiveMill, KeepsItsClockWhateverItIsTold) {
     Viewer viewer;
     live->play(true);
     ASSERT_TRUE(live->tick(0.5, always, viewer.sink()));
-    EXPECT_DOUBLE_EQ(viewer.state_s, 0.5);
+    EXPECT_DOUBLE_EQ(viewer.state.t_s, 0.5);
 }
 
 TEST(LiveMill, IsRememberedForALatecomer) {
@@ -303,7 +239,7 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     memory.replay(latecomer.sink());
     EXPECT_EQ(latecomer.jobs, 1);
     EXPECT_EQ(latecomer.row_times, viewer.row_times);
-    EXPECT_EQ(latecomer.state_s, viewer.state_s);
+    EXPECT_EQ(latecomer.state.t_s, viewer.state.t_s);
     EXPECT_DOUBLE_EQ(latecomer.part_volume_mm3(), viewer.part_volume_mm3());
     // Nothing moves, nothing is told.
     live->play(false);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The plate of the examples as the live view shows it in the end: the bits that tribo.wasm gives for it too
-// (web/wasm/test/mill.test.ts holds the module to the same file).
+// The plate of the examples as the live view shows it in the end, and how it sounds: the bits that tribo.wasm
+// and mill_sound.wasm give for it too (web/wasm/test/mill.test.ts holds the modules to the same files).
+#include <bit>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -21,8 +23,22 @@ std::string file_text(const std::string& name) {
     return text.str();
 }
 
+constexpr std::uint64_t kHashBegin = 0xcbf29ce484222325;
+
+// FNV-1a
+std::uint64_t hash_of(std::span<const std::uint8_t> bytes, std::uint64_t hash = kHashBegin) {
+    for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
+    return hash;
+}
+
+std::string hash_text(std::uint64_t hash) {
+    char text[18];
+    std::snprintf(text, sizeof text, "%016llx\n", static_cast<unsigned long long>(hash));
+    return text;
+}
+
 // As examples/plate/plate.toml has it.
-Result<MillSetup> plate() {
+job::Job plate_job() {
     job::Job job;
     job.file = "plate.toml";
     job.stock.box_mm = {{0, 0, -12}, {80, 60, 0}};
@@ -36,6 +52,11 @@ Result<MillSetup> plate() {
     job.material.name = "al6082-t6";
     job.process = {8000, 900};
     job.path.kind = job::PathKind::gcode;
+    return job;
+}
+
+Result<MillSetup> plate() {
+    const job::Job job = plate_job();
     readers::GcodeOptions options;
     options.source_name = "plate.nc";
     options.default_feed_mm_per_min = 900;
@@ -53,15 +74,11 @@ Result<MillSetup> plate() {
 TEST(LivePlate, IsTheSameInThePage) {
     auto live = LiveMill::create(plate, serial_for);
     ASSERT_TRUE(live) << live.error().text();
-    std::map<std::array<std::int32_t, 3>, std::uint64_t> chunks;
+    std::map<protocol::LiveChunkPlace, std::uint64_t> chunks;
     const auto take = [&](std::span<const std::uint8_t> frame) {
-        if (frame[0] != static_cast<std::uint8_t>(protocol::LiveFrame::chunk)) return;
-        std::array<std::int32_t, 3> at{};
-        for (std::size_t n = 0; n < 12; ++n)
-            at[n / 4] |= static_cast<std::int32_t>(std::uint32_t{frame[16 + n]} << (8 * (n % 4)));
-        std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
-        for (const std::uint8_t byte : frame.subspan(28)) hash = (hash ^ byte) * 0x100000001b3;
-        chunks[at] = hash;
+        protocol::LiveChunkPlace at;
+        if (!protocol::read_frame(frame, at)) return;
+        chunks[at] = hash_of(frame.subspan(28));
     };
     (*live)->set_clock((*live)->duration_s());
     const auto always = [] { return true; };
@@ -70,9 +87,51 @@ TEST(LivePlate, IsTheSameInThePage) {
     // Told apart by what they are, not by their order.
     std::uint64_t sum = 0;
     for (const auto& [at, hash] : chunks) sum += hash;
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-    EXPECT_EQ(std::string(text) + "\n", file_text("tests/golden/plate.txt"));
+    EXPECT_EQ(hash_text(sum), file_text("tests/golden/plate.txt"));
+}
+
+// The program tells its ear structs, a page decodes them from frames.
+TEST(LivePlate, SoundsTheSameFromStructsAndFromFrames) {
+    const job::Job job = plate_job();
+    auto live = LiveMill::create(plate, serial_for, {job::listening_to(job, job.stock.box_mm), {}});
+    ASSERT_TRUE(live) << live.error().text();
+    sound::SoundtrackOptions options;
+    options.head = sound::Head::sphere(options.sample_rate_hz);
+    LiveSound from_structs(options), from_frames(options);
+    (*live)->hear([&](const LiveSoundNews& news) {
+        std::visit([&](const auto& told) { from_structs.take(told); }, news);
+    });
+    int told = 0;
+    const auto decode = [&](std::span<const std::uint8_t> frame) {
+        job::Listening listening;
+        protocol::LiveSoundPieces pieces;
+        if (protocol::read_frame(frame, listening)) from_frames.take(listening);
+        if (!protocol::read_frame(frame, pieces)) return;
+        from_frames.take(pieces);
+        ++told;
+    };
+    (*live)->set_clock(10);
+    (*live)->play(true);
+    const auto always = [] { return true; };
+    std::vector<float> program(1600), page(1600);
+    float loudest = 0;
+    std::uint64_t hash = kHashBegin;
+    for (int picture = 0; picture < 120; ++picture) {
+        ASSERT_TRUE((*live)->tick(1.0 / 60, always, decode));
+        const protocol::LiveState state = (*live)->state();
+        for (LiveSound* ear : {&from_structs, &from_frames})
+            ear->follow(state.t_s, state.speed, state.playing);
+        from_structs.render(program);
+        from_frames.render(page);
+        ASSERT_EQ(program, page) << picture;
+        for (const float v : program) {
+            loudest = std::max(loudest, std::abs(v));
+            hash = hash_of(std::bit_cast<std::array<std::uint8_t, sizeof v>>(v), hash);
+        }
+    }
+    EXPECT_GT(told, 10);
+    EXPECT_GT(loudest, 0.01f);
+    EXPECT_EQ(hash_text(hash), file_text("tests/golden/plate_sound.txt"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sound of a stream of frames against the soundtrack of the same cut, told directly.
+// The sound of pieces of a cut against the soundtrack of the same cut, told directly.
 #include "session/live/live_sound.hpp"
 
 #include <cmath>
@@ -28,12 +28,12 @@ std::vector<protocol::LiveSoundPiece> cut(double from_s, double to_s) {
     for (double t = from_s; t < to_s - 1e-9; t += 0.03) {
         protocol::LiveSoundPiece p;
         p.t_s = t;
-        p.end_s = t + 0.03;
-        p.spindle_angle_rad = kRadPerS * t;
-        p.spindle_rad_per_s = kRadPerS;
-        p.spectrum.order_step = 2;
-        p.spectrum.harmonics.resize(2);
-        p.spectrum.harmonics[1].x = kToneN / 2;
+        p.duration_s = 0.03f;
+        p.spindle_angle_rad = static_cast<float>(std::fmod(kRadPerS * t, math::kTwoPi));
+        p.spindle_rad_per_s = static_cast<float>(kRadPerS);
+        p.order_step = 2;
+        p.harmonics.resize(2);
+        p.harmonics[1][0] = static_cast<float>(kToneN / 2);
         pieces.push_back(p);
     }
     return pieces;
@@ -58,12 +58,7 @@ std::complex<double> tone(std::span<const float> samples, double hz, double from
 class Player {
   public:
     explicit Player(double to_s = 3) : sound(options()) {
-        const auto pieces = cut(0, to_s);
-        for (std::size_t n = 0; n < pieces.size(); n += 20) {
-            protocol::write_sound_frame(
-                std::span(pieces).subspan(n, std::min<std::size_t>(20, pieces.size() - n)), frame);
-            sound.take(frame);
-        }
+        sound.take(protocol::LiveSoundPieces{cut(0, to_s)});
     }
     // As a page does: a state 60 times a second, up to `jitter_s` late.
     std::vector<float> play(double from_s, double seconds, double speed, double jitter_s) {
@@ -84,7 +79,6 @@ class Player {
     }
 
     LiveSound sound;
-    std::vector<std::uint8_t> frame;
 };
 
 TEST(LiveSound, IsTheToneOfTheTeethInPhaseWithTheSpindle) {
@@ -96,13 +90,16 @@ TEST(LiveSound, IsTheToneOfTheTeethInPhaseWithTheSpindle) {
 
     sound::Soundtrack direct(options());
     std::vector<float> told;
-    const auto pieces = cut(0, 2.5);
-    for (const protocol::LiveSoundPiece& p : pieces) {
+    contact::ForceSpectrum spectrum;
+    spectrum.order_step = 2;
+    spectrum.harmonics.resize(2);
+    spectrum.harmonics[1].x = kToneN / 2;
+    for (const protocol::LiveSoundPiece& p : cut(0, 2.5)) {
         contact::ContactSample s;
         s.t_s = p.t_s;
-        s.phase_rad = p.spindle_angle_rad;
-        s.phase_rate_rad_per_s = p.spindle_rad_per_s;
-        s.spectrum = &p.spectrum;
+        s.phase_rad = kRadPerS * p.t_s;
+        s.phase_rate_rad_per_s = kRadPerS;
+        s.spectrum = &spectrum;
         direct.play_to(s, [&](std::span<const float> b) { told.insert(told.end(), b.begin(), b.end()); });
     }
     const auto track = left(told);
@@ -157,16 +154,19 @@ TEST(LiveSound, DoesNotClick) {
     EXPECT_LT(bend, 3 * amplitude * w * w);
 }
 
-TEST(LiveSound, LeavesDamagedFramesAlone) {
+TEST(LiveSound, LeavesNonsenseAlone) {
     Player player;
-    std::vector<std::uint8_t> frame;
-    protocol::write_sound_frame(cut(0, 0.3), frame);
-    for (std::size_t cut_off = 0; cut_off < frame.size(); cut_off += 7)
-        player.sound.take(std::span(frame).first(cut_off));
-    frame[16] = frame[17] = frame[18] = frame[19] = 0xff;
-    player.sound.take(frame);
     player.sound.follow(std::nan(""), 1, true);
     player.sound.follow(0, -1, true);
+    job::Listening listening;
+    listening.workshop.room = 1000;
+    player.sound.take(listening);
+    auto pieces = cut(0, 0.3);
+    pieces[0].order_step = 0;
+    pieces[0].edges = -1;
+    pieces[0].harmonics.resize(5000);
+    player.sound.take(protocol::LiveSoundPieces{pieces});
+    player.sound.follow(0, 1, true);
     std::vector<float> out(512);
     player.sound.render(out);
     for (const float v : out) EXPECT_TRUE(std::isfinite(v));

@@ -162,7 +162,7 @@ TEST_F(ServoSourcesOfACut, the_live_finger_neither_allocates_nor_locks_nor_print
         scene.cutting_force = n < 480 || n > 640;
         if (n == 1440) finger.stop(scene);
         finger.lead({20 + 5e-3 * n, 10, -3}, true);
-        finger.show(scene, live->state().tool.tip_mm, [](auto) {});
+        finger.show(scene, live->state().tip_mm, [](auto) {});
     };
     expect_none(count(1500, picture, [&](int n) {
         EXPECT_TRUE(finger.tick(n * kTickS));

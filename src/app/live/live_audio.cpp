@@ -36,9 +36,9 @@ LiveAudio::~LiveAudio() {
     out_.reset();
 }
 
-void LiveAudio::take(std::span<const std::uint8_t> frame) {
+void LiveAudio::take(session::LiveSoundNews news) {
     const std::lock_guard lock(mutex_);
-    frames_.emplace_back(frame.begin(), frame.end());
+    news_.push_back(std::move(news));
 }
 
 void LiveAudio::follow(double t_s, double speed, bool playing) {
@@ -50,10 +50,11 @@ void LiveAudio::work() {
     std::array<float, 2 * kBlockFrames> block;
     std::unique_lock lock(mutex_);
     while (!stop_) {
-        const auto frames = std::exchange(frames_, {});
+        const auto all_news = std::exchange(news_, {});
         const Clock clock = std::exchange(clock_, {});
         lock.unlock();
-        for (const auto& frame : frames) sound_.take(frame);
+        for (const session::LiveSoundNews& news : all_news)
+            std::visit([this](const auto& told) { sound_.take(told); }, news);
         const double lead_s =
             static_cast<double>(queue_.frames()) / sound_.sample_rate_hz() + out_->latency_s();
         if (clock.fresh) sound_.follow(clock.t_s, clock.speed, clock.playing, lead_s);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sound of `tribo live` out of this machine's own loudspeaker: the same frames that a page is sent,
-// rendered a little ahead on a thread of its own and handed to the device without a lock.
+// The sound of `tribo live` out of this machine's own loudspeaker: what a page makes of its frames, rendered
+// a little ahead on a thread of its own and handed to the device without a lock.
 #pragma once
 
 #include <condition_variable>
@@ -29,8 +29,8 @@ class LiveAudio {
     LiveAudio& operator=(const LiveAudio&) = delete;
 
     const std::string& device() const { return out_->device(); }
-    // One thread: every frame, and the clock at each picture.
-    void take(std::span<const std::uint8_t> frame);
+    // One thread: all that the mill tells an ear, and the clock at each picture.
+    void take(session::LiveSoundNews news);
     void follow(double t_s, double speed, bool playing);
 
   private:
@@ -45,7 +45,7 @@ class LiveAudio {
     devices::SampleQueue queue_;
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::vector<std::vector<std::uint8_t>> frames_;
+    std::vector<session::LiveSoundNews> news_;
     Clock clock_;
     bool stop_ = false;
     std::unique_ptr<devices::AudioOut> out_;

@@ -59,6 +59,7 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
     options_.info.rate_hz = options_.feel.rate_hz;
     options_.info.arm = finger_.has_arm();
     mill_.watch([this](session::MillSession* session) { finger_.feel().set_session(session); });
+    if (audio_) mill_.hear([this](session::LiveSoundNews news) { audio_->take(std::move(news)); });
     ask_for_force();
     servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
                                                     [this](double now_s) { return finger_.tick(now_s); });
@@ -67,6 +68,7 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
 LiveShow::~LiveShow() {
     servo_.reset();
     mill_.watch({});
+    mill_.hear({});
     finger_.feel().set_session(nullptr);
 }
 
@@ -89,7 +91,6 @@ Result<void> LiveShow::run(net::Server& server) {
     const auto frames = [&](std::span<const std::uint8_t> frame) {
         memory_.take(frame);
         server.send_all(shared(frame));
-        if (audio_) audio_->take(frame);
     };
     while (!interrupted()) {
         for (const LiveInbox::Event& event : inbox_.take_all()) answer(event, server);
@@ -100,7 +101,7 @@ Result<void> LiveShow::run(net::Server& server) {
         if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
         take_built();
-        finger_.show(scene(), mill_.state().tool.tip_mm, frames);
+        finger_.show(scene(), mill_.state().tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
         next = std::max(next + kFrameTime, Clock::now());
         std::this_thread::sleep_until(next);
@@ -143,10 +144,11 @@ void LiveShow::take_built() {
 
 void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames) {
     protocol::LiveServo servo = finger_.servo();
+    servo.t_s = mill_.clock_s();
     servo.late = static_cast<std::uint32_t>(servo_->late());
     servo.lateness_us = figures_us(servo_->lateness());
     servo.cpu_us = figures_us(servo_->clock().cpu());
-    protocol::write_servo_frame(mill_.clock_s(), servo, frame_);
+    protocol::write_frame(servo, frame_);
     frames(frame_);
     if (std::string trouble = finger_.trouble(); trouble != trouble_) {
         trouble_ = std::move(trouble);

@@ -14,6 +14,19 @@ std::unique_ptr<haptics::Device> arm_or_hand(std::unique_ptr<haptics::Device> ar
     return hand;
 }
 
+// The force that each triangle adds where a finger presses as the force field lets it.
+protocol::LiveTexture told_texture(double t_s, const contact::TextureRecord* texture) {
+    protocol::LiveTexture told{t_s, {}};
+    if (texture == nullptr) return told;
+    const haptics::ForceFieldOptions felt;
+    const double press_mm = felt.texture_press_mm;
+    for (const contact::TexturedTriangle& t : texture->triangles()) {
+        const Vec3 lift_mm = (press_mm + t.height_mm) * t.normal - press_mm * texture->normal;
+        told.triangles.push_back({t.corners_mm, felt.texture_stiffness_n_per_mm * lift_mm});
+    }
+    return told;
+}
+
 }  // namespace
 
 LiveFinger::LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm)
@@ -66,7 +79,7 @@ void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& f
     touch.stopped = scene.stopped;
     // Without a hand there is nothing that moves.
     if (!touch.hand) touch = {0, {}, {}, {}, 0, false, touch.cutting_force, touch.cut_mode, touch.stopped};
-    protocol::write_finger_frame(touch, frame_);
+    protocol::write_frame(touch, frame_);
     if (frame_ != last_finger_) {
         frames(frame_);
         std::swap(frame_, last_finger_);
@@ -76,9 +89,7 @@ void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& f
     if (texture == nullptr && shown_texture_ == nullptr) return;
     shown_texture_ = texture;
     shown_textures_set_ = feel_.textures_set();
-    const haptics::ForceFieldOptions felt;
-    protocol::write_texture_frame(scene.program_s, texture, felt.texture_press_mm,
-                                  felt.texture_stiffness_n_per_mm, frame_);
+    protocol::write_frame(told_texture(scene.program_s, texture), frame_);
     frames(frame_);
 }
 

@@ -4,7 +4,6 @@
 // every other kind.
 #pragma once
 
-#include <array>
 #include <deque>
 #include <map>
 #include <vector>
@@ -23,10 +22,10 @@ class LiveMemory {
   private:
     using Frame = std::vector<std::uint8_t>;
     Frame job_, path_;
-    std::map<std::array<std::uint8_t, 12>, Frame> chunks_;  // by their coordinates' bytes
+    std::map<protocol::LiveChunkPlace, Frame> chunks_;
     std::vector<Frame> rows_, collisions_, designed_;
     std::deque<Frame> sounds_;
-    std::map<std::uint8_t, Frame> newest_;  // by kind
+    std::map<protocol::LiveFrame, Frame> newest_;
 };
 
 }  // namespace tribo::session

@@ -19,8 +19,9 @@ constexpr std::size_t kRowsPerFrame = 4096;
 constexpr std::size_t kPiecesPerFrame = 64;
 constexpr std::size_t kTrianglesPerFrame = 20'000;
 
-std::vector<protocol::LivePathPoint> path_points(const MillSession& session) {
-    std::vector<protocol::LivePathPoint> points;
+protocol::LivePath path_of(const MillSession& session) {
+    protocol::LivePath path;
+    auto& points = path.points;
     const auto& moves = session.setup().moves;
     for (std::size_t n = 0; n < moves.size(); ++n) {
         const motion::Move& move = moves[n];
@@ -36,7 +37,7 @@ std::vector<protocol::LivePathPoint> path_points(const MillSession& session) {
             points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid});
         }
     }
-    return points;
+    return path;
 }
 
 // Where the tool, standing up to its shank, was between two times.
@@ -56,6 +57,35 @@ Box3 swept_box(const MillSession& session, double from_s, double to_s) {
     return box;
 }
 
+protocol::LiveCutter told_cutter(const milling::Cutter& cutter) {
+    protocol::LiveCutter told{
+        cutter.number, cutter.flutes, cutter.radius_mm(), cutter.corner_radius_mm(), cutter.length_mm, {}};
+    for (const milling::HolderStep& step : cutter.holder)
+        told.holder.push_back({0.5 * step.diameter_mm, step.length_mm});
+    return told;
+}
+
+// All that the ear needs of a row with its spectrum.
+protocol::LiveSoundPiece told_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum, int edges,
+                                    const CutChange& change) {
+    protocol::LiveSoundPiece piece;
+    piece.t_s = row.start_s;
+    piece.duration_s = static_cast<float>(row.duration_s());
+    for (int axis = 0; axis < 3; ++axis)
+        piece.tip_mm[static_cast<std::size_t>(axis)] = static_cast<float>(row.pose.tip_mm[axis]);
+    piece.spindle_angle_rad = static_cast<float>(std::fmod(changed_phase_rad(row, change), math::kTwoPi));
+    piece.spindle_rad_per_s = static_cast<float>(change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi);
+    piece.pace = static_cast<float>(change.feed_factor);
+    piece.chip_mm3_per_s = static_cast<float>(change.feed_factor * row.chip_mm3_per_s());
+    piece.order_step = spectrum.order_step;
+    for (const contact::ForceHarmonic& h : spectrum.harmonics)
+        piece.harmonics.push_back(
+            {std::complex<float>(h.x), std::complex<float>(h.y), std::complex<float>(h.z)});
+    piece.edges = edges;
+    piece.mean_torque_nmm = static_cast<float>(mean_force(spectrum).torque_nmm);
+    return piece;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel,
@@ -72,7 +102,7 @@ Result<void> LiveMill::begin() {
     if (watcher_) watcher_(nullptr);
     session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
-    path_ = path_points(*session_);
+    path_ = path_of(*session_);
     rows_.clear();
     felt_.clear();
     record_ = {};
@@ -168,7 +198,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
         show_part(picture_->all(), frames);
         // After the part: on a slow line the first picture does not wait for them.
         if (extras_.designed) show_designed(frames);
-        protocol::write_path_frame(path_, frame_);
+        protocol::write_frame(path_, frame_);
         frames(frame_);
         last_state_.clear();
     } else if (session_->milled_s() > shown_s_) {
@@ -182,11 +212,15 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
 
 void LiveMill::show_job(const protocol::FrameSink& frames) {
     const MillSetup& setup = session_->setup();
-    protocol::write_job_frame(
-        {duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), setup.cutters}, frame_);
+    protocol::LiveJob job{duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), {}};
+    for (const milling::Cutter& cutter : setup.cutters) job.cutters.push_back(told_cutter(cutter));
+    protocol::write_frame(job, frame_);
     frames(frame_);
-    protocol::write_listening_frame(listening(), frame_);
+    job::Listening listening = this->listening();
+    protocol::write_frame(listening, frame_);
     frames(frame_);
+    // In the precision of the frame: the sound is the page's, bit by bit.
+    if (ear_ && protocol::read_frame(frame_, listening)) ear_(listening);
 }
 
 job::Listening LiveMill::listening() const {
@@ -200,7 +234,8 @@ void LiveMill::show_designed(const protocol::FrameSink& frames) {
     const TriangleMesh& whole = *extras_.designed;
     for (std::size_t first = 0; first < whole.triangles.size(); first += kTrianglesPerFrame) {
         const std::size_t last = std::min(first + kTrianglesPerFrame, whole.triangles.size());
-        TriangleMesh piece;
+        protocol::LiveDesigned designed;
+        TriangleMesh& piece = designed.mesh;
         std::map<std::uint32_t, std::uint32_t> kept;
         for (std::size_t n = first; n < last; ++n) {
             Triangle triangle;
@@ -212,34 +247,32 @@ void LiveMill::show_designed(const protocol::FrameSink& frames) {
             }
             piece.triangles.push_back(triangle);
         }
-        protocol::write_designed_frame(piece, frame_);
+        protocol::write_frame(designed, frame_);
         frames(frame_);
     }
 }
 
 void LiveMill::show_sound(const protocol::FrameSink& frames) {
-    std::vector<protocol::LiveSoundPiece> pieces;
     while (pieces_told_ < rows_.size()) {
         const std::size_t now = std::min(kPiecesPerFrame, rows_.size() - pieces_told_);
         const auto forces = stretch_spectra(record_, session_->setup(), change_, pieces_told_, now);
-        pieces.clear();
+        protocol::LiveSoundPieces sound;
         for (std::size_t n = 0; n < now; ++n) {
             const milling::CutRow& s = record_.rows()[pieces_told_ + n];
-            const double rad_per_s = change_.speed_factor * s.spindle_rpm / 60 * math::kTwoPi;
             const int edges = session_->setup().cutters[s.cutter].flutes;
-            pieces.push_back({s.start_s, s.end_s, s.pose.tip_mm, changed_phase_rad(s, change_), rad_per_s,
-                              change_.feed_factor, change_.feed_factor * s.chip_mm3_per_s(), edges,
-                              forces[n]});
+            sound.pieces.push_back(told_piece(s, forces[n], edges, change_));
         }
-        protocol::write_sound_frame(pieces, frame_);
+        protocol::write_frame(sound, frame_);
         frames(frame_);
+        if (ear_) ear_(std::move(sound));
         pieces_told_ += now;
     }
 }
 
 void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) {
-    picture_->update(box_mm, [&](ChunkCoord c, const TriangleMesh& mesh) {
-        protocol::write_chunk_frame(session_->milled_s(), {c.i, c.j, c.k}, mesh, frame_);
+    picture_->update(box_mm, [&](ChunkCoord c, TriangleMesh mesh) {
+        protocol::write_frame(protocol::LiveChunk{session_->milled_s(), {c.i, c.j, c.k}, std::move(mesh)},
+                              frame_);
         frames(frame_);
     });
     shown_s_ = session_->milled_s();
@@ -247,22 +280,25 @@ void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) 
 
 void LiveMill::show_rows(const protocol::FrameSink& frames) {
     while (rows_told_ < rows_.size()) {
+        const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(rows_told_);
         const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
-        protocol::write_rows_frame({rows_.data() + rows_told_, now}, std::exchange(rows_anew_, false),
-                                   frame_);
+        protocol::write_frame(protocol::LiveRows{std::exchange(rows_anew_, false),
+                                                 {first, first + static_cast<std::ptrdiff_t>(now)}},
+                              frame_);
         frames(frame_);
         rows_told_ += now;
     }
     const auto& collisions = session_->totals().collisions;
     for (; collisions_told_ < collisions.size(); ++collisions_told_) {
         const MillCollision& c = collisions[collisions_told_];
-        protocol::write_collision_frame(c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm, frame_);
+        protocol::write_frame(protocol::LiveCollision{c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm},
+                              frame_);
         frames(frame_);
     }
 }
 
 void LiveMill::show_state(const protocol::FrameSink& frames) {
-    protocol::write_state_frame(state(), frame_);
+    protocol::write_frame(state(), frame_);
     if (frame_ == last_state_) return;
     frames(frame_);
     std::swap(frame_, last_state_);
@@ -274,7 +310,9 @@ protocol::LiveState LiveMill::state() const {
     protocol::LiveState s;
     s.t_s = std::min(clock_s_, std::max(session_->milled_s(), 0.0));
     const std::size_t n = schedule.move_at(s.t_s);
-    s.tool = motion::pose_at_time(setup.moves, schedule, s.t_s);
+    const motion::ToolPose tool = motion::pose_at_time(setup.moves, schedule, s.t_s);
+    s.tip_mm = tool.tip_mm;
+    s.axis = tool.axis;
     s.line = static_cast<std::uint32_t>(setup.moves[n].line);
     s.cutter = static_cast<std::uint32_t>(setup.cutter_of_move[n]);
     s.rapid = setup.moves[n].kind == motion::MoveKind::rapid;

@@ -12,6 +12,7 @@
 #include "protocol/live_frame.hpp"
 #include "session/cut/cut_record.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/live/live_sound.hpp"
 #include "session/live/part_picture.hpp"
 
 namespace tribo::session {
@@ -53,6 +54,8 @@ class LiveMill {
     double pace() const { return playing_ ? speed_ * change_.feed_factor : 0; }
     // Told the session that mills from now on, and null before it goes.
     void watch(std::function<void(MillSession*)> watcher);
+    // An ear in this process, told with the frames from now on.
+    void hear(std::function<void(LiveSoundNews)> ear) { ear_ = std::move(ear); }
 
     // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `may_go_on` says so (asked
     // every few moves), then tells what is new (LiveMemory keeps it for who comes later). The clock waits for
@@ -78,7 +81,7 @@ class LiveMill {
     LiveExtras extras_;
     std::unique_ptr<MillSession> session_;
     std::unique_ptr<PartPicture> picture_;
-    std::vector<protocol::LivePathPoint> path_;
+    protocol::LivePath path_;
     std::vector<protocol::LiveRow> rows_;
     struct Felt {
         Vec3 force_n;  // stock frame
@@ -91,6 +94,7 @@ class LiveMill {
     CutChange change_;
     bool rows_anew_ = false;
     std::function<void(MillSession*)> watcher_;
+    std::function<void(LiveSoundNews)> ear_;
     std::size_t rows_told_ = 0, collisions_told_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;

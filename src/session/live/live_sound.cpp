@@ -2,7 +2,6 @@
 #include "session/live/live_sound.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -10,7 +9,7 @@
 namespace tribo::session {
 namespace {
 
-constexpr std::uint32_t kMostEdges = 1000;
+constexpr int kMostEdges = 1000;
 
 // Samples between two looks at the pieces: four quanta, 5 ms.
 constexpr std::int64_t kHop = std::int64_t{4} * sound::kQuantumFrames;
@@ -22,122 +21,54 @@ constexpr double kLargestCorrectionRad = 0.1;
 // Pieces this near to one another are one cut.
 constexpr double kSameCutS = 1e-4;
 
-// Little-endian values of a frame, zeros beyond its end.
-class Reader {
-  public:
-    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+double end_s(const protocol::LiveSoundPiece& piece) {
+    return piece.t_s + double{piece.duration_s};
+}
 
-    bool has(std::size_t bytes) const { return at_ + bytes <= bytes_.size(); }
-    std::uint32_t u32() { return static_cast<std::uint32_t>(bits(4)); }
-    double f32() { return static_cast<double>(std::bit_cast<float>(u32())); }
-    double f64() { return std::bit_cast<double>(bits(8)); }
-    Vec3 vec3() {
-        const double x = f32(), y = f32(), z = f32();
-        return {x, y, z};
-    }
-    void skip(std::size_t bytes) { at_ += bytes; }
-
-  private:
-    std::uint64_t bits(std::size_t bytes) {
-        std::uint64_t v = 0;
-        if (has(bytes)) {
-            for (std::size_t n = 0; n < bytes; ++n) v |= std::uint64_t{bytes_[at_ + n]} << (8 * n);
-        }
-        at_ += bytes;
-        return v;
-    }
-
-    std::span<const std::uint8_t> bytes_;
-    std::size_t at_ = 16;
-};
+Vec3 tip_mm(const protocol::LiveSoundPiece& piece) {
+    return {piece.tip_mm[0], piece.tip_mm[1], piece.tip_mm[2]};
+}
 
 }  // namespace
 
-LiveSound::LiveSound(sound::SoundtrackOptions base)
-    : base_(std::move(base)), pieces_(std::make_unique<std::array<Piece, kPieces>>()) {
+LiveSound::LiveSound(sound::SoundtrackOptions base) : base_(std::move(base)), pieces_(kPieces) {
     spectrum_.harmonics.reserve(kHarmonics);
     begin();
 }
 
 void LiveSound::begin() {
     track_ = std::make_unique<sound::Soundtrack>(base_);
-    written_ = 0;
     left_ = 0;
-    known_ = sounding_ = false;
+    sounding_ = false;
+    begin_job();
 }
 
-void LiveSound::take(std::span<const std::uint8_t> frame) {
-    if (frame.size() < 16 || frame[1] != protocol::kLiveFrameVersion) return;
-    Reader r(frame);
-    switch (static_cast<protocol::LiveFrame>(frame[0])) {
-        case protocol::LiveFrame::job:
-            written_ = 0;
-            known_ = false;
-            break;
-        case protocol::LiveFrame::listening: {
-            job::Listening l;
-            l.listener_mm = r.vec3();
-            l.distance_factor = r.f32();
-            l.gain_db = r.f32();
-            for (std::size_t n = 0; n < 2; ++n) l.tool.modes[n] = {r.f32(), r.f32()};
-            l.reference_distance_m = r.f32();
-            l.workshop.machine = r.u32();
-            l.workshop.room = r.u32();
-            l.workshop.chips = static_cast<sound::ChipMaterial>(std::min(r.u32(), 255U));
-            for (double* db :
-                 {&l.workshop.cut_db, &l.workshop.spindle_db, &l.workshop.chips_db, &l.workshop.room_db})
-                *db = r.f32();
-            if (!sound::is_valid(l.workshop)) return;
-            sound::SoundtrackOptions options = base_;
-            job::apply(l, options);
-            if (!sound::check(options)) return;
-            base_ = std::move(options);
-            begin();
-            break;
-        }
-        case protocol::LiveFrame::sound:
-            take_pieces(frame);
-            break;
-        default:
-            break;
-    }
+void LiveSound::begin_job() {
+    written_ = 0;
+    known_ = false;
 }
 
-void LiveSound::take_pieces(std::span<const std::uint8_t> frame) {
-    Reader r(frame);
-    const std::size_t first = written_;
-    for (std::uint32_t count = r.u32(); count > 0 && r.has(48); --count) {
-        Piece& piece = (*pieces_)[written_ % kPieces];
-        piece.edges = 0;
-        piece.torque_nmm = 0;
-        piece.t_s = r.f64();
-        piece.end_s = piece.t_s + r.f32();
-        piece.tip_mm = r.vec3();
-        piece.angle_rad = r.f32();
-        piece.rad_per_s = r.f32();
-        piece.pace = r.f32();
-        piece.chip_mm3_per_s = r.f32();
-        piece.order_step = std::max(static_cast<int>(r.u32()), 1);
-        const std::uint32_t told = r.u32();
-        if (!r.has(std::size_t{24} * told)) return;
-        piece.harmonics = std::min<std::size_t>(told, kHarmonics);
-        for (std::uint32_t n = 0; n < told; ++n) {
-            std::array<float, 4> xy{};
-            for (float& v : xy) v = static_cast<float>(r.f32());
-            r.skip(8);
-            if (n < piece.harmonics) piece.xy[n] = xy;
-        }
+void LiveSound::take(const job::Listening& listening) {
+    if (!sound::is_valid(listening.workshop)) return;
+    sound::SoundtrackOptions options = base_;
+    job::apply(listening, options);
+    if (!sound::check(options)) return;
+    base_ = std::move(options);
+    begin();
+}
+
+void LiveSound::take(const protocol::LiveSoundPieces& sound) {
+    for (const protocol::LiveSoundPiece& told : sound.pieces) {
+        protocol::LiveSoundPiece& piece = pieces_[written_ % kPieces];
+        // Keeps the room of its harmonics.
+        piece = told;
+        piece.order_step = std::max(piece.order_step, 1);
+        piece.edges = std::clamp(piece.edges, 0, kMostEdges);
         if (written_ == 0) {
-            idle_tip_mm_ = piece.tip_mm;
-            idle_rad_per_s_ = piece.rad_per_s;
+            idle_tip_mm_ = tip_mm(piece);
+            idle_rad_per_s_ = double{piece.spindle_rad_per_s};
         }
         ++written_;
-    }
-    // Frames of earlier versions of the program end here.
-    for (std::size_t n = first; n < written_ && r.has(8); ++n) {
-        Piece& piece = (*pieces_)[n % kPieces];
-        piece.edges = static_cast<int>(std::min(r.u32(), kMostEdges));
-        piece.torque_nmm = r.f32();
     }
 }
 
@@ -153,13 +84,13 @@ void LiveSound::follow(double t_s, double speed, bool playing, double lead_s) {
     known_ = true;
 }
 
-const LiveSound::Piece* LiveSound::piece_at(double t_s) const {
+const protocol::LiveSoundPiece* LiveSound::piece_at(double t_s) const {
     const std::size_t oldest = written_ > kPieces ? written_ - kPieces : 0;
     // The clock is near the end of what is milled.
     for (std::size_t n = written_; n > oldest; --n) {
-        const Piece& piece = (*pieces_)[(n - 1) % kPieces];
+        const protocol::LiveSoundPiece& piece = pieces_[(n - 1) % kPieces];
         if (t_s < piece.t_s - kSameCutS) continue;
-        return t_s <= piece.end_s + kSameCutS ? &piece : nullptr;
+        return t_s <= end_s(piece) + kSameCutS ? &piece : nullptr;
     }
     return nullptr;
 }
@@ -176,7 +107,7 @@ void LiveSound::idle() {
 void LiveSound::steer() {
     const double hop_s = static_cast<double>(kHop) / base_.sample_rate_hz;
     const double t_s = clock_s_ + speed_ * pace_ * hop_s;
-    const Piece* piece = known_ && playing_ ? piece_at(t_s) : nullptr;
+    const protocol::LiveSoundPiece* piece = known_ && playing_ ? piece_at(t_s) : nullptr;
     if (piece == nullptr) {
         if (known_ && playing_ && written_ > 0) {
             idle();
@@ -186,12 +117,13 @@ void LiveSound::steer() {
         sounding_ = false;
         return;
     }
-    pace_ = piece->pace > 0 ? piece->pace : 1;
-    const double there = piece->angle_rad + piece->rad_per_s / pace_ * (t_s - piece->t_s);
+    pace_ = piece->pace > 0 ? double{piece->pace} : 1;
+    const double rad_per_s = double{piece->spindle_rad_per_s};
+    const double there = double{piece->spindle_angle_rad} + rad_per_s / pace_ * (t_s - piece->t_s);
     if (!sounding_) {
         phase_rad_ = there;
     } else {
-        phase_rad_ += piece->rad_per_s * hop_s;
+        phase_rad_ += rad_per_s * hop_s;
         if (speed_ == 1) {
             const double off = std::remainder(there - phase_rad_, math::kTwoPi);
             phase_rad_ += std::clamp(off, -kLargestCorrectionRad, kLargestCorrectionRad);
@@ -201,21 +133,22 @@ void LiveSound::steer() {
     sounding_ = true;
 
     spectrum_.order_step = piece->order_step;
-    spectrum_.harmonics.resize(piece->harmonics);
-    for (std::size_t n = 0; n < piece->harmonics; ++n) {
-        const auto& xy = piece->xy[n];
-        spectrum_.harmonics[n].x = {static_cast<double>(xy[0]), static_cast<double>(xy[1])};
-        spectrum_.harmonics[n].y = {static_cast<double>(xy[2]), static_cast<double>(xy[3])};
+    spectrum_.harmonics.resize(std::min(piece->harmonics.size(), kHarmonics));
+    for (std::size_t n = 0; n < spectrum_.harmonics.size(); ++n) {
+        const protocol::LiveHarmonic& told = piece->harmonics[n];
+        spectrum_.harmonics[n].x = std::complex<double>(told[0]);
+        spectrum_.harmonics[n].y = std::complex<double>(told[1]);
     }
-    if (!spectrum_.harmonics.empty()) spectrum_.harmonics[0].torque = piece->torque_nmm;
-    idle_tip_mm_ = piece->tip_mm;
-    idle_rad_per_s_ = piece->rad_per_s;
+    if (!spectrum_.harmonics.empty())
+        spectrum_.harmonics[0].torque = static_cast<double>(piece->mean_torque_nmm);
+    idle_tip_mm_ = tip_mm(*piece);
+    idle_rad_per_s_ = rad_per_s;
     contact::ContactSample s;
     s.t_s = static_cast<double>(track_->frames_rendered() + kHop) / base_.sample_rate_hz;
-    s.position_mm = piece->tip_mm;
-    s.removed_mm3_per_s = piece->chip_mm3_per_s;
+    s.position_mm = idle_tip_mm_;
+    s.removed_mm3_per_s = double{piece->chip_mm3_per_s};
     s.phase_rad = phase_rad_;
-    s.phase_rate_rad_per_s = piece->rad_per_s;
+    s.phase_rate_rad_per_s = rad_per_s;
     s.spectrum = &spectrum_;
     s.edges = piece->edges;
     track_->excite(s);

@@ -72,7 +72,7 @@ void SingleThreadedTouch::renew() {
 
 void SingleThreadedTouch::tick(double dt_s, const protocol::FrameSink& frames) {
     renew();
-    finger_.show(scene(), mill_.state().tool.tip_mm, frames);
+    finger_.show(scene(), mill_.state().tip_mm, frames);
     owed_s_ = std::min(owed_s_ + dt_s, kMostOwedS);
     const double tick_s = 1 / options_.rate_hz;
     for (; owed_s_ >= tick_s; owed_s_ -= tick_s) {

@@ -63,8 +63,7 @@ std::uint64_t PartPicture::state(ChunkCoord chunk) const {
     return hash.value() | 1;
 }
 
-void PartPicture::update(const Box3& box_mm,
-                         const std::function<void(ChunkCoord, const TriangleMesh&)>& show) {
+void PartPicture::update(const Box3& box_mm, const std::function<void(ChunkCoord, TriangleMesh)>& show) {
     if (box_mm.empty()) return;
     const BrickCoord n = field_.size();
     const auto inside = [&](BrickCoord b) {
@@ -93,8 +92,8 @@ void PartPicture::update(const Box3& box_mm,
         changes_[n].mesh = field::contour_part(
             field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks});
     });
-    for (const Change& c : changes_) {
-        if (c.was_seen || !c.mesh.triangles.empty()) show(c.chunk, c.mesh);
+    for (Change& c : changes_) {
+        if (c.was_seen || !c.mesh.triangles.empty()) show(c.chunk, std::move(c.mesh));
     }
     changes_.clear();
 }

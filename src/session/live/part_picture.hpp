@@ -30,7 +30,7 @@ class PartPicture {
     // Calls show(chunk, mesh) for each chunk within `box_mm` whose surface is not as it was last shown; an
     // empty mesh stands for a surface that is gone. Cost: the chunks of the box, and a contour of those that
     // have changed.
-    void update(const Box3& box_mm, const std::function<void(ChunkCoord, const TriangleMesh&)>& show);
+    void update(const Box3& box_mm, const std::function<void(ChunkCoord, TriangleMesh)>& show);
     // The box of everything.
     Box3 all() const;
 
