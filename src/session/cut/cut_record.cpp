@@ -74,26 +74,16 @@ std::vector<contact::ForceStretch> force_stretches(std::span<const milling::CutR
     return out;
 }
 
-std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
-                                         const CutChange& change, std::size_t first,
-                                         const ParallelFor& parallel) {
-    std::vector<StretchForce> out(record.rows().size() - first);
-    const auto visit = [&](std::size_t n, const milling::CutRow& row, milling::ForceModel& model) {
-        const milling::ForcePeaks peaks = model.peaks();
-        out[n] = {row.pose.frame.in_stock(peaks.mean_n), peaks.peak_force_n, 1e-3 * peaks.mean_torque_nmm};
-    };
-    each_engaged(record.rows().subspan(first), setup, change, parallel, visit);
-    return out;
-}
-
-std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
-                                                    const CutChange& change, std::size_t first,
-                                                    std::size_t count) {
-    std::vector<contact::ForceSpectrum> out(count);
+std::vector<milling::RowForce> changed_forces(std::span<const milling::CutRow> rows, const MillSetup& setup,
+                                              const CutChange& change, std::size_t spectra_from,
+                                              const ParallelFor& parallel) {
+    std::vector<milling::RowForce> out(rows.size());
     const auto visit = [&](std::size_t n, const milling::CutRow&, milling::ForceModel& model) {
-        model.spectrum(setup.harmonics, out[n]);
+        out[n].peaks = model.peaks();
+        out[n].edge_torque_nmm = model.edges().mean_edge_torque_nmm();
+        if (n >= spectra_from) model.spectrum(setup.harmonics, out[n].spectrum);
     };
-    each_engaged(record.rows().subspan(first, count), setup, change, serial_for, visit);
+    each_engaged(rows, setup, change, parallel, visit);
     return out;
 }
 

@@ -30,6 +30,10 @@ struct CutChange {
     std::optional<milling::CuttingCoefficients> coefficients{};
     std::optional<double> helix_deg{};
 
+    // Whether the forces are those of the program as it was written.
+    bool none() const {
+        return feed_factor == 1 && speed_factor == 1 && !coefficients.has_value() && !helix_deg.has_value();
+    }
     // The times of a program go by faster by the feed, its spindle angle by the speed.
     double angle_factor() const { return speed_factor / feed_factor; }
     double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
@@ -50,19 +54,10 @@ inline std::vector<contact::ForceStretch> force_stretches(const CutRecord& recor
     return force_stretches(record.rows(), setup, change, parallel);
 }
 
-// The force over a turn of the rows from the `first` on, with something changed.
-struct StretchForce {
-    Vec3 mean_n;  // stock frame
-    double peak_force_n = 0, mean_torque_nm = 0;
-};
-std::vector<StretchForce> stretch_forces(const CutRecord& record, const MillSetup& setup,
-                                         const CutChange& change, std::size_t first = 0,
-                                         const ParallelFor& parallel = serial_for);
-
-// The spectra of `count` rows from the `first` on.
-std::vector<contact::ForceSpectrum> stretch_spectra(const CutRecord& record, const MillSetup& setup,
-                                                    const CutChange& change, std::size_t first,
-                                                    std::size_t count);
+// The forces of rows with something changed; spectra of those from `spectra_from` on only.
+std::vector<milling::RowForce> changed_forces(std::span<const milling::CutRow> rows, const MillSetup& setup,
+                                              const CutChange& change, std::size_t spectra_from,
+                                              const ParallelFor& parallel = serial_for);
 
 // Tells records of different jobs apart: everything that the force along the path depends on.
 std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);

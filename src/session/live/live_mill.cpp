@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -66,8 +67,8 @@ protocol::LiveCutter told_cutter(const milling::Cutter& cutter) {
 }
 
 // All that the ear needs of a row with its spectrum.
-protocol::LiveSoundPiece told_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum, int edges,
-                                    const CutChange& change) {
+protocol::LiveSoundPiece told_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum,
+                                    int edges, const CutChange& change) {
     protocol::LiveSoundPiece piece;
     piece.t_s = row.start_s;
     piece.duration_s = static_cast<float>(row.duration_s());
@@ -104,9 +105,10 @@ Result<void> LiveMill::begin() {
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
     path_ = path_of(*session_);
     rows_.clear();
-    felt_.clear();
+    row_states_.clear();
     record_ = {};
-    rows_told_ = pieces_told_ = collisions_told_ = 0;
+    sound_.pieces.clear();
+    rows_told_ = collisions_told_ = 0;
     shown_s_ = 0;
     begun_anew_ = true;
     set_back_ = false;
@@ -121,10 +123,12 @@ void LiveMill::watch(std::function<void(MillSession*)> watcher) {
 
 void LiveMill::set_change(const CutChange& change) {
     change_ = change;
-    work_out_forces(0);
-    rows_told_ = 0;
     // What is behind the clock is heard no more.
-    while (pieces_told_ > 0 && rows_[pieces_told_ - 1].end_s > clock_s_) --pieces_told_;
+    std::size_t heard = rows_.size();
+    while (heard > 0 && rows_[heard - 1].end_s > clock_s_) --heard;
+    sound_.pieces.clear();
+    set_changed_forces(0, heard);
+    rows_told_ = 0;
     rows_anew_ = !rows_.empty();
     last_state_.clear();
 }
@@ -156,25 +160,29 @@ void LiveMill::add_row(const milling::CutRow& row) {
     told.axial_depth_mm = hull.axial_depth_mm;
     told.line = static_cast<std::uint32_t>(row.line);
     rows_.push_back(told);
-    const double before = felt_.empty() ? 0 : felt_.back().removed_mm3;
-    felt_.push_back({{}, 0, 0, before + row.removed_mm3});
+    const double before = row_states_.empty() ? 0 : row_states_.back().removed_mm3;
+    row_states_.push_back({{}, before + row.removed_mm3});
     record_.add(row);
 }
 
-// What follows from the change, of the rows from `first` on.
-void LiveMill::work_out_forces(std::size_t first) {
-    const auto forces = stretch_forces(record_, session_->setup(), change_, first, parallel_);
-    for (std::size_t n = first; n < rows_.size(); ++n) {
-        const StretchForce& force = forces[n - first];
-        const milling::CutRow& s = record_.rows()[n];
-        rows_[n].mean_force_n = length(force.mean_n);
-        rows_[n].peak_force_n = force.peak_force_n;
-        rows_[n].mean_torque_nm = force.mean_torque_nm;
-        rows_[n].feed_per_tooth_mm = change_.chip_factor() * s.feed.across_mm;
-        felt_[n].force_n = force.mean_n;
-        felt_[n].spindle_angle_rad = changed_phase_rad(s, change_);
-        felt_[n].spindle_rad_per_s = change_.angle_factor() * s.spindle_rpm / 60 * math::kTwoPi;
-    }
+// What follows from the force of a row; it is heard where there is a spectrum.
+void LiveMill::set_force(std::size_t n, const milling::RowForce& force) {
+    const milling::CutRow& cut = record_.rows()[n];
+    protocol::LiveRow& row = rows_[n];
+    row_states_[n].force_n = cut.pose.frame.in_stock(force.peaks.mean_n);
+    row.mean_force_n = length(row_states_[n].force_n);
+    row.peak_force_n = force.peaks.peak_force_n;
+    row.mean_torque_nm = 1e-3 * force.peaks.mean_torque_nmm;
+    row.feed_per_tooth_mm = change_.chip_factor() * cut.feed.across_mm;
+    if (force.spectrum.empty()) return;
+    const int edges = session_->setup().cutters[cut.cutter].flutes;
+    sound_.pieces.push_back(told_piece(cut, force.spectrum, edges, change_));
+}
+
+void LiveMill::set_changed_forces(std::size_t first_row, std::size_t first_heard) {
+    const auto forces = changed_forces(record_.rows().subspan(first_row), session_->setup(), change_,
+                                       first_heard - first_row, parallel_);
+    for (std::size_t n = first_row; n < rows_.size(); ++n) set_force(n, forces[n - first_row]);
 }
 
 Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
@@ -186,10 +194,13 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
     const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
     const std::size_t rows_before = rows_.size();
     MillSinks sinks;
-    sinks.row = [this](const milling::CutRow& row, const milling::RowForce&) { add_row(row); };
+    sinks.row = [this](const milling::CutRow& row, const milling::RowForce& force) {
+        add_row(row);
+        if (change_.none()) set_force(rows_.size() - 1, force);
+    };
     sinks.progress = [&](double) { return may_go_on(); };
     session_->run_to(target, sinks);
-    work_out_forces(rows_before);
+    if (!change_.none()) set_changed_forces(rows_before, rows_before);
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
     if (clock_s_ >= duration_s()) playing_ = false;
     if (begun_anew_) {
@@ -253,20 +264,17 @@ void LiveMill::show_designed(const protocol::FrameSink& frames) {
 }
 
 void LiveMill::show_sound(const protocol::FrameSink& frames) {
-    while (pieces_told_ < rows_.size()) {
-        const std::size_t now = std::min(kPiecesPerFrame, rows_.size() - pieces_told_);
-        const auto forces = stretch_spectra(record_, session_->setup(), change_, pieces_told_, now);
+    auto& all = sound_.pieces;
+    for (std::size_t first = 0; first < all.size(); first += kPiecesPerFrame) {
+        const std::size_t last = std::min(first + kPiecesPerFrame, all.size());
         protocol::LiveSoundPieces sound;
-        for (std::size_t n = 0; n < now; ++n) {
-            const milling::CutRow& s = record_.rows()[pieces_told_ + n];
-            const int edges = session_->setup().cutters[s.cutter].flutes;
-            sound.pieces.push_back(told_piece(s, forces[n], edges, change_));
-        }
+        sound.pieces.assign(std::move_iterator(all.begin() + static_cast<std::ptrdiff_t>(first)),
+                            std::move_iterator(all.begin() + static_cast<std::ptrdiff_t>(last)));
         protocol::write_frame(sound, frame_);
         frames(frame_);
         if (ear_) ear_(std::move(sound));
-        pieces_told_ += now;
     }
+    all.clear();
 }
 
 void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) {
@@ -325,14 +333,15 @@ protocol::LiveState LiveMill::state() const {
                                         [](double t, const protocol::LiveRow& row) { return t < row.t_s; });
     if (after == rows_.begin()) return s;
     const auto row = static_cast<std::size_t>(after - rows_.begin()) - 1;
-    const Felt& felt = felt_[row];
-    s.removed_mm3 = felt.removed_mm3;
+    s.removed_mm3 = row_states_[row].removed_mm3;
     if (s.t_s > rows_[row].end_s) return s;
+    const milling::CutRow& cut = record_.rows()[row];
     s.cutting = true;
-    s.force_n = felt.force_n;
+    s.force_n = row_states_[row].force_n;
     s.peak_force_n = rows_[row].peak_force_n;
     s.mean_torque_nm = rows_[row].mean_torque_nm;
-    s.spindle_angle_rad = felt.spindle_angle_rad + felt.spindle_rad_per_s * (s.t_s - rows_[row].t_s);
+    const double written_rad_per_s = change_.angle_factor() * cut.spindle_rad_per_s();
+    s.spindle_angle_rad = changed_phase_rad(cut, change_) + written_rad_per_s * (s.t_s - cut.start_s);
     return s;
 }
 

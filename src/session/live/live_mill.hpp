@@ -67,7 +67,8 @@ class LiveMill {
         : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)), extras_(std::move(extras)) {}
     Result<void> begin();
     void add_row(const milling::CutRow& row);
-    void work_out_forces(std::size_t first_row);
+    void set_force(std::size_t row, const milling::RowForce& force);
+    void set_changed_forces(std::size_t first_row, std::size_t first_heard);
     void show_job(const protocol::FrameSink& frames);
     void show_part(const Box3& box_mm, const protocol::FrameSink& frames);
     void show_rows(const protocol::FrameSink& frames);
@@ -83,14 +84,14 @@ class LiveMill {
     std::unique_ptr<PartPicture> picture_;
     protocol::LivePath path_;
     std::vector<protocol::LiveRow> rows_;
-    struct Felt {
-        Vec3 force_n;  // stock frame
-        double spindle_angle_rad = 0, spindle_rad_per_s = 0;
+    // What a state needs of a row besides.
+    struct RowState {
+        Vec3 force_n;            // stock frame
         double removed_mm3 = 0;  // up to and with this row
     };
-    std::vector<Felt> felt_;       // one per row
-    CutRecord record_;             // likewise
-    std::size_t pieces_told_ = 0;  // of the sound
+    std::vector<RowState> row_states_;  // one per row
+    CutRecord record_;                  // likewise
+    protocol::LiveSoundPieces sound_;   // not yet told
     CutChange change_;
     bool rows_anew_ = false;
     std::function<void(MillSession*)> watcher_;
