@@ -3,7 +3,9 @@
 // linuxcnc-uspace 2.9.0~pre1; where the interpreter refuses a file for words that do not change X, Y and Z,
 // those words were deleted for it: G43 H1 in cds, M6 T3 in wave, M428, M429, T1 M6 and the words A and C in
 // boat. It refuses G6.2 (farfalla): that length and box are of De Boor's algorithm at 200,000 parameters.
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "motion/path/summary.hpp"
 #include "readers/gcode/gcode_text.hpp"
@@ -64,6 +66,23 @@ TEST(GcodeReader, ReadsRealProgramsAsLinuxcncDoes) {
         expect_near(summary.bounds_mm.max, expected.bounds_mm.max, expected.tolerance_mm);
         EXPECT_EQ(program.has_rotary_words, expected.rotary) << expected.name;
     }
+}
+
+// The same path through the reader with a program of our own: a contour with an arc, a loop, a helix and a
+// drilling cycle; lengths in closed form.
+TEST(GcodeReader, ReadsAWholeProgramToItsLengthAndBounds) {
+    const motion::Program program = program_of(
+        "%\n(a plate)\nN10 G21 G90 G17 G54\nN20 T1 M6\nN30 S3000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX40\n"
+        "G3 X50 Y10 I0 J10\nG1 Y30\no101 repeat [3]\nG91 G1 X-10\nG90\no101 endrepeat\n"
+        "G3 X20 Y30 Z-3 I0 J-5\nG0 Z5\nG81 X10 Y10 Z-4 R2 F200\nX20\nG80\nM5\nM2\n%\n");
+    const motion::ProgramSummary summary = motion::describe(program);
+    using std::numbers::pi;
+    EXPECT_EQ(summary.feed_moves, 10u);
+    EXPECT_NEAR(summary.path_mm, 6 + 40 + 5 * pi + 20 + 30 + std::hypot(10 * pi, 2) + 2 * 6, 1e-9);
+    expect_near(summary.bounds_mm.min, {0, 0, -4}, 1e-9);
+    expect_near(summary.bounds_mm.max, {50, 30, 5}, 1e-9);
+    EXPECT_EQ(summary.tools, std::vector<int>{1});
+    EXPECT_FALSE(program.has_rotary_words);
 }
 
 }  // namespace

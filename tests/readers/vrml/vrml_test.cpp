@@ -2,6 +2,7 @@
 // VRML 2.0: what is seen, where it is placed, what is refused, and files made to be slow or deep.
 #include "readers/vrml/vrml.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -318,6 +319,27 @@ TEST(Vrml, reads_a_real_house_of_boxes_cylinders_and_face_sets) {
     ASSERT_TRUE(is_read(model));
     EXPECT_EQ(model->mesh.triangles.size(), 14'527U + 5 * (252 - 76));
     EXPECT_NEAR(area_mm2(model->mesh), 1890.030, 0.002);
+    EXPECT_EQ(model->colours.size(), model->mesh.triangles.size());
+}
+
+// A small house of our own: walls of a box, a roof of four triangles, a chimney used twice.
+TEST(Vrml, reads_a_house_of_a_box_a_face_set_and_used_parts) {
+    const auto model = read_model(
+        "#VRML V2.0 utf8\n"
+        "DEF House Group { children [\n"
+        "  Shape { appearance Appearance { material Material { diffuseColor 0.8 0.7 0.5 } }\n"
+        "          geometry Box { size 6 4 4 } }\n"
+        "  Transform { translation 0 2 0 children Shape { geometry IndexedFaceSet {\n"
+        "    coord Coordinate { point [ -3 0 -2, 3 0 -2, 3 0 2, -3 0 2, 0 1.5 0 ] }\n"
+        "    coordIndex [ 1 0 4 -1 2 1 4 -1 3 2 4 -1 0 3 4 -1 ] solid FALSE } } }\n"
+        "  Transform { translation 2 4 0 children DEF Chimney Shape { geometry Box { size 1 2 1 } } }\n"
+        "  Transform { translation -2 4 0 scale 1 2 1 children USE Chimney }\n"
+        "] }\n");
+    ASSERT_TRUE(is_read(model));
+    EXPECT_EQ(model->mesh.triangles.size(), 12U + 4 + 12 + 12);
+    // Slopes of the roof: bases of 6 and 4, heights over them of 2.5 and sqrt(11.25).
+    const double roof = 6 * 2.5 + 4 * std::sqrt(11.25);
+    EXPECT_NEAR(area_mm2(model->mesh), 2 * (24 + 24 + 16) + roof + (2 + 4 * 2) + (2 + 4 * 4), 1e-5);
     EXPECT_EQ(model->colours.size(), model->mesh.triangles.size());
 }
 
