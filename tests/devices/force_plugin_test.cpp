@@ -12,7 +12,7 @@ namespace {
 class Inner final : public haptics::ForceSource {
   public:
     haptics::RenderedForce render(const haptics::HandReading&, double now_s, double) noexcept override {
-        return {{0, 0, 1}, {2, 0, 0}, true, 0, now_s};
+        return {{0, 0, 1}, {2, 0, 0}, true, now_s};
     }
 };
 
