@@ -45,19 +45,19 @@ Result<std::unique_ptr<MeshShape>> MeshShape::make(TriangleMesh mesh) {
 }
 
 Vec3 MeshShape::gradient(Vec3 point_mm) const {
-    const MeshPoint found = distance_.closest(point_mm);
+    const MeshPoint found = distance_->closest(point_mm);
     if (std::abs(found.distance_mm) <= kOnSurface) return found.normal;
     return (point_mm - found.point_mm) / found.distance_mm;
 }
 
 void MeshShape::sample(const Lattice& lattice, float* out) const {
-    std::uint32_t plane_guess = distance_.closest(lattice.node(0, 0, 0)).triangle;
+    std::uint32_t plane_guess = distance_->closest(lattice.node(0, 0, 0)).triangle;
     for (int c = 0; c < kLatticeEdge; ++c) {
         std::uint32_t row_guess = plane_guess;
         for (int b = 0; b < kLatticeEdge; ++b) {
             std::uint32_t guess = row_guess;
             for (int a = 0; a < kLatticeEdge; ++a) {
-                const MeshPoint found = distance_.closest(lattice.node(a, b, c), guess);
+                const MeshPoint found = distance_->closest(lattice.node(a, b, c), guess);
                 *out++ = static_cast<float>(found.distance_mm);
                 guess = found.triangle;
                 if (a == 0) row_guess = guess;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A closed triangle mesh as a solid: a blank or a fixture that was read from a file.
+// A closed triangle mesh as a solid: a blank or a fixture that was read from a file. Copies share the mesh.
 #pragma once
 
 #include <memory>
@@ -17,17 +17,18 @@ class MeshShape final : public Shape {
     // has turned-over triangles or encloses nothing. One that is inside out is turned.
     static Result<std::unique_ptr<MeshShape>> make(TriangleMesh mesh);
 
-    Box3 bounds_mm() const override { return distance_.bounds_mm(); }
-    double distance_mm(Vec3 point_mm) const override { return distance_.closest(point_mm).distance_mm; }
+    Box3 bounds_mm() const override { return distance_->bounds_mm(); }
+    double distance_mm(Vec3 point_mm) const override { return distance_->closest(point_mm).distance_mm; }
     Vec3 gradient(Vec3 point_mm) const override;
     void sample(const Lattice& lattice, float* out) const override;
 
-    const TriangleMesh& mesh() const { return distance_.mesh(); }
+    const TriangleMesh& mesh() const { return distance_->mesh(); }
 
   private:
-    explicit MeshShape(TriangleMesh mesh) : distance_(std::move(mesh)) {}
+    explicit MeshShape(TriangleMesh mesh)
+        : distance_(std::make_shared<const MeshDistance>(std::move(mesh))) {}
 
-    MeshDistance distance_;
+    std::shared_ptr<const MeshDistance> distance_;
 };
 
 }  // namespace tribo::field
