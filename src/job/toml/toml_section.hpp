@@ -18,8 +18,11 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
+#ifdef __wasi__
+#include "job/toml/toml_for_wasm.hpp"
+#endif
+#include <toml++/toml.h>
 
 #include "base/nearest.hpp"
 #include "base/result.hpp"
