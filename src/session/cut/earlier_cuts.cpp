@@ -26,12 +26,11 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 EarlierCuts cuts_of(const MillSetup& setup) {
     EarlierCuts cuts;
     cuts.cutters = setup.cutters;
-    motion::Schedule schedule;
-    if (setup.until_s) schedule = *motion::schedule(setup.moves, setup.timing);
+    const auto schedule = setup.until_s ? schedule_of(setup) : nullptr;
     for (std::size_t n = 0; n < setup.moves.size(); ++n) {
         motion::Move move = setup.moves[n];
-        if (setup.until_s) {
-            const motion::MoveTiming& timing = schedule.moves[n];
+        if (schedule) {
+            const motion::MoveTiming& timing = schedule->moves[n];
             if (timing.start_s >= *setup.until_s) break;
             if (timing.end_s > *setup.until_s) {
                 const double length = timing.path_fraction(*setup.until_s) * motion::path_length_mm(move);

@@ -19,12 +19,17 @@ constexpr std::size_t kShares = 8;
 
 }  // namespace
 
+std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup) {
+    if (setup.schedule) return setup.schedule;
+    return std::make_shared<const motion::Schedule>(*motion::schedule(setup.moves, setup.timing));
+}
+
 class MillSession::Run {
   public:
     Run(MillSetup setup, ParallelFor parallel, const std::function<bool(double fraction)>& progress)
         : setup_(std::move(setup)),
           parallel_(std::move(parallel)),
-          schedule_(*motion::schedule(setup_.moves, setup_.timing)),
+          schedule_(schedule_of(setup_)),
           stock_(std::move(setup_.blank), setup_.cell_mm, parallel_),
           machining_(stock_, setup_.cutters, setup_.fixtures, {}, parallel_) {
         for (auto& share : models_) {
@@ -33,12 +38,12 @@ class MillSession::Run {
         }
         stopped_ = !carve(stock_, setup_.earlier, progress);
         removed_earlier_mm3_ = stock_.removed_mm3();
-        end_s_ = std::min(schedule_.duration_s, setup_.until_s.value_or(schedule_.duration_s));
+        end_s_ = std::min(schedule_->duration_s, setup_.until_s.value_or(schedule_->duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
         milling::JoinedMoves joined;
         joins_.reserve(setup_.moves.size());
         for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
-            const motion::MoveTiming& timing = schedule_.moves[n];
+            const motion::MoveTiming& timing = schedule_->moves[n];
             joins_.push_back(joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
                                         setup_.rpm_of_move[n], timing.end_s - timing.start_s));
         }
@@ -60,7 +65,7 @@ class MillSession::Run {
 
     MillSetup setup_;
     ParallelFor parallel_;
-    motion::Schedule schedule_;
+    std::shared_ptr<const motion::Schedule> schedule_;
     field::CarvedField stock_;
     MillTotals totals_;
     double end_s_ = 0, now_s_ = 0;
@@ -73,7 +78,7 @@ class MillSession::Run {
         steps_.clear();
         std::size_t n = next_move_;
         for (; n < setup_.moves.size(); ++n) {
-            const motion::MoveTiming& timing = schedule_.moves[n];
+            const motion::MoveTiming& timing = schedule_->moves[n];
             const bool enough = steps_.size() >= kOfferedMoves || timing.start_s >= limit_s_;
             if (n > next_move_ && (joins_[n] ? timing.start_s >= end_s_ : enough)) break;
             const motion::Move* move = &setup_.moves[n];
@@ -89,8 +94,8 @@ class MillSession::Run {
         const std::size_t count = machining_.run(steps_, machined_);
         for (const milling::Collision& c : machined_.collisions) {
             const std::size_t index = next_move_ + c.step;
-            const double start = schedule_.moves[index].start_s;
-            const double end = std::min(schedule_.moves[index].end_s, end_s_);
+            const double start = schedule_->moves[index].start_s;
+            const double end = std::min(schedule_->moves[index].end_s, end_s_);
             add_collision({c.kind, setup_.moves[index].line, start + c.at * (end - start), c.tip_mm});
         }
         row_count_ = 0;
@@ -107,8 +112,8 @@ class MillSession::Run {
     // The steps of one pass, and its rows of those machined, in time.
     void finish_pass(std::size_t step, std::size_t last_step, std::size_t first, std::size_t last) {
         const std::size_t move = next_move_ + step;
-        const double start = schedule_.moves[move].start_s;
-        const double end = std::min(schedule_.moves[next_move_ + last_step - 1].end_s, end_s_);
+        const double start = schedule_->moves[move].start_s;
+        const double end = std::min(schedule_->moves[next_move_ + last_step - 1].end_s, end_s_);
         const double rpm = setup_.rpm_of_move[move];
         for (std::size_t n = step; n < last_step; ++n) {
             if (steps_[n].move->kind != motion::MoveKind::feed) continue;
@@ -141,7 +146,7 @@ class MillSession::Run {
     // When the tip has gone so far on the step; on one without a way, when that share of it is done.
     double time_on_s(std::size_t step, double way_mm, double share) const {
         const milling::Step& s = steps_[step];
-        const motion::MoveTiming& timing = schedule_.moves[next_move_ + step];
+        const motion::MoveTiming& timing = schedule_->moves[next_move_ + step];
         const double length = motion::path_length_mm(*s.move), end = std::min(timing.end_s, end_s_);
         if (!(length > 0)) return timing.start_s + (end - timing.start_s) * share;
         return timing.time_at_s((s.move == &last_move_ ? last_share_ : 1) *
@@ -269,7 +274,7 @@ double MillSession::duration_s() const {
     return run_->end_s_;
 }
 const motion::Schedule& MillSession::schedule() const {
-    return run_->schedule_;
+    return *run_->schedule_;
 }
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;

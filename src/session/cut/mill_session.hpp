@@ -40,11 +40,16 @@ struct MillSetup {
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
     std::optional<PrescribedEngagement> engagement;
     motion::TimingOptions timing;
+    std::shared_ptr<const motion::Schedule> schedule;  // of the moves; null: schedule_of() works it out
     double cell_mm = 0.25;
     std::optional<double> until_s;
     int harmonics =
         16;  // multiples of the tooth passing frequency (of the spindle's where teeth differ: times flutes)
 };
+
+// When each move runs: as prepare_mill() found it, or worked out for a setup that it has not made. Never
+// null; motion::schedule() accepts the moves.
+std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup);
 
 struct MillCollision {
     milling::CollisionKind kind;

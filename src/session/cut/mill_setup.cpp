@@ -153,11 +153,13 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
                 add(std::move(part));
         }
     }
-    if (auto times = motion::schedule(setup.moves, setup.timing); !times) {
+    auto times = motion::schedule(setup.moves, setup.timing);
+    if (!times) {
         Error error = times.error();
         if (error.file.empty()) error.file = program.source;
         return std::unexpected(error);
     }
+    setup.schedule = std::make_shared<const motion::Schedule>(*std::move(times));
     return setup;
 }
 

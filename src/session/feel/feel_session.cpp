@@ -34,16 +34,14 @@ haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, d
 }
 
 CutterTrack::CutterTrack(const MillSetup& setup)
-    : moves_(setup.moves),
-      schedule_(*motion::schedule(setup.moves, setup.timing)),
-      cutter_of_move_(setup.cutter_of_move) {
+    : moves_(setup.moves), schedule_(schedule_of(setup)), cutter_of_move_(setup.cutter_of_move) {
     for (const milling::Cutter& c : setup.cutters)
         cutters_.push_back({{}, {0, 0, 1}, c.radius_mm(), c.length_mm});
 }
 
 haptics::Cylinder CutterTrack::at(double t_s) const noexcept {
-    const motion::ToolPose pose = motion::pose_at_time(moves_, schedule_, t_s);
-    haptics::Cylinder cutter = cutters_[cutter_of_move_[schedule_.move_at(t_s)]];
+    const motion::ToolPose pose = motion::pose_at_time(moves_, *schedule_, t_s);
+    haptics::Cylinder cutter = cutters_[cutter_of_move_[schedule_->move_at(t_s)]];
     cutter.end_mm = pose.tip_mm;
     cutter.axis = pose.axis;
     return cutter;

@@ -61,7 +61,7 @@ class CutterTrack {
 
   private:
     std::vector<motion::Move> moves_;
-    motion::Schedule schedule_;
+    std::shared_ptr<const motion::Schedule> schedule_;
     std::vector<std::size_t> cutter_of_move_;
     std::vector<haptics::Cylinder> cutters_;  // radius and length
 };
