@@ -46,8 +46,8 @@ std::string corner(Vec3 p) {
 
 }  // namespace
 
-job::Job job_of_program(const std::string& file, job::PathKind kind) {
-    job::Job job;
+Job job_of_program(const std::string& file, PathKind kind) {
+    Job job;
     job.file = file;
     job.path.kind = kind;
     job.path.file = file;
@@ -56,7 +56,7 @@ job::Job job_of_program(const std::string& file, job::PathKind kind) {
     return job;
 }
 
-void assume_job(job::Job& job, const motion::Program& program, Warnings& warnings) {
+void assume_job(Job& job, const motion::Program& program, Warnings& warnings) {
     std::vector<int> tools;
     bool speed = false;
     for (const motion::Move& move : program.moves) {

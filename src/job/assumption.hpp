@@ -8,10 +8,10 @@
 namespace tribo::job {
 
 // What a program must be read with when nobody says more: a feed and a spindle speed where it has none.
-job::Job job_of_program(const std::string& file, job::PathKind kind);
+Job job_of_program(const std::string& file, PathKind kind);
 
 // Gives the job what complete_job() would miss: a block around the path, with its top at zero where the path
 // goes below it, and a cutter of 6 mm for each tool that nobody describes. Says each assumption.
-void assume_job(job::Job& job, const motion::Program& program, Warnings& warnings);
+void assume_job(Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::job

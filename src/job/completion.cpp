@@ -43,7 +43,7 @@ std::string description(const milling::Cutter& cutter, const motion::DeclaredToo
            format_decimal(cutter.length_mm) + " mm of edge are assumed";
 }
 
-void add_cutter(job::Job& job, const motion::Program& program, int number, Warnings& warnings) {
+void add_cutter(Job& job, const motion::Program& program, int number, Warnings& warnings) {
     const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
                                        [&](const milling::Cutter& c) { return c.number == number; });
     const motion::DeclaredTool* tool = described ? nullptr : declared_tool(program, number);
@@ -59,7 +59,7 @@ void add_cutter(job::Job& job, const motion::Program& program, int number, Warni
 
 }  // namespace
 
-Result<void> complete_job(job::Job& job, const motion::Program& program, Warnings& warnings) {
+Result<void> complete_job(Job& job, const motion::Program& program, Warnings& warnings) {
     if (!job.stock_from && job.stock.box_mm.empty() && !job.stock.model) {
         if (!program.stock) {
             return fail_at(job.file, 0, 0, "the job has no [stock], and the program declares none",

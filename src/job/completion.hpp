@@ -11,6 +11,6 @@ namespace tribo::job {
 // Gives the job a stock where it has none and a cutter for each tool of the program that it does not
 // describe, each with a warning that says where it was taken from and what was assumed. Refuses a job that
 // then still has no stock or no cutter.
-Result<void> complete_job(job::Job& job, const motion::Program& program, Warnings& warnings);
+Result<void> complete_job(Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::job

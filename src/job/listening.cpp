@@ -22,8 +22,8 @@ Vec3 middle_of_top(const Box3& box) {
 
 }  // namespace
 
-Listening listening_to(const job::Job& job, const Box3& blank_mm) {
-    const job::JobSound& sound = job.sound;
+Listening listening_to(const Job& job, const Box3& blank_mm) {
+    const JobSound& sound = job.sound;
     Listening l;
     l.listener_mm = sound.listener_mm.value_or(middle_of_top(blank_mm));
     l.distance_factor = sound.distance_factor;

@@ -17,7 +17,7 @@ struct Listening {
 
 // As the job says; without `listener_mm`, from the middle of the blank's top. The first cutter's bar rings.
 // Machine and room have names that exist.
-Listening listening_to(const job::Job& job, const Box3& blank_mm);
+Listening listening_to(const Job& job, const Box3& blank_mm);
 
 void apply(const Listening& listening, sound::SoundtrackOptions& options);
 

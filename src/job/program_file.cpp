@@ -16,8 +16,6 @@
 namespace tribo::job {
 namespace {
 
-using job::PathKind;
-
 constexpr std::size_t kLookedAt = 4096;  // characters from the start
 
 struct Extension {
@@ -161,8 +159,8 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
     return program;
 }
 
-FileResult<motion::Program> read_program(const job::Job& job) {
-    const FileResult<std::string> bytes = files::read_file(job.path.file);
+FileResult<motion::Program> read_program(const FileSource& files, const Job& job) {
+    const FileResult<std::string> bytes = files.read(job.path.file, kLargestProgramBytes);
     if (!bytes) return std::unexpected(bytes.error());
     ProgramFileOptions options;
     options.default_feed_mm_per_min = job.process.feed_mm_per_min;
@@ -172,7 +170,7 @@ FileResult<motion::Program> read_program(const job::Job& job) {
     if (job.machine.kinematics) options.machine = &*job.machine.kinematics;
     readers::ToolTable table;
     if (!job.path.tools.empty()) {
-        const FileResult<std::string> text = files::read_file(job.path.tools);
+        const FileResult<std::string> text = files.read(job.path.tools, kLargestProgramBytes);
         if (!text) return std::unexpected(text.error());
         auto read = readers::read_tool_table(*text, {.source_name = job.path.tools});
         if (!read) return std::unexpected(FileFailure(read.error()));

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/hash.hpp"
-#include "field/mesh/mesh_shape.hpp"
 #include "field/shape/box_shape.hpp"
 #include "job/turned_shape.hpp"
 
@@ -20,9 +19,9 @@ bool is_along_an_axis(Vec3 unit) {
 Box3 bounds_in_frame(const Solid& solid, const motion::WorkFrame& frame) {
     Box3 bounds;
     if (solid.mesh) {
-        for (const Triangle& t : solid.mesh->triangles) {
-            for (const std::uint32_t corner : t)
-                bounds.include(frame.from_stock(solid.mesh->position(corner)));
+        const TriangleMesh& mesh = solid.mesh->mesh();
+        for (const Triangle& t : mesh.triangles) {
+            for (const std::uint32_t corner : t) bounds.include(frame.from_stock(mesh.position(corner)));
         }
         return bounds;
     }
@@ -39,7 +38,6 @@ Box3 bounds_in_frame(const Solid& solid, const motion::WorkFrame& frame) {
 
 Solid box_solid(const Box3& box_mm) {
     Solid solid;
-    solid.shape = std::make_unique<field::BoxShape>(box_mm);
     solid.volume_mm3 = box_mm.volume();
     solid.box_mm = box_mm;
     Hash hash;
@@ -57,29 +55,33 @@ Result<Solid> mesh_solid(TriangleMesh mesh, const std::string& file) {
         return std::unexpected(std::move(error));
     }
     Solid solid;
-    solid.mesh = &(*shape)->mesh();
-    solid.volume_mm3 = volume_mm3(*solid.mesh);
+    solid.mesh = **shape;
+    const TriangleMesh& kept = solid.mesh->mesh();
+    solid.volume_mm3 = volume_mm3(kept);
     Hash hash;
-    for (const auto& p : solid.mesh->positions) {
+    for (const auto& p : kept.positions) {
         for (const float v : p) hash.add(v);
     }
-    for (const Triangle& t : solid.mesh->triangles) {
+    for (const Triangle& t : kept.triangles) {
         for (const auto v : t) hash.add(v);
     }
     solid.hash = hash.value();
-    solid.shape = *std::move(shape);
     return solid;
 }
 
-std::unique_ptr<const field::Shape> in_frame(Solid solid, const motion::WorkFrame& frame) {
+std::unique_ptr<const field::Shape> shape_of(const Solid& solid, const motion::WorkFrame& frame) {
+    const auto as_it_stands = [&]() -> std::unique_ptr<const field::Shape> {
+        if (solid.mesh) return std::make_unique<field::MeshShape>(*solid.mesh);
+        return std::make_unique<field::BoxShape>(solid.box_mm);
+    };
     const bool same = frame.origin_mm == Vec3{} && frame.x == Vec3{1, 0, 0} && frame.y == Vec3{0, 1, 0} &&
                       frame.z == Vec3{0, 0, 1};
-    if (same) return std::move(solid.shape);
+    if (same) return as_it_stands();
     const Box3 bounds = bounds_in_frame(solid, frame);
     if (!solid.mesh && is_along_an_axis(frame.x) && is_along_an_axis(frame.z)) {
         return std::make_unique<field::BoxShape>(bounds);
     }
-    return std::make_unique<TurnedShape>(std::move(solid.shape), frame, bounds);
+    return std::make_unique<TurnedShape>(as_it_stands(), frame, bounds);
 }
 
 }  // namespace tribo::job

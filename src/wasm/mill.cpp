@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
 #include "session/live/live_mill.hpp"
 #include "session/live/live_touch.hpp"
-#include "wasm/mill_files.hpp"
 #include "wasm/mill_job.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -22,6 +22,7 @@ namespace {
 using namespace tribo;
 
 struct Mill {
+    job::MemorySource files;  // as the page has put them
     std::unique_ptr<session::LiveMill> live;
     std::unique_ptr<session::SingleThreadedTouch> touch;  // goes before its mill
     double helix_deg = 0;                                 // of the job's first cutter
@@ -57,10 +58,10 @@ void keep(std::span<const std::uint8_t> frame) {
 // Puts a file; `bytes` may be released afterwards.
 TRIBO_EXPORT(mill_put_file)
 void mill_put_file(const char* name, std::uint32_t name_length, const char* bytes, std::uint32_t length) {
-    wasm::put_file(text_of(name, name_length), text_of(bytes, length));
+    mill().files.put(text_of(name, name_length), text_of(bytes, length));
 }
 TRIBO_EXPORT(mill_forget_files) void mill_forget_files() {
-    wasm::forget_files();
+    mill().files.clear();
 }
 
 // Opens a job or a program of the files; `part` names a model as its designed surface, or nothing. cell_mm 0:
@@ -71,7 +72,7 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
                         std::uint32_t part_length, double cell_mm) {
     const std::string job = text_of(name, name_length), surface = text_of(part, part_length);
     const auto cell = cell_mm > 0 ? std::optional(cell_mm) : std::nullopt;
-    auto loaded = wasm::load_mill(job, surface, cell);
+    auto loaded = wasm::load_mill(mill().files, job, surface, cell);
     if (!loaded) return refuse(loaded.error());
     std::string warnings;
     const std::string material = loaded->material;
@@ -82,7 +83,7 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     auto ready = std::make_shared<std::optional<session::MillSetup>>(std::move(loaded->setup));
     const auto make_setup = [=]() -> Result<session::MillSetup> {
         if (*ready) return *std::exchange(*ready, std::nullopt);
-        auto again = wasm::load_mill(job, surface, cell);
+        auto again = wasm::load_mill(mill().files, job, surface, cell);
         if (!again) return std::unexpected(again.error());
         return std::move(again->setup);
     };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A job, or a program that comes alone, out of the files in memory.
+// A job, or a program that comes alone, ready to be milled in the page.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "job/file_source.hpp"
 #include "protocol/live_frame.hpp"
 #include "session/cut/mill_setup.hpp"
 
@@ -18,8 +19,9 @@ struct LoadedMill {
     Warnings warnings;
 };
 
-// `name`: a .toml job, or a program, for which the rest is assumed and said; of a program, a model among the
-// files is its designed surface where `part` names it. Refuses what would not fit into a module's memory.
-Result<LoadedMill> load_mill(const std::string& name, const std::string& part, std::optional<double> cell_mm);
+// `name`: a .toml job, or a program, for which the rest is assumed and said; a model among the files is its
+// designed surface where `part` names it. Refuses what would not fit into a module's memory.
+Result<LoadedMill> load_mill(const job::FileSource& files, const std::string& name, const std::string& part,
+                             std::optional<double> cell_mm);
 
 }  // namespace tribo::wasm

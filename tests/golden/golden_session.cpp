@@ -7,7 +7,6 @@
 #include "base/math.hpp"
 #include "contact/contact_sample.hpp"
 #include "field/contour/contour.hpp"
-#include "field/shape/box_shape.hpp"
 #include "golden/golden.hpp"
 #include "motion/curve/keyframe_motion.hpp"
 #include "readers/gcode/reader.hpp"
@@ -21,12 +20,12 @@ namespace {
 // when it is refused.
 std::uint64_t milled(const job::Job& job, motion::Program program) {
     const Box3 block{{-12, -12, -8}, {12, 12, 0}};
-    session::MillInputs inputs;
-    inputs.program = std::move(program);
-    inputs.blank = std::make_unique<field::BoxShape>(block);
-    inputs.blank_volume_mm3 = block.volume();
+    job::LoadedJob loaded;
+    loaded.job = job;
+    loaded.program = std::move(program);
+    loaded.blank = job::box_solid(block);
     Warnings warnings;
-    auto setup = session::prepare_mill(job, std::move(inputs), {0.5, {}}, warnings);
+    auto setup = session::prepare_mill(loaded, {0.5, {}}, warnings);
     if (!setup) return 0;
     session::MillSession session(std::move(*setup), serial_for);
 

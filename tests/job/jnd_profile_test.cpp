@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "files/mapped_file.hpp"
-#include "files/scratch.hpp"
+#include "job/memory_source.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 
 namespace tribo::job {
@@ -32,28 +31,11 @@ TEST(JndProfile, refuses_what_nobody_can_mean_with_its_line) {
     }
 }
 
-TEST(MappedFile, shows_a_files_bytes_and_keeps_them_when_it_is_replaced) {
-    const test::Scratch scratch;
-    const std::string path = scratch.path() + "/a.bin";
-    ASSERT_TRUE(files::replace_file(path, "first").has_value());
-    const auto first = files::MappedFile::open(path);
-    ASSERT_TRUE(first.has_value());
-    ASSERT_TRUE(files::replace_file(path, "second one").has_value());
-    EXPECT_EQ((*first)->bytes(), "first");
-    const auto second = files::MappedFile::open(path);
-    ASSERT_TRUE(second.has_value());
-    EXPECT_EQ((*second)->bytes(), "second one");
-    ASSERT_TRUE(files::replace_file(path, "").has_value());
-    const auto empty = files::MappedFile::open(path);
-    ASSERT_TRUE(empty.has_value());
-    EXPECT_TRUE((*empty)->bytes().empty());
-}
-
-TEST(MappedFile, refuses_folders_and_what_is_not_there) {
-    const test::Scratch scratch;
-    EXPECT_FALSE(files::MappedFile::open(scratch.path()).has_value());
-    EXPECT_FALSE(files::MappedFile::open(scratch.path() + "/none").has_value());
-    EXPECT_FALSE(files::replace_file(scratch.path() + "/none/a", "x").has_value());
+TEST(JndProfile, comes_from_a_file) {
+    MemorySource files;
+    files.put("me.toml", "pitch = 0.02\n");
+    EXPECT_EQ(read_jnd_profile(files, "me.toml")->pitch, 0.02);
+    EXPECT_EQ(read_jnd_profile(files, "you.toml").error().file, "you.toml");
 }
 
 }  // namespace

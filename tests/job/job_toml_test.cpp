@@ -6,13 +6,12 @@
 #include <numbers>
 #include <rapidcheck/gtest.h>
 
-#include "files/scratch.hpp"
+#include "job/memory_source.hpp"
 
 namespace tribo::job {
 namespace {
 
 using job::Job;
-using test::Scratch;
 
 // The job of the README, with every line where the tests below count on it.
 constexpr const char* kBowl = R"([part]
@@ -46,7 +45,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 Job job_of(const std::string& text) {
-    FileResult<Job> job = parse_job(text, "jobs/bowl.toml");
+    FileResult<Job> job = parse_job(text, "jobs/bowl.toml", MemorySource());
     EXPECT_TRUE(job) << job.error().text();
     return job ? *std::move(job) : Job{};
 }
@@ -188,19 +187,20 @@ TEST(JobFile, may_have_a_byte_order_mark_and_line_ends_of_any_system) {
 }
 
 TEST(JobFile, takes_its_machine_from_a_file_of_its_own) {
-    const Scratch scratch;
-    scratch.put("machines/m.toml", "rapid_mm_per_min = 500\n");
-    scratch.put("job.toml", "machine = \"machines/m.toml\"\n" + std::string(kBowl));
-    const FileResult<Job> job = read_job(scratch / "job.toml");
+    MemorySource files;
+    files.put("jobs/machines/m.toml", "rapid_mm_per_min = 500\n");
+    files.put("jobs/job.toml", "machine = \"machines/m.toml\"\n" + std::string(kBowl));
+    const FileResult<Job> job = read_job(files, "jobs/job.toml");
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->machine.rapid_mm_per_min, 500);
-    scratch.put("machines/m.toml", "\nrapid_mm_per_min = -1\n");
-    const FileResult<Job> wrong = read_job(scratch / "job.toml");
+    files.put("jobs/machines/m.toml", "\nrapid_mm_per_min = -1\n");
+    const FileResult<Job> wrong = read_job(files, "jobs/job.toml");
     ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().file, scratch / "machines/m.toml");
+    EXPECT_EQ(wrong.error().file, "jobs/machines/m.toml");
     EXPECT_EQ(wrong.error().line, 2);
-    std::filesystem::remove(scratch / "machines/m.toml");
-    EXPECT_EQ(read_job(scratch / "job.toml").error().file, scratch / "machines/m.toml");
+    files.clear();
+    files.put("jobs/job.toml", "machine = \"machines/m.toml\"\n" + std::string(kBowl));
+    EXPECT_EQ(read_job(files, "jobs/job.toml").error().file, "jobs/machines/m.toml");
 }
 
 TEST(JobFile, describes_a_machine_axis_by_axis_from_the_frame_outwards) {
@@ -223,13 +223,13 @@ axes = [
 }
 
 TEST(JobFile, takes_the_machine_of_its_path_from_a_file) {
-    const Scratch scratch;
-    scratch.put("m.toml", "based_on = \"xyzbc-trt\"\nstock_mm = [0,0,40]\n");
+    MemorySource files;
+    files.put("m.toml", "based_on = \"xyzbc-trt\"\nstock_mm = [0,0,40]\n");
     std::string text = kBowl;
     const std::string keyframes = "keyframes = \"bowl.csv\"";
     text.replace(text.find(keyframes), keyframes.size(), "gcode = \"p.ngc\"\nmachine = \"m.toml\"");
-    scratch.put("job.toml", text);
-    const FileResult<Job> job = read_job(scratch / "job.toml");
+    files.put("job.toml", text);
+    const FileResult<Job> job = read_job(files, "job.toml");
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->machine.kinematics.value().stock_mm.z, 40);
     EXPECT_TRUE(job->machine.kinematics->axis('B') != nullptr);
@@ -246,7 +246,8 @@ class BadJobs : public testing::TestWithParam<BadJob> {};
 
 TEST_P(BadJobs, are_refused_with_place_and_cause) {
     const BadJob& bad = GetParam();
-    const FileResult<Job> job = parse_job(replaced(kBowl, bad.what, bad.with), "jobs/bowl.toml");
+    const FileResult<Job> job =
+        parse_job(replaced(kBowl, bad.what, bad.with), "jobs/bowl.toml", MemorySource());
     ASSERT_FALSE(job);
     EXPECT_EQ(job.error().fault, FileFault::input);
     EXPECT_EQ(job.error().file, "jobs/bowl.toml");
@@ -373,18 +374,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(JobFile, that_is_empty_says_what_to_write) {
     for (const char* text : {"", "\n\n# nothing\n"}) {
-        const FileResult<Job> job = parse_job(text, "e.toml");
+        const FileResult<Job> job = parse_job(text, "e.toml", MemorySource());
         ASSERT_FALSE(job);
         EXPECT_EQ(
             job.error().text(),
             "e.toml:1:1: error: the job is empty; write at least [stock], [cutter], [material] and [path]");
     }
-}
-
-TEST(JobFile, that_is_missing_or_a_folder_is_refused) {
-    const Scratch scratch;
-    EXPECT_NE(read_job(scratch / "no.toml").error().text().find("No such file"), std::string::npos);
-    EXPECT_NE(read_job(scratch.path()).error().text().find("is a folder"), std::string::npos);
 }
 
 RC_GTEST_PROP(JobFile, with_any_damage_is_read_or_refused_but_never_worse, ()) {
@@ -408,7 +403,7 @@ RC_GTEST_PROP(JobFile, with_any_damage_is_read_or_refused_but_never_worse, ()) {
         }
         if (text.empty()) text = "x";
     }
-    const FileResult<Job> job = parse_job(text, "bowl.toml");
+    const FileResult<Job> job = parse_job(text, "bowl.toml", MemorySource());
     if (job) {
         RC_ASSERT(!job->cutters.empty());
         RC_ASSERT(std::isfinite(job->cutters[0].diameter_mm));

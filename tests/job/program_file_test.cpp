@@ -3,14 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "files/scratch.hpp"
-#include "job/toml/job_toml.hpp"
+#include "job/memory_source.hpp"
 
 namespace tribo::job {
 namespace {
-
-using job::PathKind;
-using test::Scratch;
 
 TEST(ProgramFormat, is_told_by_the_extension_and_else_by_the_content) {
     const struct {
@@ -101,19 +97,19 @@ TEST(ProgramFile, sends_the_same_moves_to_a_sink) {
 }
 
 TEST(ProgramFile, takes_the_jobs_feed_where_it_has_none) {
-    const Scratch scratch;
-    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
-    scratch.put("p.ngc", "G21\nM3 S100\nG0 X0 Y0 Z0\nG1 X10\n");
-    scratch.put("p.apt", "UNITS/MM\nGOTO/0,0,0\nGOTO/10,0,0\n");
+    MemorySource files;
+    files.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
+    files.put("p.ngc", "G21\nM3 S100\nG0 X0 Y0 Z0\nG1 X10\n");
+    files.put("p.apt", "UNITS/MM\nGOTO/0,0,0\nGOTO/10,0,0\n");
     for (const auto& [kind, file] :
          {std::pair{PathKind::keyframes, "p.csv"}, std::pair{PathKind::gcode, "p.ngc"},
           std::pair{PathKind::apt, "p.apt"}}) {
         job::Job job;
         job.path.kind = kind;
-        job.path.file = scratch / file;
+        job.path.file = file;
         job.path.unit_mm = 10;
         job.process.feed_mm_per_min = 750;
-        const auto program = read_program(job);
+        const auto program = read_program(files, job);
         ASSERT_TRUE(program) << program.error().text();
         EXPECT_EQ(program->moves.back().feed_mm_per_min, 750) << file;
         EXPECT_EQ(program->moves.back().end.tip_mm.x, 10) << file;
@@ -121,18 +117,18 @@ TEST(ProgramFile, takes_the_jobs_feed_where_it_has_none) {
 }
 
 TEST(ProgramFile, that_is_wrong_is_refused_with_its_name) {
-    const Scratch scratch;
-    scratch.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,up\n");
+    MemorySource files;
+    files.put("p.csv", "x,y,z,i,j,k\n0,0,0,0,0,1\n1,0,0,0,0,up\n");
     job::Job job;
-    job.path.file = scratch / "p.csv";
+    job.path.file = "p.csv";
     job.process.feed_mm_per_min = 100;
-    const auto wrong = read_program(job);
+    const auto wrong = read_program(files, job);
     ASSERT_FALSE(wrong);
-    EXPECT_EQ(wrong.error().file, scratch / "p.csv");
+    EXPECT_EQ(wrong.error().file, "p.csv");
     EXPECT_EQ(wrong.error().line, 3);
     EXPECT_EQ(wrong.error().fault, FileFault::input);
-    job.path.file = scratch / "none.csv";
-    EXPECT_EQ(read_program(job).error().file, scratch / "none.csv");
+    job.path.file = "none.csv";
+    EXPECT_EQ(read_program(files, job).error().file, "none.csv");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "job/memory_source.hpp"
 #include "job/toml/job_toml.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/tool/materials.hpp"
@@ -36,7 +37,7 @@ std::vector<std::string> blocks(const std::string& text) {
 TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::vector<std::string> shown = blocks(page("job.md"));
     ASSERT_EQ(shown.size(), 4u);
-    const auto job = job::parse_job(shown[0], "job.md");
+    const auto job = job::parse_job(shown[0], "job.md", job::MemorySource());
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->cutters.size(), 2u);
     EXPECT_EQ(job->fixtures.size(), 1u);
@@ -44,15 +45,16 @@ TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::string least =
         "[stock]\nbox_mm = [[0,0,0],[1,1,1]]\n[cutter]\nkind = \"ball\"\ndiameter_mm = 1\n[path]\napt = "
         "\"a\"\n[material]\nname = \"al6082-t6\"\n";
-    const auto other = job::parse_job(least.substr(0, least.find("[material]")) + shown[1], "job.md");
+    const auto other =
+        job::parse_job(least.substr(0, least.find("[material]")) + shown[1], "job.md", job::MemorySource());
     ASSERT_TRUE(other) << other.error().text();
     EXPECT_TRUE(other->engagement.has_value());
     EXPECT_TRUE(other->material.coefficients.has_value());
-    const auto felt = job::parse_job(least + shown[2], "job.md");
+    const auto felt = job::parse_job(least + shown[2], "job.md", job::MemorySource());
     ASSERT_TRUE(felt) << felt.error().text();
     EXPECT_EQ(felt->haptics.friction_static, 0.3);
     EXPECT_EQ(felt->haptics.friction_kinetic, 0.2);
-    const auto second = job::parse_job(shown[3], "job.md");
+    const auto second = job::parse_job(shown[3], "job.md", job::MemorySource());
     ASSERT_TRUE(second) << second.error().text();
     EXPECT_EQ(second->stock_from.value().path, "top.toml");
     EXPECT_EQ(second->setup.value().y, (Vec3{0, -1, 0}));

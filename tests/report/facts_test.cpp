@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "job/memory_source.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/job_toml.hpp"
 
@@ -99,7 +100,7 @@ TEST(Facts, of_a_job_hold_those_of_its_files) {
     const auto job = job::parse_job(
         "[stock]\nbox_mm=[[0,0,0],[1,2,3]]\n[cutter]\nkind=\"ball\"\ndiameter_mm=6\n"
         "[material]\nname=\"al7075-t6\"\n[path]\ngcode=\"p.ngc\"\n",
-        "j.toml");
+        "j.toml", job::MemorySource());
     ASSERT_TRUE(job) << job.error().text();
     const Facts program = of_program("G21\nM3 S1\nG0 X0 Y0 Z0\nG1 X1 F100\nG1 X2 A1\n");
     const Facts facts = describe(*job, &program, nullptr);
@@ -120,7 +121,7 @@ TEST(Facts, of_a_job_tell_the_cusps_between_its_passes) {
     const auto job = job::parse_job(
         "[stock]\nbox_mm=[[0,0,0],[40,40,9]]\n[cutter]\nkind=\"ball\"\ndiameter_mm=6\n"
         "[material]\nname=\"al7075-t6\"\n[path]\ngcode=\"p.ngc\"\n",
-        "j.toml");
+        "j.toml", job::MemorySource());
     ASSERT_TRUE(job) << job.error().text();
     std::vector<motion::Move> moves;
     for (int n = 0; n < 10; ++n) {

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "files/json/stock_record_json.hpp"
 #include "files/scratch.hpp"
+#include "job/memory_source.hpp"
 #include "job/toml/job_toml.hpp"
-#include "report/stock_record_json.hpp"
 #include "report/summary_json.hpp"
 
 namespace tribo::report {
@@ -24,7 +25,7 @@ std::string job_text(const std::string& head) {
 }
 
 FileResult<Job> job_of(const std::string& head) {
-    return job::parse_job(job_text(head), "jobs/b.toml");
+    return job::parse_job(job_text(head), "jobs/b.toml", job::MemorySource());
 }
 
 TEST(JobStockKeys, name_the_earlier_job_beside_this_one) {
@@ -143,7 +144,7 @@ TEST(StockRecord, comes_back_from_the_folder_as_it_was_written) {
     record.moves = ~std::uint64_t{0};
     summary.stock_record = record;
     scratch.put("out/summary.json", report::summary_json(summary));
-    const auto read = report::read_stock_record(scratch / "out");
+    const auto read = files::read_stock_record(scratch / "out");
     ASSERT_TRUE(read) << read.error().text();
     EXPECT_EQ(read->version, "1.2.3");
     EXPECT_EQ(read->job, "../a.toml");
@@ -153,7 +154,7 @@ TEST(StockRecord, comes_back_from_the_folder_as_it_was_written) {
     EXPECT_EQ(read->moves, record.moves);
     summary.stock_record->until_s.reset();
     scratch.put("out/summary.json", report::summary_json(summary));
-    EXPECT_FALSE(report::read_stock_record(scratch / "out")->until_s);
+    EXPECT_FALSE(files::read_stock_record(scratch / "out")->until_s);
 }
 
 TEST(StockRecord, is_refused_wherever_the_folder_holds_something_else) {
@@ -162,7 +163,7 @@ TEST(StockRecord, is_refused_wherever_the_folder_holds_something_else) {
         R"({"job": "a", "stock": "0123456789abcdef", "cutters": "0123456789abcdef", "moves": "0123456789abcdef"})";
     const auto refusal = [&](const std::string& text) {
         scratch.put("out/summary.json", text);
-        const auto read = report::read_stock_record(scratch / "out");
+        const auto read = files::read_stock_record(scratch / "out");
         if (read) return std::string();
         EXPECT_EQ(read.error().fault, FileFault::input);
         return read.error().cause;
@@ -172,7 +173,7 @@ TEST(StockRecord, is_refused_wherever_the_folder_holds_something_else) {
     };
     EXPECT_EQ(refusal(with(record)), "");
     const std::string other = "is no folder that tribo render wrote (no summary.json of its own in it)";
-    EXPECT_EQ(report::read_stock_record(scratch / "nowhere").error().cause, other);
+    EXPECT_EQ(files::read_stock_record(scratch / "nowhere").error().cause, other);
     for (const char* text : {"", "{", "[]", "3", "null", "{}", R"({"schema": 3})",
                              R"({"schema": "tribo.material/1"})", "\xff\xfe"}) {
         EXPECT_EQ(refusal(text), other) << text;

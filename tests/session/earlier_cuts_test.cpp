@@ -108,7 +108,7 @@ void add(MillSetup& setup, const Cutter& cutter, const std::vector<motion::Move>
 MillSetup setup_on(const Box3& blank, const motion::WorkFrame& frame, double cell_mm) {
     MillSetup setup;
     setup.coefficients = milling::find_material("al7075-t6")->coefficients;
-    setup.blank = in_frame(job::box_solid(blank), frame);
+    setup.blank = job::shape_of(job::box_solid(blank), frame);
     setup.blank_volume_mm3 = blank.volume();
     setup.cell_mm = cell_mm;
     return setup;

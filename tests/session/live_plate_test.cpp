@@ -8,8 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "field/shape/box_shape.hpp"
-#include "readers/gcode/reader.hpp"
+#include "job/memory_source.hpp"
 #include "session/cut/mill_setup.hpp"
 #include "session/live/live_mill.hpp"
 
@@ -37,38 +36,18 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
-// As examples/plate/plate.toml has it.
-job::Job plate_job() {
-    job::Job job;
-    job.file = "plate.toml";
-    job.stock.box_mm = {{0, 0, -12}, {80, 60, 0}};
-    milling::Cutter cutter;
-    cutter.number = 1;
-    cutter.diameter_mm = 8;
-    cutter.flutes = 3;
-    cutter.helix_deg = 35;
-    cutter.length_mm = 22;
-    job.cutters = {cutter};
-    job.material.name = "al6082-t6";
-    job.process = {8000, 900};
-    job.path.kind = job::PathKind::gcode;
-    return job;
+FileResult<job::LoadedJob> loaded_plate() {
+    job::MemorySource files;
+    for (const char* name : {"plate.toml", "plate.nc"})
+        files.put(name, file_text(std::string("examples/plate/") + name));
+    return job::load_job(files, "plate.toml");
 }
 
 Result<MillSetup> plate() {
-    const job::Job job = plate_job();
-    readers::GcodeOptions options;
-    options.source_name = "plate.nc";
-    options.default_feed_mm_per_min = 900;
-    options.tools.push_back({1, 8, {}});
-    auto program = readers::read_gcode(file_text("examples/plate/plate.nc"), options);
-    if (!program) return std::unexpected(program.error());
-    MillInputs inputs;
-    inputs.program = *std::move(program);
-    inputs.blank = std::make_unique<field::BoxShape>(job.stock.box_mm);
-    inputs.blank_volume_mm3 = job.stock.box_mm.volume();
+    const auto loaded = loaded_plate();
+    if (!loaded) return std::unexpected(Error(loaded.error()));
     Warnings warnings;
-    return prepare_mill(job, std::move(inputs), {0.25, {}, LiveMill::kPieceMm}, warnings);
+    return prepare_mill(*loaded, {0.25, {}, LiveMill::kPieceMm}, warnings);
 }
 
 TEST(LivePlate, IsTheSameInThePage) {
@@ -92,8 +71,10 @@ TEST(LivePlate, IsTheSameInThePage) {
 
 // The program tells its ear structs, a page decodes them from frames.
 TEST(LivePlate, SoundsTheSameFromStructsAndFromFrames) {
-    const job::Job job = plate_job();
-    auto live = LiveMill::create(plate, serial_for, {job::listening_to(job, job.stock.box_mm), {}});
+    const auto loaded = loaded_plate();
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    const job::Listening heard = job::listening_to(loaded->job, loaded->blank.box_mm);
+    auto live = LiveMill::create(plate, serial_for, {heard, {}});
     ASSERT_TRUE(live) << live.error().text();
     sound::SoundtrackOptions options;
     options.head = sound::Head::sphere(options.sample_rate_hz);

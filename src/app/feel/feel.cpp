@@ -21,8 +21,11 @@
 #include "devices/arm/force_plugin.hpp"
 #include "devices/servo/servo_thread.hpp"
 #include "field/mesh/mesh_field.hpp"
+#include "files/disk_source.hpp"
+#include "files/files.hpp"
 #include "files/model/model_file.hpp"
 #include "haptics/servo/simulated_hand.hpp"
+#include "job/loader.hpp"
 #include "readers/tables/feel_trace_csv.hpp"
 #include "readers/tables/stroke_csv.hpp"
 #include "report/feel_stats_json.hpp"
@@ -222,22 +225,23 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
         return std::unexpected(FileFailure({call.job, 0, 0, "a job says the unit of its models itself",
                                             "set 'unit_mm' in the job, or give a model"}));
     }
-    RenderCall render;
-    render.job = call.job;
-    render.resolution_mm = call.resolution_mm;
-    render.until_s = call.until_s;
-    render.only = {"summary"};  // nothing is heard
-    auto loaded = load_job(render);
+    auto loaded = job::load_job(files::DiskSource(), call.job);
     if (!loaded) return std::unexpected(loaded.error());
-    if (auto fits = check_memory(render, *loaded); !fits) return std::unexpected(FileFailure(fits.error()));
-    part.bounds_mm = loaded->setup.blank->bounds_mm();
     part.warnings = std::move(loaded->warnings);
+    auto setup = session::prepare_mill(*loaded, {call.resolution_mm, call.until_s}, part.warnings);
+    if (!setup) return std::unexpected(FileFailure(setup.error()));
+    if (auto fits = check_memory(call.job, *setup, loaded->part, {}); !fits)
+        return std::unexpected(FileFailure(fits.error()));
+    part.bounds_mm = setup->blank->bounds_mm();
+    part.setup = std::move(*setup);
+    if (call.mode == "cut") {
+        Warnings said_before;
+        auto in_pieces = session::prepare_mill(
+            *loaded, {call.resolution_mm, call.until_s, session::LiveMill::kPieceMm}, said_before);
+        if (!in_pieces) return std::unexpected(FileFailure(in_pieces.error()));
+        part.in_time = std::move(*in_pieces);
+    }
     part.job = std::move(loaded->job);
-    part.setup = std::move(loaded->setup);
-    if (call.mode != "cut") return {};
-    auto again = load_job(render, session::LiveMill::kPieceMm);
-    if (!again) return std::unexpected(again.error());
-    part.in_time = std::move(again->setup);
     return {};
 }
 

@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/threads.hpp"
+#include "files/disk_source.hpp"
 #include "files/mapped_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "readers/tables/force_bake.hpp"
@@ -33,7 +34,7 @@ FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
     options.hand_per_tool = scaling_.gain;
     const std::string& profile = call_.profile.empty() ? job_.haptics.profile : call_.profile;
     if (profile.empty()) return options;
-    auto read = job::read_jnd_profile(profile);
+    auto read = job::read_jnd_profile(files::DiskSource(), profile);
     if (!read) return std::unexpected(read.error());
     options.profile = *read;
     return options;

@@ -11,6 +11,7 @@
 #include "app/render/render_job.hpp"
 #include "app/threads.hpp"
 #include "devices/arm/device_search.hpp"
+#include "files/disk_source.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 
 namespace tribo::app {
@@ -24,7 +25,7 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
     return arm;
 }
 
-LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
+LiveShowOptions show_options(const LiveCall& call, const PreparedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
     LiveShowOptions options;
     options.info.version = TRIBO_VERSION;
@@ -52,14 +53,14 @@ LiveShowOptions show_options(const LiveCall& call, const LoadedJob& loaded,
 
 int live(const LiveCall& call) {
     if (call.job.empty()) return live_without_job(call);
-    RenderCall render;
-    render.job = call.job;
-    render.resolution_mm = call.resolution_mm;
-    render.only = {"mesh"};
-    if (call.audio == "native") render.only.insert("sound");
-    auto first = load_job(render, session::LiveMill::kPieceMm);
+    const session::MillOptions options{call.resolution_mm, {}, session::LiveMill::kPieceMm};
+    const bool sounds = call.audio == "native";
+    auto first = prepare_job(
+        call.job, options, sounds ? std::optional(sound::SoundtrackOptions().sample_rate_hz) : std::nullopt);
     if (!first) return report(first.error());
-    if (auto fits = check_memory(render, *first); !fits) return report(fits.error());
+    const RunOutputs made{.mesh = true, .report = false, .sound = sounds};
+    if (auto fits = check_memory(call.job, first->setup, first->part, made); !fits)
+        return report(fits.error());
     report(first->warnings);
 
     const auto files = live_page(call);
@@ -67,7 +68,7 @@ int live(const LiveCall& call) {
 
     contact::JndProfile profile;
     if (const std::string& file = first->job.haptics.profile; !file.empty()) {
-        const auto read = job::read_jnd_profile(file);
+        const auto read = job::read_jnd_profile(files::DiskSource(), file);
         if (!read) return report(read.error());
         profile = *read;
     }
@@ -81,7 +82,7 @@ int live(const LiveCall& call) {
 
     std::unique_ptr<LiveAudio> audio;
     show_how.info.audio = call.audio;
-    if (call.audio == "native") {
+    if (sounds) {
         auto opened = LiveAudio::open(first->track);
         if (opened) {
             audio = *std::move(opened);
@@ -97,8 +98,8 @@ int live(const LiveCall& call) {
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
 
     // Set back, the program begins again as its files are by then.
-    const auto load_again = [render]() -> Result<session::MillSetup> {
-        auto again = load_job(render, session::LiveMill::kPieceMm);
+    const auto load_again = [file = call.job, options]() -> Result<session::MillSetup> {
+        auto again = prepare_job(file, options);
         if (!again) return std::unexpected(Error(again.error()));
         return std::move(again->setup);
     };

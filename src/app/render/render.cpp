@@ -9,10 +9,11 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/render/job_files.hpp"
 #include "app/render/render_outputs.hpp"
 #include "app/threads.hpp"
+#include "files/disk_source.hpp"
 #include "files/memory.hpp"
+#include "session/cut/job_stock.hpp"
 #include "session/cut/mill_warnings.hpp"
 
 namespace tribo::app {
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-report::Summary summary_of(const RenderCall& call, const LoadedJob& loaded,
+report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
                            const session::MillSession& session) {
     const session::MillTotals& t = session.totals();
     report::Summary s;
@@ -41,7 +42,7 @@ report::Summary summary_of(const RenderCall& call, const LoadedJob& loaded,
     s.work_j = t.work_j;
     s.energy_balance = t.energy_balance;
     s.resolution_mm = session.setup().cell_mm;
-    s.stock_record = session::stock_record(session.setup(), loaded.stock_hash);
+    s.stock_record = session::stock_record(session.setup());
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
     const Warnings found = session::warnings_of(t, call.job, loaded.job.path.file);
@@ -75,9 +76,12 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
 
 int render(const RenderCall& call) {
     const auto begin = std::chrono::steady_clock::now();
-    auto loaded = load_job(call);
+    const auto sound_rate_hz = call.wants("sound") ? std::optional(call.sample_rate_hz) : std::nullopt;
+    auto loaded = prepare_job(call.job, {call.resolution_mm, call.until_s}, sound_rate_hz);
     if (!loaded) return report(loaded.error());
-    if (auto fits = check_memory(call, *loaded); !fits) return report(fits.error());
+    const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound")};
+    if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
+        return report(fits.error());
     auto folder = files::OutputFolder::open(call.out);
     if (!folder) return report(folder.error());
     const auto& sources = loaded->stock_folders;
@@ -110,7 +114,7 @@ int render(const RenderCall& call) {
     if (!session.run(sinks)) return interrupted_exit_code();
     progress.reset();
     report::Summary summary = summary_of(call, *loaded, session);
-    summary.stock_record->job = relative_to(folder->path(), call.job);
+    summary.stock_record->job = files::relative_to(folder->path(), call.job);
     if (auto done = outputs.finish(session, summary); !done) return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

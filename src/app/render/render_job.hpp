@@ -1,39 +1,42 @@
 // SPDX-License-Identifier: MIT
-// What `tribo render` works on: a job with everything it names read and checked, and whether it fits into
-// memory.
+// A job of the command line, ready to run, and whether it fits into memory.
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/render/render.hpp"
-#include "files/files.hpp"
-#include "job/job.hpp"
+#include "base/file_result.hpp"
+#include "job/loader.hpp"
 #include "milling/tool/materials.hpp"
-#include "readers/mesh/model.hpp"
 #include "session/cut/mill_setup.hpp"
 #include "sound/play/soundtrack.hpp"
 
 namespace tribo::app {
 
-struct LoadedJob {
+struct PreparedJob {
     job::Job job;
     milling::Material material;
     session::MillSetup setup;
-    std::uint64_t stock_hash = 0;            // of the stock it begins with: session::JobStock
-    std::vector<std::string> stock_folders;  // renders that this comes from: StockOnDisk
+    std::vector<std::string> stock_folders;  // renders that the stock comes from; absolute, links resolved
     std::optional<readers::Model> part;
     sound::SoundtrackOptions track;  // head and voices, where sound is asked for
     Warnings warnings;
 };
 
-// Moves are cut into pieces of at most `longest_piece_mm` where it is given.
-FileResult<LoadedJob> load_job(const RenderCall& call, std::optional<double> longest_piece_mm = {});
+// From the disk. Its sound files are read where `sound_rate_hz` says at which rate they will be heard.
+FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
+                                    std::optional<int> sound_rate_hz = {});
 
-// Refuses what would not fit, naming the finest spacing of the grid that would.
-Result<void> check_memory(const RenderCall& call, const LoadedJob& loaded);
+// What a run makes besides the milled part.
+struct RunOutputs {
+    bool mesh = false, report = false, sound = false;
+};
+
+// Refuses what would not fit, naming the finest spacing of the grid that would. Absent `memory_mb`: as much
+// as the machine gives.
+Result<void> check_memory(const std::string& file, const session::MillSetup& setup,
+                          const std::optional<readers::Model>& part, RunOutputs outputs,
+                          std::optional<double> memory_mb = {});
 
 }  // namespace tribo::app

@@ -31,7 +31,7 @@ std::string sound_of(const job::Job& job) {
     return what;
 }
 
-std::vector<std::pair<std::string, std::string>> facts_of(const LoadedJob& loaded, bool sound) {
+std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loaded, bool sound) {
     const milling::Material& m = loaded.material;
     char k[200], band[200];
     const milling::CuttingCoefficients& c = m.coefficients;

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "app/render/render.hpp"
 #include "app/render/render_job.hpp"
 #include "app/render/render_sinks.hpp"
 #include "base/parallel.hpp"
@@ -16,7 +17,7 @@ namespace tribo::app {
 class RenderOutputs {
   public:
     // All of them outlive this object.
-    RenderOutputs(const RenderCall& call, LoadedJob& loaded, files::OutputFolder& folder,
+    RenderOutputs(const RenderCall& call, PreparedJob& loaded, files::OutputFolder& folder,
                   const ParallelFor& parallel)
         : call_(call), loaded_(loaded), folder_(folder), parallel_(parallel) {}
 
@@ -36,7 +37,7 @@ class RenderOutputs {
                                   TriangleMesh mesh);
 
     const RenderCall& call_;
-    LoadedJob& loaded_;
+    PreparedJob& loaded_;
     files::OutputFolder& folder_;
     const ParallelFor& parallel_;
     std::optional<ForceFile> forces_;

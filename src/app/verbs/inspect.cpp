@@ -9,9 +9,11 @@
 
 #include "app/exit.hpp"
 #include "app/verbs/verbs.hpp"
+#include "files/disk_source.hpp"
+#include "files/files.hpp"
 #include "files/gzip.hpp"
 #include "files/model/model_file.hpp"
-#include "job/completion.hpp"
+#include "job/loader.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/job_toml.hpp"
 #include "job/toml/machine_file.hpp"
@@ -82,7 +84,7 @@ Found found_program(const motion::Program& program, PathWatcher& path, job::Path
 FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job::PathKind kind) {
     job::JobMachine machine;
     if (!call.machine.empty()) {
-        FileResult<job::JobMachine> named = job::read_machine_named(call.machine);
+        FileResult<job::JobMachine> named = job::read_machine_named(files::DiskSource(), call.machine);
         if (!named) return std::unexpected(named.error());
         machine = *std::move(named);
     }
@@ -108,19 +110,17 @@ FileResult<Found> inspect_model(const std::string& file) {
 }
 
 FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
-    FileResult<job::Job> job = job::parse_job(bytes, file);
+    const files::DiskSource disk;
+    FileResult<job::Job> job = job::parse_job(bytes, file, disk);
     if (!job) return std::unexpected(job.error());
-    FileResult<motion::Program> program = job::read_program(*job);
+    FileResult<motion::Program> program = job::read_and_complete(disk, *job);
     if (!program) return std::unexpected(program.error());
-    if (auto done = job::complete_job(*job, *program, program->warnings); !done) {
-        return std::unexpected(FileFailure(done.error()));
-    }
     PathWatcher path(true);
     for (const motion::Move& move : program->moves) path.take(move);
     Found found = found_program(*program, path, job->path.kind, job->machine.rapid_mm_per_min);
     std::optional<report::Facts> part;
     if (job->part) {
-        FileResult<readers::Model> model = files::read_model_file(*job->part);
+        FileResult<readers::Model> model = disk.read_model(*job->part);
         if (!model) return std::unexpected(model.error());
         part = report::describe(*model);
         found.mesh = std::move(model->mesh);

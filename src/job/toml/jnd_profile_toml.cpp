@@ -46,8 +46,8 @@ Result<contact::JndProfile> parse_jnd_profile(std::string_view text, const std::
     return p;
 }
 
-FileResult<contact::JndProfile> read_jnd_profile(const std::string& path) {
-    const FileResult<std::string> text = files::read_file(path, kLargestJobBytes);
+FileResult<contact::JndProfile> read_jnd_profile(const FileSource& files, const std::string& path) {
+    const FileResult<std::string> text = files.read(path, kLargestJobBytes);
     if (!text) return std::unexpected(text.error());
     const auto profile = parse_jnd_profile(*text, path);
     if (!profile) return std::unexpected(FileFailure(profile.error()));

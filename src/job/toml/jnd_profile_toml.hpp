@@ -6,13 +6,13 @@
 #include <string_view>
 
 #include "contact/jnd_profile.hpp"
-#include "files/files.hpp"
+#include "job/file_source.hpp"
 
 namespace tribo::job {
 
 // `file` is the name for messages.
 Result<contact::JndProfile> parse_jnd_profile(std::string_view text, const std::string& file);
 
-FileResult<contact::JndProfile> read_jnd_profile(const std::string& path);
+FileResult<contact::JndProfile> read_jnd_profile(const FileSource& files, const std::string& path);
 
 }  // namespace tribo::job

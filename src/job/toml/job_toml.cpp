@@ -16,7 +16,7 @@ constexpr std::array kJobKeys{"part"sv,     "stock"sv,   "setup"sv,  "cutter"sv,
                               "material"sv, "process"sv, "path"sv,   "engagement"sv, "sound"sv,
                               "haptics"sv,  "fixture"sv, "machine"sv};
 
-void read_all(TomlSection& root, job::Job& job) {
+void read_all(TomlSection& root, Job& job) {
     if (const auto* table = root.only_table("part")) job.part = read_part(root.file(), *table);
     if (const auto* table = root.only_table("stock")) {
         read_stock(root.file(), *table, job);
@@ -40,7 +40,7 @@ void read_all(TomlSection& root, job::Job& job) {
         root.missing("path");
     }
     // A program may bring stock and tools itself; keyframes hold neither.
-    if (job.path.kind == job::PathKind::keyframes) {
+    if (job.path.kind == PathKind::keyframes) {
         if (!root.has("stock")) root.missing("stock");
         if (!root.has("cutter")) root.missing("cutter");
     }
@@ -57,11 +57,11 @@ void read_all(TomlSection& root, job::Job& job) {
 
 }  // namespace
 
-FileResult<job::Job> parse_job(std::string_view text, const std::string& name) {
+FileResult<Job> parse_job(std::string_view text, const std::string& name, const FileSource& files) {
     const Result<toml::table> parsed = parse_toml(text, name);
     if (!parsed) return std::unexpected(FileFailure(parsed.error()));
     TomlFile file(name);
-    job::Job job;
+    Job job;
     job.file = name;
     if (parsed->empty()) {
         return std::unexpected(FileFailure(
@@ -69,17 +69,17 @@ FileResult<job::Job> parse_job(std::string_view text, const std::string& name) {
     }
     TomlSection root(file, *parsed, "", kJobKeys);
     read_all(root, job);
-    auto machine = read_machine(root, job.path);
+    auto machine = read_machine(root, job.path, files);
     if (!machine) return std::unexpected(std::move(machine).error());
     job.machine = *std::move(machine);
     if (!file.ok()) return std::unexpected(FileFailure(file.error()));
     return job;
 }
 
-FileResult<job::Job> read_job(const std::string& path) {
-    const FileResult<std::string> text = files::read_file(path, kLargestJobBytes);
+FileResult<Job> read_job(const FileSource& files, const std::string& path) {
+    const FileResult<std::string> text = files.read(path, kLargestJobBytes);
     if (!text) return std::unexpected(text.error());
-    return parse_job(*text, path);
+    return parse_job(*text, path, files);
 }
 
 }  // namespace tribo::job

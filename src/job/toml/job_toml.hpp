@@ -6,15 +6,15 @@
 #include <string>
 #include <string_view>
 
-#include "files/files.hpp"
+#include "job/file_source.hpp"
 #include "job/job.hpp"
 
 namespace tribo::job {
 
 // `file` is the job's own name: errors carry it, and paths in the job count from its folder. A machine file
-// that the job names is read too.
-FileResult<job::Job> parse_job(std::string_view text, const std::string& file);
+// that the job names is read too, from `files`.
+FileResult<Job> parse_job(std::string_view text, const std::string& file, const FileSource& files);
 
-FileResult<job::Job> read_job(const std::string& path);
+FileResult<Job> read_job(const FileSource& files, const std::string& path);
 
 }  // namespace tribo::job

@@ -102,10 +102,9 @@ void limit_linear_axes(motion::Machine& machine, const Box3& box) {
 }
 
 // The keys of a machine on top of the one named `base` (none where empty).
-job::JobMachine read_table(TomlFile& file, const toml::table& table, const std::string& label,
-                           std::string base) {
+JobMachine read_table(TomlFile& file, const toml::table& table, const std::string& label, std::string base) {
     TomlSection section(file, table, label, kMachineKeys);
-    job::JobMachine result;
+    JobMachine result;
     result.rapid_mm_per_min = section.number("rapid_mm_per_min", kPositive).value_or(result.rapid_mm_per_min);
     result.acceleration_mm_per_s2 = section.number("acceleration_mm_per_s2", kPositive).value_or(0);
     if (const auto named = section.text("based_on")) {
@@ -152,42 +151,42 @@ job::JobMachine read_table(TomlFile& file, const toml::table& table, const std::
     return result;
 }
 
-FileResult<job::JobMachine> read_machine_file(const std::string& path, std::string base) {
-    const FileResult<std::string> text = files::read_file(path, kLargestJobBytes);
+FileResult<JobMachine> read_machine_file(const FileSource& files, const std::string& path, std::string base) {
+    const FileResult<std::string> text = files.read(path, kLargestJobBytes);
     if (!text) return std::unexpected(text.error());
     const Result<toml::table> parsed = parse_toml(*text, path);
     if (!parsed) return std::unexpected(FileFailure(parsed.error()));
     TomlFile file(path);
-    job::JobMachine machine = read_table(file, *parsed, "", std::move(base));
+    JobMachine machine = read_table(file, *parsed, "", std::move(base));
     if (!file.ok()) return std::unexpected(FileFailure(file.error()));
     return machine;
 }
 
 }  // namespace
 
-FileResult<job::JobMachine> read_machine(TomlSection& job, const job::JobPath& path) {
-    if (!job.file().ok()) return job::JobMachine{};
+FileResult<JobMachine> read_machine(TomlSection& job, const JobPath& path, const FileSource& files) {
+    if (!job.file().ok()) return JobMachine{};
     const bool in_file = is_machine_file(path.machine);
     if (in_file && job.has("machine")) {
         job.fail("machine", "[path] names the machine of a file, and the job has a machine of its own",
                  "keep one of the two");
-        return job::JobMachine{};
+        return JobMachine{};
     }
-    if (in_file) return read_machine_file(path.machine, "");
+    if (in_file) return read_machine_file(files, path.machine, "");
     if (job.has_text("machine")) {
         const auto file = job.path("machine");
-        return file ? read_machine_file(*file, path.machine) : job::JobMachine{};
+        return file ? read_machine_file(files, *file, path.machine) : JobMachine{};
     }
     const toml::table empty;
     const toml::table* table = job.only_table("machine");
     return read_table(job.file(), table != nullptr ? *table : empty, "[machine]", path.machine);
 }
 
-FileResult<job::JobMachine> read_machine_named(const std::string& name_or_file) {
-    if (is_machine_file(name_or_file)) return read_machine_file(name_or_file, "");
+FileResult<JobMachine> read_machine_named(const FileSource& files, const std::string& name_or_file) {
+    if (is_machine_file(name_or_file)) return read_machine_file(files, name_or_file, "");
     Result<motion::Machine> named = motion::named_machine(name_or_file);
     if (!named) return std::unexpected(FileFailure(named.error()));
-    job::JobMachine machine;
+    JobMachine machine;
     machine.kinematics = *std::move(named);
     return machine;
 }

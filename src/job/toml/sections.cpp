@@ -64,9 +64,9 @@ readers::ModelFile read_part(TomlFile& file, const toml::table& table) {
     return {section.required_path("surface"), read_unit_mm(section)};
 }
 
-job::JobMaterial read_material(TomlFile& file, const toml::table& table) {
+JobMaterial read_material(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[material]", kMaterialKeys);
-    job::JobMaterial material;
+    JobMaterial material;
     std::string_view present;
     for (const std::string_view key : kCoefficientKeys) {
         if (present.empty() && section.has(key)) present = key;
@@ -100,15 +100,15 @@ job::JobMaterial read_material(TomlFile& file, const toml::table& table) {
     return material;
 }
 
-job::JobProcess read_process(TomlFile& file, const toml::table& table) {
+JobProcess read_process(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[process]", kProcessKeys);
     return {section.number("spindle_rpm", kPositive).value_or(0),
             section.number("feed_mm_per_min", kPositive).value_or(0)};
 }
 
-job::JobPath read_path(TomlFile& file, const toml::table& table) {
+JobPath read_path(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[path]", kPathKeys);
-    job::JobPath path;
+    JobPath path;
     std::string_view kind;
     for (std::size_t i = 0; i < kPathKinds.size(); ++i) {
         if (!section.has(kPathKinds[i])) continue;
@@ -120,7 +120,7 @@ job::JobPath read_path(TomlFile& file, const toml::table& table) {
             return path;
         }
         kind = kPathKinds[i];
-        path.kind = static_cast<job::PathKind>(i);
+        path.kind = static_cast<PathKind>(i);
         path.file = section.required_path(kind);
     }
     if (kind.empty()) {
@@ -128,21 +128,21 @@ job::JobPath read_path(TomlFile& file, const toml::table& table) {
                      "write keyframes = \"F.csv\", gcode = \"F.ngc\" or apt = \"F.apt\"");
     }
     for (const std::string_view key : {"interpolation"sv, "unit_mm"sv}) {
-        if (path.kind != job::PathKind::keyframes && section.has(key)) {
+        if (path.kind != PathKind::keyframes && section.has(key)) {
             section.fail(key, "'" + std::string(key) + "' belongs to keyframes",
                          "remove it: the program says it itself");
         }
     }
-    if (path.kind != job::PathKind::gcode && section.has("machine")) {
+    if (path.kind != PathKind::gcode && section.has("machine")) {
         section.fail("machine", "'machine' belongs to G-code: other paths hold the tool's axis already",
                      "remove it");
     }
-    if (path.kind == job::PathKind::keyframes && section.has("tools")) {
+    if (path.kind == PathKind::keyframes && section.has("tools")) {
         section.fail("tools", "'tools' belongs to a program: keyframes call no tool",
                      "describe it as [cutter]");
     }
     path.tools = section.path("tools").value_or("");
-    if (path.kind != job::PathKind::gcode && section.has("dialect")) {
+    if (path.kind != PathKind::gcode && section.has("dialect")) {
         section.fail("dialect", "'dialect' belongs to G-code", "remove it");
     }
     if (const auto dialect = section.word("dialect", kDialectWords)) {
@@ -161,9 +161,9 @@ job::JobPath read_path(TomlFile& file, const toml::table& table) {
     return path;
 }
 
-job::JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
+JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[engagement]", kEngagementKeys);
-    job::JobEngagement engagement;
+    JobEngagement engagement;
     engagement.entry_deg = section.required_number("entry_deg", {0, 360});
     engagement.exit_deg = section.required_number("exit_deg", {0, 360});
     engagement.axial_depth_mm = section.required_number("axial_depth_mm", kPositive);
@@ -182,9 +182,9 @@ std::vector<std::string_view> names_of(std::span<const Named> all) {
     return names;
 }
 
-job::JobSound read_sound(TomlFile& file, const toml::table& table) {
+JobSound read_sound(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[sound]", kSoundKeys);
-    job::JobSound sound;
+    JobSound sound;
     sound.listener_mm = section.point("listener_mm");
     sound.distance_factor = section.number("distance_factor", kPositive).value_or(sound.distance_factor);
     sound.reference_distance_m =
@@ -194,14 +194,14 @@ job::JobSound read_sound(TomlFile& file, const toml::table& table) {
     if (sound.bits != 16 && sound.bits != 24 && sound.bits != 32) {
         section.fail("bits", "'bits' is " + std::to_string(sound.bits), "try 16, 24 or 32");
     }
-    if (const auto mode = section.word("mode", kSoundModes)) sound.mode = static_cast<job::SoundMode>(*mode);
+    if (const auto mode = section.word("mode", kSoundModes)) sound.mode = static_cast<SoundMode>(*mode);
     sound.hrtf = section.path("hrtf").value_or("");
-    if (!sound.hrtf.empty() && sound.mode && *sound.mode != job::SoundMode::hrtf) {
+    if (!sound.hrtf.empty() && sound.mode && *sound.mode != SoundMode::hrtf) {
         section.fail("hrtf", "'hrtf' names a file, but the mode does not use it",
                      "write mode = \"hrtf\" or remove it");
     }
     sound.as_measured = section.word("equalize", kEqualizations).value_or(0) == 1;
-    if (section.has("equalize") && sound.mode.value_or(job::SoundMode::hrtf) != job::SoundMode::hrtf) {
+    if (section.has("equalize") && sound.mode.value_or(SoundMode::hrtf) != SoundMode::hrtf) {
         section.fail("equalize", "'equalize' is for measured heads, but the mode uses none",
                      "write mode = \"hrtf\" or remove it");
     }
@@ -240,12 +240,12 @@ job::JobSound read_sound(TomlFile& file, const toml::table& table) {
     return sound;
 }
 
-job::JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
+JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[haptics]", kHapticsKeys);
-    job::JobHaptics haptics;
+    JobHaptics haptics;
     haptics.force_scale = section.number("force_scale", kPositive).value_or(haptics.force_scale);
     haptics.profile = section.path("profile").value_or("");
-    haptics.probe = static_cast<job::ProbeKind>(section.word("probe", kProbeWords).value_or(0));
+    haptics.probe = static_cast<ProbeKind>(section.word("probe", kProbeWords).value_or(0));
     haptics.friction_static = section.number("friction_static", {0, kLargestFriction});
     haptics.friction_kinetic = section.number("friction_kinetic", {0, kLargestFriction});
     if (haptics.friction_static && haptics.friction_kinetic &&

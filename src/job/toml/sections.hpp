@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "files/files.hpp"
+#include "job/file_source.hpp"
 #include "job/job.hpp"
 #include "job/toml/toml_section.hpp"
 
@@ -16,25 +16,25 @@ namespace tribo::job {
 // Millimetres per unit of a model or of keyframes, where the section says it.
 std::optional<double> read_unit_mm(TomlSection& section);
 readers::ModelFile read_part(TomlFile& file, const toml::table& table);
-job::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label);
+JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label);
 // [stock]: a solid, or an earlier job.
-void read_stock(TomlFile& file, const toml::table& table, job::Job& job);
+void read_stock(TomlFile& file, const toml::table& table, Job& job);
 // [setup]: the frame of this job in the stock of the earlier one.
 motion::WorkFrame read_setup(TomlFile& file, const toml::table& table);
 // [cutter] or every [[cutter]], and [holder] for those without one of their own.
 std::vector<milling::Cutter> read_cutters(TomlSection& job);
-job::JobMaterial read_material(TomlFile& file, const toml::table& table);
-job::JobProcess read_process(TomlFile& file, const toml::table& table);
-job::JobPath read_path(TomlFile& file, const toml::table& table);
-job::JobEngagement read_engagement(TomlFile& file, const toml::table& table);
-job::JobSound read_sound(TomlFile& file, const toml::table& table);
-job::JobHaptics read_haptics(TomlFile& file, const toml::table& table);
+JobMaterial read_material(TomlFile& file, const toml::table& table);
+JobProcess read_process(TomlFile& file, const toml::table& table);
+JobPath read_path(TomlFile& file, const toml::table& table);
+JobEngagement read_engagement(TomlFile& file, const toml::table& table);
+JobSound read_sound(TomlFile& file, const toml::table& table);
+JobHaptics read_haptics(TomlFile& file, const toml::table& table);
 // Whether [path] names a file that describes a machine, or a machine.
 inline bool is_machine_file(std::string_view machine) {
     return machine.ends_with(".toml");
 }
 // [machine], the file that it names or the one that [path] names, on the machine that [path] names; `path`
 // has been read.
-FileResult<job::JobMachine> read_machine(TomlSection& job, const job::JobPath& path);
+FileResult<JobMachine> read_machine(TomlSection& job, const JobPath& path, const FileSource& files);
 
 }  // namespace tribo::job

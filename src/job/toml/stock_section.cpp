@@ -20,9 +20,9 @@ constexpr double kLargestOriginMm = 1e6;  // a kilometre: coordinates keep nine 
 // 100 mm by at most 0.17 mm. Directions written with three decimals are far within it.
 constexpr double kLargestSkew = 1.7453e-3;  // cosine of the angle between them: 0.1 degrees
 
-job::JobSolid solid_of(TomlSection& section, const char* otherwise) {
+JobSolid solid_of(TomlSection& section, const char* otherwise) {
     const std::string& label = section.label();
-    job::JobSolid solid;
+    JobSolid solid;
     if (section.has("box_mm") && section.has("mesh")) {
         section.fail("mesh", label + " has both 'box_mm' and 'mesh'", "keep one of them");
     } else if (section.has("mesh")) {
@@ -55,12 +55,12 @@ std::optional<double> read_unit_mm(TomlSection& section) {
     return section.number("unit_mm", {0, kLargestUnitMm, true});
 }
 
-job::JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label) {
+JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label) {
     TomlSection section(file, table, label, kSolidKeys);
     return solid_of(section, "");
 }
 
-void read_stock(TomlFile& file, const toml::table& table, job::Job& job) {
+void read_stock(TomlFile& file, const toml::table& table, Job& job) {
     TomlSection section(file, table, "[stock]", kStockKeys);
     if (!section.has("from")) {
         job.stock = solid_of(section, ", or from = \"FIRST.toml\" for the stock that another job leaves");

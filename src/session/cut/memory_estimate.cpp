@@ -199,4 +199,23 @@ double MemoryEstimate::mesh_bytes(double cell_mm) const {
     return kVertexBytes * vertices(cell_mm) + kInHandBytes + kLayerBrickBytes * s.x * s.y;
 }
 
+std::optional<MemoryShortage> memory_shortage(
+    const MillSetup& setup, double budget_bytes,
+    const std::function<double(const MemoryEstimate& estimate, double cell_mm)>& bytes_at) {
+    constexpr double kCoarser = 1.1;  // from one try to the next
+    const auto need_at = [&](double cell) { return bytes_at(MemoryEstimate(setup, cell), cell); };
+    MemoryShortage shortage;
+    shortage.need_bytes = shortage.least_bytes = need_at(setup.cell_mm);
+    if (shortage.need_bytes <= budget_bytes) return {};
+    const Vec3 size = setup.blank->bounds_mm().size();
+    const double largest = std::max({size.x, size.y, size.z});
+    double cell = setup.cell_mm;
+    while (cell < largest && shortage.least_bytes > budget_bytes) {
+        cell *= kCoarser;
+        shortage.least_bytes = need_at(cell);
+    }
+    if (cell < largest) shortage.fitting_cell_mm = cell;
+    return shortage;
+}
+
 }  // namespace tribo::session

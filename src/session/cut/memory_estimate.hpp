@@ -2,6 +2,9 @@
 // What a run will hold in memory, told from its moves before it starts.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "session/cut/mill_setup.hpp"
 
 namespace tribo::session {
@@ -34,5 +37,18 @@ class MemoryEstimate {
     double surface_cells_ = 0, touched_cells_ = 0;
     double moves_ = 0, curved_moves_ = 0;
 };
+
+// A run that would take more than it may, and what to do about it.
+struct MemoryShortage {
+    double need_bytes = 0;
+    std::optional<double>
+        fitting_cell_mm;     // the finest tried at which it fits; absent: at none below the blank
+    double least_bytes = 0;  // at the coarsest tried
+};
+
+// `bytes_at` gives all that the run holds at once at a spacing. None where it fits at the setup's own.
+std::optional<MemoryShortage> memory_shortage(
+    const MillSetup& setup, double budget_bytes,
+    const std::function<double(const MemoryEstimate& estimate, double cell_mm)>& bytes_at);
 
 }  // namespace tribo::session

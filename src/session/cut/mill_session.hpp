@@ -3,6 +3,7 @@
 // rows. No files and no clocks: what comes out goes to sinks, what takes time is told to `progress`.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,6 +38,7 @@ struct MillSetup {
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
     std::vector<EarlierCuts> earlier;  // carved before the session begins, in this order
+    std::uint64_t stock_hash = 0;      // of all that decides the stock: blank, earlier cuts and frames
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
     std::optional<PrescribedEngagement> engagement;
     motion::TimingOptions timing;

@@ -9,6 +9,8 @@
 #include "motion/path/close_passes.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
+#include "session/cut/job_stock.hpp"
+#include "session/cut/part_in_stock.hpp"
 
 namespace tribo::session {
 namespace {
@@ -163,18 +165,21 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
     return setup;
 }
 
-Result<MillSetup> prepare_mill(const job::Job& job, MillInputs inputs, const MillOptions& options,
-                               Warnings& warnings) {
-    auto prepared = prepare_moves(job, inputs.program, options, warnings);
+Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& options, Warnings& warnings) {
+    auto stock = stock_of(loaded, warnings);
+    if (!stock) return std::unexpected(stock.error());
+    auto prepared = prepare_moves(loaded.job, loaded.program, options, warnings);
     if (!prepared) return std::unexpected(prepared.error());
     MillSetup setup = *std::move(prepared);
-    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(job, inputs.blank->bounds_mm()));
-    warn_where_the_grid_is_coarse(setup, job.file, warnings);
-    warn_of_passes_below_the_grid(setup, job.file, warnings);
-    setup.blank = std::move(inputs.blank);
-    setup.blank_volume_mm3 = inputs.blank_volume_mm3;
-    setup.earlier = std::move(inputs.earlier);
-    setup.fixtures = std::move(inputs.fixtures);
+    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded.job, stock->blank->bounds_mm()));
+    warn_where_the_grid_is_coarse(setup, loaded.job.file, warnings);
+    warn_of_passes_below_the_grid(setup, loaded.job.file, warnings);
+    if (loaded.part) warn_of_part_outside(loaded.part->mesh, *stock->blank, loaded.job.file, warnings);
+    setup.blank = std::move(stock->blank);
+    setup.blank_volume_mm3 = stock->blank_volume_mm3;
+    setup.earlier = std::move(stock->earlier);
+    setup.stock_hash = stock->hash;
+    for (const job::Solid& fixture : loaded.fixtures) setup.fixtures.push_back(job::shape_of(fixture));
     return setup;
 }
 

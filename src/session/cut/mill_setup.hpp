@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
-// From a job and what its files held to a setup that can run: which tool cuts where, how fast, in which
-// pieces.
+// From a loaded job to a setup that can run: which tool cuts where, how fast, in which pieces, out of what.
 #pragma once
 
-#include "job/job.hpp"
+#include "job/loader.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/program.hpp"
 #include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
-
-// What the job's files held, read by whoever may read files.
-struct MillInputs {
-    motion::Program program;
-    std::unique_ptr<const field::Shape> blank;
-    double blank_volume_mm3 = 0;
-    std::vector<EarlierCuts> earlier;  // as in MillSetup
-    std::vector<std::unique_ptr<const field::Shape>> fixtures;
-};
 
 struct MillOptions {
     std::optional<double> cell_mm;  // absent: default_cell_mm()
@@ -39,8 +29,7 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
                                 const MillOptions& options, Warnings& warnings);
 
 // Refuses what cannot run (no spindle speed, a tool without a match, rotary words without a machine), with
-// the program's line; `warnings` gains what was assumed.
-Result<MillSetup> prepare_mill(const job::Job& job, MillInputs inputs, const MillOptions& options,
-                               Warnings& warnings);
+// the program's line, and what stock_of() refuses; `warnings` gains what was assumed.
+Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& options, Warnings& warnings);
 
 }  // namespace tribo::session

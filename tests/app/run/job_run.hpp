@@ -20,8 +20,7 @@ struct JobRun {
     Warnings warnings;
 };
 
-// Reads `job.toml` among the files (name, text) as the program does, and mills it; stock and fixtures must be
-// boxes.
+// Loads `job.toml` from the files (name, text) and mills it.
 JobRun run_job(const std::map<std::string, std::string>& files, double cell_mm = 0.25);
 
 }  // namespace tribo::test

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "report/stock_record_json.hpp"
+#include "files/json/stock_record_json.hpp"
 
 #include <charconv>
 #include <cmath>
 
 #include "files/json/json.hpp"
 
-namespace tribo::report {
+namespace tribo::files {
 namespace {
 
 constexpr const char* kKey = "stock_record";
 constexpr std::uint64_t kLargestSummaryBytes = std::uint64_t{64} << 20;
 
 // Sixteen hexadecimal digits.
-std::optional<std::uint64_t> hash_of(const files::Json& record, const char* key) {
+std::optional<std::uint64_t> hash_of(const Json& record, const char* key) {
     const auto found = record.find(key);
     if (found == record.end() || !found->is_string()) return {};
     const auto& text = found->get_ref<const std::string&>();
@@ -23,7 +23,7 @@ std::optional<std::uint64_t> hash_of(const files::Json& record, const char* key)
     return value;
 }
 
-std::string text_of(const files::Json& object, const char* key) {
+std::string text_of(const Json& object, const char* key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -34,9 +34,9 @@ FileResult<job::StockRecord> read_stock_record(const std::string& folder) {
     const auto refuse = [&](std::string cause, std::string remedy) {
         return std::unexpected(FileFailure({folder, 0, 0, std::move(cause), std::move(remedy)}));
     };
-    const auto text = files::read_file(folder + "/summary.json", kLargestSummaryBytes);
+    const auto text = read_file(folder + "/summary.json", kLargestSummaryBytes);
     if (!text && text.error().fault == FileFault::system) return std::unexpected(text.error());
-    const files::Json json = text ? files::Json::parse(*text, nullptr, false) : files::Json();
+    const Json json = text ? Json::parse(*text, nullptr, false) : Json();
     if (!json.is_object() || !text_of(json, "schema").starts_with("tribo.summary/")) {
         return refuse("is no folder that tribo render wrote (no summary.json of its own in it)",
                       "name an earlier job (.toml) or the folder of its render");
@@ -65,4 +65,4 @@ FileResult<job::StockRecord> read_stock_record(const std::string& folder) {
     return record;
 }
 
-}  // namespace tribo::report
+}  // namespace tribo::files

@@ -7,10 +7,10 @@
 #include "files/files.hpp"
 #include "job/stock_record.hpp"
 
-namespace tribo::report {
+namespace tribo::files {
 
 // Out of the summary.json of a folder. Refuses a folder that Tribo did not render, and one of an older
 // version, which left no record.
 FileResult<job::StockRecord> read_stock_record(const std::string& folder);
 
-}  // namespace tribo::report
+}  // namespace tribo::files

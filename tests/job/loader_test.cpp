@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// Jobs with all their files, out of memory: what is read, in which order, and what is refused.
+#include "job/loader.hpp"
+
+#include <gtest/gtest.h>
+
+#include "job/memory_source.hpp"
+
+namespace tribo::job {
+namespace {
+
+constexpr const char* kBox = "[stock]\nbox_mm = [[0, 0, -10], [40, 30, 0]]\n";
+constexpr const char* kRest =
+    "[cutter]\nkind = \"flat\"\ndiameter_mm = 6\nflutes = 2\nlength_mm = 20\n"
+    "[material]\nname = \"al7075-t6\"\n[process]\nspindle_rpm = 6000\n"
+    "[path]\ngcode = \"slot.nc\"\n";
+constexpr const char* kSlot = "G21 G90 M3 F600\nG0 X-10 Y5 Z-2\nG1 X50\nM30\n";
+
+// `from` stands at 3:8.
+std::string after(const std::string& what) {
+    return "# set-up\n[stock]\nfrom = \"" + what + "\"\n" + kRest;
+}
+
+// A folder of renders besides, and a second name for each file.
+class Shelf final : public FileSource {
+  public:
+    Shelf() { memory.put("slot.nc", kSlot); }
+
+    FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override {
+        return memory.read(path, limit_bytes);
+    }
+    FileResult<readers::Model> read_model(const readers::ModelFile& file) const override {
+        return memory.read_model(file);
+    }
+    FileResult<StockSource> stock_source(const std::string& path) const override {
+        if (path == "out") return StockSource{"a.toml", StockRecord{}, "/renders/out"};
+        if (path == "broken")
+            return std::unexpected(FileFailure({"", 0, 0, "is broken", "mend it"}, FileFault::system));
+        return memory.stock_source(path);
+    }
+    std::string identity(const std::string& path) const override {
+        return path.starts_with("./") ? path.substr(2) : path;
+    }
+    std::string refusal_of(const std::string& name) const {
+        const auto loaded = load_job(*this, name);
+        return loaded ? "" : loaded.error().text();
+    }
+
+    MemorySource memory;
+};
+
+TEST(Loader, reads_a_job_with_all_that_it_names) {
+    Shelf shelf;
+    shelf.memory.put("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    shelf.memory.put("part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    shelf.memory.put("a.toml", std::string(kBox) + kRest +
+                                   "[[fixture]]\nbox_mm = [[50, 0, 0], [60, 10, 10]]\n"
+                                   "[[fixture]]\nmesh = \"tetra.obj\"\nunit_mm = 3\n"
+                                   "[part]\nsurface = \"part.obj\"\n");
+    const auto loaded = load_job(shelf, "a.toml");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(loaded->job.file, "a.toml");
+    EXPECT_EQ(loaded->program.source, "slot.nc");
+    EXPECT_EQ(loaded->blank.volume_mm3, 40 * 30 * 10);
+    EXPECT_TRUE(loaded->earlier.empty());
+    ASSERT_EQ(loaded->fixtures.size(), 2u);
+    EXPECT_EQ(loaded->fixtures[0].box_mm.max.x, 60);
+    EXPECT_NEAR(loaded->fixtures[1].volume_mm3, 27.0 / 6, 1e-6);
+    // Each run of the same load takes shapes of its own.
+    const auto one = shape_of(loaded->fixtures[1]), other_run = shape_of(loaded->fixtures[1]);
+    EXPECT_NE(one.get(), other_run.get());
+    EXPECT_EQ(one->distance_mm({5, 1, 1}), other_run->distance_mm({5, 1, 1}));
+    ASSERT_TRUE(loaded->part);
+    EXPECT_EQ(loaded->part->mesh.triangles.size(), 1u);
+    // A surface that is named besides stands in for the job's.
+    const auto other = load_job(shelf, "a.toml", {"tetra.obj"});
+    ASSERT_TRUE(other) << other.error().text();
+    EXPECT_EQ(other->part->mesh.triangles.size(), 4u);
+}
+
+TEST(Loader, assumes_what_a_program_alone_does_not_say) {
+    const Shelf shelf;
+    const auto loaded = load_program(shelf, "slot.nc");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(loaded->job.path.file, "slot.nc");
+    EXPECT_GT(loaded->blank.volume_mm3, 0);
+    EXPECT_EQ(loaded->job.cutters.size(), 1u);
+    EXPECT_GE(loaded->warnings.size(), 2u);
+    Shelf other;
+    other.memory.put("note.txt", "buy milk\n");
+    EXPECT_EQ(
+        load_program(other, "note.txt").error().text(),
+        "note.txt: error: this is no job and no program that is known here; drop a job (.toml) with its "
+        "files, G-code, APT or keyframes (.csv)");
+}
+
+TEST(Loader, reads_earlier_jobs_back_to_the_first) {
+    Shelf shelf;
+    shelf.memory.put("a.toml", std::string(kBox) + kRest);
+    shelf.memory.put("b.toml", after("out"));
+    shelf.memory.put("c.toml", after("b.toml"));
+    const auto loaded = load_job(shelf, "c.toml");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    ASSERT_EQ(loaded->earlier.size(), 2u);
+    EXPECT_EQ(loaded->earlier[0].job.file, "b.toml");
+    EXPECT_FALSE(loaded->earlier[0].source.record);
+    EXPECT_EQ(loaded->earlier[1].job.file, "a.toml");
+    EXPECT_EQ(loaded->earlier[1].source.folder, "/renders/out");
+    EXPECT_TRUE(loaded->earlier[1].source.record);
+    EXPECT_EQ(loaded->earlier[1].program.moves.size(), loaded->program.moves.size());
+    EXPECT_EQ(loaded->blank.volume_mm3, 40 * 30 * 10);
+}
+
+TEST(Loader, refuses_jobs_that_begin_with_each_others_stock) {
+    Shelf shelf;
+    shelf.memory.put("self.toml", after("./self.toml"));
+    EXPECT_EQ(
+        shelf.refusal_of("self.toml"),
+        "self.toml:3:8: error: the job begins with the stock that it leaves itself: self.toml -> self.toml; "
+        "let the first of the jobs begin with box_mm or mesh");
+    shelf.memory.put("x.toml", after("a.toml"));
+    shelf.memory.put("a.toml", after("b.toml"));
+    shelf.memory.put("b.toml", after("c.toml"));
+    shelf.memory.put("c.toml", after("out"));
+    EXPECT_EQ(shelf.refusal_of("x.toml"),
+              "c.toml:3:8: error: the job begins with the stock that it leaves itself: "
+              "a.toml -> b.toml -> c.toml -> a.toml; let the first of the jobs begin with box_mm or mesh");
+}
+
+TEST(Loader, refuses_at_the_place_that_names_what_is_not_there) {
+    Shelf shelf;
+    shelf.memory.put("b.toml", after("broken"));
+    EXPECT_EQ(shelf.refusal_of("b.toml"), "b.toml:3:8: error: is broken; mend it");
+    EXPECT_EQ(load_job(shelf, "b.toml").error().fault, FileFault::system);
+    const std::string drop =
+        ": error: the file is not here; drop it into the window together with the file "
+        "that names it";
+    shelf.memory.put("b.toml", after("gone.toml"));
+    EXPECT_EQ(shelf.refusal_of("b.toml"), "gone.toml" + drop);
+    EXPECT_EQ(shelf.refusal_of("nobody.toml"), "nobody.toml" + drop);
+    const std::string job = kRest;
+    shelf.memory.put("a.toml", kBox + job + "[[fixture]]\nmesh = \"clamp.stl\"\n");
+    EXPECT_EQ(shelf.refusal_of("a.toml"), "clamp.stl" + drop);
+    shelf.memory.put("a.toml", kBox + job + "[part]\nsurface = \"bowl.wrl\"\n");
+    EXPECT_EQ(shelf.refusal_of("a.toml"), "bowl.wrl" + drop);
+    shelf.memory.put("a.toml", "[stock]\nmesh = \"blank.stl\"\n" + job);
+    EXPECT_EQ(shelf.refusal_of("a.toml"), "blank.stl" + drop);
+    shelf.memory.clear();
+    shelf.memory.put("a.toml", kBox + job);
+    EXPECT_EQ(shelf.refusal_of("a.toml"), "slot.nc" + drop);
+}
+
+TEST(Loader, reads_a_hundred_earlier_jobs_and_no_more) {
+    Shelf shelf;
+    shelf.memory.put("0.toml", std::string(kBox) + kRest);
+    for (int n = 1; n <= 101; ++n)
+        shelf.memory.put(std::to_string(n) + ".toml", after(std::to_string(n - 1) + ".toml"));
+    const auto loaded = load_job(shelf, "100.toml");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(loaded->earlier.size(), 100u);
+    EXPECT_EQ(shelf.refusal_of("101.toml").substr(0, 44), "1.toml:3:8: error: more than 100 jobs begin ");
+}
+
+}  // namespace
+}  // namespace tribo::job

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Files as a page drops them: found without their folders, refused with words for the one who drops them.
+#include "job/memory_source.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tribo::job {
+namespace {
+
+constexpr const char* kNotHere =
+    ": error: the file is not here; drop it into the window together with the file that names it";
+
+TEST(MemorySource, finds_a_file_by_its_whole_name_or_by_the_only_one_of_its_last_name) {
+    MemorySource files;
+    files.put("bowl/bowl.csv", "a");
+    files.put("plate.nc", "b");
+    EXPECT_EQ(files.read("bowl/bowl.csv", 10).value(), "a");
+    EXPECT_EQ(files.read("bowl.csv", 10).value(), "a");
+    EXPECT_EQ(files.read("programs/plate.nc", 10).value(), "b");
+    EXPECT_EQ(files.read("late.nc", 10).error().text(), std::string("late.nc") + kNotHere);
+    // Two of a name: neither is guessed, the whole name still counts.
+    files.put("other/bowl.csv", "c");
+    EXPECT_EQ(files.read("bowl.csv", 10).error().text(), std::string("bowl.csv") + kNotHere);
+    EXPECT_EQ(files.read("other/bowl.csv", 10).value(), "c");
+    files.put("other/bowl.csv", "d");
+    EXPECT_EQ(files.read("other/bowl.csv", 10).value(), "d");
+    files.clear();
+    EXPECT_FALSE(files.read("plate.nc", 10));
+}
+
+TEST(MemorySource, refuses_what_is_longer_than_its_kind_may_be) {
+    MemorySource files;
+    files.put("a.toml", "12345");
+    EXPECT_EQ(files.read("a.toml", 5).value(), "12345");
+    EXPECT_EQ(files.read("a.toml", 4).error().text(), "a.toml: error: the file is too large for what it is");
+}
+
+TEST(MemorySource, reads_models_with_their_neighbours) {
+    MemorySource files;
+    files.put("m/main.wrl", "#VRML V2.0 utf8\nInline { url \"part.wrl\" }\n");
+    EXPECT_EQ(files.read_model({"m/main.wrl", {}}).error().text(),
+              "m/main.wrl:2:14: error: the file 'part.wrl' is not read: the file is not here; put the file "
+              "beside the model, or export the model as one file");
+    files.put(
+        "m/part.wrl",
+        "#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 0 1 "
+        "0] } coordIndex [0 1 2 -1] } }\n");
+    const auto model = files.read_model({"m/main.wrl", 2});
+    ASSERT_TRUE(model) << model.error().text();
+    ASSERT_EQ(model->mesh.triangles.size(), 1u);
+    EXPECT_EQ(model->mesh.positions[1][0], 2.0F);
+}
+
+TEST(MemorySource, refuses_what_a_page_does_not_read) {
+    MemorySource files;
+    files.put("a.gltf", "{\"asset\": {\"version\": \"2.0\"}}");
+    EXPECT_EQ(files.read_model({"a.gltf", {}}).error().text(),
+              "a.gltf: error: glTF models are not read in the page; save it as STL, OBJ, PLY or VRML, or use "
+              "the program");
+    EXPECT_EQ(files.read_model({"b.stl", {}}).error().text(), std::string("b.stl") + kNotHere);
+    EXPECT_EQ(files.stock_source("first.toml")->job, "first.toml");
+    EXPECT_EQ(files.stock_source("out").error().text(),
+              "error: a page takes the stock from a job alone, not from 'out'; name the earlier job (.toml) "
+              "and drop it too, or use the program");
+}
+
+}  // namespace
+}  // namespace tribo::job
