@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A touchable material as plain data: how its image yields and how rubbing it sounds. What a material file
-// (docs/material.md) carries.
+// (docs/material.md) carries; material_schema.hpp has the ranges.
 #pragma once
 
 #include <string>
@@ -23,13 +23,11 @@ struct RecordingSource {
     friend bool operator==(const RecordingSource&, const RecordingSource&) = default;
 };
 
-inline constexpr double kLeastRoughness = 0.05;
-
 struct Material {
     std::string name;
     std::string note;  // anything a reader should know, such as that it is synthetic
 
-    double stiffness_n_per_mm = 4;      // K: force over indentation at the contact's centre, > 0
+    double stiffness_n_per_mm = 4;      // K: force over indentation at the contact's centre
     double viscosity_n_s_per_mm = 0.3;  // nu, >= 0
     double width_mm = 0;                // of the image as the finger feels it; 0: not known
     std::string image;                  // relative to the material file; empty: none
@@ -38,7 +36,7 @@ struct Material {
     std::string height_map;     // relative to the material file, as large as the image; empty: its brightness
     double relief_slope = 0.2;  // root mean square slope of the small relief, 0..1
     double gloss = 0.04;        // share of the light that is mirrored, 0..1
-    double roughness = 0.5;     // what spreads it, kLeastRoughness (polished) .. 1 (matt)
+    double roughness = 0.5;     // what spreads it, 0.05 (polished) .. 1 (matt)
 
     // How the voices were learned.
     std::string method;      // "yule-walker" or "burg"; empty without voices
@@ -49,8 +47,5 @@ struct Material {
 
     friend bool operator==(const Material&, const Material&) = default;
 };
-
-// Leaves as many digits as matter, so that files stay short and readable. Allocates nothing.
-void round_digits(noise::MaterialVoices& voices);
 
 }  // namespace tribo::material

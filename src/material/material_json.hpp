@@ -12,17 +12,16 @@
 
 namespace tribo::material {
 
-inline constexpr const char* kMaterialSchema = "tribo.material/1";
 inline constexpr std::uint64_t kLargestMaterialBytes = std::uint64_t{16} << 20;
 
 // Strict: every key is known, every number in range, models in order and stable. Never throws.
-Result<material::Material> parse_material(std::string_view text, const std::string& source_name);
+Result<Material> parse_material(std::string_view text, const std::string& source_name);
 
 // Reads a file; `image` stays relative to it.
-FileResult<material::Material> read_material(const std::string& path);
+FileResult<Material> read_material(const std::string& path);
 
 // The text that parse_material reads back to the same material. Ends with a line end.
-std::string material_json(const material::Material& material);
+std::string material_json(const Material& material);
 
 // Whether text that is JSON claims to be a material, right or wrong in its rest.
 bool looks_like_material(std::string_view text);

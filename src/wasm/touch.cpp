@@ -9,6 +9,7 @@
 
 #include "elastic/sheet.hpp"
 #include "elastic/small_relief.hpp"
+#include "material/material_schema.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
 
@@ -26,19 +27,20 @@ struct TouchSheet {
     std::array<std::int32_t, 4> changes{};
 };
 
-double within(double value, double least, double most) {
-    return value >= least ? std::min(value, most) : least;
+double within(double value, tribo::Range range) {
+    return value >= range.min ? std::min(value, range.max) : range.min;
 }
 
 Material material(double stiffness_n_per_mm, double viscosity_n_s_per_mm) {
-    return {within(stiffness_n_per_mm, 1e-3, 1e6), within(viscosity_n_s_per_mm, 0, 1e6)};
+    return {within(stiffness_n_per_mm, tribo::material::kStiffness),
+            within(viscosity_n_s_per_mm, tribo::material::kViscosity)};
 }
 
 }  // namespace
 
 TRIBO_EXPORT(sheet_create) TouchSheet* sheet_create(int width, int height, double spacing_mm) {
     const auto nodes = [](int n) { return std::clamp(n, 1, tribo::elastic::kMostNodesPerSide); };
-    return new TouchSheet{Sheet({nodes(width), nodes(height), within(spacing_mm, 1e-6, 1e6)})};
+    return new TouchSheet{Sheet({nodes(width), nodes(height), within(spacing_mm, {1e-6, 1e6})})};
 }
 
 TRIBO_EXPORT(sheet_destroy) void sheet_destroy(TouchSheet* s) {
@@ -114,8 +116,8 @@ TRIBO_EXPORT(sheet_small_relief)
 void sheet_small_relief(std::uint8_t* rgba, int width, int height, double rms_slope) {
     const std::size_t bytes =
         std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    const auto relief = tribo::elastic::small_relief({rgba, bytes}, width, height,
-                                                     static_cast<float>(within(rms_slope, 0, 1)));
+    const auto relief = tribo::elastic::small_relief(
+        {rgba, bytes}, width, height, static_cast<float>(within(rms_slope, tribo::material::kShare)));
     for (std::size_t i = 0; i < relief.slopes.size(); ++i) {
         rgba[2 * i - i % 2] = static_cast<std::uint8_t>(relief.slopes[i] + 128);
     }

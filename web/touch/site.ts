@@ -8,6 +8,7 @@ import { bundle } from "../tools/bundle.js";
 import { COMPONENT, MODULES, ROOT, SITE } from "../tools/places.js";
 import { shortStyle } from "../tools/shorten.js";
 import { version } from "./package.json";
+import { kSchema } from "./src/material_schema.js";
 
 interface MaterialFile {
   schema: string;
@@ -51,7 +52,7 @@ for (const name of ["make", "learner"])
 const listed: { file: string; name: string; note: string; image: string }[] = [];
 for (const path of await materialFiles(join(ROOT, "examples/materials"))) {
   const material = JSON.parse(await readFile(path, "utf8")) as MaterialFile;
-  if (material.schema !== "tribo.material/1" || !material.image) continue;
+  if (material.schema !== kSchema || !material.image) continue;
   // Flat and by the material's name, so that no two meet.
   const name = basename(path, ".json");
   const image = `${name}-${basename(material.image)}`;

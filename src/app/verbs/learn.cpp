@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +16,9 @@
 #include "base/decimal.hpp"
 #include "files/image/image_file.hpp"
 #include "files/sound/sound_file.hpp"
+#include "material/learned_material.hpp"
 #include "material/material_json.hpp"
+#include "material/material_schema.hpp"
 #include "noise/learn/learning.hpp"
 #include "report/learning_report.hpp"
 
@@ -24,11 +27,8 @@ namespace {
 
 struct Call {
     std::vector<std::string> recordings;
-    std::string out, image, name, note, method = "yule-walker";
-    double width_mm = 0, stiffness = 4, viscosity = 0.3;
-    std::string height_map;
-    double relief_slope = material::Material{}.relief_slope, gloss = material::Material{}.gloss,
-           roughness = material::Material{}.roughness;
+    std::string out, method = "yule-walker";
+    material::Material known;  // what is not learned; the images as they were given
     double highpass_hz = noise::LearningOptions{}.highpass_hz;
     int order = 0;
     bool report = false;
@@ -96,35 +96,12 @@ std::string image_beside(const std::string& image, const std::string& out) {
     return relative.empty() ? image : relative.generic_string();
 }
 
-double rounded(double value, double step) {
-    return std::round(value / step) / std::round(1 / step);
-}
-
-material::Material material_of(const Call& call, const noise::Learned& learned, const Sounds& sounds) {
-    material::Material m;
-    m.name = call.name.empty() ? std::filesystem::path(call.out).stem().string() : call.name;
-    m.note = call.note;
-    m.stiffness_n_per_mm = call.stiffness;
-    m.viscosity_n_s_per_mm = call.viscosity;
-    m.width_mm = call.width_mm;
-    if (!call.image.empty()) m.image = image_beside(call.image, call.out);
-    if (!call.height_map.empty()) m.height_map = image_beside(call.height_map, call.out);
-    m.relief_slope = call.relief_slope;
-    m.gloss = call.gloss;
-    m.roughness = call.roughness;
-    m.method = call.method;
-    m.highpass_hz = call.highpass_hz;
-    m.voices = learned.voices;
-    material::round_digits(m.voices);
-    m.sources.resize(m.voices.models.size());
-    for (std::size_t n = 0; n < sounds.sources.size(); ++n) {
-        const noise::LearnedRecording& r = learned.recordings[n];
-        material::RecordingSource source = sounds.sources[n];
-        source.seconds = rounded(r.seconds, 1e-3);
-        source.peak_db = rounded(r.peak_db, 0.01);
-        source.silent_share = rounded(r.silent_share, 1e-4);
-        source.clipped_share = r.clipped_share;
-        m.sources[static_cast<std::size_t>(r.model)].push_back(std::move(source));
+material::Material material_of(const Call& call, const noise::Learned& learned,
+                               const noise::LearningOptions& options, const Sounds& sounds) {
+    material::Material m = material::learned_material(call.known, learned, options, sounds.sources);
+    if (m.name.empty()) m.name = std::filesystem::path(call.out).stem().string();
+    for (std::string* image : {&m.image, &m.height_map}) {
+        if (!image->empty()) *image = image_beside(*image, call.out);
     }
     return m;
 }
@@ -156,9 +133,9 @@ FileResult<void> write_report(const Call& call, const material::Material& m, con
 }
 
 FileResult<void> check_height_map(const Call& call) {
-    const FileResult<files::Image> image = files::read_image(call.image);
+    const FileResult<files::Image> image = files::read_image(call.known.image);
     if (!image) return std::unexpected(image.error());
-    const auto map = files::read_height_map(call.height_map, *image);
+    const auto map = files::read_height_map(call.known.height_map, *image);
     if (!map) return std::unexpected(map.error());
     return {};
 }
@@ -166,10 +143,10 @@ FileResult<void> check_height_map(const Call& call) {
 int learn(const Call& call) {
     FileResult<Sounds> sounds = read_sounds(call);
     if (!sounds) return report(sounds.error());
-    if (!call.image.empty() && !std::filesystem::is_regular_file(call.image)) {
-        return report(Error{call.image, 0, 0, "is no file", "give the image of the material"});
+    if (!call.known.image.empty() && !std::filesystem::is_regular_file(call.known.image)) {
+        return report(Error{call.known.image, 0, 0, "is no file", "give the image of the material"});
     }
-    if (!call.height_map.empty()) {
+    if (!call.known.height_map.empty()) {
         if (const auto checked = check_height_map(call); !checked) return report(checked.error());
     }
     noise::LearningOptions options;
@@ -180,7 +157,7 @@ int learn(const Call& call) {
     if (!learned) return report(learned.error());
     report(sounds->warnings);
     report(learned->warnings);
-    const material::Material material = material_of(call, *learned, *sounds);
+    const material::Material material = material_of(call, *learned, options, *sounds);
     if (const auto written = files::write_file(call.out, material::material_json(material)); !written) {
         return report(written.error());
     }
@@ -193,6 +170,12 @@ int learn(const Call& call) {
     return kDone;
 }
 
+// CLI::Range lets NaN pass.
+CLI::Validator within(Range range) {
+    return CLI::Range(range.min, range.max) &
+           finite_number(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+}
+
 }  // namespace
 
 void add_learn(CLI::App& program, int& exit_code) {
@@ -203,33 +186,30 @@ void add_learn(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("SPEED[@FORCE]:FILE");
     verb->add_option("--out", call->out, "Material file")->required()->type_name("M.json");
-    CLI::Option* image = verb->add_option("--image", call->image, "Picture of the material")->type_name("F");
-    verb->add_option("--height-map", call->height_map,
+    CLI::Option* image =
+        verb->add_option("--image", call->known.image, "Picture of the material")->type_name("F");
+    verb->add_option("--height-map", call->known.height_map,
                      "Its heights, white is high; its own brightness stands for them if absent")
         ->needs(image)
         ->type_name("F");
-    // A range lets NaN pass.
-    verb->add_option("--relief-slope", call->relief_slope,
+    verb->add_option("--relief-slope", call->known.relief_slope,
                      "Root mean square slope of its small relief: 0.2 if absent, 0 for a smooth one")
-        ->check(CLI::Range(0.0, 1.0))
-        ->check(finite_number(-1, 1))
+        ->check(within(material::kShare))
         ->type_name("S");
-    verb->add_option("--gloss", call->gloss, "Share of light that it mirrors: 0.04 if absent")
-        ->check(CLI::Range(0.0, 1.0))
-        ->check(finite_number(-1, 1))
+    verb->add_option("--gloss", call->known.gloss, "Share of light that it mirrors: 0.04 if absent")
+        ->check(within(material::kShare))
         ->type_name("G");
-    verb->add_option("--roughness", call->roughness, "0.05 polished to 1 matt: 0.5 if absent")
-        ->check(CLI::Range(material::kLeastRoughness, 1.0))
-        ->check(finite_number(0, 1))
+    verb->add_option("--roughness", call->known.roughness, "0.05 polished to 1 matt: 0.5 if absent")
+        ->check(within(material::kRoughness))
         ->type_name("R");
-    verb->add_option("--width-mm", call->width_mm, "Width of the image as the finger feels it")
-        ->check(finite_number(0, 1e5))
+    verb->add_option("--width-mm", call->known.width_mm, "Width of the image as the finger feels it")
+        ->check(finite_number(material::kWidth.min, material::kWidth.max))
         ->type_name("W");
-    verb->add_option("--stiffness", call->stiffness, "K in N/mm: 4 if absent")
-        ->check(finite_number(0, 1e6))
+    verb->add_option("--stiffness", call->known.stiffness_n_per_mm, "K in N/mm: 4 if absent")
+        ->check(within(material::kStiffness))
         ->type_name("K");
-    verb->add_option("--viscosity", call->viscosity, "nu in N s/mm: 0.3 if absent")
-        ->check(CLI::Range(0.0, 1e6))
+    verb->add_option("--viscosity", call->known.viscosity_n_s_per_mm, "nu in N s/mm: 0.3 if absent")
+        ->check(within(material::kViscosity))
         ->type_name("NU");
     verb->add_option("--method", call->method, "How the models are fitted: yule-walker or burg")
         ->check(one_of({"yule-walker", "burg"}))
@@ -243,8 +223,8 @@ void add_learn(CLI::App& program, int& exit_code) {
         ->type_name("HZ");
     verb->add_flag("--report", call->report,
                    "Write a page beside the material (M.html): spectra, measures, both sounds to compare");
-    verb->add_option("--name", call->name, "The file's name if absent")->type_name("TEXT");
-    verb->add_option("--note", call->note, "Anything that readers of the file should know")
+    verb->add_option("--name", call->known.name, "The file's name if absent")->type_name("TEXT");
+    verb->add_option("--note", call->known.note, "Anything that readers of the file should know")
         ->type_name("TEXT");
     verb->callback([call, &exit_code] { exit_code = learn(*call); });
 }

@@ -30,7 +30,7 @@ Place place_of(std::string_view text, std::size_t byte) {
     return place;
 }
 
-std::string range_text(JsonRange range) {
+std::string range_text(Range range) {
     return std::string(range.above ? "above " : "from ") + format_decimal(range.min) + " to " +
            format_decimal(range.max);
 }
@@ -118,19 +118,19 @@ bool JsonSection::has(std::string_view key) const {
     return find(key) != nullptr;
 }
 
-bool JsonSection::in_range(std::string_view key, const Json& value, JsonRange range) {
+bool JsonSection::in_range(std::string_view key, const Json& value, Range range) {
     if (!value.is_number()) {
         fail(key, std::string("is ") + kind_of(value) + " and not a number",
              "give a number " + range_text(range));
         return false;
     }
     const double number = value.get<double>();
-    if (number <= range.max && (range.above ? number > range.min : number >= range.min)) return true;
+    if (range.contains(number)) return true;
     fail(key, "is " + format_decimal(number), "give a number " + range_text(range));
     return false;
 }
 
-double JsonSection::number(std::string_view key, JsonRange range, std::optional<double> otherwise) {
+double JsonSection::number(std::string_view key, Range range, std::optional<double> otherwise) {
     const Json* value = find(key);
     if (value == nullptr) {
         if (!otherwise) fail(key, "is missing", "give a number " + range_text(range));
@@ -158,7 +158,7 @@ std::string JsonSection::text(std::string_view key, std::optional<std::string> o
     return text;
 }
 
-std::vector<double> JsonSection::numbers_of(const std::string& key, const Json& value, JsonRange range,
+std::vector<double> JsonSection::numbers_of(const std::string& key, const Json& value, Range range,
                                             std::size_t most) {
     if (!value.is_array()) {
         fail(key, std::string("is ") + kind_of(value) + " and not an array", "put [...] there");
@@ -176,15 +176,15 @@ std::vector<double> JsonSection::numbers_of(const std::string& key, const Json& 
     return numbers;
 }
 
-std::vector<double> JsonSection::numbers(std::string_view key, JsonRange range, std::size_t most) {
+std::vector<double> JsonSection::numbers(std::string_view key, Range range, std::size_t most) {
     const Json* value = find(key);
     if (value != nullptr) return numbers_of(std::string(key), *value, range, most);
     fail(key, "is missing", "give an array of numbers");
     return {};
 }
 
-std::vector<std::vector<double>> JsonSection::tables(std::string_view key, JsonRange range,
-                                                     std::size_t most) {
+std::vector<std::vector<double>> JsonSection::tables(std::string_view key, Range range, std::size_t most,
+                                                     std::size_t longest) {
     const Json* value = find(key);
     if (value == nullptr || !value->is_array() || value->size() > most) {
         fail(key, "is not an array of at most " + std::to_string(most) + " arrays", "put [[...], ...] there");
@@ -193,7 +193,7 @@ std::vector<std::vector<double>> JsonSection::tables(std::string_view key, JsonR
     std::vector<std::vector<double>> tables;
     for (std::size_t n = 0; n < value->size(); ++n) {
         tables.push_back(
-            numbers_of(std::string(key) + "[" + std::to_string(n) + "]", (*value)[n], range, kLongestTable));
+            numbers_of(std::string(key) + "[" + std::to_string(n) + "]", (*value)[n], range, longest));
     }
     return tables;
 }

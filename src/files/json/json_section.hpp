@@ -11,21 +11,14 @@
 #include <string_view>
 #include <vector>
 
+#include "base/range.hpp"
 #include "base/result.hpp"
 #include "files/json/json.hpp"
 
 namespace tribo::files {
 
-// Both ends belong to the range unless `above` says that the lower one does not.
-struct JsonRange {
-    double min = 0, max = 0;
-    bool above = false;
-};
-
 // Parses with line and column where it is not JSON, and refuses doubled keys. Never throws.
 Result<Json> parse_json(std::string_view text, const std::string& file);
-
-inline constexpr std::size_t kLongestTable = 256;
 
 class JsonSection {
   public:
@@ -35,12 +28,13 @@ class JsonSection {
                 std::optional<Error>& error, const std::string& file);
 
     bool has(std::string_view key) const;
-    double number(std::string_view key, JsonRange range, std::optional<double> otherwise = {});
+    double number(std::string_view key, Range range, std::optional<double> otherwise = {});
     std::string text(std::string_view key, std::optional<std::string> otherwise = {},
                      std::size_t longest = 10'000);
-    std::vector<double> numbers(std::string_view key, JsonRange range, std::size_t most);
-    // An array of arrays of numbers, each as numbers() takes them with kLongestTable for `most`.
-    std::vector<std::vector<double>> tables(std::string_view key, JsonRange range, std::size_t most);
+    std::vector<double> numbers(std::string_view key, Range range, std::size_t most);
+    // An array of at most `most` arrays of numbers, each as numbers() takes them with `longest`.
+    std::vector<std::vector<double>> tables(std::string_view key, Range range, std::size_t most,
+                                            std::size_t longest);
     // The objects under a key; none where it is absent.
     std::vector<const Json*> objects(std::string_view key, std::size_t most);
     // The object under a key; null where it is absent.
@@ -51,9 +45,8 @@ class JsonSection {
 
   private:
     const Json* find(std::string_view key) const;
-    bool in_range(std::string_view key, const Json& value, JsonRange range);
-    std::vector<double> numbers_of(const std::string& key, const Json& value, JsonRange range,
-                                   std::size_t most);
+    bool in_range(std::string_view key, const Json& value, Range range);
+    std::vector<double> numbers_of(const std::string& key, const Json& value, Range range, std::size_t most);
 
     const Json& object_;
     std::string path_;

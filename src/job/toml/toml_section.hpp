@@ -25,17 +25,12 @@
 #include <toml++/toml.h>
 
 #include "base/nearest.hpp"
+#include "base/range.hpp"
 #include "base/result.hpp"
 #include "base/vec3.hpp"
 
 namespace tribo::job {
 
-// Where a number may lie; both ends belong to it unless `above` says that the lower one does not.
-struct Range {
-    double min = -std::numeric_limits<double>::max();
-    double max = std::numeric_limits<double>::max();
-    bool above = false;
-};
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
 inline constexpr Range kNotNegative{0};

@@ -46,7 +46,10 @@ struct MaterialVoices {
     friend bool operator==(const MaterialVoices&, const MaterialVoices&) = default;
 };
 
-// The law that fits the levels of the models best (least squares).
+// A law is no steeper, and its level lies within this range.
+inline constexpr double kSteepestLawDb = 200, kLeastLawDb = -200, kMostLawDb = 60;
+
+// The law that fits the levels of the models best (least squares), within those bounds.
 LevelLaw fit_level_law(const std::vector<VoiceModel>& models);
 
 }  // namespace tribo::noise

@@ -61,7 +61,11 @@ LevelLaw fit_level_law(const std::vector<VoiceModel>& models) {
     } else if (ff > kSpread) {
         law.db_per_decade_force = (fy - law.db_per_decade_speed * vf) / ff;
     }
+    for (double* slope : {&law.db_per_decade_speed, &law.db_per_decade_force}) {
+        *slope = std::clamp(*slope, -kSteepestLawDb, kSteepestLawDb);
+    }
     law.level_db = y_mean - law.db_per_decade_speed * v_mean - law.db_per_decade_force * f_mean;
+    law.level_db = std::clamp(law.level_db, kLeastLawDb, kMostLawDb);
     return law;
 }
 

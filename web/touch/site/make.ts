@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // "Make your own": gathers a picture and recordings, has them learned from, and gives the material file.
 import { download, element, wordsOf } from "@tribo/ui/dom";
-import { kHighpassHz, type Answer, type Learned, type Lesson } from "./learner.js";
+import type { Answer, Learned, Lesson } from "./learner.js";
 import { record } from "./microphone.js";
 import { readSound, type Sound } from "./sound.js";
 
@@ -128,22 +128,21 @@ function learn(lessons: Lesson[]): Promise<Answer> {
 
 /** A material file as `tribo learn` writes it. */
 function material(name: string, image: string, width: number, k: number, nu: number, learned: Learned): object {
+  const { schema, method, highpass_hz, level_law, voices } = learned;
   return {
-    schema: "tribo.material/1",
+    schema,
     name,
     stiffness_n_per_mm: k,
     viscosity_n_s_per_mm: nu,
     width_mm: width,
     image,
-    method: "yule-walker",
-    highpass_hz: kHighpassHz,
-    level_law: learned.level_law,
-    voices: learned.voices,
+    method,
+    highpass_hz,
+    level_law,
+    voices,
   };
 }
 
-const kStiffness = 4;
-const kViscosity = 0.3;
 const fileOf = (content: object) => new Blob([JSON.stringify(content, null, 2), "\n"], { type: "application/json" });
 
 async function make(show: Show, present: () => { stiffness: number; damping: number }): Promise<void> {
@@ -162,13 +161,20 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
     );
     if ("wrong" in said) return say(said.wrong, true);
     const name = element<HTMLInputElement>("make-name").value.trim() || image.name.replace(/\.\w+$/, "");
-    const { learned } = said;
+    const { learned, warnings } = said;
     const count = learned.voices.length;
-    const here = material(name, URL.createObjectURL(image), width, kStiffness, kViscosity, learned);
+    const here = material(
+      name,
+      URL.createObjectURL(image),
+      width,
+      learned.stiffness_n_per_mm,
+      learned.viscosity_n_s_per_mm,
+      learned,
+    );
     show({ file: URL.createObjectURL(fileOf(here)), name });
     say(
       `learned ${count} voice${count === 1 ? "" : "s"} of order ${learned.voices[0]!.reflection.length} in ${((performance.now() - begin) / 1000).toFixed(1)} s; ` +
-        `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${learned.warnings}`,
+        `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${warnings}`,
     );
     const button = element<HTMLButtonElement>("make-download");
     button.hidden = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The touch page: chooses the material, turns K and nu, says what they mean.
 import { element } from "@tribo/ui/dom";
-import type { ContactDetail, TriboTouch } from "../src/element.js";
+import type { ContactDetail, TriboErrorDetail, TriboTouch } from "../src/element.js";
 
 interface Listed {
   file: string;
@@ -55,6 +55,7 @@ function choose(material: Listed): void {
     picture.src = material.file;
     picture.alt = `${material.name}, ${picture.asPublished ? "as published" : "by Tribo"}`;
   }
+  element("wrong").textContent = "";
   element("note").textContent = material.note;
 }
 
@@ -81,6 +82,10 @@ async function learnHere(): Promise<void> {
 
 async function start(): Promise<void> {
   pictures[0]!.addEventListener("load", own);
+  for (const picture of pictures)
+    picture.addEventListener("error", (event) => {
+      element("wrong").textContent = (event as Event as CustomEvent<TriboErrorDetail>).detail.message;
+    });
   stiffness.addEventListener("input", turn);
   damping.addEventListener("input", turn);
   element("reset").addEventListener("click", own);

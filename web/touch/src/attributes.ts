@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The properties of <tribo-touch> that mirror its attributes.
 import type { Material } from "./material.js";
+import { kFields } from "./material_schema.js";
 
 // On a server there are no elements; the class is never made there.
 // oxlint-disable-next-line typescript/no-extraneous-class -- it stands in for HTMLElement
@@ -59,21 +60,22 @@ export abstract class AttributeElement extends Base {
   }
   /** K in N/mm: the attribute, or the material's. */
   get stiffness(): number {
-    return this.#number("stiffness", 1e-3) ?? this.material?.stiffness_n_per_mm ?? Number.NaN;
+    return this.#number("stiffness", "stiffness_n_per_mm") ?? this.material?.stiffness_n_per_mm ?? Number.NaN;
   }
   set stiffness(value: number) {
     this.setAttribute("stiffness", String(value));
   }
   /** nu in N s/mm: the attribute, or the material's. */
   get damping(): number {
-    return this.#number("damping", 0) ?? this.material?.viscosity_n_s_per_mm ?? Number.NaN;
+    return this.#number("damping", "viscosity_n_s_per_mm") ?? this.material?.viscosity_n_s_per_mm ?? Number.NaN;
   }
   set damping(value: number) {
     this.setAttribute("damping", String(value));
   }
 
-  #number(name: string, least: number): number | undefined {
+  #number(name: string, key: keyof Material): number | undefined {
     const value = Number(this.getAttribute(name) ?? Number.NaN);
-    return value >= least && value <= 1e6 ? value : undefined;
+    const { from, to } = kFields[key]!;
+    return value >= from! && value <= to! ? value : undefined;
   }
 }

@@ -11,16 +11,28 @@ export type VoiceMessage =
   | { kind: "target"; id: number; speed: number; force: number; pan: number; gain: number }
   | { kind: "remove"; id: number };
 
+/** What the worklet says of a voice that the module refuses. */
+export interface VoiceRefusal {
+  id: number;
+  wrong: string;
+}
+
+type Fail = (error: unknown) => void;
+
 let nextId = 1;
 
 class Sound {
   readonly context: AudioContext;
+  /** Of each voice. */
+  readonly fails = new Map<number, Fail>();
   #node: AudioWorkletNode;
 
   constructor(context: AudioContext, node: AudioWorkletNode) {
     this.context = context;
     this.#node = node;
     node.connect(context.destination);
+    node.port.onmessage = ({ data: { id, wrong } }: MessageEvent<VoiceRefusal>) =>
+      this.fails.get(id)?.(new Error(`voices: ${wrong}`));
   }
 
   send(message: VoiceMessage): void {
@@ -60,19 +72,22 @@ export class Voice {
   readonly id = nextId++;
   #sound: Sound | undefined;
   #freed = false;
-  readonly ready: Promise<void>;
+  #ready: Promise<void>;
 
-  constructor(material: Material, published: boolean) {
-    this.ready = sound().then((made) => {
+  /** `fail` is told what keeps it silent. */
+  constructor(material: Material, published: boolean, fail: Fail) {
+    this.#ready = sound().then((made) => {
       if (this.#freed) return;
       this.#sound = made;
+      made.fails.set(this.id, fail);
       made.send({ kind: "add", id: this.id, numbers: voiceNumbers(material), published });
     });
+    this.#ready.catch(fail);
   }
 
   /** Call from a gesture: browsers let sound begin there only. */
   wake(): void {
-    void this.ready.then(() => this.#sound?.resume()).catch(() => undefined);
+    void this.#ready.then(() => this.#sound?.resume()).catch(() => undefined);
   }
 
   /** Speed in mm/s, force in N, pan -1 (left) to 1, gain 1 for the level as it was recorded. */
@@ -82,6 +97,7 @@ export class Voice {
 
   free(): void {
     this.#freed = true;
+    this.#sound?.fails.delete(this.id);
     this.#sound?.send({ kind: "remove", id: this.id });
     this.#sound = undefined;
   }

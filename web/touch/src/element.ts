@@ -314,11 +314,10 @@ export class TriboTouch extends AttributeElement {
     this.#voice = undefined;
     this.#relief = undefined;
     if (!this.#sounds || !this.#sheet) return;
-    const voice = new Voice(this.#material!, this.asPublished);
-    this.#voice = voice;
-    voice.ready.catch((error: unknown) => {
+    const voice = new Voice(this.#material!, this.asPublished, (error) => {
       if (this.#voice === voice) this.#fail("audio", error);
     });
+    this.#voice = voice;
     // A first rub sounds without it.
     whenIdle(() => {
       if (this.#voice !== voice) return;

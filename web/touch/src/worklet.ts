@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The audio side: touch.wasm in an instance of its own, a friction voice for each element that has sound.
 import type { TouchExports } from "@tribo/wasm/exports";
-import { floatsAt, lend } from "@tribo/wasm/memory";
+import { bytesAt, floatsAt, lend } from "@tribo/wasm/memory";
 import { instantiateNow, type Compiled } from "@tribo/wasm/module";
-import type { VoiceMessage } from "./audio.js";
+import type { VoiceMessage, VoiceRefusal } from "./audio.js";
 
 interface Playing {
   voice: number;
@@ -18,6 +18,8 @@ interface Playing {
 
 const kMostFrames = 1024;
 const kTailQuanta = 40;
+/** With the zero at its end. */
+const kMostRefusalBytes = 128;
 
 class Friction extends AudioWorkletProcessor {
   #x: TouchExports;
@@ -39,7 +41,13 @@ class Friction extends AudioWorkletProcessor {
       const voice = lend(this.#x, numbers, (at) =>
         this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published)),
       );
-      if (voice === 0) return;
+      if (voice === 0) {
+        // TextDecoder is missing here.
+        const bytes = bytesAt(this.#x, this.#x.voice_refusal(), kMostRefusalBytes);
+        const wrong = String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
+        this.port.postMessage({ id: message.id, wrong } satisfies VoiceRefusal);
+        return;
+      }
       this.#voices.set(message.id, { voice, moving: false, tail: 0, pan: 0, panTarget: 0, gain: 1, gainTarget: 1 });
     } else if (playing !== undefined && message.kind === "target") {
       this.#x.voice_set_target(playing.voice, message.speed, message.force);

@@ -432,6 +432,7 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
   test.each([
     ["no WebAssembly module", "/dist/touch.wasm", undefined, "plain", "wasm"],
     ["no worklet", "/dist/worklet.js", undefined, "ready", "audio"],
+    ["a voice that contradicts itself", undefined, "muddled.json", "ready", "audio"],
     ["no image", undefined, "noimage.json", "failed", "image"],
     ["no material", undefined, "gone.json", "failed", "material"],
     ["a broken material", undefined, "broken.json", "failed", "material"],
@@ -448,6 +449,23 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     expect(image).toEqual(
       state === "failed" ? { naturalWidth: 0, alt: "Yellow sponge" } : { naturalWidth: 256, alt: "" },
     );
+    expect(errors).toEqual([]);
+  });
+
+  test("an output faster than voices play is an error that is seen", async () => {
+    const page = await open(kTag, {
+      before: () => {
+        window.AudioContext = class extends AudioContext {
+          constructor(options?: AudioContextOptions) {
+            super({ ...options, sampleRate: 384_000 });
+          }
+        };
+      },
+    });
+    await page.waitForFunction(() => window.log.some((e) => e.n === "error"));
+    expect(await log(page, "error")).toMatchObject([
+      { type: "audio", message: "voices: sample rate is not from 1000 to 192000 Hz" },
+    ]);
     expect(errors).toEqual([]);
   });
 

@@ -11,7 +11,7 @@ import { hasBrowser, launch } from "../../testing/browser.js";
 import { COMPONENT, ROOT } from "../../tools/places.js";
 import type { TriboTouch } from "../src/element.js";
 import { violations } from "../../testing/axe.js";
-import { material, png, serve, servePage, type Site } from "./site.js";
+import { muddled, material, png, serve, servePage, type Site } from "./site.js";
 
 let site: Site;
 let browser: Browser;
@@ -129,5 +129,18 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   expect(await violations(page)).toEqual([]);
   if (process.env.TRIBO_SHOTS) await page.screenshot({ path: `${process.env.TRIBO_SHOTS}/page.png`, fullPage: true });
   expect(errors).toEqual([]);
+  await page.close();
+});
+
+test.skipIf(!hasBrowser)("the touch page says what keeps a material silent", async () => {
+  servePage(site);
+  site.pages.set("/site/a.json", JSON.stringify(muddled()));
+  const page = await browser.newPage();
+  await page.goto(`${site.root}/site/index.html`);
+  const said = (words: string) =>
+    page.waitForFunction((wanted) => document.getElementById("wrong")?.textContent === wanted, words);
+  await said("voices: speed_mm_per_s does not rise");
+  await page.getByText("Paper", { exact: true }).click();
+  await said("");
   await page.close();
 });

@@ -14,7 +14,7 @@ test("a material's image is beside it and its voices become numbers", () => {
   expect([read.height_map, read.relief_slope, read.gloss, read.roughness]).toEqual(["", 0.2, 0.04, 0.5]);
   expect(parseMaterial(material({ height_map: "h.png" }), base).height_map).toBe("https://example.org/goods/h.png");
   expect([...voiceNumbers(read)]).toEqual([
-    2, -20, 10, 10, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 150, 1, -22, 44100, 2, -0.6, 0.2, 0,
+    1, -20, 10, 10, 2, 1, 50, 1, -22, 44100, 2, -0.6, 0.2, 0, 1, 150, 1, -22, 44100, 2, -0.6, 0.2, 0,
   ]);
 });
 
@@ -26,7 +26,7 @@ test.each<[unknown, string]>([
   [material({ stiffness_n_per_mm: "soft" }), "stiffness"],
   [material({ stiffness_n_per_mm: 0 }), "stiffness"],
   [material({ viscosity_n_s_per_mm: -1 }), "viscosity"],
-  [material({ voices: [{ speed_mm_per_s: 1 }] }), "reflection"],
+  [material({ voices: [{ speed_mm_per_s: 1, level_db: 0, sample_rate_hz: 44100 }] }), "reflection"],
   [material({ voices: [{ speed_mm_per_s: 1, level_db: 0, sample_rate_hz: 44100, reflection: [1] }] }), "reflection"],
   [material({ image: 7 }), "image"],
   [material({ height_map: 7 }), "height_map"],

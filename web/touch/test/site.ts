@@ -44,6 +44,13 @@ const checker =
   (x: number, y: number): Rgb =>
     ((x / size) ^ (y / size)) & 1 ? [190, 140, 70] : [230, 200, 130];
 
+const voice = (speed: number) => ({
+  speed_mm_per_s: speed,
+  level_db: -22,
+  sample_rate_hz: 44100,
+  reflection: [-0.6, 0.2],
+});
+
 /** A material file, with what a test wants otherwise. */
 export function material(changes: object = {}): object {
   return {
@@ -56,15 +63,13 @@ export function material(changes: object = {}): object {
     method: "yule-walker",
     highpass_hz: 50,
     level_law: { level_db: -20, db_per_decade_speed: 10, db_per_decade_force: 10 },
-    voices: [50, 150].map((speed) => ({
-      speed_mm_per_s: speed,
-      level_db: -22,
-      sample_rate_hz: 44100,
-      reflection: [-0.6, 0.2],
-    })),
+    voices: [50, 150].map(voice),
     ...changes,
   };
 }
+
+/** Whose voices do not rise. */
+export const muddled = () => material({ voices: [150, 50].map(voice) });
 
 const made: Record<string, () => Body> = {
   "/sponge.png": () => png(256, 192, checker(16)),
@@ -76,6 +81,7 @@ const made: Record<string, () => Body> = {
   "/mismapped.json": () => JSON.stringify(material({ height_map: "ridges.png" })),
   "/ridges.png": () => png(96, 96, (x) => (x % 8 < 4 ? [255, 255, 255] : [0, 0, 0])),
   "/broken.json": () => '{"schema": "tribo.material/1", "stiffness_n_per_mm": "soft"}',
+  "/muddled.json": () => JSON.stringify(muddled()),
   "/noimage.json": () => JSON.stringify(material({ image: "gone.png" })),
 };
 

@@ -38,7 +38,9 @@ export interface TouchExports extends CommonExports {
   sheet_stride(sheet: number): number;
   sheet_normals(sheet: number, axis: number): Address;
   sheet_small_relief(rgba: Address, width: number, height: number, rmsSlope: number): void;
+  /** 0: voice_refusal() says why. */
   voice_create(numbers: Address, length: number, rate: number, seed: number, published: number): number;
+  voice_refusal(): Address;
   voice_destroy(voice: number): void;
   voice_set_target(voice: number, speed: number, force: number): void;
   voice_render(voice: number, out: Address, frames: number): void;
@@ -58,12 +60,13 @@ export interface LearnExports extends CommonExports {
     rate: number,
     speed: number,
     force: number,
+    channels: number,
+    bits: number,
   ): Address;
-  learn_run(learning: number, highpassHz: number): number;
+  /** 1: learn_text() is the material file; 0: it says what is wrong. */
+  learn_run(learning: number): number;
   learn_text(learning: number): Address;
-  learn_numbers(learning: number): Address;
-  learn_number_count(learning: number): number;
-  learn_found(learning: number): Address;
+  learn_warnings(learning: number): Address;
 }
 
 /** tribo.wasm: a mill without an engine. */

@@ -2,7 +2,7 @@
 // touch.wasm in Node.js: a sheet that goes to force over stiffness and back to rest, a voice that plays.
 import { expect, test } from "vitest";
 import type { TouchExports } from "../src/exports.js";
-import { doublesAt, floatsAt, lend } from "../src/memory.js";
+import { doublesAt, floatsAt, lend, textAt } from "../src/memory.js";
 import { load as loadModule } from "./load.js";
 
 const load = () => loadModule<TouchExports>("touch");
@@ -43,7 +43,7 @@ test("a voice plays what it was told and is silent at rest; numbers that are no 
   const x = await load();
   const create = (numbers: number[]) =>
     lend(x, new Float64Array(numbers), (at) => x.voice_create(at, numbers.length, 48000, 1, 0));
-  const voice = create([1, -20, 10, 10, 100, 1, -20, 48000, 1, -0.5, 0]);
+  const voice = create([1, -20, 10, 10, 1, 1, 100, 1, -20, 48000, 1, -0.5, 0]);
   const out = x.tribo_allocate(4 * 48000);
   const level = (speed: number, force: number) => {
     x.voice_set_target(voice, speed, force);
@@ -54,14 +54,18 @@ test("a voice plays what it was told and is silent at rest; numbers that are no 
   };
   expect(Math.abs(20 * Math.log10(level(100, 1)) + 20)).toBeLessThan(0.5);
   expect(level(0, 1)).toBe(0);
-  for (const numbers of [
-    [],
-    [1],
-    [1, 0, 0, 0, 100, 1, -20, 48000, 1],
-    [1, 0, 0, 0, 100, 1, -20, 48000, 1, 2, 0],
-    [1, 0, 0, 0, Number.NaN, 1, -20, 48000, 0, 0],
-    [2, 0, 0, 0, 100, 1, -20, 48000, 0, 0, 50, 1, -20, 48000, 0, 0],
-  ]) {
+  const refusals: [number[], string][] = [
+    [[], "level_law is missing"],
+    [[0, 0], "voices are none"],
+    [[0, 1, 0], "voices has an entry that is no object"],
+    [[0, 1, 1, 100, 1, -20, 48000, 1], "reflection is missing"],
+    [[0, 1, 1, 100, 1, -20, 48000, 1, 2, 0], "reflection is out of range"],
+    [[0, 1, 1, Number.NaN, 1, -20, 48000, 0, 0], "speed_mm_per_s is out of range"],
+    [[0, 2, 1, 100, 1, -20, 48000, 0, 0, 1, 50, 1, -20, 48000, 0, 0], "speed_mm_per_s does not rise"],
+    [[0, 1, 1, 100, 1, -20, 48000, 0, 0, 7], "voices are followed by more"],
+  ];
+  for (const [numbers, words] of refusals) {
     expect(create(numbers)).toBe(0);
+    expect(textAt(x, x.voice_refusal())).toBe(words);
   }
 });

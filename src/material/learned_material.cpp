@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "material/material.hpp"
+#include "material/learned_material.hpp"
 
 #include <cmath>
 
@@ -10,8 +10,7 @@ double rounded(double value, double step) {
     return std::round(value / step) / std::round(1 / step);
 }
 
-}  // namespace
-
+// Leaves as many digits as matter, so that files stay short and readable.
 void round_digits(noise::MaterialVoices& voices) {
     const auto all = [](std::vector<double>& values, double step) {
         for (double& v : values) v = rounded(v, step);
@@ -37,6 +36,27 @@ void round_digits(noise::MaterialVoices& voices) {
     voices.law.level_db = rounded(voices.law.level_db, 1e-3);
     voices.law.db_per_decade_speed = rounded(voices.law.db_per_decade_speed, 1e-3);
     voices.law.db_per_decade_force = rounded(voices.law.db_per_decade_force, 1e-3);
+}
+
+}  // namespace
+
+Material learned_material(Material m, const noise::Learned& learned, const noise::LearningOptions& options,
+                          const std::vector<RecordingSource>& recordings) {
+    m.method = options.method == noise::Method::burg ? "burg" : "yule-walker";
+    m.highpass_hz = options.highpass_hz;
+    m.voices = learned.voices;
+    round_digits(m.voices);
+    m.sources.resize(m.voices.models.size());
+    for (std::size_t n = 0; n < recordings.size(); ++n) {
+        const noise::LearnedRecording& r = learned.recordings[n];
+        RecordingSource source = recordings[n];
+        source.seconds = rounded(r.seconds, 1e-3);
+        source.peak_db = rounded(r.peak_db, 0.01);
+        source.silent_share = rounded(r.silent_share, 1e-4);
+        source.clipped_share = r.clipped_share;
+        m.sources[static_cast<std::size_t>(r.model)].push_back(std::move(source));
+    }
+    return m;
 }
 
 }  // namespace tribo::material
