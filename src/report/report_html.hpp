@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // report.html: one file that opens offline and shows a render: the part in 3D, figures, warnings, force along
 // the program and along the path, one turn of the spindle with its spectrum, the sound and its waveforms, and
-// what it all rests on. The page's own text, style and script stand in page/ and are built in; the scripts are
-// made of web/report/.
+// what it all rests on. The page's own text, style and script stand in page/ and are built in; the scripts
+// are made of web/report/.
 #pragma once
 
 #include <cstddef>

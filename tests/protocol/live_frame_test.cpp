@@ -133,7 +133,7 @@ void expect_as_stored(const Frame& frame, const std::string& name) {
     longer.insert(longer.end(), 4, 0xff);
     EXPECT_TRUE(read_frame(longer, read));
     EXPECT_EQ(meaning(read), expected);
-    for (const std::size_t at : {0, 1}) {
+    for (const std::size_t at : {0u, 1u}) {
         Bytes other = bytes;
         other[at] = 99;
         EXPECT_FALSE(read_frame(other, read));

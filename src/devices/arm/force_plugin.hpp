@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/result.hpp"
-#include "devices/force_plugin.h"
 #include "devices/arm/shared_library.hpp"
+#include "devices/force_plugin.h"
 #include "haptics/servo/servo.hpp"
 
 namespace tribo::devices {
