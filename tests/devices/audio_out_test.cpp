@@ -20,21 +20,18 @@ TEST(AudioOut, plays_or_says_why_not_and_prints_nothing) {
             frames += static_cast<long>(block.size() / 2);
         });
         if (out) {
-            EXPECT_FALSE(audio_devices().empty());
             for (int n = 0; n < 100 && frames == 0; ++n) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
             }
             EXPECT_GT(frames, 0);
             EXPECT_GE((*out)->latency_s(), 2.0 * (*out)->buffer_frames() / 48000);
             EXPECT_LT((*out)->latency_s(), 2);
-            EXPECT_GE((*out)->load(), 0);
             EXPECT_FALSE((*out)->device().empty());
         } else {
             EXPECT_TRUE(out.error().cause.starts_with("no sound: ")) << out.error().text();
             EXPECT_FALSE(out.error().remedy.empty());
         }
     }
-    audio_devices();
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

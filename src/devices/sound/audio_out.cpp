@@ -3,8 +3,6 @@
 
 #include <RtAudio.h>
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -43,40 +41,12 @@ std::unexpected<Error> no_sound(const std::string& why) {
 struct AudioOut::Stream {
     RtAudio audio;
     AudioRender render;
-    std::atomic<std::int64_t> busy_ns{0}, frames{0}, underruns{0};
 
-    static int play(void* out, void*, unsigned frames, double, RtAudioStreamStatus status, void* self) {
-        using Clock = std::chrono::steady_clock;
-        Stream& s = *static_cast<Stream*>(self);
-        if (status & RTAUDIO_OUTPUT_UNDERFLOW) s.underruns.fetch_add(1, std::memory_order_relaxed);
-        const auto start = Clock::now();
-        s.render({static_cast<float*>(out), kStereo * std::size_t{frames}});
-        const auto took = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start);
-        s.busy_ns.fetch_add(took.count(), std::memory_order_relaxed);
-        s.frames.fetch_add(frames, std::memory_order_relaxed);
+    static int play(void* out, void*, unsigned frames, double, RtAudioStreamStatus, void* self) {
+        static_cast<Stream*>(self)->render({static_cast<float*>(out), kStereo * std::size_t{frames}});
         return 0;
     }
 };
-
-std::vector<AudioDevice> audio_devices() {
-    const QuietStderr quiet;
-    std::vector<AudioDevice> devices;
-    try {
-        RtAudio audio;
-        audio.showWarnings(false);
-        for (unsigned n = 0; n < audio.getDeviceCount(); ++n) {
-            const RtAudio::DeviceInfo info = audio.getDeviceInfo(n);
-            if (!info.probed || info.outputChannels < kStereo) continue;
-            AudioDevice device{info.name, {}, info.isDefaultOutput};
-            for (const unsigned rate : info.sampleRates)
-                device.sample_rates_hz.push_back(static_cast<int>(rate));
-            devices.push_back(std::move(device));
-        }
-    } catch (const RtAudioError&) {
-        devices.clear();
-    }
-    return devices;
-}
 
 AudioOut::AudioOut() = default;
 
@@ -132,16 +102,6 @@ Result<std::unique_ptr<AudioOut>> AudioOut::open(const AudioOutOptions& options,
 double AudioOut::latency_s() const {
     const long told = stream_->audio.getStreamLatency();
     return static_cast<double>(std::max<long>(told, 2L * buffer_frames_)) / sample_rate_hz_;
-}
-
-double AudioOut::load() {
-    const auto frames = static_cast<double>(stream_->frames.exchange(0, std::memory_order_relaxed));
-    const auto busy = static_cast<double>(stream_->busy_ns.exchange(0, std::memory_order_relaxed));
-    return frames > 0 ? 1e-9 * busy * sample_rate_hz_ / frames : 0;
-}
-
-std::int64_t AudioOut::underruns() const {
-    return stream_->underruns.load(std::memory_order_relaxed);
 }
 
 }  // namespace tribo::devices

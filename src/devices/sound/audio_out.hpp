@@ -3,12 +3,10 @@
 // nothing of devices; this file knows nothing of what is rendered.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "base/result.hpp"
 
@@ -21,15 +19,6 @@ struct AudioOutOptions {
 
 // Fills interleaved stereo, all of it. Runs on the device's thread: no allocation, lock, throw or log.
 using AudioRender = std::function<void(std::span<float> interleaved)>;
-
-struct AudioDevice {
-    std::string name;
-    std::vector<int> sample_rates_hz;
-    bool is_default = false;
-};
-
-// Devices that can play stereo; none is no error. Takes up to a second; prints nothing.
-std::vector<AudioDevice> audio_devices();
 
 // A stream to the default device, from open() until it is destroyed.
 class AudioOut {
@@ -45,10 +34,6 @@ class AudioOut {
     // From render() to the loudspeaker, as far as the device tells: its own latency, or the two buffers that
     // every device has.
     double latency_s() const;
-    // Share of one processor that render() took since the last call, 0 ... 1 and more; any thread.
-    double load();
-    // Times that the device ran dry.
-    std::int64_t underruns() const;
 
   private:
     struct Stream;
