@@ -5,51 +5,12 @@
 #include <string_view>
 
 #include "base/decimal.hpp"
+#include "base/json_string.hpp"
 #include "base/math.hpp"
 #include "material/material_schema.hpp"
 
 namespace tribo::material {
 namespace {
-
-// Bytes of the UTF-8 character that `text` starts with; 0: it is none (RFC 3629).
-std::size_t character_bytes(std::string_view text) {
-    const auto byte = [&](std::size_t n) {
-        return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U;
-    };
-    const auto goes_on = [&](std::size_t n) { return (byte(n) & 0xc0U) == 0x80U; };
-    const unsigned first = byte(0), second = byte(1);
-    if (first < 0x80) return 1;
-    if (first < 0xc2 || first > 0xf4 || !goes_on(1)) return 0;
-    if (first < 0xe0) return 2;
-    // Overlong forms, surrogates, and what is beyond the last character.
-    if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
-        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90) || !goes_on(2)) {
-        return 0;
-    }
-    if (first < 0xf0) return 3;
-    return goes_on(3) ? 4 : 0;
-}
-
-void append_quoted(std::string& to, std::string_view text) {
-    constexpr std::string_view kHex = "0123456789abcdef", kReplacement = "\xef\xbf\xbd";
-    to += '"';
-    while (!text.empty()) {
-        const std::size_t bytes = character_bytes(text);
-        const char c = text[0];
-        const auto code = static_cast<unsigned char>(c);
-        if (bytes == 0) {
-            to += kReplacement;
-        } else if (c == '"' || c == '\\') {
-            to += {'\\', c};
-        } else if (code < 0x20) {
-            to += {'\\', 'u', '0', '0', kHex[code / 16U], kHex[code % 16U]};
-        } else {
-            to += text.substr(0, bytes);
-        }
-        text.remove_prefix(std::max<std::size_t>(bytes, 1));
-    }
-    to += '"';
-}
 
 void append(std::string& to, int value) {
     to += std::to_string(value);
@@ -82,12 +43,12 @@ class TextWriter {
 
     void schema(const char* schema) {
         begin("schema");
-        append_quoted(text_, schema);
+        append_json_string(text_, schema);
     }
     void text(const char* key, const std::string& value) {
         if (value.empty()) return;
         begin(key);
-        append_quoted(text_, value);
+        append_json_string(text_, value);
     }
     template <class Number>
     void number(const char* key, Number value, Range, std::optional<Absent> absent = {}) {
@@ -142,7 +103,7 @@ class TextWriter {
     void begin(const char* key) {
         if (!first_) text_ += ',';
         first_ = false;
-        append_quoted(text_, key);
+        append_json_string(text_, key);
         text_ += ':';
     }
 

@@ -11,7 +11,6 @@
 
 #include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
-#include "session/live/live_mill.hpp"
 #include "session/live/live_touch.hpp"
 #include "wasm/mill_job.hpp"
 
@@ -23,10 +22,10 @@ using namespace tribo;
 
 struct Mill {
     job::MemorySource files;  // as the page has put them
+    // Each of the three goes before those above it.
     std::unique_ptr<session::LiveMill> live;
-    std::unique_ptr<session::SingleThreadedTouch> touch;  // goes before its mill
-    double helix_deg = 0;                                 // of the job's first cutter
-    std::string material;                                 // its name; empty: the job's own
+    std::unique_ptr<session::LiveController> controller;
+    std::unique_ptr<session::SingleThreadedTouch> touch;
     std::string text;
     std::vector<std::uint8_t> frames;  // each: u32 length, u32 0, its bytes, zeros to a multiple of 8
 };
@@ -89,11 +88,15 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     };
     auto live = session::LiveMill::create(make_setup, serial_for, std::move(extras));
     if (!live) return refuse(live.error());
+    protocol::LiveSettings settings;
+    settings.helix_deg = (*live)->session().setup().cutters.front().helix_deg;
+    settings.material = material;
     mill().touch.reset();
+    mill().controller.reset();
     mill().live = std::move(*live);
-    mill().touch = std::make_unique<session::SingleThreadedTouch>(*mill().live);
-    mill().helix_deg = mill().live->session().setup().cutters.front().helix_deg;
-    mill().material = material;
+    mill().controller = std::make_unique<session::LiveController>(*mill().live, session::LiveFeelOptions{},
+                                                                  nullptr, std::move(settings));
+    mill().touch = std::make_unique<session::SingleThreadedTouch>(*mill().controller);
     mill().text = warnings;
     return true;
 }
@@ -103,53 +106,33 @@ TRIBO_EXPORT(mill_text) const char* mill_text() {
     return mill().text.c_str();
 }
 
-TRIBO_EXPORT(mill_play) void mill_play(std::uint32_t on) {
-    if (mill().live) mill().live->play(on != 0);
+// A command (protocol/live_command.hpp): its operation, and what that brings along. 1: obeyed; 0: refused,
+// mill_text() says why.
+TRIBO_EXPORT(mill_command)
+std::uint32_t mill_command(const char* op, std::uint32_t op_length, double value, std::uint32_t on,
+                           double x_mm, double y_mm, double z_mm, const char* word,
+                           std::uint32_t word_length) {
+    if (!mill().controller) return refuse(fail("no job is open", "call mill_open first").error());
+    const auto operation = protocol::find_live_operation({op, op_length});
+    if (!operation) return refuse(operation.error());
+    const protocol::LiveCommand command{
+        operation->op, value, on != 0, {x_mm, y_mm, z_mm}, text_of(word, word_length)};
+    if (auto good = protocol::check_live_command(*operation, command); !good) return refuse(good.error());
+    const auto obeyed = mill().controller->obey(command);
+    return obeyed ? 1 : refuse(obeyed.error());
 }
-TRIBO_EXPORT(mill_speed) void mill_speed(double seconds_per_second) {
-    if (mill().live) mill().live->set_speed(seconds_per_second);
+// What is set, as an engine tells a page; of an open mill.
+TRIBO_EXPORT(mill_settings) const char* mill_settings() {
+    mill().text = protocol::live_settings(mill().controller->settings());
+    return mill().text.c_str();
 }
-TRIBO_EXPORT(mill_seek) void mill_seek(double t_s) {
-    if (mill().live) mill().live->set_clock(t_s);
-}
-
-// Where a hand would have the finger, and whether there is one.
-TRIBO_EXPORT(mill_finger) void mill_finger(double x_mm, double y_mm, double z_mm, std::uint32_t down) {
-    if (mill().touch) mill().touch->lead({x_mm, y_mm, z_mm}, down != 0);
-}
-TRIBO_EXPORT(mill_feel)
-void mill_feel(double force_scale, double jnd, std::uint32_t cut_mode, std::uint32_t force,
-               std::uint32_t stopped) {
-    if (!mill().touch) return;
-    mill().touch->set({force_scale, jnd, cut_mode != 0, force != 0, stopped != 0});
-}
-
-// Overrides of feed and spindle, > 0; the helix in degrees; a material by its name, or nothing: the job's.
-// 1: done; 0: refused, mill_text() says why.
-TRIBO_EXPORT(mill_change)
-std::uint32_t mill_change(double feed_factor, double speed_factor, double helix_deg, const char* material,
-                          std::uint32_t material_length) {
-    if (!mill().live) return 0;
-    session::CutChange change;
-    change.feed_factor = feed_factor;
-    change.speed_factor = speed_factor;
-    if (helix_deg != mill().helix_deg) change.helix_deg = helix_deg;
-    const std::string name = text_of(material, material_length);
-    if (!name.empty() && name != mill().material) {
-        const auto known = milling::find_material(name);
-        if (!known) return refuse(known.error());
-        change.coefficients = known->coefficients;
-    }
-    mill().live->set_change(change);
-    return 1;
-}
-TRIBO_EXPORT(mill_helix_deg) double mill_helix_deg() {
-    return mill().helix_deg;
-}
-// The job's material, then all that are known, one a line.
+// All materials that are known, one a line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {
-    mill().text = mill().material;
-    for (const milling::Material& m : milling::materials()) mill().text += "\n" + m.name;
+    mill().text.clear();
+    for (const milling::Material& m : milling::materials()) {
+        if (!mill().text.empty()) mill().text += "\n";
+        mill().text += m.name;
+    }
     return mill().text.c_str();
 }
 

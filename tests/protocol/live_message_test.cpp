@@ -104,7 +104,7 @@ TEST(LiveMessage, TheSettingsAreSaid) {
     settings.helix_deg = 45;
     EXPECT_EQ(
         live_settings(settings),
-        R"({"op":"settings","feed_percent":100.0,"spindle_percent":100.0,"helix_deg":45.0,"force_scale":0.01,)"
+        R"({"op":"settings","feed_percent":100,"spindle_percent":100,"helix_deg":45,"force_scale":0.01,)"
         R"("jnd":0.5,"material":"al","mode":"inspect","force":true,"stopped":false})");
 }
 

@@ -263,13 +263,14 @@ TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
 // Where there is one thread: both come from what was cut in the last moments.
 TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
     const auto live = *LiveMill::create(slot, serial_for);
-    SingleThreadedTouch touch(*live);
+    LiveController controller(*live, {}, nullptr, {});
+    SingleThreadedTouch touch(controller);
     int textures = 0;
     double most_n = 0;
     live->play(true);
     for (int picture = 0; picture < 120; ++picture) {
         ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
-        touch.lead(live->state().tip_mm, true);
+        controller.finger().lead(live->state().tip_mm, true);
         touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
             protocol::LiveTexture texture;
             protocol::LiveTouch felt;

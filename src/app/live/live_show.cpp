@@ -48,9 +48,9 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
                    std::unique_ptr<LiveAudio> audio)
     : mill_(mill),
       options_(std::move(options)),
-      settings_(options_.settings),
-      told_(settings_),
-      finger_(options_.feel, std::move(arm), mill.session().stock().blank().bounds_mm().max),
+      controller_(mill, options_.feel, std::move(arm), options_.settings),
+      finger_(controller_.finger()),
+      told_(controller_.settings()),
       builder_(options_.make_setup),
       audio_(std::move(audio)) {
     for (const milling::Material& m : milling::materials()) options_.info.materials.push_back(m.name);
@@ -58,7 +58,6 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
     options_.info.max_force_n = finger_.limits().max_force_n;
     options_.info.rate_hz = options_.feel.rate_hz;
     options_.info.arm = finger_.has_arm();
-    mill_.watch([this](session::MillSession* session) { finger_.feel().set_session(session); });
     if (audio_) mill_.hear([this](session::LiveSoundNews news) { audio_->take(std::move(news)); });
     ask_for_force();
     servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
@@ -67,9 +66,7 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
 
 LiveShow::~LiveShow() {
     servo_.reset();
-    mill_.watch({});
     mill_.hear({});
-    finger_.feel().set_session(nullptr);
 }
 
 net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
@@ -101,7 +98,7 @@ Result<void> LiveShow::run(net::Server& server) {
         if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
         take_built();
-        finger_.show(scene(), mill_.state().tip_mm, frames);
+        finger_.show(controller_.scene(), mill_.state().tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
         next = std::max(next + kFrameTime, Clock::now());
         std::this_thread::sleep_until(next);
@@ -109,37 +106,16 @@ Result<void> LiveShow::run(net::Server& server) {
     return {};
 }
 
-session::LiveScene LiveShow::scene() const {
-    session::LiveScene s;
-    s.program_s = mill_.clock_s();
-    s.pace = mill_.pace();
-    s.cut_mode = settings_.cut_mode;
-    s.cutting_force = settings_.cutting_force;
-    s.stopped = settings_.stopped;
-    return s;
-}
-
 void LiveShow::ask_for_force() {
-    contact::ForceTableOptions wanted;
+    contact::ForceTableOptions wanted = controller_.table_options();
     wanted.profile = options_.profile;
-    wanted.hand_per_tool = settings_.force_scale;
-    wanted.most_jnd = settings_.jnd;
     builder_.request(mill_.change(), wanted);
-}
-
-void LiveShow::use_force() {
-    haptics::ForceScaling scaling;
-    scaling.gain = settings_.force_scale;
-    scaling.limit_n = finger_.limits().max_force_n;
-    finger_.feel().set_force(table_, scaling);
 }
 
 void LiveShow::take_built() {
     ForceBuilder::Built built = builder_.take();
     if (built.textures) finger_.feel().set_textures(*std::move(built.textures));
-    if (!built.table) return;
-    table_ = *std::move(built.table);
-    use_force();
+    if (built.table) controller_.set_force(*std::move(built.table));
 }
 
 void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames) {
@@ -168,21 +144,15 @@ void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
             options_.info.resume = event.arrival.resume;
             options_.info.resumed = event.arrival.resumed;
             server.send_text(event.client, protocol::live_server_info(options_.info));
-            server.send_text(event.client, protocol::live_settings(settings_));
+            server.send_text(event.client, protocol::live_settings(controller_.settings()));
             replay(event.client, server);
             break;
         case Kind::lost:
             server.send_text(event.client, protocol::live_lost());
             break;
-        case Kind::message: {
-            const auto command = protocol::parse_live_command(event.text);
-            if (!command) {
-                server.refuse(event.client, protocol::live_refusal(command.error()));
-            } else if (auto obeyed = obey(*command, event.client, server); !obeyed) {
-                server.send_text(event.client, protocol::live_refusal(obeyed.error()));
-            }
+        case Kind::message:
+            obey(event, server);
             break;
-        }
     }
 }
 
@@ -190,73 +160,19 @@ void LiveShow::replay(net::ClientId to, net::Server& server) {
     memory_.replay([&](std::span<const std::uint8_t> frame) { server.send(to, shared(frame)); });
 }
 
-// What changes the cut: the rows and the force are worked out again.
-Result<void> LiveShow::recut(const protocol::LiveSettings& wanted) {
-    session::CutChange change;
-    change.feed_factor = 0.01 * wanted.feed_percent;
-    change.speed_factor = 0.01 * wanted.spindle_percent;
-    if (wanted.helix_deg != options_.settings.helix_deg) change.helix_deg = wanted.helix_deg;
-    if (wanted.material != options_.settings.material) {
-        const auto material = milling::find_material(wanted.material);
-        if (!material) return std::unexpected(material.error());
-        change.coefficients = material->coefficients;
+void LiveShow::obey(const LiveInbox::Event& event, net::Server& server) {
+    const auto command = protocol::parse_live_command(event.text);
+    if (!command) return server.refuse(event.client, protocol::live_refusal(command.error()));
+    if (auto obeyed = controller_.obey(*command); !obeyed)
+        return server.send_text(event.client, protocol::live_refusal(obeyed.error()));
+    if (command->op == protocol::LiveOp::resync) replay(event.client, server);
+    if (force_changes_ != controller_.force_changes()) {
+        force_changes_ = controller_.force_changes();
+        ask_for_force();
     }
-    settings_ = wanted;
-    mill_.set_change(change);
-    ask_for_force();
-    return {};
-}
-
-Result<void> LiveShow::obey(const protocol::LiveCommand& command, net::ClientId from, net::Server& server) {
-    protocol::LiveSettings wanted = settings_;
-    Result<void> done;
-    switch (command.op) {
-        case protocol::LiveOp::play:
-            mill_.play(true);
-            break;
-        case protocol::LiveOp::pause:
-            mill_.play(false);
-            break;
-        case protocol::LiveOp::speed:
-            mill_.set_speed(command.value);
-            break;
-        case protocol::LiveOp::seek:
-            mill_.set_clock(command.value);
-            break;
-        case protocol::LiveOp::resync:
-            replay(from, server);
-            break;
-        case protocol::LiveOp::finger:
-            finger_.lead(command.position_mm, command.on);
-            break;
-        case protocol::LiveOp::mode:
-            settings_.cut_mode = command.word == "cut";
-            break;
-        case protocol::LiveOp::force:
-            settings_.cutting_force = command.on;
-            break;
-        case protocol::LiveOp::stop:
-        case protocol::LiveOp::release:
-            settings_.stopped = command.op == protocol::LiveOp::stop;
-            if (settings_.stopped) finger_.stop(scene());
-            break;
-        case protocol::LiveOp::set:
-            for (const protocol::LiveNumber& n : protocol::kLiveNumbers) {
-                if (n.key == command.word) wanted.*n.member = command.value;
-            }
-            done = recut(wanted);
-            use_force();
-            break;
-        case protocol::LiveOp::material:
-            wanted.material = command.word;
-            done = recut(wanted);
-            break;
-    }
-    if (settings_ != told_) {
-        told_ = settings_;
-        server.send_text_all(protocol::live_settings(settings_));
-    }
-    return done;
+    if (controller_.settings() == told_) return;
+    told_ = controller_.settings();
+    server.send_text_all(protocol::live_settings(told_));
 }
 
 }  // namespace tribo::app

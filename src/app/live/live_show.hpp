@@ -13,9 +13,8 @@
 #include "devices/servo/servo_thread.hpp"
 #include "net/server.hpp"
 #include "protocol/live_message.hpp"
-#include "session/live/live_finger.hpp"
+#include "session/live/live_controller.hpp"
 #include "session/live/live_memory.hpp"
-#include "session/live/live_mill.hpp"
 
 namespace tribo::app {
 
@@ -58,23 +57,21 @@ class LiveShow {
 
   private:
     void answer(const LiveInbox::Event& event, net::Server& server);
-    Result<void> obey(const protocol::LiveCommand& command, net::ClientId from, net::Server& server);
+    void obey(const LiveInbox::Event& event, net::Server& server);
     void replay(net::ClientId to, net::Server& server);
-    Result<void> recut(const protocol::LiveSettings& wanted);
     void ask_for_force();
-    void use_force();
     void take_built();
     void show_servo(net::Server& server, const protocol::FrameSink& frames);
-    session::LiveScene scene() const;
 
     session::LiveMill& mill_;
     LiveShowOptions options_;
-    protocol::LiveSettings settings_, told_;
+    session::LiveController controller_;
+    session::LiveFinger& finger_;  // the controller's
+    protocol::LiveSettings told_;
     session::LiveMemory memory_;
     LiveInbox inbox_;
-    session::LiveFinger finger_;
     ForceBuilder builder_;
-    contact::ForceTable table_;
+    int force_changes_ = 0;  // that the builder was asked for
     std::unique_ptr<LiveAudio> audio_;
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;

@@ -22,6 +22,7 @@ class LiveFinger {
     // The picture's, all that follows.
     LiveFeel& feel() { return feel_; }
     bool has_arm() const { return led_ == nullptr; }
+    double rate_hz() const { return rate_hz_; }
     const haptics::DeviceLimits& limits() const { return device_->limits(); }
     // What is wrong with the arm, in words; empty: nothing.
     std::string trouble() const { return device_->trouble(); }

@@ -17,67 +17,38 @@ constexpr std::size_t kMostStretches = 400;
 
 }  // namespace
 
-SingleThreadedTouch::SingleThreadedTouch(LiveMill& mill)
-    : mill_(mill), finger_(options_, nullptr, mill.session().stock().blank().bounds_mm().max) {
-    mill_.watch([this](MillSession* session) {
-        finger_.feel().set_session(session);
-        stretches_ = 0;
-        renewed_s_ = -1;
-    });
-}
-
-SingleThreadedTouch::~SingleThreadedTouch() {
-    mill_.watch({});
-    finger_.feel().set_session(nullptr);
-}
-
-LiveScene SingleThreadedTouch::scene() const {
-    LiveScene s;
-    s.program_s = mill_.clock_s();
-    s.pace = mill_.pace();
-    s.cut_mode = settings_.cut_mode;
-    s.cutting_force = settings_.cutting_force;
-    s.stopped = settings_.stopped;
-    return s;
-}
-
-void SingleThreadedTouch::set(const LiveTouchSettings& settings) {
-    settings_ = settings;
-    renewed_s_ = -1;
-    stretches_ = 0;
-    if (settings_.stopped) finger_.stop(scene());
-}
-
 void SingleThreadedTouch::renew() {
-    const auto all = mill_.record().rows();
-    if (all.size() == stretches_ || mill_.pace() <= 0 || now_s_ - renewed_s_ < kRenewS) return;
+    LiveMill& mill = controller_.mill();
+    const auto all = mill.record().rows();
+    // Begun anew, or another force: at once.
+    if (all.size() < stretches_ || force_changes_ != controller_.force_changes()) {
+        force_changes_ = controller_.force_changes();
+        renewed_s_ = -1;
+        stretches_ = 0;
+    }
+    if (all.size() == stretches_ || mill.pace() <= 0 || now_s_ - renewed_s_ < kRenewS) return;
     renewed_s_ = now_s_;
     stretches_ = all.size();
-    const double from = mill_.clock_s() - kBehindS * mill_.pace();
+    const double from = mill.clock_s() - kBehindS * mill.pace();
     std::size_t first = all.size() > kMostStretches ? all.size() - kMostStretches : 0;
     while (first < all.size() && all[first].end_s < from) ++first;
     const auto cut = all.subspan(first);
-    finger_.feel().set_textures(texture_map(cut, mill_.session().stock(), serial_for));
-    auto recent = force_stretches(cut, mill_.session().setup(), mill_.change());
-    in_written_time(recent, mill_.change().feed_factor);
-    contact::ForceTableOptions options;
-    options.hand_per_tool = settings_.force_scale;
-    options.most_jnd = settings_.jnd;
-    haptics::ForceScaling scaling;
-    scaling.gain = settings_.force_scale;
-    scaling.limit_n = finger_.limits().max_force_n;
-    finger_.feel().set_force(contact::build_force_table(contact::force_function(recent, options), options),
-                             scaling);
+    controller_.finger().feel().set_textures(texture_map(cut, mill.session().stock(), serial_for));
+    auto recent = force_stretches(cut, mill.session().setup(), mill.change());
+    in_written_time(recent, mill.change().feed_factor);
+    const contact::ForceTableOptions options = controller_.table_options();
+    controller_.set_force(contact::build_force_table(contact::force_function(recent, options), options));
 }
 
 void SingleThreadedTouch::tick(double dt_s, const protocol::FrameSink& frames) {
     renew();
-    finger_.show(scene(), mill_.state().tip_mm, frames);
+    LiveFinger& finger = controller_.finger();
+    finger.show(controller_.scene(), controller_.mill().state().tip_mm, frames);
     owed_s_ = std::min(owed_s_ + dt_s, kMostOwedS);
-    const double tick_s = 1 / options_.rate_hz;
+    const double tick_s = 1 / finger.rate_hz();
     for (; owed_s_ >= tick_s; owed_s_ -= tick_s) {
         now_s_ += tick_s;
-        finger_.tick(now_s_);
+        finger.tick(now_s_);
     }
 }
 

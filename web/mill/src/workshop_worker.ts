@@ -3,6 +3,7 @@
 
 import type { MillExports } from "@tribo/wasm/exports";
 import { lend, lendText, textAt } from "@tribo/wasm/memory";
+import { obey } from "@tribo/wasm/mill_command";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Command, Settings } from "@tribo/protocol/messages";
 import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
@@ -31,18 +32,7 @@ class Mill {
   private looks = 64;
   private took = 0; // ms, of the last tick
   private before = performance.now();
-  private settings: Settings = {
-    op: "settings",
-    feed_percent: 100,
-    spindle_percent: 100,
-    helix_deg: 30,
-    force_scale: 0.01,
-    jnd: 0.5,
-    material: "",
-    mode: "cut",
-    force: true,
-    stopped: false,
-  };
+  private told = ""; // settings
 
   constructor(private readonly x: MillExports) {}
 
@@ -63,42 +53,23 @@ class Mill {
     const said = textAt(x, x.mill_text());
     if (!opened) return post({ kind: "refused", why: said });
     const warnings = said.split("\n").filter(Boolean);
-    const [material = "", ...materials] = textAt(x, x.mill_materials()).split("\n");
+    const materials = textAt(x, x.mill_materials()).split("\n");
     post({ kind: "opened", job: order.job, version: this.version, warnings, materials });
-    this.settings.material = material;
-    this.settings.helix_deg = x.mill_helix_deg();
-    post({ kind: "settings", settings: this.settings });
+    this.tellSettings();
     this.before = performance.now();
   }
 
   obey(command: Command): void {
     const { x } = this;
-    if (command.op === "play" || command.op === "pause") x.mill_play(Number(command.op === "play"));
-    else if (command.op === "speed") x.mill_speed(command.value);
-    else if (command.op === "seek") x.mill_seek(command.t_s);
-    else if (command.op === "finger") x.mill_finger(...command.position_mm, Number(command.down));
-    else this.set(command);
+    if (!obey(x, command)) return post({ kind: "no", why: textAt(x, x.mill_text()) });
+    this.tellSettings();
   }
 
-  private set(command: Command): void {
-    const s = { ...this.settings };
-    if (command.op === "stop" || command.op === "release") s.stopped = command.op === "stop";
-    else if (command.op === "mode") s.mode = command.value;
-    else if (command.op === "force") s.force = command.value;
-    else if (command.op === "material") s.material = command.value;
-    else if (command.op === "set") s[command.key] = command.value;
-    else return;
-    const { x } = this;
-    const cut = (a: Settings) => [a.feed_percent, a.spindle_percent, a.helix_deg, a.material].join();
-    if (cut(s) !== cut(this.settings)) {
-      const done = lendText(x, s.material, (...name) =>
-        x.mill_change(0.01 * s.feed_percent, 0.01 * s.spindle_percent, s.helix_deg, ...name),
-      );
-      if (!done) return post({ kind: "no", why: textAt(x, x.mill_text()) });
-    }
-    x.mill_feel(s.force_scale, s.jnd, Number(s.mode === "cut"), Number(s.force), Number(s.stopped));
-    this.settings = s;
-    post({ kind: "settings", settings: s });
+  private tellSettings(): void {
+    const settings = textAt(this.x, this.x.mill_settings());
+    if (settings === this.told) return;
+    this.told = settings;
+    post({ kind: "settings", settings: JSON.parse(settings) as Settings });
   }
 
   tick(): void {

@@ -76,14 +76,21 @@ export interface MillExports extends CommonExports {
   /** 1: opened; 0: refused. mill_text() has the warnings or the reason. */
   mill_open(name: Address, nameLength: number, part: Address, partLength: number, cell: number): number;
   mill_text(): Address;
-  mill_play(on: number): void;
-  mill_speed(value: number): void;
-  mill_seek(time: number): void;
-  mill_finger(x: number, y: number, z: number, down: number): void;
-  mill_feel(scale: number, jnd: number, cutMode: number, force: number, stopped: number): void;
-  mill_change(feed: number, speed: number, helix: number, material: Address, materialLength: number): number;
-  mill_helix_deg(): number;
-  /** The job's material, then all that are known, one a line. */
+  /** An operation and what it brings along. 1: obeyed; 0: refused, mill_text() says why. */
+  mill_command(
+    op: Address,
+    opLength: number,
+    value: number,
+    on: number,
+    x: number,
+    y: number,
+    z: number,
+    word: Address,
+    wordLength: number,
+  ): number;
+  /** What is set, as an engine tells a page, as JSON; of an open mill. */
+  mill_settings(): Address;
+  /** All materials that are known, one a line. */
   mill_materials(): Address;
   /** Bytes of frames at mill_frames(); -1: mill_text() says what is wrong. */
   mill_tick(seconds: number, looks: number): number;

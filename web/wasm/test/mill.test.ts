@@ -7,6 +7,7 @@ import { expect, test } from "vitest";
 import { ROOT } from "../../tools/places.js";
 import type { MillExports, MillSoundExports } from "../src/exports.js";
 import { bytesAt, floatsAt, lend, lendText, textAt } from "../src/memory.js";
+import { obey, type MillCommand } from "../src/mill_command.js";
 import { load } from "./load.js";
 const SLOT = "G21 G90 S6000 F600\nG0 X-10 Y0 Z5\nG1 Z-2\nG1 X60\n";
 const RATE = 48000;
@@ -30,6 +31,13 @@ class Mill {
       lendText(this.x, name, (...job) => lendText(this.x, "", (...part) => this.x.mill_open(...job, ...part, cell))) ===
       1
     );
+  }
+  /** Whether it obeys; said() tells why not. */
+  command(command: MillCommand): boolean {
+    return obey(this.x, command);
+  }
+  settings(): unknown {
+    return JSON.parse(textAt(this.x, this.x.mill_settings()));
   }
   /** Frames of a tick, as bytes. */
   tick(seconds: number, looks: number): Uint8Array[] {
@@ -70,7 +78,7 @@ test("the plate comes out of the module as it does natively", async () => {
   const mill = await Mill.open();
   for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
   expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
-  mill.x.mill_seek(1e9);
+  mill.command({ op: "seek", t_s: 1e9 });
   const chunks = new Map<string, bigint>();
   const sounds: Uint8Array[] = [];
   for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
@@ -90,8 +98,8 @@ test("the plate sounds in the modules as it does natively", async () => {
   expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
   const ear = await load<MillSoundExports>("mill_sound");
   expect(ear.sound_open(RATE)).toBe(1);
-  mill.x.mill_seek(10);
-  mill.x.mill_play(1);
+  mill.command({ op: "seek", t_s: 10 });
+  mill.command({ op: "play" });
   let hash = FNV_BEGIN;
   for (let picture = 0; picture < 120; ++picture) {
     let state: DataView | undefined;
@@ -118,7 +126,7 @@ test("a second set-up mills on where the first one stopped", async () => {
   // The same slot again meets nothing: no row of a cut comes, which is frame 4.
   const rows = (job: string) => {
     expect(mill.take(job, 0.5), mill.said()).toBe(true);
-    mill.x.mill_seek(1e9);
+    mill.command({ op: "seek", t_s: 1e9 });
     return mill.tick(0, AS_MANY_AS_NEEDED).filter((frame) => frame[0] === 4).length;
   };
   expect(rows("a.toml")).toBeGreaterThan(0);
@@ -171,12 +179,12 @@ async function slotHeard(alone: boolean): Promise<number[]> {
     for (let n = 0; n < 800; ++n) heard.push(samples[2 * n]!);
   };
   follow(mill.tick(0, 1));
-  mill.x.mill_play(1);
+  mill.command({ op: "play" });
   for (let n = 0; n < 240; ++n) {
     follow(mill.tick(1 / 60, AS_MANY_AS_NEEDED));
     render();
   }
-  mill.x.mill_play(0);
+  mill.command({ op: "pause" });
   for (let n = 0; n < 60; ++n) {
     follow(mill.tick(1 / 60, AS_MANY_AS_NEEDED));
     render();
@@ -208,10 +216,10 @@ test("what is pressed into the part is pushed back", async () => {
   const tick = () => {
     for (const frame of mill.tick(1 / 60, 100)) if (frame[0] === 7) felt = new DataView(frame.buffer);
   };
-  mill.x.mill_finger(30, 0, 1, 1);
+  mill.command({ op: "finger", position_mm: [30, 0, 1], down: true });
   for (let n = 0; n < 30; ++n) tick();
   expect(felt.getUint32(56, true) & 1, "contact above the part").toBe(0);
-  mill.x.mill_finger(30, 0, -1, 1);
+  mill.command({ op: "finger", position_mm: [30, 0, -1], down: true });
   for (let n = 0; n < 60; ++n) tick();
   expect(felt.getUint32(56, true) & 1).toBe(1);
   const force = felt.getFloat32(48, true);
@@ -219,9 +227,36 @@ test("what is pressed into the part is pushed back", async () => {
   expect(force).toBeGreaterThan(0.1);
   // Held above where the hand wants it.
   expect(probe).toBeGreaterThan(-1);
-  mill.x.mill_feel(0.01, 0.5, 1, 1, 1);
+  mill.command({ op: "stop" });
   for (let n = 0; n < 10; ++n) tick();
   expect(felt.getFloat32(48, true), "force while stopped").toBe(0);
+});
+
+test("commands are obeyed or refused as an engine does", async () => {
+  const mill = await Mill.open();
+  expect(mill.command({ op: "play" })).toBe(false);
+  expect(mill.said()).toMatch(/no job is open/);
+  for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
+  expect(mill.take("plate.toml", 0.5), mill.said()).toBe(true);
+  const before = mill.settings() as { material: string };
+  expect(before).toMatchObject({ op: "settings", feed_percent: 100, mode: "cut", force: true, stopped: false });
+  expect(before.material).not.toBe("");
+  expect(mill.command({ op: "set", key: "feed_percent", value: 150 })).toBe(true);
+  expect(mill.command({ op: "material", value: "ti6al4v" })).toBe(true);
+  expect(mill.command({ op: "mode", value: "inspect" })).toBe(true);
+  const after = { ...before, feed_percent: 150, material: "ti6al4v", mode: "inspect" };
+  expect(mill.settings()).toEqual(after);
+  for (const [wrong, why] of [
+    [{ op: "set", key: "feed_percent", value: 301 }, /'feed_percent' is out of range/],
+    [{ op: "material", value: "unobtainium" }, /unobtainium/],
+    [{ op: "fly" }, /'fly' is not known/],
+    [{ op: "seek" }, /'seek' needs a number/],
+    [{ op: "mode", value: "fly" }, /'fly' is no mode/],
+  ] as const) {
+    expect(mill.command(wrong)).toBe(false);
+    expect(mill.said()).toMatch(why);
+  }
+  expect(mill.settings()).toEqual(after);
 });
 
 test("wrong files are refused with their place", async () => {

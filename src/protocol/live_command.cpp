@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "protocol/live_command.hpp"
+
+#include <cmath>
+
+#include "base/decimal.hpp"
+#include "base/json_string.hpp"
+
+namespace tribo::protocol {
+namespace {
+
+// "a, b": the names of a table.
+template <class Table>
+std::string names_of(const Table& table, auto name) {
+    std::string names;
+    for (const auto& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.*name);
+    return names;
+}
+
+Result<void> check_setting(const LiveCommand& command) {
+    if (command.word.empty() || !std::isfinite(command.value))
+        return fail("'set' needs a key and a number", "give them as key and value");
+    for (const LiveNumber& n : kLiveNumbers) {
+        if (n.key != command.word) continue;
+        if (command.value >= n.least && command.value <= n.most) return {};
+        return fail("'" + command.word + "' is out of range",
+                    "give a number from " + format_decimal(n.least) + " to " + format_decimal(n.most));
+    }
+    return fail("'" + command.word + "' cannot be set",
+                "the keys are " + names_of(kLiveNumbers, &LiveNumber::key));
+}
+
+}  // namespace
+
+Result<LiveOperation> find_live_operation(std::string_view name) {
+    for (const LiveOperation& known : kLiveOperations) {
+        if (known.name == name) return known;
+    }
+    return fail("'" + std::string(name) + "' is not known",
+                "the operations are " + names_of(kLiveOperations, &LiveOperation::name));
+}
+
+Result<void> check_live_command(const LiveOperation& operation, const LiveCommand& command) {
+    const Vec3& p = command.position_mm;
+    switch (operation.argument) {
+        case LiveArgument::number:
+            if (!std::isfinite(command.value)) return live_operation_needs(operation, "a number");
+            break;
+        case LiveArgument::place:
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+                return live_operation_needs(operation, "three numbers");
+            break;
+        case LiveArgument::setting:
+            return check_setting(command);
+        default:
+            break;
+    }
+    if (operation.op == LiveOp::mode && command.word != "cut" && command.word != "inspect")
+        return fail("'" + command.word + "' is no mode", "the modes are cut and inspect");
+    return {};
+}
+
+std::unexpected<Error> live_operation_needs(const LiveOperation& operation, const char* what) {
+    return fail("'" + std::string(operation.name) + "' needs " + what,
+                std::string("give it as ") + operation.key);
+}
+
+std::string live_settings(const LiveSettings& settings) {
+    std::string json = R"({"op":"settings")";
+    const auto key = [&](std::string_view name) {
+        json += ',';
+        append_json_string(json, name);
+        json += ':';
+    };
+    const auto flag = [&](std::string_view name, bool on) {
+        key(name);
+        json += on ? "true" : "false";
+    };
+    for (const LiveNumber& n : kLiveNumbers) {
+        key(n.key);
+        append_decimal(json, settings.*n.member);
+    }
+    key("material");
+    append_json_string(json, settings.material);
+    key("mode");
+    append_json_string(json, settings.cut_mode ? "cut" : "inspect");
+    flag("force", settings.cutting_force);
+    flag("stopped", settings.stopped);
+    return json + '}';
+}
+
+}  // namespace tribo::protocol

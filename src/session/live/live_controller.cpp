@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_controller.hpp"
+
+#include <tuple>
+#include <utility>
+
+#include "milling/tool/materials.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Of the settings, what changes the cut.
+auto cut_of(const protocol::LiveSettings& s) {
+    return std::tie(s.feed_percent, s.spindle_percent, s.helix_deg, s.material);
+}
+
+}  // namespace
+
+LiveController::LiveController(LiveMill& mill, const LiveFeelOptions& options,
+                               std::unique_ptr<haptics::Device> arm, protocol::LiveSettings settings)
+    : mill_(mill),
+      job_settings_(std::move(settings)),
+      settings_(job_settings_),
+      finger_(options, std::move(arm), mill.session().stock().blank().bounds_mm().max) {
+    mill_.watch([this](MillSession* session) { finger_.feel().set_session(session); });
+}
+
+LiveController::~LiveController() {
+    mill_.watch({});
+    finger_.feel().set_session(nullptr);
+}
+
+LiveScene LiveController::scene() const {
+    LiveScene s;
+    s.program_s = mill_.clock_s();
+    s.pace = mill_.pace();
+    s.cut_mode = settings_.cut_mode;
+    s.cutting_force = settings_.cutting_force;
+    s.stopped = settings_.stopped;
+    return s;
+}
+
+Result<void> LiveController::obey(const protocol::LiveCommand& command) {
+    using protocol::LiveOp;
+    protocol::LiveSettings wanted = settings_;
+    switch (command.op) {
+        case LiveOp::play:
+        case LiveOp::pause:
+            mill_.play(command.op == LiveOp::play);
+            break;
+        case LiveOp::speed:
+            mill_.set_speed(command.value);
+            break;
+        case LiveOp::seek:
+            mill_.set_clock(command.value);
+            break;
+        case LiveOp::resync:
+            break;
+        case LiveOp::finger:
+            finger_.lead(command.position_mm, command.on);
+            break;
+        case LiveOp::mode:
+            wanted.cut_mode = command.word == "cut";
+            break;
+        case LiveOp::force:
+            wanted.cutting_force = command.on;
+            break;
+        case LiveOp::stop:
+        case LiveOp::release:
+            wanted.stopped = command.op == LiveOp::stop;
+            break;
+        case LiveOp::set:
+            for (const protocol::LiveNumber& n : protocol::kLiveNumbers) {
+                if (n.key == command.word) wanted.*n.member = command.value;
+            }
+            break;
+        case LiveOp::material:
+            wanted.material = command.word;
+            break;
+    }
+    return set(wanted);
+}
+
+Result<void> LiveController::set(const protocol::LiveSettings& wanted) {
+    const bool recut = cut_of(wanted) != cut_of(settings_);
+    const bool rescaled = wanted.force_scale != settings_.force_scale || wanted.jnd != settings_.jnd;
+    if (recut) {
+        CutChange change;
+        change.feed_factor = 0.01 * wanted.feed_percent;
+        change.speed_factor = 0.01 * wanted.spindle_percent;
+        if (wanted.helix_deg != job_settings_.helix_deg) change.helix_deg = wanted.helix_deg;
+        if (wanted.material != job_settings_.material) {
+            const auto material = milling::find_material(wanted.material);
+            if (!material) return std::unexpected(material.error());
+            change.coefficients = material->coefficients;
+        }
+        mill_.set_change(change);
+    }
+    settings_ = wanted;
+    if (recut || rescaled) ++force_changes_;
+    if (rescaled) use_force();
+    // Before the next picture shows it.
+    if (settings_.stopped) finger_.stop(scene());
+    return {};
+}
+
+contact::ForceTableOptions LiveController::table_options() const {
+    contact::ForceTableOptions options;
+    options.hand_per_tool = settings_.force_scale;
+    options.most_jnd = settings_.jnd;
+    return options;
+}
+
+void LiveController::set_force(contact::ForceTable table) {
+    table_ = std::move(table);
+    use_force();
+}
+
+void LiveController::use_force() {
+    haptics::ForceScaling scaling;
+    scaling.gain = settings_.force_scale;
+    scaling.limit_n = finger_.limits().max_force_n;
+    finger_.feel().set_force(table_, scaling);
+}
+
+}  // namespace tribo::session

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What the commands of a page do to the mill, the finger and the settings.
+#include "session/live/live_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include "field/shape/box_shape.hpp"
+#include "milling/tool/materials.hpp"
+#include "protocol/live_message.hpp"
+
+namespace tribo::session {
+namespace {
+
+Result<MillSetup> slot() {
+    MillSetup s;
+    milling::Cutter cutter;
+    cutter.diameter_mm = 8;
+    cutter.length_mm = 20;
+    cutter.helix_deg = 35;
+    s.cutters = {cutter};
+    s.coefficients = milling::find_material("al7075-t6")->coefficients;
+    const Box3 blank{{0, 0, -8}, {40, 20, 0}};
+    s.blank = std::make_unique<field::BoxShape>(blank);
+    s.blank_volume_mm3 = blank.volume();
+    s.cell_mm = 1;
+    motion::Move move;
+    move.feed_mm_per_min = 750;
+    move.start.tip_mm = {-5, 10, -2};
+    move.end.tip_mm = {45, 10, -2};
+    s.moves = {move};
+    s.cutter_of_move = {0};
+    s.rpm_of_move = {6000};
+    return s;
+}
+
+class Controlled : public testing::Test {
+  protected:
+    static protocol::LiveSettings job_settings() {
+        protocol::LiveSettings s;
+        s.helix_deg = 35;
+        s.material = "al7075-t6";
+        return s;
+    }
+    Result<void> say(std::string_view text) {
+        const auto command = protocol::parse_live_command(text);
+        if (!command) return std::unexpected(command.error());
+        return controller.obey(*command);
+    }
+
+    std::unique_ptr<LiveMill> mill = *LiveMill::create(slot, serial_for);
+    LiveController controller{*mill, {}, nullptr, job_settings()};
+};
+
+TEST_F(Controlled, TheClockObeys) {
+    ASSERT_TRUE(say(R"({"op":"play"})"));
+    EXPECT_TRUE(mill->playing());
+    ASSERT_TRUE(say(R"({"op":"speed","value":2.5})"));
+    EXPECT_EQ(controller.scene().pace, 2.5);
+    ASSERT_TRUE(say(R"({"op":"seek","t_s":1.5})"));
+    EXPECT_EQ(controller.scene().program_s, 1.5);
+    ASSERT_TRUE(say(R"({"op":"pause"})"));
+    EXPECT_EQ(controller.scene().pace, 0);
+    EXPECT_EQ(controller.settings(), job_settings());
+    EXPECT_EQ(controller.force_changes(), 0);
+}
+
+TEST_F(Controlled, TheCutIsChangedAgainstTheJobs) {
+    ASSERT_TRUE(say(R"({"op":"set","key":"feed_percent","value":150})"));
+    ASSERT_TRUE(say(R"({"op":"set","key":"spindle_percent","value":50})"));
+    ASSERT_TRUE(say(R"({"op":"set","key":"helix_deg","value":45})"));
+    ASSERT_TRUE(say(R"({"op":"material","value":"ti6al4v"})"));
+    EXPECT_EQ(controller.force_changes(), 4);
+    EXPECT_EQ(mill->change().feed_factor, 1.5);
+    EXPECT_EQ(mill->change().speed_factor, 0.5);
+    EXPECT_EQ(mill->change().helix_deg, 45);
+    EXPECT_EQ(mill->change().coefficients->ktc, milling::find_material("ti6al4v")->coefficients.ktc);
+    for (const char* back :
+         {R"({"op":"set","key":"feed_percent","value":100})",
+          R"({"op":"set","key":"spindle_percent","value":100})",
+          R"({"op":"set","key":"helix_deg","value":35})", R"({"op":"material","value":"al7075-t6"})"})
+        ASSERT_TRUE(say(back));
+    EXPECT_TRUE(mill->change().none());
+    EXPECT_EQ(controller.settings(), job_settings());
+}
+
+TEST_F(Controlled, WhatIsRefusedChangesNothing) {
+    for (const char* text :
+         {R"({"op":"material","value":"unobtainium"})", R"({"op":"set","key":"feed_percent","value":301})",
+          R"({"op":"set","key":"mass","value":1})", R"({"op":"mode","value":"fly"})"})
+        EXPECT_FALSE(say(text)) << text;
+    EXPECT_EQ(controller.settings(), job_settings());
+    EXPECT_TRUE(mill->change().none());
+    EXPECT_EQ(controller.force_changes(), 0);
+}
+
+TEST_F(Controlled, TheFingerAndItsForceObey) {
+    ASSERT_TRUE(say(R"({"op":"mode","value":"inspect"})"));
+    ASSERT_TRUE(say(R"({"op":"force","value":false})"));
+    ASSERT_TRUE(say(R"({"op":"stop"})"));
+    EXPECT_FALSE(controller.scene().cut_mode);
+    EXPECT_FALSE(controller.scene().cutting_force);
+    EXPECT_TRUE(controller.scene().stopped);
+    EXPECT_EQ(controller.force_changes(), 0);
+    ASSERT_TRUE(say(R"({"op":"release"})"));
+    EXPECT_FALSE(controller.scene().stopped);
+    ASSERT_TRUE(say(R"({"op":"set","key":"force_scale","value":0.5})"));
+    ASSERT_TRUE(say(R"({"op":"set","key":"jnd","value":2})"));
+    EXPECT_EQ(controller.table_options().hand_per_tool, 0.5);
+    EXPECT_EQ(controller.table_options().most_jnd, 2);
+    EXPECT_EQ(controller.force_changes(), 2);
+    EXPECT_TRUE(mill->change().none());
+    ASSERT_TRUE(say(R"({"op":"finger","position_mm":[20,4,-1],"down":true})"));
+    protocol::LiveTouch touch;
+    for (int n = 0; n < 1000; ++n) {
+        if (n % 16 == 0)
+            controller.finger().show(controller.scene(), {},
+                                     [&](auto frame) { (void)protocol::read_frame(frame, touch); });
+        controller.finger().tick(1e-3 * n);
+    }
+    EXPECT_TRUE(touch.hand);
+    EXPECT_GT(touch.force_n.z, 0.1);
+}
+
+}  // namespace
+}  // namespace tribo::session
