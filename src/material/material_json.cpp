@@ -13,6 +13,7 @@ namespace {
 
 std::vector<std::string_view> keys_of(const std::vector<Field>& fields) {
     std::vector<std::string_view> keys;
+    keys.reserve(fields.size());
     for (const Field& field : fields) keys.push_back(field.key);
     return keys;
 }

@@ -57,7 +57,7 @@ AudioOut::~AudioOut() {
         if (stream_->audio.isStreamRunning()) stream_->audio.abortStream();
         if (stream_->audio.isStreamOpen()) stream_->audio.closeStream();
     } catch (const RtAudioError&) {
-        // The device has gone already.
+        return;  // the device has gone already
     }
 }
 

@@ -139,7 +139,7 @@ double JsonSection::number(std::string_view key, Range range, std::optional<doub
     return in_range(key, *value, range) ? value->get<double>() : range.max;
 }
 
-std::string JsonSection::text(std::string_view key, std::optional<std::string> otherwise,
+std::string JsonSection::text(std::string_view key, const std::optional<std::string>& otherwise,
                               std::size_t longest) {
     const Json* value = find(key);
     if (value == nullptr) {
@@ -191,6 +191,7 @@ std::vector<std::vector<double>> JsonSection::tables(std::string_view key, Range
         return {};
     }
     std::vector<std::vector<double>> tables;
+    tables.reserve(value->size());
     for (std::size_t n = 0; n < value->size(); ++n) {
         tables.push_back(
             numbers_of(std::string(key) + "[" + std::to_string(n) + "]", (*value)[n], range, longest));

@@ -29,7 +29,7 @@ class JsonSection {
 
     bool has(std::string_view key) const;
     double number(std::string_view key, Range range, std::optional<double> otherwise = {});
-    std::string text(std::string_view key, std::optional<std::string> otherwise = {},
+    std::string text(std::string_view key, const std::optional<std::string>& otherwise = {},
                      std::size_t longest = 10'000);
     std::vector<double> numbers(std::string_view key, Range range, std::size_t most);
     // An array of at most `most` arrays of numbers, each as numbers() takes them with `longest`.

@@ -22,7 +22,8 @@ constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                    "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
 constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
-constexpr std::array kPathKinds{"keyframes"sv, "gcode"sv, "apt"sv};
+constexpr std::array kPathKinds{std::pair{"keyframes"sv, PathKind::keyframes},
+                                std::pair{"gcode"sv, PathKind::gcode}, std::pair{"apt"sv, PathKind::apt}};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
 constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
@@ -110,17 +111,15 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[path]", kPathKeys);
     JobPath path;
     std::string_view kind;
-    for (std::size_t i = 0; i < kPathKinds.size(); ++i) {
-        if (!section.has(kPathKinds[i])) continue;
+    for (const auto& [key, of_key] : kPathKinds) {
+        if (!section.has(key)) continue;
         if (!kind.empty()) {
-            section.fail(
-                kPathKinds[i],
-                "[path] has both '" + std::string(kind) + "' and '" + std::string(kPathKinds[i]) + "'",
-                "keep one of them");
+            section.fail(key, "[path] has both '" + std::string(kind) + "' and '" + std::string(key) + "'",
+                         "keep one of them");
             return path;
         }
-        kind = kPathKinds[i];
-        path.kind = static_cast<PathKind>(i);
+        kind = key;
+        path.kind = of_key;
         path.file = section.required_path(kind);
     }
     if (kind.empty()) {

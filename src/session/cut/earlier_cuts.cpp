@@ -38,7 +38,7 @@ EarlierCuts cuts_of(const MillSetup& setup) {
             }
         }
         if (move.kind == motion::MoveKind::dwell) continue;
-        cuts.moves.push_back(std::move(move));
+        cuts.moves.push_back(move);
         cuts.cutter_of_move.push_back(setup.cutter_of_move[n]);
     }
     return cuts;

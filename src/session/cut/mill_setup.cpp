@@ -141,18 +141,17 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             return fail_at(program.source, move.line, 0, "the spindle has no speed here",
                            "add an S word to the program or spindle_rpm to [process]");
         }
-        const auto add = [&](motion::Move piece) {
-            setup.moves.push_back(std::move(piece));
+        const auto add = [&](const motion::Move& piece) {
+            setup.moves.push_back(piece);
             setup.cutter_of_move.push_back(*cutter);
             setup.rpm_of_move.push_back(rpm);
         };
-        for (motion::Move& piece : motion::to_elementary(move)) {
+        for (const motion::Move& piece : motion::to_elementary(move)) {
             if (!options.longest_piece_mm) {
-                add(std::move(piece));
+                add(piece);
                 continue;
             }
-            for (motion::Move& part : motion::in_pieces(piece, *options.longest_piece_mm))
-                add(std::move(part));
+            for (const motion::Move& part : motion::in_pieces(piece, *options.longest_piece_mm)) add(part);
         }
     }
     auto times = motion::schedule(setup.moves, setup.timing);
