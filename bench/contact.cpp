@@ -168,7 +168,7 @@ Stroke one_stroke(const field::CarvedField& field, double edge_mm, double radius
         const Vec3 probe = probe_at(kTickS * static_cast<double>(n), edge_mm, radius_mm);
         const std::uint64_t before = clock_ticks();
         const std::uint64_t between = clock_ticks();
-        const haptics::Contact c = contact.update(probe);
+        const haptics::ProbeContact c = contact.update(probe);
         const std::uint64_t after = clock_ticks();
         keep(c);
         empty.push_back(scale * static_cast<double>(between - before));

@@ -16,7 +16,7 @@ constexpr int kNodes = 512;
 constexpr double kFrameS = 1.0 / 60;
 
 // A contact that moves, so that its tiles never settle.
-elastic::Contact moving_contact(double radius_mm, int frame) {
+elastic::ContactEllipse moving_contact(double radius_mm, int frame) {
     return {kNodes / 2.0 + frame % 2, kNodes / 2.0, radius_mm, radius_mm, 0, 1 + 0.01 * (frame % 7), 0};
 }
 
@@ -46,7 +46,7 @@ FrameCost frame_cost(double radius_mm) {
 double picture_s(const elastic::Finish* finish) {
     elastic::Sheet sheet({kNodes, kNodes, 80.0 / kNodes});
     sheet.set_material({1.4, 0});
-    elastic::Contact contact;
+    elastic::ContactEllipse contact;
     contact.x_mm = contact.y_mm = 40;
     contact.force_n = 1;
     sheet.press({&contact, 1});

@@ -29,7 +29,7 @@ std::unique_ptr<net::Server> start(bool tls, std::atomic<net::ClientId>& newest)
         options.tls = net::make_tls_context({pair.certificate, pair.key, "", ""})->context;
     }
     net::ServerHandlers handlers;
-    handlers.came = [&newest](net::ClientId id, const net::Arrival&) { newest = id; };
+    handlers.on_connect = [&newest](net::ClientId id, const net::ResumeInfo&) { newest = id; };
     return *net::Server::start(options, std::move(handlers));
 }
 

@@ -68,7 +68,7 @@ set(TRIBO_TOUCH_HEADERS
     elastic/sheet.hpp
     elastic/picture.hpp
     noise/play/friction_voice.hpp
-    elastic/contact.hpp
+    elastic/contact_ellipse.hpp
     elastic/pressure.hpp
     elastic/sheet_kernels.hpp
     elastic/small_relief.hpp

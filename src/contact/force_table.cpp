@@ -48,7 +48,7 @@ std::size_t harmonics_worth_keeping(std::span<const ForceStretch> stretches, con
         const double base_hz = s.rate_rad_per_s / math::kTwoPi * s.spectrum.order_step;
         const std::size_t most = std::min(s.spectrum.harmonics.size(), ForceTable::kMostHarmonics + 1);
         for (std::size_t n = most; n-- > keep + 1;) {
-            if (carried_share(base_hz * static_cast<double>(n), o.fastest_hz) <= 0) continue;
+            if (vibration_gain(base_hz * static_cast<double>(n), o.fastest_hz) <= 0) continue;
             const ForceHarmonic& h = s.spectrum.harmonics[n];
             const double size = 2 * std::sqrt(std::norm(h.x) + std::norm(h.y) + std::norm(h.z));
             if (size * o.hand_per_tool < o.profile.vibration_floor_n) continue;
@@ -61,7 +61,7 @@ std::size_t harmonics_worth_keeping(std::span<const ForceStretch> stretches, con
 
 }  // namespace
 
-double carried_share(double frequency_hz, double rate_hz) {
+double vibration_gain(double frequency_hz, double rate_hz) {
     return std::clamp((kNoShare - frequency_hz / rate_hz) / (kNoShare - kFullShare), 0.0, 1.0);
 }
 
@@ -71,7 +71,7 @@ bool ForceTable::force_at(double t_s, double rate_hz, Cursor& cursor, Vec3& forc
     const ForcePiece& p = pieces_[piece];
     const double base_hz = p.rate_rad_per_s * p.order_step / math::kTwoPi;
     std::size_t count = 0;
-    while (count < harmonics() && carried_share(base_hz * static_cast<double>(count + 1), rate_hz) > 0)
+    while (count < harmonics() && vibration_gain(base_hz * static_cast<double>(count + 1), rate_hz) > 0)
         ++count;
     std::array<double, kMean + kPerHarmonic * kMostHarmonics> row;
     if (!table_.look_up(t_s, std::span(row).first(kMean + kPerHarmonic * count), cursor)) return false;
@@ -84,7 +84,7 @@ bool ForceTable::force_at(double t_s, double rate_hz, Cursor& cursor, Vec3& forc
             const double turned = re * turn_re - im * turn_im;
             im = re * turn_im + im * turn_re;
             re = turned;
-            const double share = 2 * carried_share(base_hz * static_cast<double>(n + 1), rate_hz);
+            const double share = 2 * vibration_gain(base_hz * static_cast<double>(n + 1), rate_hz);
             const double* c = row.data() + kMean + kPerHarmonic * n;
             sum += share * Vec3{c[0] * re - c[3] * im, c[1] * re - c[4] * im, c[2] * re - c[5] * im};
         }

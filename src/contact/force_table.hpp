@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The cutting force along a path, pre-computed: the spectrum of every turn at knots placed by what the hand
-// can tell apart (the paper's look-up table, section 2 and 4.1, over the path instead of over its
-// parameters). A servo looks a spectrum up and sums the harmonics that its rate carries, so nothing aliases.
+// Precomputed cutting force along a path: force spectra at knots whose spacing follows the just noticeable
+// difference of the hand (the look-up table of the paper, sections 2 and 4.1, over the path instead of over
+// its parameters). A servo looks up a spectrum and sums only the harmonics below its rate: no aliasing.
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace tribo::contact {
 
-// One stretch of the cut, in the order of time: its spectrum holds in its middle. Frame: the tool's axes in
-// the stock's frame.
+// One interval of the cut. The spectrum holds at its middle. x, y, z are the axes of the tool in the frame of
+// the stock.
 struct ForceStretch {
     double start_s = 0, end_s = 0;
     double phase_rad = 0;       // spindle angle at start_s, datum of ForceSpectrum
@@ -23,9 +23,9 @@ struct ForceStretch {
     ForceSpectrum spectrum;
 };
 
-// What holds throughout a piece of the table.
+// Constants of one piece of the table.
 struct ForcePiece {
-    double phase_rad = 0;       // where the piece begins
+    double phase_rad = 0;       // at the start of the piece
     double rate_rad_per_s = 0;  // of the spindle
     double order_step = 1;      // of the spectrum
 };
@@ -37,14 +37,14 @@ class ForceTable {
     static constexpr std::size_t kMostHarmonics = 16;
 
     ForceTable() = default;
-    // `pieces` has one entry per piece of the table and lives in the table's owner or in `owner`.
+    // `pieces` has one entry per piece of the table. `owner` keeps its memory alive.
     ForceTable(PerceptualTable table, std::span<const ForcePiece> pieces,
                std::shared_ptr<const void> owner = {})
         : table_(std::move(table)), pieces_(pieces), owner_(std::move(owner)) {}
 
     struct Cursor : PerceptualTable::Cursor {};
-    // Force on the tool at a time of the program, stock frame: the mean, and the harmonics below 0.35 of
-    // `rate_hz` in full, fading to none at 0.45. False where nothing is cut. Real-time safe.
+    // Force on the tool at a program time, stock frame: the mean plus the harmonics, each times its
+    // vibration_gain(). False where nothing is cut. Real-time safe.
     bool force_at(double t_s, double rate_hz, Cursor& cursor, Vec3& force_n) const noexcept;
 
     const PerceptualTable& table() const { return table_; }
@@ -58,13 +58,13 @@ class ForceTable {
     std::shared_ptr<const void> owner_;
 };
 
-// Share of a vibration of `frequency_hz` that a loop at `rate_hz` carries: 1 up to 0.35 of the rate, 0 from
-// 0.45 on.
-double carried_share(double frequency_hz, double rate_hz);
+// Gain of a vibration in a servo loop at `rate_hz`, against aliasing: 1 up to 0.35 of the rate, fading to 0
+// at 0.45 of the rate.
+double vibration_gain(double frequency_hz, double rate_hz);
 
-// The stretches as a function of time: straight between their middles, pieces split where the cut pauses, the
-// spindle or its teeth change, or the force jumps by more than kJumpJnd. Harmonics are left out that no servo
-// carries (fastest_hz) or that nobody feels.
+// The force as a function of time, linear between the middles of the stretches. A new piece begins where the
+// cut pauses, the spindle speed or the tooth spacing changes, or the force jumps by more than kJumpJnd.
+// Harmonics above the fastest servo rate (fastest_hz) and harmonics that cannot be felt are left out.
 struct ForceFunction {
     DenseFunction dense;
     std::vector<ForcePiece> pieces;
@@ -72,8 +72,8 @@ struct ForceFunction {
 inline constexpr double kJumpJnd = 4;
 struct ForceTableOptions {
     JndProfile profile;
-    double hand_per_tool = 0.01;  // newtons at the hand per newton at the tool: floors are the hand's
-    double fastest_hz = 10'000;   // servo that the table may be played on
+    double hand_per_tool = 0.01;  // newtons at the hand per newton at the tool
+    double fastest_hz = 10'000;   // fastest servo rate that plays the table
     double most_jnd = kInaudibleJnd;
 };
 ForceFunction force_function(std::span<const ForceStretch> stretches, const ForceTableOptions& options);

@@ -5,7 +5,7 @@
 // thread, no allocation.
 #pragma once
 
-#include "elastic/contact.hpp"
+#include "elastic/contact_ellipse.hpp"
 
 namespace tribo::elastic {
 

@@ -48,7 +48,7 @@ class Chord {
 };
 
 // The share of the way to P / K that one step covers.
-double share_of(const Material& m, double duration_s, TimeScheme scheme) {
+double share_of(const SheetMaterial& m, double duration_s, TimeScheme scheme) {
     const double k = m.stiffness_n_per_mm, nu = m.viscosity_n_s_per_mm;
     if (nu <= 0) return 1;
     if (scheme == TimeScheme::exact) return 1 - math::exp(-duration_s * k / nu);
@@ -59,7 +59,7 @@ double share_of(const Material& m, double duration_s, TimeScheme scheme) {
 
 }  // namespace
 
-Result<void> check(const Material& m) {
+Result<void> check(const SheetMaterial& m) {
     if (!(m.stiffness_n_per_mm >= 1e-3 && m.stiffness_n_per_mm <= 1e6)) {
         return fail("the stiffness is not between 0.001 and 1000000 N/mm", "give one of 1 to 10");
     }
@@ -97,7 +97,7 @@ void Sheet::wake_all() {
     }
 }
 
-void Sheet::set_material(const Material& material) {
+void Sheet::set_material(const SheetMaterial& material) {
     assert(check(material));
     levels_.clear();
     palette_[0] = material;
@@ -105,7 +105,7 @@ void Sheet::set_material(const Material& material) {
     wake_all();
 }
 
-void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const Material, 256> palette) {
+void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const SheetMaterial, 256> palette) {
     const auto width = static_cast<std::size_t>(size_.width);
     assert(levels.size() == width * static_cast<std::size_t>(size_.height));
     levels_.assign(heights_.values.size(), 0);
@@ -143,7 +143,7 @@ void Sheet::clear_pressure() {
 }
 
 // The tiles that `reach` half axes of the contact's box meet, in tiles.
-NodeRect Sheet::tiles_under(const Contact& c, double reach) const {
+NodeRect Sheet::tiles_under(const ContactEllipse& c, double reach) const {
     double sine = 0, cosine = 0;
     math::sincos(c.angle_rad, sine, cosine);
     const double half_x = reach * math::hypot(c.half_width_mm * cosine, c.half_height_mm * sine);
@@ -160,7 +160,7 @@ NodeRect Sheet::tiles_under(const Contact& c, double reach) const {
     return {x0, y0, x1 - x0 + 1, y1 - y0 + 1};
 }
 
-void Sheet::press_default(const Contact& c, bool over) {
+void Sheet::press_default(const ContactEllipse& c, bool over) {
     const NodeRect tiles = tiles_under(c, kReach);
     double sine = 0, cosine = 0;
     math::sincos(c.angle_rad, sine, cosine);
@@ -204,7 +204,7 @@ void Sheet::press_default(const Contact& c, bool over) {
     }
 }
 
-void Sheet::press_published(const Contact& c) {
+void Sheet::press_published(const ContactEllipse& c) {
     const double radius_mm = c.half_width_mm, spacing = size_.spacing_mm;
     for (int y = 0; y < size_.height; ++y) {
         const double dy = (y + 0.5) * spacing - c.y_mm;
@@ -219,9 +219,9 @@ void Sheet::press_published(const Contact& c) {
     for (std::uint8_t& flag : flags_) flag |= kPressed | kMoving;
 }
 
-void Sheet::press(std::span<const Contact> contacts, const PressOptions& options) {
+void Sheet::press(std::span<const ContactEllipse> contacts, const PressOptions& options) {
     touching_.clear();
-    for (const Contact& c : contacts) {
+    for (const ContactEllipse& c : contacts) {
         if (touches(c)) touching_.push_back(c);
         // By default only the force counts, not how long it has lasted.
         if (touches(c) && !options.as_published) touching_.back().held_s = 0;
@@ -230,7 +230,7 @@ void Sheet::press(std::span<const Contact> contacts, const PressOptions& options
     std::swap(contacts_, touching_);
     options_ = options;
     clear_pressure();
-    for (const Contact& c : contacts_) {
+    for (const ContactEllipse& c : contacts_) {
         if (options.as_published) {
             press_published(c);
         } else {

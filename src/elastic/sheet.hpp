@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "elastic/contact.hpp"
+#include "elastic/contact_ellipse.hpp"
 #include "elastic/pressure.hpp"
 #include "elastic/sheet_kernels.hpp"
 
@@ -28,12 +28,12 @@ struct SheetSize {
     double spacing_mm = 0;      // from node to node, > 0
 };
 
-struct Material {
+struct SheetMaterial {
     double stiffness_n_per_mm = 4;      // K: force over displacement, 1e-3..1e6
     double viscosity_n_s_per_mm = 0.3;  // nu: 0..1e6; nu / K is the time to 63 % of the way
 };
 // Refuses numbers outside of the ranges above.
-Result<void> check(const Material& material);
+Result<void> check(const SheetMaterial& material);
 
 enum class TimeScheme {
     exact,           // E += (P / K - E) (1 - e^(-Ts K / nu)): the same at any frame time
@@ -59,13 +59,13 @@ class Sheet {
     explicit Sheet(SheetSize size);
 
     // One material everywhere. It is in range (asserted).
-    void set_material(const Material& material);
+    void set_material(const SheetMaterial& material);
     // One that differs: levels of width x height nodes, row by row, and what each level means.
-    void set_materials(std::span<const std::uint8_t> levels, std::span<const Material, 256> palette);
+    void set_materials(std::span<const std::uint8_t> levels, std::span<const SheetMaterial, 256> palette);
 
     // What presses from now on; pressures of several contacts add up. Contacts that do not touch()
     // count as none. Costs nothing when nothing changed.
-    void press(std::span<const Contact> contacts, const PressOptions& options = {});
+    void press(std::span<const ContactEllipse> contacts, const PressOptions& options = {});
     // Lets `duration_s` pass; not above 0 or not finite: nothing happens. False: nothing moves any more.
     bool step(double duration_s, TimeScheme scheme = TimeScheme::exact);
     // Back to exact rest, pressed by nothing.
@@ -112,9 +112,9 @@ class Sheet {
     }
     void wake_all();
     void clear_pressure();
-    NodeRect tiles_under(const Contact& contact, double reach) const;
-    void press_default(const Contact& contact, bool over);
-    void press_published(const Contact& contact);
+    NodeRect tiles_under(const ContactEllipse& contact, double reach) const;
+    void press_default(const ContactEllipse& contact, bool over);
+    void press_published(const ContactEllipse& contact);
     void step_run(int tile_x, int tiles, int tile_y, const float* shares);
     void settle(int tile_x, int tile_y, const TileMotion& motion);
     void relight_run(int tile_x, int tiles, int tile_y);
@@ -126,9 +126,9 @@ class Sheet {
     Plane heights_{0}, pressures_{kSkew}, normals_x_{2 * kSkew}, normals_y_{3 * kSkew};
     std::vector<std::uint8_t> flags_;   // of tiles
     std::vector<std::uint8_t> levels_;  // empty: one material
-    std::array<Material, 256> palette_{};
+    std::array<SheetMaterial, 256> palette_{};
     std::array<float, 256> compliance_mm_per_n_{};
-    std::vector<Contact> contacts_, touching_;
+    std::vector<ContactEllipse> contacts_, touching_;
     PressOptions options_;
 };
 

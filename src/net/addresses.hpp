@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What this machine is called by others, and what addresses mean.
+// Names and addresses of this machine, and tests of addresses.
 #pragma once
 
 #include <string>
@@ -8,22 +8,22 @@
 
 namespace tribo::net {
 
-// An IPv4 or IPv6 address in digits, without brackets or a port.
+// Whether the text is a numeric IPv4 or IPv6 address, without brackets or port.
 bool is_address(const std::string& text);
-// Nobody but this machine reaches it: 127.0.0.0/8, ::1.
+// Whether only this machine reaches the address: 127.0.0.0/8, ::1.
 bool is_loopback(const std::string& address);
-// All addresses of this machine at once: 0.0.0.0, ::.
+// Whether the address means all addresses of this machine: 0.0.0.0, ::.
 bool is_every_address(const std::string& address);
-// As it stands in a URL and in Host: IPv6 in brackets.
+// The address as written in a URL and in a Host header: IPv6 in brackets.
 std::string in_url(const std::string& address);
 
-// Addresses under which other machines may reach this one; none without a network. Those of one link only
-// (fe80::) are left out, for browsers take none with a zone.
+// Addresses at which other machines can reach this one; empty without a network. Link-local addresses
+// (fe80::) are left out: browsers refuse addresses with a zone.
 std::vector<std::string> own_addresses();
-// As the system says, in lower case; empty where it has none.
+// The host name of the system, in lower case; may be empty.
 std::string host_name();
 
-// ASCII letters small: names of hosts and schemes do not tell the difference (RFC 3986, 3.2.2).
+// ASCII letters in lower case: host names and schemes are case-insensitive (RFC 3986, 3.2.2).
 std::string in_lower_case(std::string_view text);
 
 }  // namespace tribo::net

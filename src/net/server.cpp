@@ -4,7 +4,7 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <thread>
 
-#include "net/line.hpp"
+#include "net/connection.hpp"
 #include "net/server_client.hpp"
 
 namespace tribo::net {
@@ -21,20 +21,20 @@ std::string_view view(boost::string_view s) {
 }
 
 // One connection as long as it speaks HTTP.
-class Connection : public std::enable_shared_from_this<Connection> {
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
-    Connection(Tcp::socket&& socket, Shared& shared) : line_(std::move(socket)), shared_(shared) {
+    HttpSession(Tcp::socket&& socket, Shared& shared) : connection_(std::move(socket)), shared_(shared) {
         ++shared_.connections;
     }
-    ~Connection() { --shared_.connections; }
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
+    ~HttpSession() { --shared_.connections; }
+    HttpSession(const HttpSession&) = delete;
+    HttpSession& operator=(const HttpSession&) = delete;
 
     void begin() {
-        own_address_ = line_.own_address();
+        local_address_ = connection_.local_address();
         if (!shared_.tls) return read();
-        line_.next_layer().expires_after(kTlsTime);
-        beast::async_detect_ssl(line_.next_layer(), buffer_,
+        connection_.next_layer().expires_after(kTlsTime);
+        beast::async_detect_ssl(connection_.next_layer(), buffer_,
                                 [self = shared_from_this()](error_code error, bool secure) {
                                     if (error) return;
                                     // Who comes in the clear is told the way.
@@ -44,20 +44,20 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   private:
     void secure() {
-        line_.async_secure(*shared_.tls, buffer_.data(),
-                           [self = shared_from_this()](error_code error, std::size_t used) {
-                               if (error) return;
-                               self->buffer_.consume(used);
-                               self->read();
-                           });
+        connection_.async_secure(*shared_.tls, buffer_.data(),
+                                 [self = shared_from_this()](error_code error, std::size_t used) {
+                                     if (error) return;
+                                     self->buffer_.consume(used);
+                                     self->read();
+                                 });
     }
 
     void read() {
         parser_.emplace();
         parser_->header_limit(kHeaderBytes);
         parser_->body_limit(std::uint64_t{0});
-        line_.next_layer().expires_after(kRequestTime);
-        http::async_read(line_, buffer_, *parser_,
+        connection_.next_layer().expires_after(kRequestTime);
+        http::async_read(connection_, buffer_, *parser_,
                          [self = shared_from_this()](error_code error, std::size_t) {
                              if (!error) self->take(self->parser_->release());
                          });
@@ -66,28 +66,28 @@ class Connection : public std::enable_shared_from_this<Connection> {
     void take(Request request) {
         const std::string_view host = view(request[http::field::host]);
         const std::string_view target = view(request.target());
-        if (!shared_.gate.goes_by(host, own_address_))
+        if (!shared_.access.is_own_name(host, local_address_))
             return refuse(request, "this server does not go by that name");
-        if (shared_.tls && !line_.secure()) {
+        if (shared_.tls && !connection_.secure()) {
             location_ = "https://" + std::string(host) + std::string(target);
             return answer(request, http::status::permanent_redirect,
                           {"text/plain", "this server speaks https\n", ""});
         }
         if (websocket::is_upgrade(request)) {
-            const auto admitted =
-                shared_.gate.admit({host, view(request[http::field::origin]),
-                                    view(request[http::field::sec_websocket_protocol]), target, own_address_},
-                                   Clock::now());
+            const auto admitted = shared_.access.admit(
+                {host, view(request[http::field::origin]), view(request[http::field::sec_websocket_protocol]),
+                 target, local_address_},
+                Clock::now());
             if (!admitted) return refuse(request, admitted.error());
-            std::make_shared<Client>(std::move(line_), shared_)->accept(request, *admitted);
+            std::make_shared<Client>(std::move(connection_), shared_)->accept(request, *admitted);
             return;
         }
         if (request.method() != http::verb::get && request.method() != http::verb::head)
             return answer(request, http::status::method_not_allowed, {"text/plain", "only GET\n", ""});
         const std::string_view path = target.substr(0, target.find('?'));
         http::ext_list codings(request[http::field::accept_encoding]);
-        const Unpacks unpacks{codings.exists("br"), codings.exists("gzip")};
-        const auto page = shared_.handlers.page ? shared_.handlers.page(path, unpacks) : std::nullopt;
+        const AcceptedEncodings accepted{codings.exists("br"), codings.exists("gzip")};
+        const auto page = shared_.handlers.on_get ? shared_.handlers.on_get(path, accepted) : std::nullopt;
         if (!page) return answer(request, http::status::not_found, {"text/plain", "nothing here\n", ""});
         answer(request, http::status::ok, *page);
     }
@@ -125,23 +125,23 @@ class Connection : public std::enable_shared_from_this<Connection> {
         const auto done = [self = shared_from_this(), response, serializer](error_code error, std::size_t) {
             if (error) return;
             if (!response->keep_alive()) {
-                async_teardown(beast::role_type::server, self->line_, [self](error_code) {});
+                async_teardown(beast::role_type::server, self->connection_, [self](error_code) {});
                 return;
             }
             self->read();
         };
         if (head) {
             serializer->split(true);
-            http::async_write_header(line_, *serializer, done);
+            http::async_write_header(connection_, *serializer, done);
         } else {
-            http::async_write(line_, *serializer, done);
+            http::async_write(connection_, *serializer, done);
         }
     }
 
-    Line line_;
+    Connection connection_;
     Shared& shared_;
     beast::flat_buffer buffer_;
-    std::string own_address_, location_;
+    std::string local_address_, location_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     std::string text_;
 };
@@ -161,7 +161,7 @@ struct Server::Parts {
         acceptor.async_accept([this](error_code error, Tcp::socket socket) {
             if (error == asio::error::operation_aborted) return;
             if (!error && shared.connections < kMostConnections)
-                std::make_shared<Connection>(std::move(socket), shared)->begin();
+                std::make_shared<HttpSession>(std::move(socket), shared)->begin();
             if (!error) return accept();
             // The system has nothing left for another connection: not to ask it a million times a second.
             pause.expires_after(kPause);
@@ -261,9 +261,10 @@ void Server::send_all(const Bytes& data) {
     parts_->to_all([data](Client& client) { client.send(data); });
 }
 
-void Server::cut_off(ClientId client, std::string why) {
-    parts_->to_client(
-        client, [why = std::move(why)](Client& c) { c.cut_off(websocket::close_code::policy_error, why); });
+void Server::disconnect(ClientId client, std::string why) {
+    parts_->to_client(client, [why = std::move(why)](Client& c) {
+        c.disconnect(websocket::close_code::policy_error, why);
+    });
 }
 
 std::size_t Server::clients() const {

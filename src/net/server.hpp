@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// HTTP and WebSocket on one port, in the clear or inside TLS, for a page of our own (RFC 9112, RFC 6455, RFC
-// 8446). One thread inside; every function may be called from any thread but a real-time one, none waits for
-// a client.
+// HTTP and WebSocket server on one port, plain or TLS, for the pages of this program (RFC 9112, RFC 6455,
+// RFC 8446). It runs one thread. Every function may be called from any thread except a real-time one, and no
+// function waits for a client.
 //
-// Who is let in is the gate's to say (gate.hpp); others get 403 and a line that says why. Who asks in the
-// clear where TLS is spoken is sent to https.
+// access_check.hpp decides whether a request is allowed. A refused request gets status 403 and one line with
+// the reason. A plain request to a TLS server is redirected to https.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "net/gate.hpp"
+#include "net/access_check.hpp"
 
 struct ssl_ctx_st;  // OpenSSL's
 
@@ -30,60 +30,61 @@ struct Page {
     std::string_view encoding;  // "br" or "gzip" where the body is compressed; else empty
 };
 
-// The compressed bodies that the browser says it can read.
-struct Unpacks {
+// Compressed encodings that the browser accepts.
+struct AcceptedEncodings {
     bool brotli = false, gzip = false;
 };
 
 struct ServerOptions {
     std::string address = "127.0.0.1";
-    std::uint16_t port = 0;  // 0: any that is free
+    std::uint16_t port = 0;  // 0: any free port
     std::string subprotocol;
-    std::string token;                // empty: none is asked for
-    std::vector<std::string> hosts;   // names (without port) that this server goes by, besides localhost and
-                                      // the address that was asked
-    std::shared_ptr<ssl_ctx_st> tls;  // tls.hpp makes one; none: in the clear
-    std::size_t queue_bytes = 32e6;   // of data that waits for one client; beyond it the oldest is dropped
-    std::size_t message_bytes = 1e6;  // a client that sends longer messages is cut off
-    int messages_per_s = 500;         // and so is one that sends more of them than this for two seconds
+    std::string token;                // empty: no token is required
+    std::vector<std::string> hosts;   // names of this server (without port), besides localhost and its
+                                      // address
+    std::shared_ptr<ssl_ctx_st> tls;  // from tls.hpp; null: no TLS
+    std::size_t queue_bytes = 32e6;   // data queue of one client; when it is full the oldest is dropped
+    std::size_t message_bytes = 1e6;  // a client that sends a longer message is disconnected
+    int messages_per_s = 500;         // a client with a higher rate over two seconds is disconnected
 };
 
-struct Arrival {
-    bool resumed = false;  // with a resume token
-    std::string resume;    // with which it may come back once, until kResumeTime after it has gone
+struct ResumeInfo {
+    bool resumed = false;  // the client connected with a resume token
+    std::string token;     // for one reconnection, until kResumeTime after it disconnects
 };
 
-// Called on the server's thread; they must not wait.
+// Called on the server thread. They must not block.
 struct ServerHandlers {
-    std::function<std::optional<Page>(std::string_view path, Unpacks unpacks)> page;  // GET; none: 404
-    std::function<void(ClientId, const Arrival&)> came;
-    std::function<void(ClientId, std::string_view text)> message;
-    std::function<void(ClientId)> went;
-    // Data that this client did not take in time was dropped: it needs all of it anew.
-    std::function<void(ClientId)> lost;
+    std::function<std::optional<Page>(std::string_view path, AcceptedEncodings accepted)>
+        on_get;  // none: 404
+    std::function<void(ClientId, const ResumeInfo&)> on_connect;
+    std::function<void(ClientId, std::string_view text)> on_message;
+    std::function<void(ClientId)> on_disconnect;
+    // The data queue of this client was full and data was dropped: the client needs a full replay.
+    std::function<void(ClientId)> on_overflow;
 };
 
 class Server {
   public:
-    // Listens. Refuses an address or port that the system does not give, saying which.
+    // Starts to listen. The error names an address or port that the system refuses.
     static Result<std::unique_ptr<Server>> start(const ServerOptions& options, ServerHandlers handlers);
     ~Server();  // closes all connections
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     std::uint16_t port() const;
-    // Control: never dropped. A client that lets a thousand of them wait is cut off.
+    // Control messages are never dropped. A client with a thousand unread ones is disconnected.
     void send_text(ClientId to, std::string text);
-    void send_text_all(const std::string& text);  // to all that have had one of their own
-    // The same, to a message that made no sense: a client that gets kMostRefusals of them is cut off.
+    void send_text_all(const std::string& text);  // to all clients that have received a text of their own
+    // Sends the answer to an invalid message. After kMostRefusals of them the client is disconnected.
     void refuse(ClientId client, std::string text);
     static constexpr int kMostRefusals = 100;
-    // Data: to one client, or to all that have had a text of their own (so that a greeting comes first);
-    // dropped oldest first where a client does not keep up.
+    // Data messages, to one client or to all clients that have received a text of their own (the greeting
+    // comes first). When a client is too slow the oldest data is dropped.
     void send(ClientId to, Bytes data);
     void send_all(const Bytes& data);
     // Closes with code 1008 and at most 123 bytes of reason.
-    void cut_off(ClientId client, std::string why);
+    void disconnect(ClientId client, std::string why);
     std::size_t clients() const;
 
   private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One WebSocket of a server: reads texts, writes one message at a time, control before data, and is cut off
-// with a reason where it does what none should. For server.cpp alone (line.hpp says why).
+// One WebSocket of a server. It reads text messages and writes one message at a time, control before data.
+// A client that breaks a rule is closed with a reason. Only server.cpp includes this header (see
+// connection.hpp).
 #pragma once
 
 #include <atomic>
@@ -13,8 +14,8 @@
 #include <optional>
 #include <string>
 
-#include "net/gate.hpp"
-#include "net/line.hpp"
+#include "net/access_check.hpp"
+#include "net/connection.hpp"
 #include "net/server.hpp"
 
 namespace tribo::net {
@@ -28,21 +29,21 @@ using Tcp = asio::ip::tcp;
 using Request = http::request<http::empty_body>;
 using Clock = std::chrono::steady_clock;
 
-inline constexpr auto kHandshakeTime = std::chrono::seconds(2);  // also for a client's last word
+inline constexpr auto kHandshakeTime = std::chrono::seconds(2);  // also for a client's close frame
 inline constexpr std::size_t kControlMessages = 1000;
-// The client came back on another line (RFC 6455, 7.4.2: 4000 to 4999 are the application's).
+// The client has connected again (RFC 6455, 7.4.2: codes 4000 to 4999 are private to the application).
 inline constexpr websocket::close_code kTakenOver{4000};
 
 class Client;
 
-// What connections share; touched by the server's thread alone, except where it says otherwise.
+// State that all connections share. Only the server thread uses it, except for the atomic member.
 struct Shared {
     explicit Shared(const ServerOptions& given)
-        : options(given), gate({given.subprotocol, given.token, given.hosts, given.tls != nullptr}) {}
+        : options(given), access({given.subprotocol, given.token, given.hosts, given.tls != nullptr}) {}
 
     ServerOptions options;
     ServerHandlers handlers;
-    Gate gate;
+    AccessCheck access;
     std::optional<asio::ssl::context> tls;
     std::map<ClientId, std::weak_ptr<Client>> clients;
     std::atomic<std::size_t> client_count = 0;
@@ -53,7 +54,7 @@ struct Shared {
 
 class Client : public std::enable_shared_from_this<Client> {
   public:
-    Client(Line&& line, Shared& shared) : socket_(std::move(line)), shared_(shared) {}
+    Client(Connection&& connection, Shared& shared) : socket_(std::move(connection)), shared_(shared) {}
 
     void accept(const Request& request, const Admission& admission) {
         admission_ = admission;
@@ -64,16 +65,16 @@ class Client : public std::enable_shared_from_this<Client> {
         socket_.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
             response.set(http::field::sec_websocket_protocol, shared_.options.subprotocol);
         }));
-        // Not by read_message_max, which closes without a word.
+        // Not read_message_max: it closes without a reason. take() checks the length.
         socket_.read_message_max(0);
         socket_.auto_fragment(false);
         socket_.control_callback([this](websocket::frame_type, beast::string_view) {
             if (!too_many()) return;
             asio::post(socket_.get_executor(), [self = shared_from_this()] {
-                self->cut_off(websocket::close_code::policy_error, "too many messages");
+                self->disconnect(websocket::close_code::policy_error, "too many messages");
             });
         });
-        error_code ignored;  // of a client that has gone already
+        error_code ignored;  // the client may have disconnected already
         beast::get_lowest_layer(socket_).socket().set_option(Tcp::no_delay(true), ignored);
         beast::get_lowest_layer(socket_).expires_never();
         socket_.async_accept(request, [self = shared_from_this()](error_code error) {
@@ -86,14 +87,14 @@ class Client : public std::enable_shared_from_this<Client> {
     void send_text(std::string text) {
         greeted_ = true;
         if (texts_.size() >= kControlMessages)
-            return cut_off(websocket::close_code::policy_error, "too many messages wait");
+            return disconnect(websocket::close_code::policy_error, "too many messages wait");
         texts_.push_back(std::move(text));
         write();
     }
 
     void refuse(std::string text) {
         if (++refusals_ >= Server::kMostRefusals)
-            return cut_off(websocket::close_code::policy_error, "too many messages that make no sense");
+            return disconnect(websocket::close_code::policy_error, "too many messages that make no sense");
         send_text(std::move(text));
     }
 
@@ -102,15 +103,15 @@ class Client : public std::enable_shared_from_this<Client> {
         while (!data_.empty() && waiting_bytes_ + data->size() > shared_.options.queue_bytes) {
             waiting_bytes_ -= data_.front()->size();
             data_.pop_front();
-            lost_ = true;
+            overflowed_ = true;
         }
         data_.push_back(data);
         waiting_bytes_ += data->size();
         write();
     }
 
-    // Says why (at most 123 bytes) and is done with it.
-    void cut_off(websocket::close_code code, const std::string& why) {
+    // Closes with a reason of at most 123 bytes.
+    void disconnect(websocket::close_code code, const std::string& why) {
         if (std::exchange(closing_, true)) return;
         closing_since_ = Clock::now();
         texts_.clear();
@@ -123,21 +124,22 @@ class Client : public std::enable_shared_from_this<Client> {
   private:
     void begin() {
         id_ = shared_.next_id++;
-        if (const auto before = shared_.clients.find(admission_.before); before != shared_.clients.end()) {
-            if (const auto old = before->second.lock()) old->cut_off(kTakenOver, "came back on another line");
+        if (const auto before = shared_.clients.find(admission_.previous); before != shared_.clients.end()) {
+            if (const auto old = before->second.lock())
+                old->disconnect(kTakenOver, "came back on another line");
         }
         shared_.clients[id_] = weak_from_this();
         shared_.client_count = shared_.clients.size();
-        if (shared_.handlers.came) {
-            shared_.handlers.came(
-                id_, {admission_.resumed, shared_.gate.resume_token(id_, origin_, Clock::now())});
+        if (shared_.handlers.on_connect) {
+            shared_.handlers.on_connect(
+                id_, {admission_.resumed, shared_.access.resume_token(id_, origin_, Clock::now())});
         }
         read();
         watch();
     }
 
-    // A client that broke the protocol, or is cut off, is told so and then waited for until it hangs up: not
-    // for long.
+    // After a protocol error or disconnect() the client gets a close frame and kHandshakeTime to hang up.
+    // Then the server closes the socket.
     void watch() {
         watch_.expires_after(kHandshakeTime);
         watch_.async_wait([weak = weak_from_this()](error_code error) {
@@ -155,11 +157,11 @@ class Client : public std::enable_shared_from_this<Client> {
         const ClientId id = std::exchange(id_, 0);
         shared_.clients.erase(id);
         shared_.client_count = shared_.clients.size();
-        shared_.gate.left(id, Clock::now());
-        if (shared_.handlers.went) shared_.handlers.went(id);
+        shared_.access.on_disconnect(id, Clock::now());
+        if (shared_.handlers.on_disconnect) shared_.handlers.on_disconnect(id);
     }
 
-    // A piece at a time, so that a message that is too long is refused before it is kept.
+    // Reads in pieces, so that a message that is too long is refused before it is stored.
     void read() {
         const std::size_t room = shared_.options.message_bytes + 1 - in_.size();
         socket_.async_read_some(in_, room, [self = shared_from_this()](error_code error, std::size_t) {
@@ -171,23 +173,23 @@ class Client : public std::enable_shared_from_this<Client> {
     void take() {
         if (closing_) return;
         if (in_.size() > shared_.options.message_bytes) {
-            return cut_off(
+            return disconnect(
                 websocket::close_code::too_big,
                 "a message may have at most " + std::to_string(shared_.options.message_bytes) + " bytes");
         }
         if (!socket_.is_message_done()) return read();
-        if (too_many()) return cut_off(websocket::close_code::policy_error, "too many messages");
+        if (too_many()) return disconnect(websocket::close_code::policy_error, "too many messages");
         if (!socket_.got_text())
-            return cut_off(websocket::close_code::unknown_data, "messages to the server are text");
-        if (shared_.handlers.message) {
+            return disconnect(websocket::close_code::unknown_data, "messages to the server are text");
+        if (shared_.handlers.on_message) {
             const auto bytes = in_.data();
-            shared_.handlers.message(id_, {static_cast<const char*>(bytes.data()), bytes.size()});
+            shared_.handlers.on_message(id_, {static_cast<const char*>(bytes.data()), bytes.size()});
         }
         in_.consume(in_.size());
         read();
     }
 
-    // Counts one, over two seconds at a time.
+    // Counts a message. The limit is checked over windows of two seconds.
     bool too_many() {
         const auto now = Clock::now();
         if (now - counted_from_ > std::chrono::seconds(2)) {
@@ -219,11 +221,12 @@ class Client : public std::enable_shared_from_this<Client> {
             socket_.async_write(asio::buffer(*data_out_), done);
         } else {
             data_out_.reset();
-            if (std::exchange(lost_, false) && shared_.handlers.lost) shared_.handlers.lost(id_);
+            if (std::exchange(overflowed_, false) && shared_.handlers.on_overflow)
+                shared_.handlers.on_overflow(id_);
         }
     }
 
-    websocket::stream<Line> socket_;
+    websocket::stream<Connection> socket_;
     Shared& shared_;
     Admission admission_;
     std::string origin_;
@@ -233,7 +236,7 @@ class Client : public std::enable_shared_from_this<Client> {
     std::size_t waiting_bytes_ = 0;
     std::string text_out_;
     Bytes data_out_;
-    bool writing_ = false, closing_ = false, lost_ = false, greeted_ = false;
+    bool writing_ = false, closing_ = false, overflowed_ = false, greeted_ = false;
     asio::steady_timer watch_{socket_.get_executor()};
     ClientId id_ = 0;
     Clock::time_point counted_from_ = Clock::now(), closing_since_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A WebSocket to a service on this machine (RFC 6455): text out, text in, one at a time.
+// WebSocket client for a service on this machine (RFC 6455): sends and receives text messages.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ struct WebSocketAddress {
     std::string path = "/";
 };
 
-// One thread at a time, never a servo's or audio's. Every call gives up after `timeout_ms`.
+// One thread at a time, never a servo or audio thread. Every call returns after `timeout_ms` at the latest.
 class WebSocketClient {
   public:
-    // The error says whether nobody listens there or somebody does not speak WebSocket.
+    // The error says whether the port is closed or the service there is no WebSocket.
     static Result<std::unique_ptr<WebSocketClient>> connect(const WebSocketAddress& address, int timeout_ms);
     ~WebSocketClient();
 
     enum class Got { message, late, closed };
-    // The next text message into `text`.
+    // Receives the next text message into `text`.
     Got receive(std::string& text);
-    // False where the connection is gone.
+    // False when the connection is closed.
     bool send(std::string_view text);
 
   private:

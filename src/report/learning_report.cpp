@@ -18,18 +18,18 @@ std::string fixed(double value, int decimals) {
     return text.data();
 }
 
-struct Line {
+struct PlotLine {
     const char* name;
     const char* style;  // CSS variable
     const std::vector<double>* values;
 };
 
 // Levels in dB over a logarithmic axis of frequency.
-std::string plot(const std::vector<double>& hz, const std::vector<Line>& lines, double from_hz,
+std::string plot(const std::vector<double>& hz, const std::vector<PlotLine>& lines, double from_hz,
                  double to_hz) {
     constexpr double kWidth = 560, kHeight = 240, kLeft = 46, kBottom = 26;
     double top = -1e9, bottom = 1e9;
-    for (const Line& line : lines) {
+    for (const PlotLine& line : lines) {
         for (std::size_t n = 0; n < hz.size(); ++n) {
             if (hz[n] < from_hz || hz[n] > to_hz) continue;
             top = std::max(top, (*line.values)[n]);
@@ -69,7 +69,7 @@ std::string plot(const std::vector<double>& hz, const std::vector<Line>& lines, 
             text(x_of(f), kHeight - 8, "middle", f >= 1000 ? fixed(f / 1000, 0) + "k" : fixed(f, 0));
         }
     }
-    for (const Line& line : lines) {
+    for (const PlotLine& line : lines) {
         svg += std::string("<polyline style=\"stroke:var(") + line.style + ")\" points=\"";
         for (std::size_t n = 0; n < hz.size(); ++n) {
             if (hz[n] < from_hz || hz[n] > to_hz) continue;
@@ -80,9 +80,9 @@ std::string plot(const std::vector<double>& hz, const std::vector<Line>& lines, 
     return svg + "</svg>\n";
 }
 
-std::string legend(const std::vector<Line>& lines) {
+std::string legend(const std::vector<PlotLine>& lines) {
     std::string html = "<p class=\"legend\">";
-    for (const Line& line : lines) {
+    for (const PlotLine& line : lines) {
         html += std::string("<span style=\"color:var(") + line.style + ")\">&#9632;</span> " + line.name +
                 " &nbsp; ";
     }
@@ -125,11 +125,11 @@ std::string section(const ReportedVoice& v) {
     char title[96];
     std::snprintf(title, sizeof title, "%.4g mm/s, %.3g N, %.1f dB", v.model.speed_mm_per_s, v.model.force_n,
                   v.model.level_db);
-    const std::vector<Line> spectra{{"recording", "--peak", &q.original_db},
-                                    {"model", "--mean", &q.model_db}};
-    const std::vector<Line> modulation{{"recording", "--peak", &q.modulation.original_db},
-                                       {"filter and white noise", "--z", &q.modulation.gaussian_db},
-                                       {"voice", "--mean", &q.modulation.voice_db}};
+    const std::vector<PlotLine> spectra{{"recording", "--peak", &q.original_db},
+                                        {"model", "--mean", &q.model_db}};
+    const std::vector<PlotLine> modulation{{"recording", "--peak", &q.modulation.original_db},
+                                           {"filter and white noise", "--z", &q.modulation.gaussian_db},
+                                           {"voice", "--mean", &q.modulation.voice_db}};
     std::string html =
         std::string("<section><h2>") + title + "</h2><p class=\"hint\">" + escaped(v.recording) +
         "</p>\n<div class=\"pair\"><figure>" +

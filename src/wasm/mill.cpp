@@ -129,7 +129,7 @@ TRIBO_EXPORT(mill_settings) const char* mill_settings() {
 // All materials that are known, one a line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {
     mill().text.clear();
-    for (const milling::Material& m : milling::materials()) {
+    for (const milling::WorkpieceMaterial& m : milling::materials()) {
         if (!mill().text.empty()) mill().text += "\n";
         mill().text += m.name;
     }
@@ -142,8 +142,8 @@ TRIBO_EXPORT(mill_tick) std::int32_t mill_tick(double dt_s, std::uint32_t looks)
     mill().frames.clear();
     if (!mill().live) return 0;
     std::uint32_t left = looks;
-    const auto may_go_on = [&] { return left > 0 && left-- > 0; };
-    if (auto done = mill().live->tick(dt_s, may_go_on, keep); !done) {
+    const auto has_time = [&] { return left > 0 && left-- > 0; };
+    if (auto done = mill().live->tick(dt_s, has_time, keep); !done) {
         refuse(done.error());
         return -1;
     }

@@ -15,15 +15,16 @@
 
 namespace {
 
-using tribo::elastic::Contact;
-using tribo::elastic::Material;
+using tribo::elastic::ContactEllipse;
 using tribo::elastic::Sheet;
+using tribo::elastic::SheetMaterial;
 
 constexpr std::uint32_t kMostContacts = 16;
 
 struct TouchSheet {
     Sheet sheet;
-    std::array<Contact, kMostContacts> contacts{};  // seven doubles each, in the order of Contact
+    std::array<ContactEllipse, kMostContacts>
+        contacts{};  // seven doubles each, in the order of ContactEllipse
     std::array<std::int32_t, 4> changes{};
 };
 
@@ -31,7 +32,7 @@ double within(double value, tribo::Range range) {
     return value >= range.min ? std::min(value, range.max) : range.min;
 }
 
-Material material(double stiffness_n_per_mm, double viscosity_n_s_per_mm) {
+SheetMaterial material(double stiffness_n_per_mm, double viscosity_n_s_per_mm) {
     return {within(stiffness_n_per_mm, tribo::material::kStiffness),
             within(viscosity_n_s_per_mm, tribo::material::kViscosity)};
 }
@@ -55,7 +56,7 @@ void sheet_set_material(TouchSheet* s, double stiffness_n_per_mm, double viscosi
 // Levels, one byte a node, row by row; palette: stiffness and viscosity of each of the 256 levels.
 TRIBO_EXPORT(sheet_set_materials)
 void sheet_set_materials(TouchSheet* s, const std::uint8_t* levels, const double* palette) {
-    std::array<Material, 256> materials;
+    std::array<SheetMaterial, 256> materials;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         materials[i] = material(palette[2 * i], palette[2 * i + 1]);
     }
@@ -65,8 +66,8 @@ void sheet_set_materials(TouchSheet* s, const std::uint8_t* levels, const double
 
 // Where to write contacts before sheet_press: x_mm, y_mm, half_width_mm, half_height_mm, angle_rad, force_n,
 // held_s; doubles.
-TRIBO_EXPORT(sheet_contacts) Contact* sheet_contacts(TouchSheet* s) {
-    static_assert(sizeof(Contact) == 7 * sizeof(double));
+TRIBO_EXPORT(sheet_contacts) ContactEllipse* sheet_contacts(TouchSheet* s) {
+    static_assert(sizeof(ContactEllipse) == 7 * sizeof(double));
     return s->contacts.data();
 }
 

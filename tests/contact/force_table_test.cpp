@@ -101,9 +101,9 @@ TEST(ForceTable, carries_a_tooth_frequency_that_the_servo_can_show) {
         high = std::max(high, force.x);
     }
     EXPECT_GT(high - low, 300);
-    EXPECT_EQ(carried_share(100, 1000), 1);
-    EXPECT_EQ(carried_share(450, 1000), 0);
-    EXPECT_NEAR(carried_share(400, 1000), 0.5, 1e-12);
+    EXPECT_EQ(vibration_gain(100, 1000), 1);
+    EXPECT_EQ(vibration_gain(450, 1000), 0);
+    EXPECT_NEAR(vibration_gain(400, 1000), 0.5, 1e-12);
 }
 
 TEST(ForceTable, splits_where_the_cut_pauses_jumps_or_the_spindle_changes) {

@@ -55,7 +55,7 @@ Pixels paper() {
 Sheet pressed(double stiffness, double force, double x_mm = kWidthMm / 2, double y_mm = kWidthMm / 2) {
     Sheet sheet({kSide, kSide, kWidthMm / kSide});
     sheet.set_material({stiffness, 0});
-    Contact c;
+    ContactEllipse c;
     c.x_mm = x_mm;
     c.y_mm = y_mm;
     c.force_n = force;
@@ -311,7 +311,7 @@ TEST(Finish, draws_the_picture_that_the_page_is_held_to) {
     }
     Sheet sheet({kPictureSide, kPictureSide, 0.5});
     sheet.set_material({2, 0});
-    Contact c;
+    ContactEllipse c;
     c.x_mm = 14;
     c.y_mm = 17;
     c.half_width_mm = c.half_height_mm = 4;

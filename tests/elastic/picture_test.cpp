@@ -20,7 +20,7 @@ std::vector<std::uint8_t> plain(std::uint8_t grey) {
 Sheet pressed(double x_mm, double y_mm) {
     Sheet sheet({kSide, kSide, 1});
     sheet.set_material({1, 0});
-    Contact c;
+    ContactEllipse c;
     c.x_mm = x_mm;
     c.y_mm = y_mm;
     c.force_n = 5;
@@ -82,7 +82,7 @@ TEST(Picture, dents_of_stiff_and_soft_materials_show_and_the_deeper_ones_more) {
     const auto contrast = [](double stiffness, double force) {
         Sheet sheet({192, 192, 80.0 / 192});
         sheet.set_material({stiffness, 0});
-        Contact c;
+        ContactEllipse c;
         c.x_mm = c.y_mm = 40;
         c.force_n = force;
         sheet.press({&c, 1});

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Contact finger(double x_mm, double y_mm, double force_n = 1) {
-    Contact c;
+ContactEllipse finger(double x_mm, double y_mm, double force_n = 1) {
+    ContactEllipse c;
     c.x_mm = x_mm;
     c.y_mm = y_mm;
     c.force_n = force_n;
@@ -35,7 +35,7 @@ bool is_flat(const Sheet& sheet) {
 // A node exactly under the contact's centre: its pressure is the force.
 TEST(Sheet, steady_state_is_force_over_stiffness) {
     Sheet sheet({101, 77, 1});
-    for (const Material m : {Material{1.4, 0.1}, Material{7, 0.3}, Material{4, 0.3}}) {
+    for (const SheetMaterial m : {SheetMaterial{1.4, 0.1}, SheetMaterial{7, 0.3}, SheetMaterial{4, 0.3}}) {
         sheet.reset();
         sheet.set_material(m);
         sheet.press(std::vector{finger(50.5, 38.5, 2.5)});
@@ -45,7 +45,7 @@ TEST(Sheet, steady_state_is_force_over_stiffness) {
 }
 
 TEST(Sheet, time_constant_is_viscosity_over_stiffness_at_any_frame_rate) {
-    const Material m{4, 0.8};  // 0.2 s
+    const SheetMaterial m{4, 0.8};  // 0.2 s
     for (const int rate : {30, 60, 144}) {
         Sheet sheet({64, 64, 1});
         sheet.set_material(m);
@@ -126,7 +126,7 @@ TEST(Sheet, pressures_of_several_fingers_add_up) {
     Sheet all({100, 60, 1}), one({100, 60, 1});
     all.press(five);
     std::vector<double> sum(100 * 60);
-    for (const Contact& c : five) {
+    for (const ContactEllipse& c : five) {
         one.press(std::vector{c});
         for (int y = 0; y < 60; ++y)
             for (int x = 0; x < 100; ++x) sum[static_cast<std::size_t>(100 * y + x)] += one.pressures(y)[x];
@@ -138,7 +138,7 @@ TEST(Sheet, pressures_of_several_fingers_add_up) {
 
 // By the formula of the contact, ellipse and angle and all, on every node.
 TEST(Sheet, pressure_is_the_published_shape_over_an_ellipse) {
-    Contact c = finger(37.3, 21.9, 1.7);
+    ContactEllipse c = finger(37.3, 21.9, 1.7);
     c.half_width_mm = 4;
     c.half_height_mm = 7;
     c.angle_rad = 0.5;
@@ -174,7 +174,7 @@ TEST(Sheet, normals_are_those_of_the_heights) {
         }
     };
     for (int i = 0; i < 20; ++i) {
-        Contact c = finger(3.0 * i, 1.9 * i);
+        ContactEllipse c = finger(3.0 * i, 1.9 * i);
         c.half_width_mm = c.half_height_mm = 1 + 0.2 * i;
         sheet.press(std::vector{c});
         sheet.step(0.03);
@@ -187,10 +187,10 @@ TEST(Sheet, normals_are_those_of_the_heights) {
 
 TEST(Sheet, a_map_gives_every_node_its_own_material) {
     Sheet mapped({60, 40, 1}), soft({60, 40, 1}), hard({60, 40, 1});
-    const Material soft_one{1, 0.4}, hard_one{10, 0.5};
+    const SheetMaterial soft_one{1, 0.4}, hard_one{10, 0.5};
     std::vector<std::uint8_t> levels(60 * 40);
     for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = i % 60 < 30 ? 200 : 7;
-    std::array<Material, 256> palette;
+    std::array<SheetMaterial, 256> palette;
     palette.fill({5, 5});
     palette[200] = soft_one;
     palette[7] = hard_one;
@@ -234,9 +234,9 @@ RC_GTEST_PROP(Sheet, stays_finite_and_below_rest_whatever_comes_in, ()) {
     sheet.set_material({*rc::gen::element(1e-3, 1.0, 1e6), *rc::gen::element(0.0, 0.3, 1e6)});
     double most_n = 0;
     for (int i = 0; i < 8; ++i) {
-        std::vector<Contact> contacts(*rc::gen::inRange<std::size_t>(0, 4));
+        std::vector<ContactEllipse> contacts(*rc::gen::inRange<std::size_t>(0, 4));
         double sum_n = 0;
-        for (Contact& c : contacts) {
+        for (ContactEllipse& c : contacts) {
             c = {any_number(), any_number(), any_number(), any_number(),
                  any_number(), any_number(), any_number()};
             if (touches(c)) sum_n += c.force_n;

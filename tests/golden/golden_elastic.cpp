@@ -25,7 +25,7 @@ std::uint64_t elastic() {
     };
     const auto rub = [&](const elastic::PressOptions& options, elastic::TimeScheme scheme) {
         for (int i = 0; i < 30; ++i) {
-            const std::array<elastic::Contact, 2> contacts{
+            const std::array<elastic::ContactEllipse, 2> contacts{
                 {{10.0 + i, 20 + 4 * math::sin(0.3 * i), 4, 6, 0.1 * i, 1 + 0.05 * i, i / 60.0},
                  {40, 30, 3, 3, 0, 0.5, i / 60.0}}};
             sheet.press(contacts, options);
@@ -40,7 +40,7 @@ std::uint64_t elastic() {
 
     std::vector<std::uint8_t> levels(150 * 117);
     for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = static_cast<std::uint8_t>(i * i % 251);
-    std::array<elastic::Material, 256> palette;
+    std::array<elastic::SheetMaterial, 256> palette;
     for (int i = 0; i < 256; ++i) palette[static_cast<std::size_t>(i)] = {1 + 0.05 * i, 0.5 - 0.001 * i};
     sheet.set_materials(levels, palette);
     rub({}, elastic::TimeScheme::exact);

@@ -4,9 +4,9 @@
 #include "golden/golden_grooves.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "haptics/servo/swapped_force.hpp"
-#include "session/cut/stock_in_time.hpp"
+#include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
-#include "session/live/feel_ahead.hpp"
+#include "session/live/force_look_ahead.hpp"
 
 namespace tribo::golden {
 namespace {
@@ -37,7 +37,7 @@ void rub(haptics::ForceSource& source, Hash& hash, const Between& between) {
 // and its textures, while the part is milled.
 std::uint64_t haptics() {
     Hash hash;
-    session::FeelAhead ahead(grooves(), serial_for);
+    session::ForceLookAhead ahead(grooves(), serial_for);
     if (!ahead.run([] { return true; })) return 0;
     session::MillSession milled(grooves(), serial_for);
     if (!milled.run({})) return 0;
@@ -59,7 +59,7 @@ std::uint64_t haptics() {
     haptics::SwappedForce force(1 / kTickS);
     force.replace(ahead.table({}, {}), {});
     const haptics::TextureMap textures = ahead.textures();
-    session::StockInTime stock(grooves(), serial_for, 0);
+    session::StockAtTime stock(grooves(), serial_for, 0);
     session::CutSourceOptions cut;
     cut.part = &stock.reader();
     cut.tick_s = cut.contact.tick_s = kTickS;

@@ -61,7 +61,7 @@ TEST(CarvedContact, pushes_back_by_the_distance_to_the_air_at_every_depth) {
             int off = 0;
             for (int n = 0; n < 3000; ++n) {
                 const Vec3 p{4 + 0.004 * n, 4 + 0.003 * n, -1 + radius - depth};
-                const Contact c = contact.update(p);
+                const ProbeContact c = contact.update(p);
                 const double force = length(c.force_n), wanted = depth_under_passes(p, radius);
                 sum += force;
                 right += wanted;
@@ -102,7 +102,7 @@ TEST(CarvedContact, is_the_same_on_a_mesh_that_was_read) {
         FieldContact contact(field, options);
         contact.update({5, 5, 2});
         for (int n = 0; n < 200; ++n) {
-            const Contact c = contact.update({5 + 0.05 * n, 5, radius - 0.3});
+            const ProbeContact c = contact.update({5 + 0.05 * n, 5, radius - 0.3});
             EXPECT_NEAR(distance(c.force_n, {0, 0, 0.3}), 0, 1e-3) << radius << " " << n;
         }
         // Over the edge at x = 20 and down the side.
@@ -128,7 +128,7 @@ TEST(CarvedContact, goes_on_while_another_thread_carves) {
         done = true;
     });
     bool last = false;
-    Contact c;
+    ProbeContact c;
     int n = 0;
     while (!last) {
         last = done;
@@ -179,7 +179,7 @@ TEST(CarvedContact, a_stylus_touches_with_all_its_length) {
     contact.update({10, 5, 1}, up);
     EXPECT_FALSE(contact.update({10, 5, -0.8}, up).in_contact);
     // Tilted over, its far end would be 0.3 mm in.
-    Contact c;
+    ProbeContact c;
     for (int n = 0; n < 20; ++n) c = contact.update({10, 5, -0.8}, down);
     EXPECT_TRUE(c.in_contact);
     EXPECT_NEAR(c.force_n.z, 0.5 * (10 * 0.05 / std::hypot(1, 0.05) - 0.2), 0.01);

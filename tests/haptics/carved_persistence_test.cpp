@@ -101,7 +101,7 @@ Found stroke(const Milled& m, const Case& c, int ticks) {
         z = std::max(z - dive * step, top - below);
         const Vec3 probe{folded(x, m.strokes_mm.min.x, m.strokes_mm.max.x),
                          folded(y, m.strokes_mm.min.y, m.strokes_mm.max.y), z};
-        const Contact felt = contact.update(probe);
+        const ProbeContact felt = contact.update(probe);
         ++found.ticks;
         if (!is_finite(felt.force_n) || !is_finite(felt.proxy_mm) || !is_finite(felt.normal)) {
             ++found.unsound;
@@ -226,7 +226,7 @@ TEST(CarvedPersistence, no_point_of_a_finger_or_stylus_goes_through) {
                     const double depth = n < 100 ? -0.5 : 0.25 + 0.2 * std::sin(9 * t);
                     const Vec3 probe{folded(12 + speed * t, 12, 28), folded(12 + 0.3 * speed * t, 12, 28),
                                      reach - 0.05 - depth};
-                    const Contact felt = contact.update(probe, balls);
+                    const ProbeContact felt = contact.update(probe, balls);
                     double inside = -1e9, at_probe = -1e9;
                     for (const Vec3 b : balls) {
                         inside = std::max(inside, m.depth_mm(felt.proxy_mm + b));

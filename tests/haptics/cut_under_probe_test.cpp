@@ -43,7 +43,7 @@ ContactOptions options(double radius) {
 
 struct Rested {
     double most_rise_n = 0;
-    Contact last;
+    ProbeContact last;
     bool inward = false;
 };
 
@@ -163,7 +163,7 @@ TEST(CutUnderProbe, never_waits_for_the_carver) {
         field.carve(std::make_unique<SlowSweep>(pass(2, 10, -0.7), ticks, late));
         done = true;
     });
-    Contact c;
+    ProbeContact c;
     for (; !done; ++ticks) {
         (void)reader.refresh();
         c = contact.update({10, 10, -1});

@@ -25,7 +25,7 @@ TEST(FieldContact, a_flat_floor_pushes_back_by_stiffness_times_depth) {
         EXPECT_FALSE(contact.update({0, 0, 3}).in_contact);
         for (int n = 0; n < 50; ++n) {
             const Vec3 probe{0.02 * n, 0.01 * n, radius - 0.3};
-            const Contact c = contact.update(probe);
+            const ProbeContact c = contact.update(probe);
             ASSERT_TRUE(c.in_contact);
             EXPECT_NEAR(c.force_n.z, 0.8 * 0.3, 1e-6);
             EXPECT_NEAR(c.force_n.x, 0, 1e-4);
@@ -45,7 +45,7 @@ TEST(FieldContact, a_corner_holds_the_proxy_by_both_its_sides) {
     const Corner corner;
     FieldContact contact(corner, options(1));
     contact.update({0.5, 0, 0.5});
-    Contact c;
+    ProbeContact c;
     for (int n = 0; n < 100; ++n) c = contact.update({0.5 - 0.01 * n, 0.002 * n, 0.5 - 0.008 * n});
     EXPECT_NEAR(c.proxy_mm.x, 0, 1e-5);
     EXPECT_NEAR(c.proxy_mm.z, 0, 1e-5);
@@ -68,7 +68,7 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
             FieldContact contact(step, options(1));
             for (const double way : {1.0, -1.0}) {
                 for (int n = 0; n <= 100; ++n) {
-                    const Contact c = contact.update({way * pace * (n - 50), 0.1 * pace * n, height});
+                    const ProbeContact c = contact.update({way * pace * (n - 50), 0.1 * pace * n, height});
                     EXPECT_LT(length(c.force_n), 1e-5) << height << " " << pace << " " << way << " " << n;
                 }
             }
@@ -76,7 +76,7 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
     }
     // A little below it the other face does hold.
     FieldContact contact(step, options(1));
-    Contact c;
+    ProbeContact c;
     for (int n = -50; n <= 50; ++n) c = contact.update({0.002 * n, 0, -1e-3});
     EXPECT_NEAR(c.force_n.x, -0.1, 1e-6);
 }
@@ -88,7 +88,7 @@ TEST(FieldContact, in_a_groove_the_force_is_that_of_the_nearest_surface_point) {
     contact.update({-0.2, 0, 0.5});
     for (int n = 0; n <= 400; ++n) {
         const Vec3 probe{-0.2 + 0.001 * n, 0.001 * n, -0.3};
-        const Contact c = contact.update(probe);
+        const ProbeContact c = contact.update(probe);
         const Vec3 axis{0, probe.y, grooves.radius_mm()};
         EXPECT_NEAR(length(c.force_n), distance(probe, axis) - grooves.radius_mm(), 1e-4) << n;
         EXPECT_NEAR(grooves.distance_mm(c.proxy_mm), 0, 1e-5);

@@ -107,11 +107,11 @@ TEST(HapticTexture, as_printed_is_the_mean_of_the_eight) {
 
 // 1 mm grooves at 100 mm/s are 100 Hz; at 500 mm/s a loop of 1 kHz would play them as something else.
 TEST(HapticTexture, keeps_only_what_the_loop_carries) {
-    EXPECT_EQ(carried_share(100, 1, 1000), 1);
-    EXPECT_EQ(carried_share(500, 1, 1000), 0);
-    EXPECT_GT(carried_share(300, 1, 1000), 0);
-    EXPECT_LT(carried_share(300, 1, 1000), 1);
-    EXPECT_EQ(carried_share(500, 1, 10000), 1);
+    EXPECT_EQ(groove_gain(100, 1, 1000), 1);
+    EXPECT_EQ(groove_gain(500, 1, 1000), 0);
+    EXPECT_GT(groove_gain(300, 1, 1000), 0);
+    EXPECT_LT(groove_gain(300, 1, 1000), 1);
+    EXPECT_EQ(groove_gain(500, 1, 10000), 1);
     const contact::TextureRecord r = groove_record();
     // Along the feed the marks come too fast, across it the scallops are slow.
     const Vec3 f = texture_force(r, {{0.2, 0.4, 0}, {300, 1, 0}, 0.2}, 1, 1000);

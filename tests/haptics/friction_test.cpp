@@ -29,13 +29,13 @@ TEST(Friction, holds_the_proxy_until_the_static_cone_is_left) {
     contact.update({0, 0, -0.4});
     for (int n = 0; n <= 39; ++n) {
         const double x = 0.2 * n / 40;
-        const Contact c = contact.update({x, 0, -0.4});
+        const ProbeContact c = contact.update({x, 0, -0.4});
         EXPECT_NEAR(c.proxy_mm.x, 0, 1e-12);
         EXPECT_NEAR(c.force_n.x, -x, 1e-12);
         EXPECT_FALSE(c.sliding);
     }
     // Out of it: down to the kinetic cone at once.
-    const Contact slip = contact.update({0.205, 0, -0.4});
+    const ProbeContact slip = contact.update({0.205, 0, -0.4});
     EXPECT_NEAR(slip.force_n.x, -0.3 * 0.4, 1e-3);
     EXPECT_NEAR(slip.proxy_mm.x, 0.205 - 0.3 * 0.4, 1e-3);
 }
@@ -45,7 +45,7 @@ TEST(Friction, drags_with_the_kinetic_force_while_it_slides_fast) {
     FieldContact contact(floor, rough(0.5, 0.3));
     contact.update({0, 0, 1});
     for (int n = 0; n < 200; ++n) {
-        const Contact c = contact.update({0.08 * n, 0, -0.4});  // 80 mm/s
+        const ProbeContact c = contact.update({0.08 * n, 0, -0.4});  // 80 mm/s
         if (n > 5) {
             EXPECT_NEAR(c.force_n.x, -0.12, 1e-3);
             EXPECT_TRUE(c.sliding);
@@ -63,7 +63,7 @@ TEST(Friction, sticks_and_slips_when_it_is_pulled_slowly) {
     double least = 1, most = 0, last = 0;
     const double step = 0.001;  // 1 mm/s
     for (int n = 1; n <= 2000; ++n) {
-        const Contact c = contact.update({step * n, 0, -0.4});
+        const ProbeContact c = contact.update({step * n, 0, -0.4});
         const double drag = -c.force_n.x;
         if (drag < last) ++slips;
         last = drag;
@@ -85,7 +85,7 @@ RC_GTEST_PROP(Friction, never_leaves_the_static_cone, ()) {
     const auto moves = *rc::gen::container<std::vector<int>>(60, rc::gen::inRange(-300, 300));
     for (std::size_t n = 0; n + 2 < moves.size(); n += 3) {
         probe = probe + 0.001 * Vec3{1.0 * moves[n], 1.0 * moves[n + 1], 1.0 * moves[n + 2]};
-        const Contact c = contact.update(probe);
+        const ProbeContact c = contact.update(probe);
         const double drag = std::hypot(c.force_n.x, c.force_n.y);
         RC_ASSERT(c.force_n.z >= 0);
         RC_ASSERT(drag <= mu * c.force_n.z * (1 + 1e-9) + 1e-12);

@@ -70,7 +70,7 @@ class Flat final : public ForceSource {
   public:
     Flat(double stiffness, double tick_s) : contact_(floor_, options(stiffness, tick_s)) {}
     RenderedForce render(const HandReading& hand, double now_s, double) noexcept override {
-        const Contact c = contact_.update(hand.position_mm);
+        const ProbeContact c = contact_.update(hand.position_mm);
         RenderedForce felt;
         felt.contact_n = c.force_n;
         felt.touching = c.in_contact;

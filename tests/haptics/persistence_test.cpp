@@ -47,7 +47,7 @@ TEST(Persistence, no_wall_is_too_thin) {
         for (const double radius : kProbes) {
             for (const double speed : kSpeeds) {
                 for (const double rate : kRates) {
-                    press(wall, radius, speed, rate, 0, [&](const Contact& c, Vec3 probe) {
+                    press(wall, radius, speed, rate, 0, [&](const ProbeContact& c, Vec3 probe) {
                         if (c.proxy_mm.z < radius - 1e-4) ++through;
                         if (c.force_n.z < 0) ++inward;
                         if (probe.z < radius - 1e-3 && !c.in_contact) ++lost;
@@ -70,7 +70,7 @@ TEST(Persistence, no_groove_is_too_fine) {
             for (const double radius : kProbes) {
                 for (const double speed : kSpeeds) {
                     for (const double rate : kRates) {
-                        press(grooves, radius, speed, rate, cusp, [&](const Contact& c, Vec3 probe) {
+                        press(grooves, radius, speed, rate, cusp, [&](const ProbeContact& c, Vec3 probe) {
                             contact::NearHint hint;
                             const double gap = radius > 0 ? grooves.nearest(c.proxy_mm, 1e9, hint).distance_mm
                                                           : grooves.distance_mm(c.proxy_mm);
@@ -109,7 +109,7 @@ TEST(Persistence, leaps_and_what_is_no_number_do_not_break_it) {
             return 2 * noise.uniform(3 * static_cast<std::uint64_t>(n) + k) - 1;
         };
         const Vec3 probe{10 * number(0), 10 * number(1), 5 * number(2)};
-        const Contact c = contact.update(n % 17 == 0 ? Vec3{NAN, 0, 0} : probe);
+        const ProbeContact c = contact.update(n % 17 == 0 ? Vec3{NAN, 0, 0} : probe);
         EXPECT_TRUE(is_finite(c.force_n));
         EXPECT_GE(c.proxy_mm.z, -1e-5);
         EXPECT_GE(c.force_n.z, 0);

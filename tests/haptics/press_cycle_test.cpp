@@ -129,8 +129,8 @@ class Hand {
         at_ = last_ = at;
         tick(at);
     }
-    Contact tick(Vec3 probe) {
-        const Contact c = contact_.update(probe);
+    ProbeContact tick(Vec3 probe) {
+        const ProbeContact c = contact_.update(probe);
         ++found_.ticks;
         if (dot(c.force_n, c.proxy_mm - probe) < -1e-12) ++found_.inward;
         const double way = distance(probe, last_) * (1 + friction_) * 1.05 + 4e-3;
@@ -153,7 +153,7 @@ class Hand {
         bool held = true;
         const int count = ticks(0.04);
         for (int n = 0; n < count; ++n) {
-            const Contact c = tick(at_);
+            const ProbeContact c = tick(at_);
             if (n < ticks(0.02)) continue;
             const double held_mm = length(c.force_n) / kStiffness;
             held = held && held_mm >= least_mm && (friction_ > 0 || held_mm <= most_mm);
@@ -279,7 +279,7 @@ TEST(PressCycle, a_rib_that_is_crossed_within_two_ticks_pushes_back_at_once) {
     for (int n = 0; n <= 100; ++n) contact.update({0, 0, 2 - 0.049 * n});
     contact.update({0, 1.3, -2.9});
     for (int n = 0; n < 498; ++n) {
-        const Contact c = contact.update({0, 2.1, -2.9});
+        const ProbeContact c = contact.update({0, 2.1, -2.9});
         ASSERT_NEAR(c.force_n.y, -0.65, 0.0325) << n;
         ASSERT_TRUE(c.settled) << n;
     }

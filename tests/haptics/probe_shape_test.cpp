@@ -44,7 +44,7 @@ TEST(ProbeShape, fits_the_contact_and_is_held_where_it_is_lowest) {
         const double reach = -lowest(shape, stylus);
         FieldContact contact(floor);
         contact.update({0, 0, reach + 1}, balls);
-        Contact felt;
+        ProbeContact felt;
         for (int n = 0; n < 20; ++n) felt = contact.update({0, 0, reach - 0.4}, balls);
         EXPECT_TRUE(felt.in_contact);
         EXPECT_NEAR(felt.force_n.z, 0.5 * 0.4, 1e-3);

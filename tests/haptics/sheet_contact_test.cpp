@@ -61,7 +61,7 @@ TEST(SheetContact, lets_go_beyond_the_border) {
     for (const double radius : {0.0, 0.5}) {
         FieldContact contact(*field, options(radius));
         (void)contact.update({35, 10, 3});
-        Contact c;
+        ProbeContact c;
         for (int n = 0; n < 80; ++n) {
             c = contact.update({35 + 0.1 * n, 10, radius - 0.3});
             EXPECT_GE(c.force_n.z, 0);
@@ -85,7 +85,7 @@ TEST(SheetContact, feels_a_trough_as_deep_as_it_is) {
             const double angle = -0.25 + 0.5 * n / 400;
             const Vec3 in{std::sin(angle), 0, -std::cos(angle)};
             const Vec3 probe = Vec3{20, 10, kTrough} + (kTrough - radius + 0.4) * in;
-            const Contact c = contact.update(probe);
+            const ProbeContact c = contact.update(probe);
             EXPECT_NEAR(distance(c.force_n, -0.4 * in), 0, 0.02) << angle << " " << radius;
             EXPECT_NEAR(length(c.force_n), 0.4, 0.006) << angle << " " << radius;
         }

@@ -47,12 +47,12 @@ TEST(SimulatedHand, yields_to_a_steady_force_by_force_over_stiffness) {
     EXPECT_EQ(reading.position_mm.x, 1);
 }
 
-TEST(LedHand, comes_to_where_it_is_led_and_yields_there) {
+TEST(PointerDevice, comes_to_where_it_is_led_and_yields_there) {
     const HandModel model;
-    LedHand hand({0, 0, 5}, 1e-3, model);
+    PointerDevice hand({0, 0, 5}, 1e-3, model);
     HandReading reading;
-    hand.lead_to({100, 0, 5});
-    hand.lead_to({std::nan(""), 0, 0});
+    hand.set_target({100, 0, 5});
+    hand.set_target({std::nan(""), 0, 0});
     double fastest = 0;
     for (int n = 0; n < 3000; ++n) {
         ASSERT_EQ(hand.read(reading), DeviceState::ready);
@@ -62,7 +62,7 @@ TEST(LedHand, comes_to_where_it_is_led_and_yields_there) {
     }
     EXPECT_NEAR(reading.position_mm.x, 100, 1e-6);
     EXPECT_NEAR(reading.position_mm.z, 5 + 0.9 / model.stiffness_n_per_mm, 1e-6);
-    EXPECT_LT(fastest, 1.3 * LedHand::kAimMmPerS);  // far below what the servo's guard allows a hand
+    EXPECT_LT(fastest, 1.3 * PointerDevice::kAimMmPerS);  // far below what the servo's guard allows a hand
 }
 
 TEST(SimulatedHand, follows_a_stroke_with_no_lag_at_even_speed_and_stays_finite_at_any_tick) {

@@ -59,7 +59,7 @@ TEST(Coefficients, what_cannot_cut_is_refused) {
 
 TEST(Materials, each_has_its_own_name_a_source_and_a_band_around_its_value) {
     std::set<std::string> names;
-    for (const Material& m : materials()) {
+    for (const WorkpieceMaterial& m : materials()) {
         EXPECT_TRUE(names.insert(m.name).second) << m.name;
         EXPECT_TRUE(check(m.coefficients)) << m.name;
         EXPECT_FALSE(m.source.empty() || m.what.empty()) << m.name;
@@ -78,7 +78,7 @@ TEST(Materials, each_has_its_own_name_a_source_and_a_band_around_its_value) {
 }
 
 TEST(Materials, spread_of_al7075_is_the_one_between_its_sources) {
-    const Material m = find_material("al7075-t6").value();
+    const WorkpieceMaterial m = find_material("al7075-t6").value();
     EXPECT_EQ(m.coefficients.ktc, 767.01);
     EXPECT_EQ(m.coefficients.kae, 0.7);
     EXPECT_NEAR(m.coefficients.ktc * m.spread_low, 600, 1);

@@ -69,8 +69,10 @@ class TlsServer : public testing::Test {
         options.subprotocol = "test.1";
         options.tls = tls->context;
         ServerHandlers handlers;
-        handlers.page = [](std::string_view, Unpacks) { return Page{"text/html", "<p>hello", ""}; };
-        handlers.message = [this](ClientId id, std::string_view text) {
+        handlers.on_get = [](std::string_view, AcceptedEncodings) {
+            return Page{"text/html", "<p>hello", ""};
+        };
+        handlers.on_message = [this](ClientId id, std::string_view text) {
             server_->send_text(id, std::string(text));
             server_->send(id, std::make_shared<std::vector<std::uint8_t>>(300'000, std::uint8_t{7}));
         };

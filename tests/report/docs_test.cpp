@@ -62,7 +62,7 @@ TEST(Docs, job_page_shows_a_job_that_is_read) {
 
 TEST(Docs, job_page_lists_every_material_with_its_numbers) {
     const std::string text = page("job.md");
-    for (const milling::Material& m : milling::materials()) {
+    for (const milling::WorkpieceMaterial& m : milling::materials()) {
         const std::size_t row = text.find("| `" + m.name + "` |");
         ASSERT_NE(row, std::string::npos) << m.name;
         std::istringstream cells(text.substr(row, text.find('\n', row) - row));

@@ -12,7 +12,7 @@
 #include "field/shape/box_shape.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
-#include "session/live/feel_ahead.hpp"
+#include "session/live/force_look_ahead.hpp"
 #include "session/live/live_mill.hpp"
 #include "session/live/live_touch.hpp"
 
@@ -121,7 +121,7 @@ TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
 // The table that a servo plays is the cut's: the mean over turns of what the hand feels is the row's mean
 // force, scaled, while the finger is at the cutter.
 TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
-    FeelAhead ahead(*slot(), serial_for);
+    ForceLookAhead ahead(*slot(), serial_for);
     ASSERT_TRUE(ahead.run(always));
     Bench bench;
     bench.finger.feel().set_force(ahead.table({}, {}), {});
@@ -178,7 +178,7 @@ TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
 
 // At equal times of the program the tooth's phase in the force felt is that of the spindle that is shown.
 TEST(LiveFinger, FeelsTheTeethWhereTheSpindleShowsThem) {
-    FeelAhead ahead(*slot(), serial_for);
+    ForceLookAhead ahead(*slot(), serial_for);
     ASSERT_TRUE(ahead.run(always));
     for (const double feed_factor : {1.0, 1.7}) {
         CutChange change;

@@ -13,9 +13,9 @@
 #include "haptics/servo/swapped_force.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
-#include "session/cut/stock_in_time.hpp"
+#include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
-#include "session/live/feel_ahead.hpp"
+#include "session/live/force_look_ahead.hpp"
 #include "session/live/live_finger.hpp"
 #include "session/live/live_mill.hpp"
 
@@ -123,7 +123,7 @@ class ServoSourcesOfACut : public testing::Test {
         force_.replace(ahead_.table({}, {}), {});
         textures_ = ahead_.textures();
     }
-    FeelAhead ahead_;
+    ForceLookAhead ahead_;
     haptics::SwappedForce force_{1 / kTickS};
     haptics::TextureMap textures_;
 };
@@ -131,7 +131,7 @@ class ServoSourcesOfACut : public testing::Test {
 TEST_F(ServoSourcesOfACut, feeling_the_cut_neither_allocates_nor_locks_nor_prints) {
     const CutterTrack track(*slot());
     ASSERT_FALSE(textures_.records().empty());
-    StockInTime stock(*slot(), serial_for, 0);
+    StockAtTime stock(*slot(), serial_for, 0);
     CutSourceOptions options;
     options.part = &stock.reader();
     options.tick_s = options.contact.tick_s = kTickS;

@@ -153,7 +153,7 @@ FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<sessio
             if (!written) return std::unexpected(written.error());
         }
     }
-    if (in_time) stock_ = std::make_unique<session::StockInTime>(std::move(*in_time), parallel, start_s_);
+    if (in_time) stock_ = std::make_unique<session::StockAtTime>(std::move(*in_time), parallel, start_s_);
     cut(std::move(*table), parallel);
     return {};
 }

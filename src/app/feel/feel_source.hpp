@@ -10,7 +10,7 @@
 #include "haptics/servo/swapped_force.hpp"
 #include "job/job.hpp"
 #include "report/feel_stats_json.hpp"
-#include "session/cut/stock_in_time.hpp"
+#include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
 
 namespace tribo::app {
@@ -55,7 +55,7 @@ class FeelSource {
     std::unique_ptr<session::CutterTrack> track_;
     std::unique_ptr<haptics::SwappedForce> force_;
     haptics::TextureMap textures_;
-    std::unique_ptr<session::StockInTime> stock_;
+    std::unique_ptr<session::StockAtTime> stock_;
     std::unique_ptr<haptics::ForceSource> source_;
     std::size_t knots_ = 0, table_bytes_ = 0, texture_records_ = 0;
     bool from_bake_ = false;

@@ -50,10 +50,11 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
       options_(std::move(options)),
       controller_(mill, options_.feel, std::move(arm), options_.settings),
       finger_(controller_.finger()),
-      told_(controller_.settings()),
+      sent_settings_(controller_.settings()),
       builder_(options_.make_setup),
       audio_(std::move(audio)) {
-    for (const milling::Material& m : milling::materials()) options_.info.materials.push_back(m.name);
+    for (const milling::WorkpieceMaterial& m : milling::materials())
+        options_.info.materials.push_back(m.name);
     options_.info.device = std::string(finger_.limits().name);
     options_.info.max_force_n = finger_.limits().max_force_n;
     options_.info.rate_hz = options_.feel.rate_hz;
@@ -72,12 +73,14 @@ LiveShow::~LiveShow() {
 net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
     using Event = LiveInbox::Event;
     net::ServerHandlers h;
-    h.page = [&files](std::string_view path, net::Unpacks unpacks) { return files.page(path, unpacks); };
-    h.came = [this](net::ClientId id, const net::Arrival& arrival) {
-        inbox_.put({Event::Kind::came, id, {}, arrival});
+    h.on_get = [&files](std::string_view path, net::AcceptedEncodings accepted) {
+        return files.page(path, accepted);
     };
-    h.lost = [this](net::ClientId id) { inbox_.put({Event::Kind::lost, id}); };
-    h.message = [this](net::ClientId id, std::string_view text) {
+    h.on_connect = [this](net::ClientId id, const net::ResumeInfo& resume) {
+        inbox_.put({Event::Kind::connected, id, {}, resume});
+    };
+    h.on_overflow = [this](net::ClientId id) { inbox_.put({Event::Kind::overflowed, id}); };
+    h.on_message = [this](net::ClientId id, std::string_view text) {
         inbox_.put({Event::Kind::message, id, std::string(text)});
     };
     return h;
@@ -94,8 +97,8 @@ Result<void> LiveShow::run(net::Server& server) {
         const auto now = Clock::now();
         const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
         before = now;
-        const auto may_go_on = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
-        if (auto done = mill_.tick(dt, may_go_on, frames); !done) return done;
+        const auto has_time = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
+        if (auto done = mill_.tick(dt, has_time, frames); !done) return done;
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
         take_built();
         finger_.show(controller_.scene(), mill_.state().tip_mm, frames);
@@ -140,14 +143,14 @@ void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames
 void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
     using Kind = LiveInbox::Event::Kind;
     switch (event.kind) {
-        case Kind::came:
-            options_.info.resume = event.arrival.resume;
-            options_.info.resumed = event.arrival.resumed;
+        case Kind::connected:
+            options_.info.resume = event.resume.token;
+            options_.info.resumed = event.resume.resumed;
             server.send_text(event.client, protocol::live_server_info(options_.info));
             server.send_text(event.client, protocol::live_settings(controller_.settings()));
             replay(event.client, server);
             break;
-        case Kind::lost:
+        case Kind::overflowed:
             server.send_text(event.client, protocol::live_lost());
             break;
         case Kind::message:
@@ -170,9 +173,9 @@ void LiveShow::obey(const LiveInbox::Event& event, net::Server& server) {
         force_changes_ = controller_.force_changes();
         ask_for_force();
     }
-    if (controller_.settings() == told_) return;
-    told_ = controller_.settings();
-    server.send_text_all(protocol::live_settings(told_));
+    if (controller_.settings() == sent_settings_) return;
+    sent_settings_ = controller_.settings();
+    server.send_text_all(protocol::live_settings(sent_settings_));
 }
 
 }  // namespace tribo::app

@@ -22,10 +22,10 @@ namespace tribo::app {
 class LiveInbox {
   public:
     struct Event {
-        enum class Kind { came, lost, message } kind;
+        enum class Kind { connected, overflowed, message } kind;
         net::ClientId client;
-        std::string text = {};      // of a message
-        net::Arrival arrival = {};  // of one who came
+        std::string text = {};        // of a message
+        net::ResumeInfo resume = {};  // of one who came
     };
     void put(const Event& event);
     std::deque<Event> take_all();
@@ -67,7 +67,7 @@ class LiveShow {
     LiveShowOptions options_;
     session::LiveController controller_;
     session::LiveFinger& finger_;  // the controller's
-    protocol::LiveSettings told_;
+    protocol::LiveSettings sent_settings_;
     session::LiveMemory memory_;
     LiveInbox inbox_;
     ForceBuilder builder_;

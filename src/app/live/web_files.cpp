@@ -57,7 +57,7 @@ FileResult<WebFiles> WebFiles::read(const std::string& folder) {
     return files;
 }
 
-std::optional<net::Page> WebFiles::page(std::string_view path, net::Unpacks unpacks) const {
+std::optional<net::Page> WebFiles::page(std::string_view path, net::AcceptedEncodings accepted) const {
     if (path == "/") path = "/index.html";
     const auto stored = [&](std::string_view extension,
                             std::string_view encoding) -> std::optional<net::Page> {
@@ -66,8 +66,8 @@ std::optional<net::Page> WebFiles::page(std::string_view path, net::Unpacks unpa
         return net::Page{std::string(type_of(path)), found->second, encoding};
     };
     std::optional<net::Page> page;
-    if (unpacks.brotli) page = stored(".br", "br");
-    if (!page && unpacks.gzip) page = stored(".gz", "gzip");
+    if (accepted.brotli) page = stored(".br", "br");
+    if (!page && accepted.gzip) page = stored(".gz", "gzip");
     return page ? page : stored("", "");
 }
 

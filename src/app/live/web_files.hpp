@@ -19,7 +19,7 @@ class WebFiles {
     static std::string folder_of(const std::string& name);
 
     // "/" is index.html. Nothing beyond the files that were read.
-    std::optional<net::Page> page(std::string_view path, net::Unpacks unpacks) const;
+    std::optional<net::Page> page(std::string_view path, net::AcceptedEncodings accepted) const;
 
   private:
     std::map<std::string, std::string, std::less<>> bytes_;  // by "/NAME"

@@ -35,12 +35,12 @@ void ForceBuilder::work(const std::function<Result<session::MillSetup>()>& make_
     // What cannot be set up was refused where it is shown.
     if (!setup) return;
     // One thread: the others are the picture's.
-    session::FeelAhead ahead(*std::move(setup), serial_for);
-    const auto may_go_on = [this] {
+    session::ForceLookAhead ahead(*std::move(setup), serial_for);
+    const auto has_time = [this] {
         const std::lock_guard lock(mutex_);
         return !stop_;
     };
-    if (!ahead.run(may_go_on)) return;
+    if (!ahead.run(has_time)) return;
     auto textures = std::optional(ahead.textures());
     for (;;) {
         std::unique_lock lock(mutex_);

@@ -9,7 +9,7 @@
 #include <optional>
 #include <thread>
 
-#include "session/live/feel_ahead.hpp"
+#include "session/live/force_look_ahead.hpp"
 
 namespace tribo::app {
 

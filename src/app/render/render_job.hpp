@@ -16,7 +16,7 @@ namespace tribo::app {
 
 struct PreparedJob {
     job::Job job;
-    milling::Material material;
+    milling::WorkpieceMaterial material;
     session::MillSetup setup;
     std::vector<std::string> stock_folders;  // renders that the stock comes from; absolute, links resolved
     std::optional<readers::Model> part;

@@ -32,7 +32,7 @@ std::string sound_of(const job::Job& job) {
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loaded, bool sound) {
-    const milling::Material& m = loaded.material;
+    const milling::WorkpieceMaterial& m = loaded.material;
     char k[200], band[200];
     const milling::CuttingCoefficients& c = m.coefficients;
     std::snprintf(k, sizeof k, "Ktc %.4g, Krc %.4g, Kac %.4g N/mm2; Kte %.4g, Kre %.4g, Kae %.4g N/mm", c.ktc,

@@ -193,7 +193,7 @@ int press(const PressCall& call) {
         } else if (touched_since < 0) {
             touched_since = frame;
         }
-        elastic::Contact contact;
+        elastic::ContactEllipse contact;
         contact.x_mm = at.x_mm;
         contact.y_mm = at.y_mm;
         contact.half_width_mm = contact.half_height_mm = call.radius_mm;

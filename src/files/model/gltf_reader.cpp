@@ -133,9 +133,9 @@ struct Primitive {
 };
 
 // Walks the nodes of a scene twice: to count, then to copy.
-class SceneReader {
+class GltfReader {
   public:
-    SceneReader(const tinygltf::Model& model, const std::string& file, double unit_mm)
+    GltfReader(const tinygltf::Model& model, const std::string& file, double unit_mm)
         : model_(model), file_(file), unit_mm_(unit_mm) {}
 
     Result<TriangleMesh> read(const std::vector<int>& roots) {
@@ -331,7 +331,7 @@ Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOpt
         const int scene = std::clamp(model.defaultScene, 0, static_cast<int>(model.scenes.size()) - 1);
         roots = model.scenes[static_cast<std::size_t>(scene)].nodes;
     }
-    auto mesh = SceneReader(model, file, unit_mm.value_or(1)).read(roots);
+    auto mesh = GltfReader(model, file, unit_mm.value_or(1)).read(roots);
     if (!mesh) return std::unexpected(mesh.error());
     readers::Model found;
     found.mesh = std::move(*mesh);

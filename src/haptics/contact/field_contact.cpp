@@ -79,18 +79,18 @@ void FieldContact::reset() {
     gap_.forget();
 }
 
-Contact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
+ProbeContact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) noexcept {
     // What was free for the probe as it was turned is so for the turned one less what that moved.
     const double turned_mm = gap_.set_balls(balls_mm);
     anchor_.radius -= turned_mm;
     return tick(probe, turned_mm > 0);
 }
 
-Contact FieldContact::update(Vec3 probe) noexcept {
+ProbeContact FieldContact::update(Vec3 probe) noexcept {
     return tick(probe, false);
 }
 
-Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
+ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     queries_ = 0;
     if (!is_finite(probe)) return {};
     if (phase_ == Phase::begin) {
@@ -102,7 +102,7 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     settled_ = braced_ = moved_ = looked_ = false;
     last_step_.known = false;
     stride_mm_ = std::max(stride_mm_, kLowest);
-    if (phase_ == Phase::touching && stuck_s_ >= kStuckS) let_go_of_the_stuck(probe);
+    if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
     if (phase_ == Phase::touching) renew_anchor();
     for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
@@ -129,7 +129,7 @@ Contact FieldContact::tick(Vec3 probe, bool turned) noexcept {
 
 // A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
 // probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
-void FieldContact::let_go_of_the_stuck(Vec3 probe) {
+void FieldContact::release_stuck_proxy(Vec3 probe) {
     stuck_s_ = 0;
     const double room = measure(probe).gap_mm;
     if (room <= kSkin) return;
@@ -506,8 +506,8 @@ bool FieldContact::tie(const Place& to) {
     return false;
 }
 
-Contact FieldContact::answer(Vec3 probe) {
-    Contact c;
+ProbeContact FieldContact::answer(Vec3 probe) {
+    ProbeContact c;
     c.proxy_mm = at_.proxy;
     c.settled = settled_;
     c.normal = at_.normal;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A god-object on a distance field (Zilles and Salisbury 1995; friction cones: Harwin and Melder 2002): the
-// proxy stays in the air while the probe enters the material, and a spring between the two is what the hand
-// feels.
+// God-object contact on a distance field (Zilles and Salisbury 1995; friction cones: Harwin and Melder 2002).
+// The proxy stays outside of the material while the probe enters it. The hand feels a spring between proxy
+// and probe.
 #pragma once
 
 #include <span>
@@ -15,43 +15,44 @@ namespace tribo::haptics {
 struct ContactOptions {
     double stiffness_n_per_mm = 0.5;  // > 0
     double probe_radius_mm = 0;       // >= 0; 0: a point
-    // Coulomb's cones: held up to `static`, pulled along at `kinetic` (0 <= kinetic <= static).
+    // Coulomb friction coefficients: the proxy sticks up to `static` and slides with `kinetic`.
+    // 0 <= kinetic <= static.
     double friction_static = 0;
     double friction_kinetic = 0;
-    // A proxy that is pulled along slower than this sticks again: below it one feels stick-slip, above it a
-    // steady drag.
+    // A sliding proxy sticks again below this speed. Slower motion feels like stick-slip, faster motion like
+    // a steady drag.
     double stick_mm_per_s = 10;
     double tick_s = 1e-3;  // between two updates, > 0
 };
 
-struct Contact {
+struct ProbeContact {
     Vec3 force_n;          // on the probe
-    Vec3 proxy_mm;         // where the probe would be if the surface held it
-    Vec3 normal{0, 0, 1};  // of the surface at the proxy, unit; the last one while there is no contact
+    Vec3 proxy_mm;         // position of the proxy
+    Vec3 normal{0, 0, 1};  // surface normal at the proxy, unit; without contact the last one
     Vec3 slip_mm_per_s;    // of the proxy along the surface
     bool in_contact = false;
     bool sliding = false;       // in contact and not held by friction
-    bool settled = true;        // the proxy has come to rest; else it goes on with the next tick
-    double penetration_mm = 0;  // of the probe, along the surface's normals
-    // Where on the probe it touches: torque about the probe's position is lever x force, N mm.
+    bool settled = true;        // the proxy is at rest; otherwise the next tick moves it on
+    double penetration_mm = 0;  // of the probe, along the surface normals
+    // From the probe position to the point of contact. The torque is lever x force, N mm.
     Vec3 lever_mm;
 };
 
-// The proxy never crosses the surface, however fast the probe goes and however thin a wall is. Four things
-// hold in every tick:
-//   1. The proxy is tied: it touches a ball that is known to be free (the anchor), and each anchor is joined
-//      to the one before by free balls.
-//   2. A step along the surface is taken only where it brings the proxy nearer to the probe and its place can
+// The proxy never crosses the surface, at any speed of the probe and any thickness of a wall. Four rules hold
+// in every tick:
+//   1. The proxy is tied: it touches a ball of free space (the anchor). A chain of free balls joins each
+//      anchor to the one before.
+//   2. The proxy steps along the surface only if the step brings it nearer to the probe and the new place can
 //      be tied.
-//   3. It progresses: a step that is refused is followed by a shorter one, in this tick or in the next.
-//   4. Until the proxy has settled the whole spring acts, from the last place that was tied; in flight, what
-//      of it the probe's depth explains.
+//   3. The proxy makes progress: after a refused step it tries a shorter one, in this tick or in the next.
+//   4. Before the proxy has settled, the whole spring acts from the last tied place. In flight, only the part
+//      of the spring that the depth of the probe explains acts.
 //
-// The proxy is where the distance to the probe is least, found by sliding along the surface with the step
-// that its curvature allows; in a corner it is held by all its sides. Depends on no mesh and no unit.
+// The proxy minimises the distance to the probe. It slides along the surface with a step that the curvature
+// allows. In a corner all sides hold it. No mesh and no unit is assumed.
 //
-// One thread at a time. update() is real-time safe: no allocation, lock, exception or output, at most
-// kMostQueries queries of the field (times the balls of a shell).
+// One thread at a time. update() is real-time safe: no allocation, lock, exception or output. It makes at
+// most kMostQueries queries of the field (times the number of balls of a shell).
 class FieldContact {
   public:
     static constexpr int kMostQueries = 96;
@@ -59,16 +60,17 @@ class FieldContact {
     // `field` must outlive the contact or be replaced.
     explicit FieldContact(const contact::DistanceField& field, const ContactOptions& options = {});
 
-    // One tick: the probe is at `probe_mm` now. Not finite: nothing moves, no force.
-    Contact update(Vec3 probe_mm) noexcept;
-    // The same for a probe of several balls (ProbeGap), by their offsets from the probe's position as it is
-    // turned now.
-    Contact update(Vec3 probe_mm, std::span<const Vec3> balls_mm) noexcept;
+    // One tick with the probe at `probe_mm`. If the position is not finite the proxy stays and the force is
+    // 0.
+    ProbeContact update(Vec3 probe_mm) noexcept;
+    // The same for a probe of several balls (ProbeGap). `balls_mm` are their current offsets from the probe
+    // position.
+    ProbeContact update(Vec3 probe_mm, std::span<const Vec3> balls_mm) noexcept;
 
-    // Begins anew with the next update: a probe that is in air is free, one in material is first brought to
-    // the surface near it.
+    // Restarts with the next update. A probe in air is free; a probe in material gets a proxy on the nearest
+    // surface.
     void reset();
-    // The same surface with material removed; the contact goes on.
+    // Replaces the field by one with material removed. The contact continues.
     void set_field(const contact::DistanceField& field) { field_ = &field; }
     void set_options(const ContactOptions& options);
     const ContactOptions& options() const { return options_; }
@@ -77,33 +79,33 @@ class FieldContact {
 
   private:
     enum class Phase { begin, climb, free, touching };
-    // What is left to do in this tick.
+    // Whether this tick has more work.
     enum class Next { nothing, more };
-    // A place known to be free, and how far around it.
+    // Centre and radius of a ball of free space.
     struct Anchor {
         Vec3 at;
         double radius = 0;
     };
-    // On the surface.
+    // A place of the proxy on the surface.
     struct Place {
         Vec3 proxy, normal{0, 0, 1};
-        contact::HalfSpaces sides;  // that hold the proxy; offsets 0
-        std::size_t ball = 0;       // of the probe, that touches
-        double leap_mm = 0;         // by how much the last look had to correct it
+        contact::HalfSpaces sides;  // sides that hold the proxy; offsets 0
+        std::size_t ball = 0;       // the ball of the probe that touches
+        double leap_mm = 0;         // correction by the last query
     };
-    // Of the way from the proxy to the probe: what leads along the surface and what into it.
+    // The way from the proxy to the probe, split into a part along the surface and a part into it.
     struct Split {
         Vec3 rest, press;
         double rest_mm = 0, press_mm = 0;
     };
-    // The last step on a smooth side, and what was left to go before it.
+    // The last step on a smooth side, and the remaining way before it.
     struct Step {
         Vec3 rest, way;
         bool known = false;
     };
 
-    Contact tick(Vec3 probe, bool turned) noexcept;
-    void let_go_of_the_stuck(Vec3 probe);
+    ProbeContact tick(Vec3 probe, bool turned) noexcept;
+    void release_stuck_proxy(Vec3 probe);
     Next climb();
     Next fly(Vec3 probe);
     void lift(Anchor& ball, Vec3 up, double height_mm);
@@ -124,7 +126,7 @@ class FieldContact {
     bool tie(const Place& to);
     bool chain(const Anchor& to);
     bool reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm);
-    Contact answer(Vec3 probe);
+    ProbeContact answer(Vec3 probe);
     bool budget(int queries) const { return queries_ + queries <= kMostQueries; }
     ProbeGap::Gap measure(Vec3 at) {
         ++queries_;
@@ -142,19 +144,19 @@ class FieldContact {
     int queries_ = 0;
     Phase phase_ = Phase::begin;
     bool settled_ = true;
-    bool braced_ = false;  // settled between sides too alike to be told apart, which hold the rest too
+    bool braced_ = false;  // settled between nearly parallel sides, which also hold the remaining way
     bool sticking_ = true;
-    bool moved_ = false, looked_ = false;  // in this tick: a step was taken, the place was looked at
+    bool moved_ = false, looked_ = false;  // in this tick: a step was taken; the place was examined
     Step last_step_;
     int looked_sides_ = 0;  // of the corner in which the proxy has settled
     Anchor anchor_;
-    double chained_mm_ = 0;  // how far the last chain came
+    double chained_mm_ = 0;  // length of the last chain
     Place at_;               // the contact, tied
     Vec3 last_proxy_;
-    double ease_ = 1;       // step along the surface for a unit of rest: 1 on a plane, less in a hollow
+    double ease_ = 1;       // step per remaining way along the surface: 1 on a plane, less in a hollow
     double height_ = 0.1;   // of the anchor over the proxy, mm
     double stride_mm_ = 0;  // longest step that is tried
-    double stuck_s_ = 0;    // for so long it has not moved, though it should, and the probe was in air
+    double stuck_s_ = 0;    // time without motion of the proxy although the probe is in air
 };
 
 }  // namespace tribo::haptics

@@ -49,14 +49,14 @@ DeviceState SimulatedHand::write(Vec3 force_n) noexcept {
     return DeviceState::ready;
 }
 
-LedHand::LedHand(Vec3 start_mm, double tick_s, const HandModel& model)
+PointerDevice::PointerDevice(Vec3 start_mm, double tick_s, const HandModel& model)
     : goal_(start_mm), tick_s_(tick_s), aim_(start_mm), body_(start_mm, tick_s, model) {}
 
-void LedHand::lead_to(Vec3 aim_mm) {
+void PointerDevice::set_target(Vec3 aim_mm) {
     if (is_finite(aim_mm)) goal_.publish(aim_mm);
 }
 
-DeviceState LedHand::read(HandReading& reading) noexcept {
+DeviceState PointerDevice::read(HandReading& reading) noexcept {
     const Vec3 way = goal_.read() - aim_;
     const double far = length(way), step = kAimMmPerS * tick_s_;
     const Vec3 moved = far > step ? step / far * way : way;
@@ -68,7 +68,7 @@ DeviceState LedHand::read(HandReading& reading) noexcept {
     return DeviceState::ready;
 }
 
-DeviceState LedHand::write(Vec3 force_n) noexcept {
+DeviceState PointerDevice::write(Vec3 force_n) noexcept {
     force_ = force_n;
     return DeviceState::ready;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Hands without an arm: two that yield to what they feel, along a stroke or led from outside, and one that
-// goes exactly where it was told; and the delay of an arm, for any of them.
+// Devices without hardware. SimulatedHand and PointerDevice yield to forces and follow a stroke or a pointer.
+// PlaybackHand follows a stroke exactly. DelayedHand adds the delay of an arm to any device.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 
 namespace tribo::haptics {
 
-// Hand, grip and arm as one mass that a spring and a damper pull along the stroke. The defaults lie in the
-// range measured for a stylus held like a pen (a tenth to half a kilogram; hundreds of N/m), a little over
-// critically damped so that a tap does not ring.
+// Hand, grip and arm as one mass. A spring and a damper pull it along the stroke. The defaults lie in the
+// range measured for a stylus held like a pen (0.1 to 0.5 kg; hundreds of N/m). They are slightly overdamped,
+// so that a tap does not ring.
 struct HandModel {
     double mass_kg = 0.25;
     double stiffness_n_per_mm = 0.3;
     double damping_n_s_per_mm = 0.02;
 };
 
-// The mass between the pull of the hand's aim and the force that it feels.
+// The mass, moved by the spring to the target of the hand and by the rendered force.
 class HandBody {
   public:
     HandBody(Vec3 position_mm, double tick_s, const HandModel& model);
@@ -34,17 +34,17 @@ class HandBody {
     Vec3 position_, velocity_;
 };
 
-// Deterministic: time comes from outside, a tick at a time.
+// Deterministic: each tick advances the time by tick_s.
 class SimulatedHand final : public Device {
   public:
-    // tick_s > 0: what every tick lasts.
+    // tick_s > 0: duration of a tick.
     SimulatedHand(Stroke stroke, double tick_s, const HandModel& model = {});
 
     const DeviceLimits& limits() const override { return kSimulatedLimits; }
     bool has_motors() const override { return false; }
-    // Where the hand is now, a tick after the last reading.
+    // The position one tick after the last reading.
     DeviceState read(HandReading& reading) noexcept override;
-    // The force until the next reading.
+    // Sets the force until the next reading.
     DeviceState write(Vec3 force_n) noexcept override;
     double now_s() const { return now_s_; }
 
@@ -56,20 +56,20 @@ class SimulatedHand final : public Device {
     std::uint64_t sequence_ = 0;
 };
 
-// Led by a pointer of whatever kind, whose places come when they come: the hand's aim goes there at
-// kAimMmPerS at most, as a mouse may jump and a hand may not.
-class LedHand final : public Device {
+// Driven by a pointer: a mouse, a touch screen or a tracked controller. Pointer positions come at any time
+// and may jump. The target of the hand follows them at kAimMmPerS at most.
+class PointerDevice final : public Device {
   public:
     static constexpr double kAimMmPerS = 500;
 
-    LedHand(Vec3 start_mm, double tick_s, const HandModel& model = {});
+    PointerDevice(Vec3 start_mm, double tick_s, const HandModel& model = {});
 
-    // From one other thread, at any time; not finite: nothing changes.
-    void lead_to(Vec3 aim_mm);
+    // Called from one other thread, at any time. A position that is not finite is ignored.
+    void set_target(Vec3 aim_mm);
 
     const DeviceLimits& limits() const override { return kSimulatedLimits; }
     bool has_motors() const override { return false; }
-    // It does, but no person's hand moves with it: there is nobody to keep energy from.
+    // The mass does yield. But no person holds it, so no energy can reach a hand.
     bool yields() const override { return false; }
     DeviceState read(HandReading& reading) noexcept override;
     DeviceState write(Vec3 force_n) noexcept override;
@@ -83,7 +83,7 @@ class LedHand final : public Device {
     std::uint64_t sequence_ = 0;
 };
 
-// The probe stands on the stroke, whatever pushes it.
+// The probe follows the stroke exactly. Forces do not move it.
 class PlaybackHand final : public Device {
   public:
     PlaybackHand(Stroke stroke, double tick_s);
@@ -100,10 +100,10 @@ class PlaybackHand final : public Device {
     std::uint64_t sequence_ = 0;
 };
 
-// A device as it is at the end of a slow line: readings and forces come some ticks late.
+// A device behind a slow connection: readings and forces arrive some ticks late.
 class DelayedHand final : public Device {
   public:
-    // Ticks both ways together, >= 0: half of them before a reading comes.
+    // `delay_ticks` >= 0: round trip. Half of it delays the readings.
     DelayedHand(std::unique_ptr<Device> hand, int delay_ticks);
 
     const DeviceLimits& limits() const override { return hand_->limits(); }
@@ -114,7 +114,7 @@ class DelayedHand final : public Device {
 
   private:
     std::unique_ptr<Device> hand_;
-    std::vector<HandReading> readings_;  // rings; the next to come is at the index
+    std::vector<HandReading> readings_;  // ring buffers; the index is the next entry
     std::vector<Vec3> forces_;
     std::size_t reading_ = 0, force_ = 0;
     bool begun_ = false;

@@ -16,7 +16,7 @@ constexpr int kCellBits = 21;
 
 }  // namespace
 
-double carried_share(double speed_mm_per_s, double wavelength_mm, double rate_hz) {
+double groove_gain(double speed_mm_per_s, double wavelength_mm, double rate_hz) {
     if (!(wavelength_mm > 0)) return 1;
     const double share = std::abs(speed_mm_per_s) / (wavelength_mm * rate_hz);
     if (share <= kAllBelow) return 1;
@@ -76,8 +76,8 @@ Vec3 texture_force(const contact::TextureRecord& record, const TextureTouch& tou
                    double rate_hz) {
     const contact::GrooveGeometry& g = record.grooves;
     const contact::TextureBand band{
-        carried_share(dot(touch.velocity_mm_per_s, record.along), g.pitch_along_mm, rate_hz),
-        carried_share(dot(touch.velocity_mm_per_s, record.across()), g.pitch_across_mm, rate_hz)};
+        groove_gain(dot(touch.velocity_mm_per_s, record.along), g.pitch_along_mm, rate_hz),
+        groove_gain(dot(touch.velocity_mm_per_s, record.across()), g.pitch_across_mm, rate_hz)};
     return stiffness_n_per_mm * contact::texture_normal(record, touch.place_mm, touch.press_mm, band);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The texture of a machined surface under a hand: the record of eight triangles that lies nearest, limited to
-// what a loop at its rate carries at the speed of the hand.
+// Haptic texture of a machined surface: the force of the nearest record of eight triangles. Grooves that the
+// servo rate cannot reproduce at the speed of the hand are faded out.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,20 @@
 
 namespace tribo::haptics {
 
-// What a loop carries of grooves of a wavelength that a hand crosses at a speed: all up to a quarter of the
-// loop's rate, nothing from four tenths on, a raised cosine between.
-double carried_share(double speed_mm_per_s, double wavelength_mm, double rate_hz);
+// Gain of grooves of this wavelength at this speed of the hand, against aliasing. The gain is 1 up to a
+// quarter of the servo rate, 0 from 0.4 of it on, and a raised cosine between.
+double groove_gain(double speed_mm_per_s, double wavelength_mm, double rate_hz);
 
-// Records of a path by place and in the path's order. Built once; asking is real-time safe and for any
-// thread.
+// Spatial index of the texture records of a path. Built once. Queries are real-time safe, from any thread.
 class TextureMap {
   public:
     TextureMap() = default;
-    // `reach_mm` > 0: no record answers for a place further than this from its own.
+    // `reach_mm` > 0: largest distance from a query to its record.
     TextureMap(std::vector<contact::TextureRecord> records, double reach_mm);
 
     std::span<const contact::TextureRecord> records() const { return records_; }
-    // The record nearest to a place; null when none is within reach. Looks at the records of 27 cells of the
-    // reach's size, at most kMostLooked of each.
+    // The nearest record; null if none is within reach. Examines 27 cells of size `reach_mm`, at most
+    // kMostLooked records of each.
     const contact::TextureRecord* nearest(Vec3 place_mm) const;
     static constexpr int kMostLooked = 32;
 
@@ -37,7 +36,7 @@ class TextureMap {
     std::uint64_t cell_of(Vec3 place, int dx, int dy, int dz) const;
 
     std::vector<contact::TextureRecord> records_;
-    std::vector<Entry> entries_;  // by cell, then in the path's order
+    std::vector<Entry> entries_;  // sorted by cell, then by path
     Vec3 origin_;
     double reach_ = 1;
 };
@@ -45,7 +44,7 @@ class TextureMap {
 struct TextureTouch {
     Vec3 place_mm;           // of the probe, or of its proxy
     Vec3 velocity_mm_per_s;  // along the surface
-    double press_mm = 0;     // how deep the hand presses, >= 0
+    double press_mm = 0;     // penetration, >= 0
 };
 
 // F_tex = k N_tex. Real-time safe.

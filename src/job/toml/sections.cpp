@@ -77,7 +77,7 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
                      "keep the name or the six coefficients");
     } else if (section.has("name")) {
         material.name = section.text("name").value_or("");
-        const Result<milling::Material> known = milling::find_material(material.name);
+        const Result<milling::WorkpieceMaterial> known = milling::find_material(material.name);
         if (!known) section.fail("name", known.error().cause, known.error().remedy);
     } else if (!present.empty()) {
         milling::CuttingCoefficients k;

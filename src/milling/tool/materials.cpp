@@ -35,8 +35,8 @@ constexpr double kTi6Al4VRakeDeg = 12, kTi6Al4VHelixDeg = 30, kTi6Al4VChipMm = 0
 constexpr double kSteelResultant = 2160, kSteelAngleDeg = 68;
 
 // A row of the review's table; its edge coefficients are printed as N mm and must be N/mm.
-Material review(std::string name, std::string what, const char* reference, const CuttingCoefficients& k,
-                std::string note = {}) {
+WorkpieceMaterial review(std::string name, std::string what, const char* reference,
+                         const CuttingCoefficients& k, std::string note = {}) {
     return {
         std::move(name),
         std::move(what),
@@ -50,21 +50,21 @@ Material review(std::string name, std::string what, const char* reference, const
         2};
 }
 
-Material within(Material m, Range ktc) {
+WorkpieceMaterial within(WorkpieceMaterial m, Range ktc) {
     m.spread_low = ktc.low / m.coefficients.ktc;
     m.spread_high = ktc.high / m.coefficients.ktc;
     return m;
 }
 
-Material suspect(Material m) {
+WorkpieceMaterial suspect(WorkpieceMaterial m) {
     m.confidence = Confidence::suspect;
     return m;
 }
 
 }  // namespace
 
-std::vector<Material> materials() {
-    std::vector<Material> all;
+std::vector<WorkpieceMaterial> materials() {
+    std::vector<WorkpieceMaterial> all;
     all.push_back(
         within(review("al7075-t6", "Al7075-T6, carbide, dry", "190",
                       {.ktc = 767.01, .krc = 168.8, .kac = 222, .kte = 27.7, .kre = 26.6, .kae = 0.7}),
@@ -97,13 +97,14 @@ std::vector<Material> materials() {
                        {.ktc = 561.2, .krc = 194.4, .kac = 6.7, .kte = 204.3, .kre = 16.2, .kae = 2.2},
                        "kte is ten times its neighbours' and may be a misprint")));
 
-    Material titanium{"ti6al4v",
-                      "Ti6Al4V, carbide, rake 12, helix 30 degrees, chip 0.05 mm",
-                      "orthogonal data of Budak, Altintas, Armarego 1996 through the oblique transformation",
-                      "shear stress 613 N/mm2 and edge forces 24 and 43 N/mm are quoted, not checked in the "
-                      "paper; no axial edge coefficient, 0 is assumed",
-                      Confidence::unconfirmed,
-                      {}};
+    WorkpieceMaterial titanium{
+        "ti6al4v",
+        "Ti6Al4V, carbide, rake 12, helix 30 degrees, chip 0.05 mm",
+        "orthogonal data of Budak, Altintas, Armarego 1996 through the oblique transformation",
+        "shear stress 613 N/mm2 and edge forces 24 and 43 N/mm are quoted, not checked in the "
+        "paper; no axial edge coefficient, 0 is assumed",
+        Confidence::unconfirmed,
+        {}};
     titanium.coefficients = oblique_coefficients(kTi6Al4V, kTi6Al4VRakeDeg * math::kRadPerDeg,
                                                  kTi6Al4VHelixDeg * math::kRadPerDeg, kTi6Al4VChipMm);
     all.push_back(std::move(titanium));
@@ -127,10 +128,10 @@ std::vector<Material> materials() {
     return all;
 }
 
-Result<Material> find_material(std::string_view name) {
-    std::vector<Material> all = materials();
+Result<WorkpieceMaterial> find_material(std::string_view name) {
+    std::vector<WorkpieceMaterial> all = materials();
     std::vector<std::string_view> names;
-    for (Material& m : all) {
+    for (WorkpieceMaterial& m : all) {
         if (m.name == name) return std::move(m);
         names.push_back(m.name);
     }

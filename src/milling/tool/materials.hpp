@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The library of materials: published cutting coefficients, each with where it comes from and how far to
-// trust it. Published values for one alloy differ by a factor of two and more, so without a calibration of
-// one's own no force is known better than the spread says.
+// Library of workpiece materials: published cutting coefficients with source and confidence. Published values
+// for one alloy differ by a factor of two and more. Without your own calibration the spread is the error of
+// every force.
 #pragma once
 
 #include <string>
@@ -14,27 +14,27 @@
 namespace tribo::milling {
 
 enum class Confidence {
-    published,    // read in a publication's table
+    published,    // from a table in a publication
     unconfirmed,  // public code or data without a traceable measurement
-    suspect       // printed so, but at least one value looks wrong
+    suspect       // published, but at least one value looks wrong
 };
 
-struct Material {
-    std::string name;    // what a job file says
+struct WorkpieceMaterial {
+    std::string name;    // as in a job file
     std::string what;    // alloy, tool, cooling
     std::string source;  // author or title, year, table
     std::string note;    // assumptions made here; may be empty
     Confidence confidence = Confidence::published;
     CuttingCoefficients coefficients;
-    // Multiply a force by these for the band in which it may really lie.
+    // Factors on a force: the band in which the true force lies.
     double spread_low = 0.5, spread_high = 2;
 };
 
 // All of them, in the order of the documentation.
-std::vector<Material> materials();
+std::vector<WorkpieceMaterial> materials();
 
-// The material of that name; otherwise an error that names the nearest one.
-Result<Material> find_material(std::string_view name);
+// The material of this name. The error names the nearest known name.
+Result<WorkpieceMaterial> find_material(std::string_view name);
 
 std::string_view name_of(Confidence confidence);
 

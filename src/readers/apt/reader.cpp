@@ -19,9 +19,9 @@ constexpr double kLongestDwellS = 86'400;
 
 constexpr const char* kPlainGoto = "let the CAM system write it as GOTO with tool axes";
 
-class Reader {
+class AptReader {
   public:
-    Reader(std::string_view bytes, const AptOptions& options)
+    AptReader(std::string_view bytes, const AptOptions& options)
         : lexer_(bytes, options.source_name),
           options_(options),
           report_(options.source_name),
@@ -460,7 +460,7 @@ class Reader {
 }  // namespace apt
 
 Result<motion::Program> read_apt(std::string_view bytes, const AptOptions& options) {
-    return apt::Reader(bytes, options).read();
+    return apt::AptReader(bytes, options).read();
 }
 
 }  // namespace tribo::readers

@@ -23,9 +23,9 @@ namespace tribo::readers {
 namespace gcode {
 namespace {
 
-class Reader {
+class ProgramReader {
   public:
-    Reader(std::string_view bytes, const GcodeOptions& options, MoveSink* sink)
+    ProgramReader(std::string_view bytes, const GcodeOptions& options, MoveSink* sink)
         : output_(options, sink),
           parameters_(state_, output_),
           lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
@@ -244,11 +244,11 @@ class Reader {
 }  // namespace gcode
 
 Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options) {
-    return gcode::Reader(bytes, options, nullptr).read();
+    return gcode::ProgramReader(bytes, options, nullptr).read();
 }
 
 Result<motion::Program> read_gcode(std::string_view bytes, const GcodeOptions& options, MoveSink& sink) {
-    return gcode::Reader(bytes, options, &sink).read();
+    return gcode::ProgramReader(bytes, options, &sink).read();
 }
 
 }  // namespace tribo::readers

@@ -39,9 +39,9 @@ bool is_text_stl(std::string_view bytes) {
            (contains_word(start, "facet") || contains_word(start, "endsolid"));
 }
 
-class TextReader {
+class StlTextReader {
   public:
-    TextReader(std::string_view text, const ModelOptions& options)
+    StlTextReader(std::string_view text, const ModelOptions& options)
         : cursor_(without_byte_order_mark(text)), options_(options) {}
 
     Result<Model> read() {
@@ -185,7 +185,7 @@ bool looks_like_stl(std::string_view bytes) {
 }
 
 Result<Model> read_stl(std::string_view bytes, const ModelOptions& options) {
-    if (!has_binary_size(bytes) && is_text_stl(bytes)) return TextReader(bytes, options).read();
+    if (!has_binary_size(bytes) && is_text_stl(bytes)) return StlTextReader(bytes, options).read();
     return read_binary(bytes, options);
 }
 

@@ -29,9 +29,9 @@ Vec3 to_unit(Vec3 axis) {
     return std::abs(squared - 1) <= rounding ? axis : axis / std::sqrt(squared);
 }
 
-class Reader {
+class KeyframesReader {
   public:
-    Reader(std::string_view bytes, const KeyframeOptions& options)
+    KeyframesReader(std::string_view bytes, const KeyframeOptions& options)
         : lines_(bytes, options.source_name), options_(options) {}
 
     Result<std::vector<motion::Keyframe>> read() {
@@ -149,7 +149,7 @@ class Reader {
 }  // namespace
 
 Result<std::vector<motion::Keyframe>> read_keyframes(std::string_view bytes, const KeyframeOptions& options) {
-    return Reader(bytes, options).read();
+    return KeyframesReader(bytes, options).read();
 }
 
 std::string write_keyframes(const std::vector<motion::Keyframe>& keyframes) {

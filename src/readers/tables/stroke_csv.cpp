@@ -36,9 +36,9 @@ std::string header_of(const Columns& columns) {
     return header;
 }
 
-class Reader {
+class StrokeReader {
   public:
-    Reader(std::string_view bytes, const Columns& columns, const StrokeOptions& options)
+    StrokeReader(std::string_view bytes, const Columns& columns, const StrokeOptions& options)
         : lines_(bytes, options.source_name), columns_(columns), options_(options) {}
 
     // Hands the values of each line to `add`.
@@ -143,7 +143,7 @@ void append_row(std::string& csv, const Values& values) {
 
 Result<std::vector<ProbePoint>> read_probe_stroke(std::string_view bytes, const StrokeOptions& options) {
     std::vector<ProbePoint> points;
-    const auto done = Reader(bytes, kProbe, options).read([&](const Values& v) {
+    const auto done = StrokeReader(bytes, kProbe, options).read([&](const Values& v) {
         points.push_back({v[0], {v[1], v[2], v[3]}});
     });
     if (!done) return std::unexpected(done.error());
@@ -152,7 +152,7 @@ Result<std::vector<ProbePoint>> read_probe_stroke(std::string_view bytes, const 
 
 Result<std::vector<FingerPoint>> read_finger_stroke(std::string_view bytes, const StrokeOptions& options) {
     std::vector<FingerPoint> points;
-    const auto done = Reader(bytes, kFinger, options).read([&](const Values& v) {
+    const auto done = StrokeReader(bytes, kFinger, options).read([&](const Values& v) {
         points.push_back({v[0], v[1], v[2], v[3]});
     });
     if (!done) return std::unexpected(done.error());

@@ -38,9 +38,10 @@ std::vector<Field> fields_of(std::string_view line) {
     }
 }
 
-class Reader {
+class ToolTableReader {
   public:
-    Reader(std::string_view bytes, const ToolTableOptions& options) : lines_(bytes), options_(options) {}
+    ToolTableReader(std::string_view bytes, const ToolTableOptions& options)
+        : lines_(bytes), options_(options) {}
 
     Result<ToolTable> read() {
         while (const auto line = lines_.next()) {
@@ -202,7 +203,7 @@ class Reader {
 }  // namespace
 
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options) {
-    return Reader(bytes, options).read();
+    return ToolTableReader(bytes, options).read();
 }
 
 }  // namespace tribo::readers

@@ -90,9 +90,9 @@ double default_cell_mm(const job::Job& job, const Box3& blank_mm) {
     return std::clamp(cell, 0.02, 1.0);
 }
 
-Result<milling::Material> job_material(const job::Job& job) {
+Result<milling::WorkpieceMaterial> job_material(const job::Job& job) {
     if (!job.material.coefficients) return milling::find_material(job.material.name);
-    milling::Material own;
+    milling::WorkpieceMaterial own;
     own.name = "own coefficients";
     own.what = "as the job file gives them";
     own.source = "job file";

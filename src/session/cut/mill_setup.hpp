@@ -22,7 +22,7 @@ struct MillOptions {
 double default_cell_mm(const job::Job& job, const Box3& blank_mm);
 
 // The material of the job: from the library, or its own coefficients with no spread but their own.
-Result<milling::Material> job_material(const job::Job& job);
+Result<milling::WorkpieceMaterial> job_material(const job::Job& job);
 
 // The part of prepare_mill() that needs no stock: moves, cutters, speeds and times. Without a grid.
 Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& program,

@@ -16,7 +16,7 @@ constexpr double kFreeSlew = 20;
 
 }  // namespace
 
-haptics::Contact SurfaceTouch::update(const haptics::HandReading& hand) noexcept {
+haptics::ProbeContact SurfaceTouch::update(const haptics::HandReading& hand) noexcept {
     if (probe_.size() <= 1) return contact_.update(hand.position_mm);
     const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
     probe_.turned(hand.stylus, balls);
@@ -25,7 +25,7 @@ haptics::Contact SurfaceTouch::update(const haptics::HandReading& hand) noexcept
 
 haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, double now_s,
                                              double /*tick_s*/) noexcept {
-    const haptics::Contact contact = touch_.update(hand);
+    const haptics::ProbeContact contact = touch_.update(hand);
     haptics::RenderedForce felt;
     felt.contact_n = contact.force_n;
     felt.touching = contact.in_contact;
@@ -106,7 +106,7 @@ haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, doubl
     felt.simulation_s = now_s;
     if (touch_) {
         (void)options_.part->refresh();
-        const haptics::Contact contact = touch_->update(hand);
+        const haptics::ProbeContact contact = touch_->update(hand);
         felt.contact_n = contact.force_n;
         felt.touching = contact.in_contact;
     }

@@ -27,7 +27,7 @@ class SurfaceTouch {
                  haptics::ProbeShape probe = {})
         : contact_(surface, options), probe_(std::move(probe)) {}
 
-    haptics::Contact update(const haptics::HandReading& hand) noexcept;
+    haptics::ProbeContact update(const haptics::HandReading& hand) noexcept;
     // The next update begins at the hand's place.
     void reset() noexcept { contact_.reset(); }
 

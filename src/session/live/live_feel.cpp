@@ -89,7 +89,7 @@ haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double
         must_leave_ = false;
         return felt;
     }
-    const haptics::Contact contact = part.get()->touch.update(hand);
+    const haptics::ProbeContact contact = part.get()->touch.update(hand);
     touched_.proxy_mm = contact.proxy_mm;
     touched_.slip_mm_per_s = length(contact.slip_mm_per_s);
     touched_.contact = contact.in_contact;

@@ -7,9 +7,9 @@ namespace tribo::session {
 namespace {
 
 std::unique_ptr<haptics::Device> arm_or_hand(std::unique_ptr<haptics::Device> arm, Vec3 start_mm,
-                                             double rate_hz, haptics::LedHand*& led) {
+                                             double rate_hz, haptics::PointerDevice*& led) {
     if (arm) return arm;
-    auto hand = std::make_unique<haptics::LedHand>(start_mm, 1 / rate_hz);
+    auto hand = std::make_unique<haptics::PointerDevice>(start_mm, 1 / rate_hz);
     led = hand.get();
     return hand;
 }
@@ -31,10 +31,10 @@ protocol::LiveTexture told_texture(double t_s, const contact::TextureRecord* tex
 
 LiveFinger::LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm)
     : rate_hz_(options.rate_hz),
-      device_(arm_or_hand(std::move(arm), start_mm, options.rate_hz, led_)),
+      device_(arm_or_hand(std::move(arm), start_mm, options.rate_hz, pointer_)),
       feel_(options),
       servo_(*device_, feel_, safety_limits(*device_, options.rate_hz),
-             led_ != nullptr ? 0 : options.delay_s) {}
+             pointer_ != nullptr ? 0 : options.delay_s) {}
 
 bool LiveFinger::tick(double now_s) noexcept {
     const haptics::ServoTick tick = servo_.tick(now_s);
@@ -57,8 +57,8 @@ bool LiveFinger::tick(double now_s) noexcept {
 }
 
 void LiveFinger::lead(Vec3 aim_mm, bool down) {
-    if (led_ == nullptr) return;
-    if (down) led_->lead_to(aim_mm);
+    if (pointer_ == nullptr) return;
+    if (down) pointer_->set_target(aim_mm);
     down_ = down;
 }
 

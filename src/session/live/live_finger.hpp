@@ -21,7 +21,7 @@ class LiveFinger {
 
     // The picture's, all that follows.
     LiveFeel& feel() { return feel_; }
-    bool has_arm() const { return led_ == nullptr; }
+    bool has_arm() const { return pointer_ == nullptr; }
     double rate_hz() const { return rate_hz_; }
     const haptics::DeviceLimits& limits() const { return device_->limits(); }
     // What is wrong with the arm, in words; empty: nothing.
@@ -42,7 +42,7 @@ class LiveFinger {
     };
 
     double rate_hz_;
-    haptics::LedHand* led_ = nullptr;  // the device, where it is one
+    haptics::PointerDevice* pointer_ = nullptr;  // the device, where it is one
     std::unique_ptr<haptics::Device> device_;
     LiveFeel feel_;
     haptics::Servo servo_;

@@ -108,7 +108,7 @@ Result<void> LiveMill::begin() {
     row_states_.clear();
     record_ = {};
     sound_.pieces.clear();
-    rows_told_ = collisions_told_ = 0;
+    rows_sent_ = collisions_sent_ = 0;
     shown_s_ = 0;
     begun_anew_ = true;
     set_back_ = false;
@@ -128,7 +128,7 @@ void LiveMill::set_change(const CutChange& change) {
     while (heard > 0 && rows_[heard - 1].end_s > clock_s_) --heard;
     sound_.pieces.clear();
     set_changed_forces(0, heard);
-    rows_told_ = 0;
+    rows_sent_ = 0;
     rows_anew_ = !rows_.empty();
     last_state_.clear();
 }
@@ -185,7 +185,7 @@ void LiveMill::set_changed_forces(std::size_t first_row, std::size_t first_heard
     for (std::size_t n = first_row; n < rows_.size(); ++n) set_force(n, forces[n - first_row]);
 }
 
-Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
+Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
                             const protocol::FrameSink& frames) {
     if (set_back_) {
         if (auto begun = begin(); !begun) return begun;
@@ -198,7 +198,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& may_go_on,
         add_row(row);
         if (change_.none()) set_force(rows_.size() - 1, force);
     };
-    sinks.progress = [&](double) { return may_go_on(); };
+    sinks.progress = [&](double) { return has_time(); };
     session_->run_to(target, sinks);
     if (!change_.none()) set_changed_forces(rows_before, rows_before);
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
@@ -287,18 +287,18 @@ void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) 
 }
 
 void LiveMill::show_rows(const protocol::FrameSink& frames) {
-    while (rows_told_ < rows_.size()) {
-        const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(rows_told_);
-        const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_told_);
+    while (rows_sent_ < rows_.size()) {
+        const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(rows_sent_);
+        const std::size_t now = std::min(kRowsPerFrame, rows_.size() - rows_sent_);
         protocol::write_frame(protocol::LiveRows{std::exchange(rows_anew_, false),
                                                  {first, first + static_cast<std::ptrdiff_t>(now)}},
                               frame_);
         frames(frame_);
-        rows_told_ += now;
+        rows_sent_ += now;
     }
     const auto& collisions = session_->totals().collisions;
-    for (; collisions_told_ < collisions.size(); ++collisions_told_) {
-        const MillCollision& c = collisions[collisions_told_];
+    for (; collisions_sent_ < collisions.size(); ++collisions_sent_) {
+        const MillCollision& c = collisions[collisions_sent_];
         protocol::write_frame(protocol::LiveCollision{c.t_s, static_cast<int>(c.kind), c.line, c.tip_mm},
                               frame_);
         frames(frame_);

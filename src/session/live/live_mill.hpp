@@ -57,10 +57,10 @@ class LiveMill {
     // An ear in this process, told with the frames from now on.
     void hear(std::function<void(LiveSoundNews)> ear) { ear_ = std::move(ear); }
 
-    // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `may_go_on` says so (asked
+    // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `has_time` says so (asked
     // every few moves), then tells what is new (LiveMemory keeps it for who comes later). The clock waits for
     // the part.
-    Result<void> tick(double dt_s, const std::function<bool()>& may_go_on, const protocol::FrameSink& frames);
+    Result<void> tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
     LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
@@ -96,7 +96,7 @@ class LiveMill {
     bool rows_anew_ = false;
     std::function<void(MillSession*)> watcher_;
     std::function<void(LiveSoundNews)> ear_;
-    std::size_t rows_told_ = 0, collisions_told_ = 0;
+    std::size_t rows_sent_ = 0, collisions_sent_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;
     std::vector<std::uint8_t> frame_, last_state_;

@@ -78,9 +78,9 @@ bool stands_here(const Cursor& cursor, std::string_view name) {
     return true;
 }
 
-class Reader {
+class ExpressionReader {
   public:
-    Reader(Cursor& cursor, const Parameters& parameters, int depth = 0)
+    ExpressionReader(Cursor& cursor, const Parameters& parameters, int depth = 0)
         : cursor_(cursor), parameters_(parameters), depth_(depth) {}
 
     Result<double> value() {
@@ -345,7 +345,7 @@ Result<std::optional<double>> read_digits(Cursor& cursor, std::size_t start) {
 }
 
 Result<double> read_value(Cursor& cursor, const Parameters& parameters) {
-    return Reader(cursor, parameters).value();
+    return ExpressionReader(cursor, parameters).value();
 }
 
 bool starts_computed_value(const Cursor& cursor) {
@@ -361,7 +361,7 @@ bool starts_computed_value(const Cursor& cursor) {
 }
 
 Result<void> read_parameter_name(Cursor& cursor, const Parameters& parameters, ParameterName& read) {
-    return Reader(cursor, parameters).parameter_name(read);
+    return ExpressionReader(cursor, parameters).parameter_name(read);
 }
 
 Result<void> read_angled_name(Cursor& cursor, std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Who is let in, by the rules alone.
-#include "net/gate.hpp"
+#include "net/access_check.hpp"
 
 #include <gtest/gtest.h>
 #include <set>
@@ -13,36 +13,36 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const Gate::Time kNow{std::chrono::hours(1)};
+const AccessCheck::Time kNow{std::chrono::hours(1)};
 
-Knock knock(std::string_view target) {
+Credentials credentials(std::string_view target) {
     return {"mill.local:8317", "https://mill.local:8317", "p.1", target, "192.168.1.5"};
 }
 
-Gate gate() {
-    return Gate({"p.1", "secret", {"Mill.local"}, true});
+AccessCheck access_check() {
+    return AccessCheck({"p.1", "secret", {"Mill.local"}, true});
 }
 
-TEST(Gate, goes_by_its_names_and_by_the_address_that_was_asked) {
-    const Gate g = gate();
+TEST(AccessCheck, knows_its_own_names_and_the_address_of_the_connection) {
+    const AccessCheck g = access_check();
     for (const char* host :
          {"localhost", "localhost:8317", "MILL.local:1", "192.168.1.5:8317", "192.168.1.5"})
-        EXPECT_TRUE(g.goes_by(host, "192.168.1.5")) << host;
-    EXPECT_TRUE(g.goes_by("[fd00::5]:8317", "fd00::5"));
-    EXPECT_TRUE(g.goes_by("[::1]", "::1"));
+        EXPECT_TRUE(g.is_own_name(host, "192.168.1.5")) << host;
+    EXPECT_TRUE(g.is_own_name("[fd00::5]:8317", "fd00::5"));
+    EXPECT_TRUE(g.is_own_name("[::1]", "::1"));
     for (const char* host : {"", ":8317", "evil.example", "localhost.evil.example", "192.168.1.6",
                              "mill.local.", "127.0.0.1", "[::1]:8317", "mill", "0.0.0.0"})
-        EXPECT_FALSE(g.goes_by(host, "192.168.1.5")) << host;
-    EXPECT_FALSE(g.goes_by("", ""));
+        EXPECT_FALSE(g.is_own_name(host, "192.168.1.5")) << host;
+    EXPECT_FALSE(g.is_own_name("", ""));
 }
 
-TEST(Gate, asks_for_the_origin_over_https_where_pages_come_so) {
-    Gate g = gate();
-    EXPECT_TRUE(g.admit(knock("/live?token=secret"), kNow));
+TEST(AccessCheck, asks_for_the_origin_over_https_where_pages_come_so) {
+    AccessCheck g = access_check();
+    EXPECT_TRUE(g.admit(credentials("/live?token=secret"), kNow));
     for (const char* origin :
          {"", "null", "http://mill.local:8317", "https://mill.local", "https://evil.example",
           "https://mill.local:8317/", "https://mill.local:8317.evil.example"}) {
-        Knock k = knock("/live?token=secret");
+        Credentials k = credentials("/live?token=secret");
         k.origin = origin;
         const auto admitted = g.admit(k, kNow);
         ASSERT_FALSE(admitted) << origin;
@@ -50,39 +50,39 @@ TEST(Gate, asks_for_the_origin_over_https_where_pages_come_so) {
     }
 }
 
-TEST(Gate, keeps_a_resume_token_for_its_time_after_the_client_went) {
-    Gate g = gate();
+TEST(AccessCheck, keeps_a_resume_token_for_kResumeTime_after_the_client_disconnected) {
+    AccessCheck g = access_check();
     const std::string early = g.resume_token(1, "https://mill.local:8317", kNow);
     const std::string late = g.resume_token(2, "https://mill.local:8317", kNow);
     // As long as it is there the token does not grow old.
-    const Gate::Time gone = kNow + 24h;
-    g.left(1, gone);
-    g.left(2, gone);
-    const auto back = g.admit(knock("/live?resume=" + early), gone + kResumeTime - 1s);
+    const AccessCheck::Time gone = kNow + 24h;
+    g.on_disconnect(1, gone);
+    g.on_disconnect(2, gone);
+    const auto back = g.admit(credentials("/live?resume=" + early), gone + kResumeTime - 1s);
     ASSERT_TRUE(back) << back.error();
     EXPECT_TRUE(back->resumed);
-    EXPECT_EQ(back->before, 1u);
-    const auto refused = g.admit(knock("/live?resume=" + late), gone + kResumeTime);
+    EXPECT_EQ(back->previous, 1u);
+    const auto refused = g.admit(credentials("/live?resume=" + late), gone + kResumeTime);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().find("too old"), std::string::npos);
 }
 
-TEST(Gate, takes_a_resume_token_that_a_foreign_origin_brought_from_everybody) {
-    Gate g = gate();
+TEST(AccessCheck, takes_a_resume_token_that_a_foreign_origin_brought_from_everybody) {
+    AccessCheck g = access_check();
     const std::string token = g.resume_token(1, "https://mill.local:8317", kNow);
-    Knock foreign = knock("");
+    Credentials foreign = credentials("");
     const std::string target = "/live?resume=" + token;
     foreign.host = "localhost:8317";
     foreign.origin = "https://localhost:8317";
     foreign.target = target;
     EXPECT_EQ(g.admit(foreign, kNow).error(), "the resume token belongs to another origin");
-    EXPECT_EQ(g.admit(knock(target), kNow).error(), "the resume token was used before");
+    EXPECT_EQ(g.admit(credentials(target), kNow).error(), "the resume token was used before");
 }
 
-TEST(Gate, an_empty_resume_token_is_none) {
-    Gate g = gate();
-    EXPECT_FALSE(g.admit(knock("/live?resume="), kNow));
-    EXPECT_TRUE(g.admit(knock("/live?resume=&token=secret"), kNow));
+TEST(AccessCheck, an_empty_resume_token_is_none) {
+    AccessCheck g = access_check();
+    EXPECT_FALSE(g.admit(credentials("/live?resume="), kNow));
+    EXPECT_TRUE(g.admit(credentials("/live?resume=&token=secret"), kNow));
 }
 
 TEST(Secret, tokens_have_128_bits_and_do_not_come_twice) {

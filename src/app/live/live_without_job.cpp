@@ -32,15 +32,17 @@ int live_without_job(const LiveCall& call) {
         answers.push_back(std::move(answer));
     };
     net::ServerHandlers handlers;
-    handlers.page = [&](std::string_view path, net::Unpacks unpacks) { return files->page(path, unpacks); };
-    handlers.came = [&](net::ClientId client, const net::Arrival& arrival) {
+    handlers.on_get = [&](std::string_view path, net::AcceptedEncodings accepted) {
+        return files->page(path, accepted);
+    };
+    handlers.on_connect = [&](net::ClientId client, const net::ResumeInfo& resume) {
         protocol::LiveServerInfo info;
         info.version = TRIBO_VERSION;
-        info.resume = arrival.resume;
-        info.resumed = arrival.resumed;
+        info.resume = resume.token;
+        info.resumed = resume.resumed;
         say({client, protocol::live_server_info(info), false});
     };
-    handlers.message = [&](net::ClientId client, std::string_view) {
+    handlers.on_message = [&](net::ClientId client, std::string_view) {
         say({client,
              protocol::live_refusal({"", 0, 0, "no job is open in the engine",
                                      "drop a file into the page, or start 'tribo live JOB'"}),

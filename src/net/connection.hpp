@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A connection, in the clear or inside TLS, behind one type: what is built on it is compiled once. For
-// server.cpp alone: everything of Beast is one translation unit.
+// A TCP connection, plain or TLS, as one type: code on top of it is compiled only once. Only server.cpp
+// includes this header, so that all of Beast stays in one translation unit.
 #pragma once
 
 #include <array>
@@ -19,23 +19,23 @@
 
 namespace tribo::net {
 
-class Line {
+class Connection {
   public:
     using Plain = boost::beast::tcp_stream;
     using Secure = boost::beast::ssl_stream<Plain>;
     using executor_type = Plain::executor_type;
 
-    explicit Line(boost::asio::ip::tcp::socket&& socket) : stream_(Plain(std::move(socket))) {}
+    explicit Connection(boost::asio::ip::tcp::socket&& socket) : stream_(Plain(std::move(socket))) {}
 
     bool secure() const { return std::holds_alternative<Secure>(stream_); }
-    // The socket with its deadlines.
+    // The TCP stream with its timeouts.
     Plain& next_layer() {
         Plain* plain = std::get_if<Plain>(&stream_);
         return plain ? *plain : std::get<Secure>(stream_).next_layer();
     }
     executor_type get_executor() { return next_layer().get_executor(); }
-    // This end of it, in digits.
-    std::string own_address() {
+    // Numeric address of the server side.
+    std::string local_address() {
         boost::system::error_code error;
         const auto end = next_layer().socket().local_endpoint(error);
         if (error) return {};
@@ -45,7 +45,8 @@ class Line {
         return address.to_string();
     }
 
-    // The server's side of TLS, of which `begun` was already read; from here on all goes through it.
+    // Starts TLS as the server. `begun` holds the bytes that were already read. All later traffic is
+    // encrypted.
     template <class Buffers, class Handler>
     void async_secure(boost::asio::ssl::context& context, const Buffers& begun, Handler&& handler) {
         Plain plain = std::move(std::get<Plain>(stream_));
@@ -53,7 +54,7 @@ class Line {
             .async_handshake(Secure::server, begun, std::forward<Handler>(handler));
     }
 
-    // One type of buffers and of handlers goes on from here, or all below would be compiled for each.
+    // Converts to one type of buffers and one type of handlers, so that the rest is compiled only once.
     template <class Buffers, class Handler>
     void async_read_some(const Buffers& buffers, Handler&& handler) {
         read_some(few<boost::asio::mutable_buffer>(buffers), Done(std::forward<Handler>(handler)));
@@ -63,19 +64,19 @@ class Line {
         write_some(few<boost::asio::const_buffer>(buffers), Done(std::forward<Handler>(handler)));
     }
 
-    // What Beast calls to end a WebSocket's connection.
+    // Beast calls this to close the connection of a WebSocket.
     template <class Handler>
-    friend void async_teardown(boost::beast::role_type role, Line& line, Handler&& handler) {
+    friend void async_teardown(boost::beast::role_type role, Connection& connection, Handler&& handler) {
         using boost::beast::websocket::async_teardown;
         std::move_only_function<void(boost::system::error_code)> done(std::forward<Handler>(handler));
-        if (Secure* secure = std::get_if<Secure>(&line.stream_))
+        if (Secure* secure = std::get_if<Secure>(&connection.stream_))
             return secure->async_shutdown(std::move(done));
-        async_teardown(role, std::get<Plain>(line.stream_), std::move(done));
+        async_teardown(role, std::get<Plain>(connection.stream_), std::move(done));
     }
 
   private:
     using Done = std::move_only_function<void(boost::system::error_code, std::size_t)>;
-    // The head and the body of a message; more goes with the next call.
+    // Enough for the head and the body of a message. The next call takes the rest.
     static constexpr std::size_t kBuffers = 4;
 
     template <class Buffer, class Buffers>

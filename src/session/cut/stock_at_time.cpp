@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "session/cut/stock_in_time.hpp"
+#include "session/cut/stock_at_time.hpp"
 
 namespace tribo::session {
 
-StockInTime::StockInTime(MillSetup setup, ParallelFor parallel, double start_s)
+StockAtTime::StockAtTime(MillSetup setup, ParallelFor parallel, double start_s)
     : session_(std::move(setup), std::move(parallel)) {
     advance(start_s);
     reader_ = session_.read_stock();
 }
 
-void StockInTime::advance(double program_s) {
+void StockAtTime::advance(double program_s) {
     if (program_s > session_.milled_s()) (void)session_.run_to(program_s, {});
 }
 
