@@ -49,6 +49,9 @@ void fields(Wire& wire, FrameOf<Wire, LiveJob> job) {
     wire.vec3("blank_min_mm", job.blank_mm.min);
     wire.vec3("blank_max_mm", job.blank_mm.max);
     wire.list("cutters", job.cutters);
+    wire.added();
+    wire.f32("rubbing_chip_mm", job.rubbing_chip_mm);
+    wire.f32("overload_chip_share", job.overload_chip_share);
 }
 
 template <>
@@ -116,6 +119,11 @@ void fields(Wire& wire, FrameOf<Wire, LiveRows> rows) {
     wire.header_flag("anew", rows.anew);
     wire.time_of_first(rows.rows);
     wire.list("rows", rows.rows);
+    wire.added();
+    wire.each("of_rows", rows.rows, [](Wire& of, FrameOf<Wire, LiveRow> row) {
+        of.f32("chip_mm", row.chip_mm);
+        of.u32("chip_verdict", row.chip_verdict);
+    });
 }
 
 template <>

@@ -51,6 +51,8 @@ struct LiveJob {
     double duration_s = 0, cell_mm = 0;
     Box3 blank_mm;
     std::vector<LiveCutter> cutters;
+    // Limits of a chip, as in milling/engagement/chip.hpp; 0: not told.
+    double rubbing_chip_mm = 0, overload_chip_share = 0;
 };
 
 struct LiveChunkPlace {
@@ -92,6 +94,8 @@ struct LiveRow {
     double entry_rad = 0, exit_rad = 0, axial_depth_mm = 0;
     double feed_per_tooth_mm = 0;
     std::uint32_t line = 0;
+    double chip_mm = 0;              // the thickest
+    std::uint32_t chip_verdict = 0;  // as milling::ChipVerdict
 };
 struct LiveRows {
     bool anew = false;  // all rows before are void

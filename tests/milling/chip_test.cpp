@@ -81,15 +81,19 @@ CutRow row_of(int line, double feed_mm, double seconds) {
 TEST(ChipFindings, name_the_longest_rubbing_and_the_worst_overload) {
     const Cutter cutter = cutter_of(CutterKind::flat, 10);
     ChipFindings findings;
-    findings.add(row_of(1, 0.1, 1), cutter);
-    findings.add(row_of(2, 0.005, 1), cutter);
-    findings.add(row_of(3, 0.004, 2), cutter);
-    findings.add(row_of(3, 0.004, 2), cutter);
-    findings.add(row_of(3, 0.1, 1), cutter);
-    findings.add(row_of(3, 0.004, 3), cutter);
-    findings.add(row_of(4, 0.3, 1), cutter);
-    findings.add(row_of(4, 0.5, 1), cutter);
-    findings.add(row_of(5, 0.26, 1), cutter);
+    const auto add = [&](int line, double feed_mm, double seconds) {
+        const CutRow row = row_of(line, feed_mm, seconds);
+        findings.add(row, thickest_chip_mm(row.engagement, row.feed, cutter), cutter);
+    };
+    add(1, 0.1, 1);
+    add(2, 0.005, 1);
+    add(3, 0.004, 2);
+    add(3, 0.004, 2);
+    add(3, 0.1, 1);
+    add(3, 0.004, 3);
+    add(4, 0.3, 1);
+    add(4, 0.5, 1);
+    add(5, 0.26, 1);
     EXPECT_DOUBLE_EQ(findings.rubbing_s, 8);
     EXPECT_EQ(findings.rubbing_line, 3);
     EXPECT_DOUBLE_EQ(findings.overload, 2);

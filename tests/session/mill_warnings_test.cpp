@@ -6,12 +6,13 @@
 #include "base/math.hpp"
 #include "field/shape/box_shape.hpp"
 #include "milling/tool/materials.hpp"
+#include "session/live/live_mill.hpp"
 
 namespace tribo::session {
 namespace {
 
 // A slot across a block, at a feed per tooth.
-MillTotals slotted(double feed_per_tooth_mm) {
+MillSetup slot(double feed_per_tooth_mm) {
     MillSetup setup;
     setup.cutters.emplace_back().diameter_mm = 6;
     setup.coefficients = milling::find_material("al7075-t6")->coefficients;
@@ -25,9 +26,30 @@ MillTotals slotted(double feed_per_tooth_mm) {
     setup.moves = {slot};
     setup.cutter_of_move = {0};
     setup.rpm_of_move = {6000};
-    MillSession session(std::move(setup), serial_for);
+    return setup;
+}
+
+MillTotals slotted(double feed_per_tooth_mm) {
+    MillSession session(slot(feed_per_tooth_mm), serial_for);
     session.run({});
     return session.totals();
+}
+
+// The rows of the slot that a page gets, at a feed override.
+std::vector<protocol::LiveRow> page_rows(double feed_per_tooth_mm, double feed_factor) {
+    const auto live = LiveMill::create([=] { return slot(feed_per_tooth_mm); }, serial_for);
+    EXPECT_TRUE(live);
+    CutChange change;
+    change.feed_factor = feed_factor;
+    (*live)->set_change(change);
+    (*live)->set_clock((*live)->duration_s());
+    std::vector<protocol::LiveRow> rows;
+    const auto keep = [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveRows told;
+        if (protocol::read_frame(frame, told)) rows.insert(rows.end(), told.rows.begin(), told.rows.end());
+    };
+    EXPECT_TRUE((*live)->tick(0, [] { return true; }, keep));
+    return rows;
 }
 
 TEST(MillWarnings, a_cut_as_books_advise_has_none) {
@@ -50,6 +72,32 @@ TEST(MillWarnings, a_tooth_that_takes_too_much_is_told_with_how_much) {
     EXPECT_EQ(warnings[0].line, 7);
     EXPECT_NE(warnings[0].text.find("a chip of 0.6 mm, 4 times 2.5 %"), std::string::npos)
         << warnings[0].text;
+}
+
+// The limits are 0.01 mm and, of this cutter, 0.15 mm. 0.01 is less than itself in a frame's precision.
+TEST(MillWarnings, a_chip_near_a_limit_is_told_alike_in_the_warning_and_on_the_page) {
+    for (const double feed_mm : {0.0099999, 0.01, 0.0100001, 0.1499999, 0.15, 0.1500001}) {
+        SCOPED_TRACE(feed_mm);
+        const MillTotals totals = slotted(feed_mm);
+        std::string warned;
+        for (const Warning& w : warnings_of(totals, "a.toml", "a.nc")) warned += w.text + "\n";
+        for (const double feed_factor : {1.0, 0.5}) {
+            SCOPED_TRACE(feed_factor);
+            double rubbing_s = 0, cutting_s = 0, thickest_mm = 0;
+            std::size_t overloads = 0;
+            for (const protocol::LiveRow& row : page_rows(feed_mm / feed_factor, feed_factor)) {
+                cutting_s += row.end_s - row.t_s;
+                const auto verdict = static_cast<milling::ChipVerdict>(row.chip_verdict);
+                if (verdict == milling::ChipVerdict::rubs) rubbing_s += row.end_s - row.t_s;
+                if (verdict == milling::ChipVerdict::overloads) ++overloads;
+                thickest_mm = std::max(thickest_mm, row.chip_mm);
+            }
+            EXPECT_NEAR(rubbing_s / feed_factor, totals.chips.rubbing_s, 1e-6 * totals.duration_s);
+            EXPECT_EQ(rubbing_s > 0.1 * cutting_s, warned.find("rub rather") != std::string::npos) << warned;
+            EXPECT_EQ(overloads > 0, warned.find("a tooth takes a chip") != std::string::npos) << warned;
+            EXPECT_NEAR(thickest_mm, feed_mm, 1e-6 * feed_mm);
+        }
+    }
 }
 
 TEST(MillWarnings, a_tool_that_meets_nothing_is_told) {

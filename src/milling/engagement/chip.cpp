@@ -43,9 +43,8 @@ ChipVerdict chip_verdict(double thickest_mm, const Cutter& cutter) {
     return thickest_mm > kOverloadShare * cutter.diameter_mm ? ChipVerdict::overloads : ChipVerdict::cuts;
 }
 
-void ChipFindings::add(const CutRow& row, const Cutter& cutter) {
-    const double chip = thickest_chip_mm(row.engagement, row.feed, cutter);
-    const ChipVerdict verdict = chip_verdict(chip, cutter);
+void ChipFindings::add(const CutRow& row, double thickest_mm, const Cutter& cutter) {
+    const ChipVerdict verdict = chip_verdict(thickest_mm, cutter);
     const double seconds = row.duration_s();
     if (verdict != ChipVerdict::rubs || row.line != open_line_) open_s_ = 0;
     if (verdict == ChipVerdict::rubs) {
@@ -57,10 +56,10 @@ void ChipFindings::add(const CutRow& row, const Cutter& cutter) {
             rubbing_line = row.line;
         }
     }
-    const double share = chip / (kOverloadShare * cutter.diameter_mm);
+    const double share = thickest_mm / (kOverloadShare * cutter.diameter_mm);
     if (share > overload) {
         overload = share;
-        overload_mm = chip;
+        overload_mm = thickest_mm;
         overload_line = row.line;
     }
     if (verdict == ChipVerdict::overloads && row.line != last_overloaded_) {

@@ -13,6 +13,7 @@ inline constexpr double kRubbingChipMm = 0.01;
 // Above this share of the cutter's diameter a tooth is overloaded.
 inline constexpr double kOverloadShare = 0.025;
 
+// Live frames tell it by its number.
 enum class ChipVerdict { cuts, rubs, overloads };
 
 // The thickest chip that a tooth takes in one turn, mm: the largest travel of its edge along the envelope's
@@ -30,7 +31,8 @@ struct ChipFindings {
     int overload_line = 0;
     std::size_t overloaded_lines = 0;
 
-    void add(const CutRow& row, const Cutter& cutter);
+    // `thickest_mm`: the row's chip.
+    void add(const CutRow& row, double thickest_mm, const Cutter& cutter);
 
   private:
     int open_line_ = 0, last_overloaded_ = 0;

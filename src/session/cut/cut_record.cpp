@@ -78,9 +78,11 @@ std::vector<milling::RowForce> changed_forces(std::span<const milling::CutRow> r
                                               const CutChange& change, std::size_t spectra_from,
                                               const ParallelFor& parallel) {
     std::vector<milling::RowForce> out(rows.size());
-    const auto visit = [&](std::size_t n, const milling::CutRow&, milling::ForceModel& model) {
+    const auto visit = [&](std::size_t n, const milling::CutRow& row, milling::ForceModel& model) {
         out[n].peaks = model.peaks();
         out[n].edge_torque_nmm = model.edges().mean_edge_torque_nmm();
+        out[n].chip_mm = milling::thickest_chip_mm(row.engagement, change.chip_factor() * row.feed,
+                                                   setup.cutters[row.cutter]);
         if (n >= spectra_from) model.spectrum(setup.harmonics, out[n].spectrum);
     };
     each_engaged(rows, setup, change, parallel, visit);

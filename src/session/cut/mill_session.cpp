@@ -192,6 +192,8 @@ class MillSession::Run {
                 if (spectra) model.spectrum(setup_.harmonics, force.spectrum);
                 force.peaks = model.peaks();
                 force.edge_torque_nmm = model.edges().mean_edge_torque_nmm();
+                force.chip_mm =
+                    milling::thickest_chip_mm(row.engagement, row.feed, setup_.cutters[row.cutter]);
             }
         });
     }
@@ -211,7 +213,7 @@ class MillSession::Run {
         totals_.peak_power_w =
             std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * row.spindle_rpm / 60 * math::kTwoPi);
         ++totals_.rows;
-        totals_.chips.add(row, setup_.cutters[row.cutter]);
+        totals_.chips.add(row, force.chip_mm, setup_.cutters[row.cutter]);
         if (sinks.row) sinks.row(row, force);
     }
 

@@ -174,9 +174,11 @@ void LiveMill::set_force(std::size_t n, const milling::RowForce& force) {
     row.peak_force_n = force.peaks.peak_force_n;
     row.mean_torque_nm = 1e-3 * force.peaks.mean_torque_nmm;
     row.feed_per_tooth_mm = change_.chip_factor() * cut.feed.across_mm;
+    const milling::Cutter& cutter = session_->setup().cutters[cut.cutter];
+    row.chip_mm = force.chip_mm;
+    row.chip_verdict = static_cast<std::uint32_t>(milling::chip_verdict(force.chip_mm, cutter));
     if (force.spectrum.empty()) return;
-    const int edges = session_->setup().cutters[cut.cutter].flutes;
-    sound_.pieces.push_back(told_piece(cut, force.spectrum, edges, change_));
+    sound_.pieces.push_back(told_piece(cut, force.spectrum, cutter.flutes, change_));
 }
 
 void LiveMill::set_changed_forces(std::size_t first_row, std::size_t first_heard) {
@@ -223,7 +225,8 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
 
 void LiveMill::show_job(const protocol::FrameSink& frames) {
     const MillSetup& setup = session_->setup();
-    protocol::LiveJob job{duration_s(), setup.cell_mm, session_->stock().blank().bounds_mm(), {}};
+    protocol::LiveJob job{duration_s(), setup.cell_mm,           session_->stock().blank().bounds_mm(),
+                          {},           milling::kRubbingChipMm, milling::kOverloadShare};
     for (const milling::Cutter& cutter : setup.cutters) job.cutters.push_back(told_cutter(cutter));
     protocol::write_frame(job, frame_);
     frames(frame_);

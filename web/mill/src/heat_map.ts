@@ -2,33 +2,17 @@
 // What a point of the machined surface is coloured by: the cut that made it (force, chip), or how far it is
 // off the designed surface.
 
-import type { Cutter, Row } from "@tribo/protocol/frames";
+import type { ChipVerdict, Cutter, Row } from "@tribo/protocol/frames";
 import { heat } from "./heat.js";
 import type { SurfaceDistance } from "./surface_distance.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 export type Colouring = "plain" | "force" | "chip" | "deviation" | "scallop";
 
-// A tooth that takes less than this rubs rather than cuts: about a third of a used edge's radius, mm.
-export const RUBBING_MM = 0.01;
-// A tooth that takes more than this share of the cutter's diameter is overloaded.
-export const OVERLOAD_SHARE = 0.025;
 const RUBBING: Vec3 = [0.55, 0.3, 0.75];
 const OVERLOAD: Vec3 = [0.85, 0.2, 0.12];
 // Deviations are looked for up to this, mm.
 const REACH_MM = 3;
-
-// The thickest chip of a piece: the feed per tooth, less where the cutter is engaged on one side only.
-export function chip(row: Row): number {
-  const { entry, exit } = row;
-  const top = entry <= Math.PI / 2 && exit >= Math.PI / 2 ? 1 : Math.max(Math.sin(entry), Math.sin(exit));
-  return row.feedPerTooth * Math.max(top, 0);
-}
-
-export function chipVerdict(row: Row, diameter: number): "rubbing" | "overload" | "" {
-  const thickest = chip(row);
-  return thickest < RUBBING_MM ? "rubbing" : thickest > OVERLOAD_SHARE * diameter ? "overload" : "";
-}
 
 // From blue over white to red; share -1 ... 1.
 export function diverging(share: number): Vec3 {
@@ -40,7 +24,7 @@ export function diverging(share: number): Vec3 {
 // A line of the program whose chips are out of range: its worst, and when that was cut.
 export interface ChipMark {
   line: number;
-  verdict: "rubbing" | "overload";
+  verdict: Exclude<ChipVerdict, "">;
   chip: number;
   time: number;
 }
@@ -70,8 +54,8 @@ export class HeatMap {
 
   add(row: Row, axis: Vec3, cutter: Cutter): void {
     this.largestForce = Math.max(this.largestForce, row.peakForce);
-    this.largestChip = Math.max(this.largestChip, chip(row));
-    this.mark(row, cutter);
+    this.largestChip = Math.max(this.largestChip, row.chip);
+    this.mark(row);
     const key = this.key(row.tip);
     const cut = { row, axis, radius: cutter.radius, corner: cutter.corner };
     const cell = this.cells.get(key);
@@ -92,24 +76,21 @@ export class HeatMap {
     }
     const cut = this.cutAt(p);
     if (!cut) return undefined;
-    return this.ofRow(mode, cut.row, 2 * cut.radius);
+    return this.ofRow(mode, cut.row);
   }
 
-  ofRow(mode: Colouring, row: Row, diameter: number): Vec3 {
+  ofRow(mode: Colouring, row: Row): Vec3 {
     if (mode !== "chip") return heat(row.peakForce / this.largestForce);
-    const verdict = chipVerdict(row, diameter);
-    if (verdict) return verdict === "rubbing" ? RUBBING : OVERLOAD;
-    return heat(chip(row) / this.largestChip);
+    if (row.chipVerdict) return row.chipVerdict === "rubbing" ? RUBBING : OVERLOAD;
+    return heat(row.chip / this.largestChip);
   }
 
-  private mark(row: Row, cutter: Cutter): void {
-    const verdict = chipVerdict(row, 2 * cutter.radius);
+  private mark({ line, chip, chipVerdict: verdict, time }: Row): void {
     if (!verdict) return;
-    const key = `${row.line} ${verdict}`;
+    const key = `${line} ${verdict}`;
     const before = this.marks.get(key);
-    const thickest = chip(row);
-    const worse = !before || (verdict === "rubbing" ? thickest < before.chip : thickest > before.chip);
-    if (worse) this.marks.set(key, { line: row.line, verdict, chip: thickest, time: row.time });
+    const worse = !before || (verdict === "rubbing" ? chip < before.chip : chip > before.chip);
+    if (worse) this.marks.set(key, { line, verdict, chip, time });
   }
 
   // The latest cut whose cutter's surface passes nearest to the point.

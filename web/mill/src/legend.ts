@@ -2,15 +2,21 @@
 // What the colours of the part mean.
 
 import { heat } from "./heat.js";
-import { diverging, OVERLOAD_SHARE, RUBBING_MM, type Colouring, type HeatMap } from "./heat_map.js";
+import { diverging, type Colouring, type HeatMap } from "./heat_map.js";
 import { element } from "@tribo/ui/dom";
+import type { ChipLimits } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
 function css(c: Vec3): string {
   return `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
 }
 
-export function showLegend(colouring: Colouring, map: HeatMap): void {
+// Limits travel in single precision.
+function decimal(value: number): number {
+  return Number(value.toPrecision(6));
+}
+
+export function showLegend(colouring: Colouring, map: HeatMap, limits: ChipLimits | undefined): void {
   const box = element("legend");
   box.hidden = colouring === "plain";
   if (colouring === "plain") return;
@@ -28,7 +34,7 @@ export function showLegend(colouring: Colouring, map: HeatMap): void {
   element("legend-low").textContent = low;
   element("legend-high").textContent = high;
   element("legend-marks").innerHTML =
-    colouring === "chip"
-      ? `<i style="background:#8c4dbf"></i>rubs (below ${RUBBING_MM} mm)<i style="background:#d9331f"></i>overload (above ${100 * OVERLOAD_SHARE} % of the diameter)`
+    colouring === "chip" && limits
+      ? `<i style="background:#8c4dbf"></i>rubs (below ${decimal(limits.rubbing)} mm)<i style="background:#d9331f"></i>overload (above ${decimal(100 * limits.overloadShare)} % of the diameter)`
       : "";
 }

@@ -316,7 +316,7 @@ function paint(): void {
   const value = Number(scale.value);
   if (value > 0) scene.heatMap.scale.deviation = value;
   scene.setColouring(colouring);
-  showLegend(colouring, scene.heatMap);
+  showLegend(colouring, scene.heatMap, scene.job?.chipLimits);
 }
 colour.addEventListener("change", paint);
 scale.addEventListener("change", paint);
@@ -331,7 +331,7 @@ function listChips(): void {
   marks.forEach((mark, n) => chips.add(mark, said[n]!));
 }
 setInterval(() => {
-  showLegend(colouring, scene.heatMap);
+  showLegend(colouring, scene.heatMap, scene.job?.chipLimits);
   listChips();
 }, 500);
 for (const what of ["path", "tool", "positions", "designed"] as const) {

@@ -198,7 +198,7 @@ export class Scene {
     const cutter = this.job?.cutters[this.cutter];
     if (!cutter) return;
     for (const row of rows) this.heatMap.add(row, this.axis, cutter);
-    this.path.add(rows, (row) => this.heatMap.ofRow(this.colouring, row, 2 * cutter.radius), this.heatMap.largestForce);
+    this.path.add(rows, (row) => this.heatMap.ofRow(this.colouring, row), this.heatMap.largestForce);
     this.draw();
   }
 
@@ -240,8 +240,7 @@ export class Scene {
 
   setColouring(colouring: Colouring): void {
     this.colouring = colouring;
-    const cutter = this.job?.cutters[this.cutter];
-    if (cutter) this.path.recolour((row) => this.heatMap.ofRow(colouring, row, 2 * cutter.radius));
+    if (this.job) this.path.recolour((row) => this.heatMap.ofRow(colouring, row));
     this.uncoloured.clear();
     this.colourLater(this.chunks.keys());
   }

@@ -4,7 +4,7 @@ import { afterEach, describe, expect, it, vi } from "vitest";
 import { liveUrl } from "../src/connection.js";
 import { heat } from "../src/heat.js";
 import { sort, tooLarge } from "../src/drop.js";
-import { chip, chipVerdict, HeatMap } from "../src/heat_map.js";
+import { HeatMap } from "../src/heat_map.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { Replay } from "../src/replay.js";
 import type { Listener } from "../src/source.js";
@@ -73,30 +73,24 @@ describe("chip load", () => {
     depth: 1,
     feedPerTooth: 0.1,
     line: 1,
+    entry: 0,
+    exit: Math.PI,
+    chip: 0.1,
+    chipVerdict: "" as const,
   };
-  it("of a slot is the feed per tooth, of a thin side cut less", () => {
-    expect(chip({ ...row, entry: 0, exit: Math.PI })).toBeCloseTo(0.1, 12);
-    expect(chip({ ...row, entry: 0, exit: Math.PI / 6 })).toBeCloseTo(0.05, 12);
-  });
-  it("tells rubbing and overload", () => {
-    expect(chipVerdict({ ...row, feedPerTooth: 0.005, entry: 0, exit: Math.PI }, 10)).toBe("rubbing");
-    expect(chipVerdict({ ...row, feedPerTooth: 0.3, entry: 0, exit: Math.PI }, 10)).toBe("overload");
-    expect(chipVerdict({ ...row, entry: 0, exit: Math.PI }, 10)).toBe("");
-  });
   it("lists each line once for what it does wrong, by its worst chip", () => {
     const map = new HeatMap();
     const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
     map.begin([ball]);
-    const slot = { ...row, entry: 0, exit: Math.PI };
-    for (const [line, feedPerTooth, time] of [
-      [7, 0.3, 1],
-      [7, 0.4, 2],
-      [7, 0.2, 3],
-      [4, 0.008, 4],
-      [4, 0.1, 5],
-      [4, 0.002, 6],
+    for (const [line, chip, time, chipVerdict] of [
+      [7, 0.3, 1, "overload"],
+      [7, 0.4, 2, "overload"],
+      [7, 0.2, 3, "overload"],
+      [4, 0.008, 4, "rubbing"],
+      [4, 0.1, 5, ""],
+      [4, 0.002, 6, "rubbing"],
     ] as const)
-      map.add({ ...slot, line, feedPerTooth, time }, [0, 0, 1], ball);
+      map.add({ ...row, line, chip, time, chipVerdict }, [0, 0, 1], ball);
     expect(map.chipMarks()).toEqual([
       { line: 4, verdict: "rubbing", chip: 0.002, time: 6 },
       { line: 7, verdict: "overload", chip: 0.4, time: 2 },
@@ -108,8 +102,8 @@ describe("chip load", () => {
     const map = new HeatMap();
     const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
     map.begin([ball]);
-    map.add({ ...row, entry: 0, exit: Math.PI, peakForce: 10 }, [0, 0, 1], ball);
-    map.add({ ...row, tip: [0, 5, 0], entry: 0, exit: Math.PI, peakForce: 20 }, [0, 0, 1], ball);
+    map.add({ ...row, peakForce: 10 }, [0, 0, 1], ball);
+    map.add({ ...row, tip: [0, 5, 0], peakForce: 20 }, [0, 0, 1], ball);
     const none = new SurfaceDistance();
     // The lowest points of either ball, and one that neither made.
     expect(map.colour("force", [0, 0, 0], none)).toEqual(heat(0.5));

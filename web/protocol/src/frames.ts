@@ -20,6 +20,15 @@ export interface JobFrame {
   cell: number;
   blank: { min: Vec3; max: Vec3 };
   cutters: Cutter[];
+  chipLimits: ChipLimits | undefined;
+}
+
+// What a chip is judged by. An earlier engine does not tell it.
+export interface ChipLimits {
+  // Below this the edge rubs, mm.
+  rubbing: number;
+  // Above this share of the cutter's diameter a tooth is overloaded.
+  overloadShare: number;
 }
 
 export interface PathFrame {
@@ -57,6 +66,8 @@ export interface StateFrame {
   rapid: boolean;
 }
 
+export type ChipVerdict = "" | "rubbing" | "overload";
+
 export interface Row {
   time: number;
   duration: number;
@@ -69,6 +80,9 @@ export interface Row {
   depth: number;
   feedPerTooth: number;
   line: number;
+  // The thickest. An earlier engine does not tell it: 0, and no verdict.
+  chip: number;
+  chipVerdict: ChipVerdict;
 }
 
 export interface RowsFrame {
@@ -184,6 +198,8 @@ const FAULTS = [
   "the arm switched its motors off",
 ];
 
+const CHIP_VERDICTS: ChipVerdict[] = ["", "rubbing", "overload"];
+
 class Reader {
   at = 16;
   constructor(private readonly view: DataView) {}
@@ -225,11 +241,8 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       return decodeChunk(r, buffer);
     case 3:
       return decodeState(r, time);
-    case 4: {
-      const rows: Row[] = [];
-      for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
-      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows };
-    }
+    case 4:
+      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows: decodeRows(r) };
     case 5: {
       const what = COLLISIONS[r.i32()] ?? "collision";
       const line = r.i32();
@@ -277,7 +290,8 @@ function decodeJob(r: Reader): JobFrame {
     for (let steps = r.u32(); steps > 0; --steps) cutter.holder.push({ radius: r.f32(), length: r.f32() });
     cutters.push(cutter);
   }
-  return { kind: "job", duration, cell, blank, cutters };
+  const chipLimits = r.left() > 0 ? { rubbing: r.f32(), overloadShare: r.f32() } : undefined;
+  return { kind: "job", duration, cell, blank, cutters, chipLimits };
 }
 
 function decodePath(r: Reader): PathFrame {
@@ -375,6 +389,17 @@ function decodeState(r: Reader, time: number): StateFrame {
   return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0 };
 }
 
+function decodeRows(r: Reader): Row[] {
+  const rows: Row[] = [];
+  for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
+  if (r.left() === 0) return rows;
+  for (const row of rows) {
+    row.chip = r.f32();
+    row.chipVerdict = CHIP_VERDICTS[r.u32()] ?? "";
+  }
+  return rows;
+}
+
 function decodeRow(r: Reader): Row {
   return {
     time: r.f64(),
@@ -388,5 +413,7 @@ function decodeRow(r: Reader): Row {
     depth: r.f32(),
     feedPerTooth: r.f32(),
     line: r.u32(),
+    chip: 0,
+    chipVerdict: "",
   };
 }

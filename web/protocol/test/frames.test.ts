@@ -57,6 +57,10 @@ describe("decodeFrame", () => {
       cell: 0.25,
       blank: { min: [0, 0, -10], max: [40, 30, 0] },
       cutters: [{ number: 7, flutes: 4, radius: 6, corner: 1, length: 40, holder: [{ radius: 10, length: 30 }] }],
+      chipLimits: undefined,
+    });
+    expect(decodeFrame(bytes.f32(0.25, 0.5).done())).toMatchObject({
+      chipLimits: { rubbing: 0.25, overloadShare: 0.5 },
     });
   });
 
@@ -113,7 +117,8 @@ describe("decodeFrame", () => {
 
   it("reads rows and collisions", () => {
     const bytes = new Bytes().header(4, 2).u32(1).f64(2).f32(0.5, 1, 2, 3, 10, 20, 0.25, 1, 2, 5, 0.125).u32(9);
-    expect(decodeFrame(bytes.done())).toEqual({
+    const rows = decodeFrame(bytes.done());
+    expect(rows).toEqual({
       kind: "rows",
       anew: false,
       rows: [
@@ -129,8 +134,15 @@ describe("decodeFrame", () => {
           depth: 5,
           feedPerTooth: 0.125,
           line: 9,
+          chip: 0,
+          chipVerdict: "",
         },
       ],
+    });
+    if (rows.kind !== "rows") throw new Error();
+    expect(decodeFrame(bytes.f32(0.125).u32(2).done())).toEqual({
+      ...rows,
+      rows: [{ ...rows.rows[0], chip: 0.125, chipVerdict: "overload" }],
     });
     expect(decodeFrame(new Bytes().header(5, 4).u32(2, 17).f32(1, 2, 3).done())).toEqual({
       kind: "collision",

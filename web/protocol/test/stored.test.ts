@@ -43,6 +43,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
         length: step.length_mm as number,
       })),
     })),
+    chipLimits: { rubbing: told.rubbing_chip_mm as number, overloadShare: told.overload_chip_share as number },
   }),
   chunk: (told) => ({ kind: "chunk", chunk: [told.i, told.j, told.k] as never, ...mesh(told) }),
   designed: (told) => ({ kind: "designed", ...mesh(told) }),
@@ -69,7 +70,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
   rows: (told) => ({
     kind: "rows",
     anew: told.anew as boolean,
-    rows: list(told.rows).map((row) => ({
+    rows: list(told.rows).map((row, n) => ({
       time: row.t_s as number,
       duration: row.duration_s as number,
       tip: row.tip_mm as never,
@@ -81,6 +82,8 @@ const MEANING: Record<string, (told: Told) => Frame> = {
       depth: row.axial_depth_mm as number,
       feedPerTooth: row.feed_per_tooth_mm as number,
       line: row.line as number,
+      chip: list(told.of_rows)[n]!.chip_mm as number,
+      chipVerdict: (["", "rubbing", "overload"] as const)[list(told.of_rows)[n]!.chip_verdict as number]!,
     })),
   }),
   collision: (told) => ({
