@@ -5,11 +5,11 @@
 #include <cstring>
 #include <fstream>
 
-#include "app/threads.hpp"
 #include "base/math.hpp"
 #include "cuts.hpp"
 #include "golden/golden.hpp"
 #include "harness.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::bench {
 namespace {
@@ -97,7 +97,7 @@ void measure_threads(Report& report, int repeats) {
     const auto wall = [&](int threads) {
         return median_of(repeats, [&] {
             session::MillSession session(session_setup(job.block_mm, job.cutter, moves),
-                                         app::parallel_for_over(threads));
+                                         parallel_for_over(threads));
             const double start = wall_s();
             session.run({});
             return wall_s() - start;
@@ -105,7 +105,7 @@ void measure_threads(Report& report, int repeats) {
     };
     const double one = wall(1);
     report.add({"finishing job, 1 thread over 2", one / wall(2), "", 1.9, Better::higher});
-    if (app::available_threads() >= 4)
+    if (available_threads() >= 4)
         report.add({"finishing job, 1 thread over 4", one / wall(4), "", 3.5, Better::higher});
 }
 

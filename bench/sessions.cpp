@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The finishing job, as a session in this process.
-#include "app/threads.hpp"
 #include "cuts.hpp"
 #include "field/contour/contour.hpp"
 #include "harness.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::bench {
 
@@ -12,7 +12,7 @@ void measure_sessions(Report& report, int repeats) {
     const FinishingJob job;
     const auto moves = moves_through(job.tips);
     for (const int threads : {1, 2}) {
-        const ParallelFor parallel = app::parallel_for_over(threads);
+        const ParallelFor parallel = parallel_for_over(threads);
         const std::string on = threads == 1 ? ", 1 thread" : ", 2 threads";
         double rows = 0, megabytes = 0, triangles = 0;
         std::vector<double> cut, mesh;

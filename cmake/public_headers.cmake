@@ -1,42 +1,25 @@
-# The headers that `make install` installs, by the job that they serve. Each group begins with what a user includes; the rest is
-# what that includes. tests/package compiles a program that includes all of them.
+# The headers that `make install` installs, by the job that they serve: at most 40. Each group begins with what a user includes; the
+# rest is what that includes. tests/package compiles each of them alone, and the programs in examples/source.
 
-# A cut: a program in, rows with forces, the part and contact samples out.
+# A cut: a job in, rows with forces, contact samples, the part and its sound out; the force of an engagement by itself.
 set(TRIBO_MILL_HEADERS
-    session/cut/mill_session.hpp
-    session/cut/contact_of_cut.hpp
-    readers/gcode/reader.hpp
-    readers/mesh/stl.hpp
-    field/contour/contour.hpp
+    tribo/mill.hpp
+    tribo/sound.hpp
     milling/force/force.hpp
     milling/tool/materials.hpp
-    motion/path/moves.hpp
-    field/shape/box_shape.hpp
-    base/hand_over.hpp
+    base/file_result.hpp
     base/math.hpp
     base/mesh.hpp
-    base/parallel.hpp
     base/result.hpp
     base/vec3.hpp
     contact/contact_sample.hpp
     contact/distance_field.hpp
     contact/force_spectrum.hpp
-    field/carved/brick.hpp
-    field/carved/brick_index.hpp
-    field/carved/carved_field.hpp
-    field/carved/carved_view.hpp
-    field/carved/field_query.hpp
-    field/carved/field_reader.hpp
-    field/carved/field_show.hpp
-    field/carved/steady_array.hpp
-    field/shape/shape.hpp
     milling/engagement/chip.hpp
-    milling/engagement/contact_scout.hpp
+    milling/engagement/collision.hpp
     milling/engagement/cut_row.hpp
     milling/engagement/engaged_edges.hpp
     milling/engagement/engagement.hpp
-    milling/engagement/engagement_probe.hpp
-    milling/engagement/machining.hpp
     milling/force/edge_force.hpp
     milling/force/force_peaks.hpp
     milling/force/lanes.hpp
@@ -45,47 +28,16 @@ set(TRIBO_MILL_HEADERS
     milling/tool/coefficients.hpp
     milling/tool/cut_pose.hpp
     milling/tool/cutter.hpp
-    milling/tool/cutter_profile.hpp
-    milling/tool/material_arcs.hpp
     milling/tool/tool_frame.hpp
-    motion/algebra/direction.hpp
-    motion/algebra/dual_quaternion.hpp
-    motion/algebra/quaternion.hpp
-    motion/curve/bezier.hpp
-    motion/curve/bezier_motion.hpp
-    motion/curve/bspline.hpp
-    motion/curve/bspline_motion.hpp
-    motion/machine/machine.hpp
-    motion/machine/work_frame.hpp
-    motion/path/program.hpp
-    motion/path/timing.hpp
-    readers/mesh/model.hpp
-    readers/text/length_unit.hpp
-    session/cut/earlier_cuts.hpp)
+    session/cut/mill_totals.hpp)
 
 # A material under a finger: the sheet that yields, its picture, its voice.
-set(TRIBO_TOUCH_HEADERS
-    elastic/sheet.hpp
-    elastic/picture.hpp
-    noise/play/friction_voice.hpp
-    elastic/contact_ellipse.hpp
-    elastic/pressure.hpp
-    elastic/sheet_kernels.hpp
-    elastic/small_relief.hpp
-    noise/model/ar_model.hpp
-    noise/model/material_voices.hpp
-    noise/model/texture_model.hpp
-    noise/model/voice_map.hpp
-    noise/play/bass_noise.hpp
-    noise/play/model_noise.hpp
-    noise/play/noise_kernels.hpp
-    noise/play/texture_excitation.hpp)
+set(TRIBO_TOUCH_HEADERS tribo/touch.hpp elastic/contact_ellipse.hpp)
 
-# Rendering a contact: a probe on a distance field, the servo, the sound.
+# A hand: a probe on a distance field, the servo, a force and an arm of one's own.
 set(TRIBO_SENSE_HEADERS
     haptics/contact/field_contact.hpp
     haptics/servo/servo.hpp
-    sound/play/soundtrack.hpp
     devices/force_plugin.h
     devices/serial_packets.h
     contact/half_spaces.hpp
@@ -94,23 +46,6 @@ set(TRIBO_SENSE_HEADERS
     haptics/device/device_limits.hpp
     haptics/servo/loop_delay.hpp
     haptics/servo/passivity.hpp
-    haptics/servo/safety.hpp
-    noise/play/pink_noise.hpp
-    sound/cut/body.hpp
-    sound/cut/chip_noise.hpp
-    sound/cut/cutting_voice.hpp
-    sound/cut/machine.hpp
-    sound/cut/partials.hpp
-    sound/cut/recorded_voice.hpp
-    sound/cut/spindle_phase.hpp
-    sound/cut/voice.hpp
-    sound/place/ear_kernels.hpp
-    sound/place/head.hpp
-    sound/place/minimum_phase.hpp
-    sound/place/room.hpp
-    sound/place/spatial_source.hpp
-    sound/play/calibration.hpp
-    sound/play/glide.hpp
-    sound/play/smooth_level.hpp)
+    haptics/servo/safety.hpp)
 
 set(TRIBO_PUBLIC_HEADERS ${TRIBO_MILL_HEADERS} ${TRIBO_TOUCH_HEADERS} ${TRIBO_SENSE_HEADERS})

@@ -87,10 +87,12 @@ const std::vector<Room>& rooms() {
         {"report", "the rooms down to material", with(core, {"files", "material", "job"}), false},
         {"wasm", "all above but files and report", with(core, {"material", "job", "protocol", "session"}),
          true},
+        {"tribo", "the rooms down to session", with(core, {"files", "material", "job", "session"}), false},
         {"net", "base", {"base"}, false},
         {"devices", "base contact haptics net", {"base", "contact", "haptics", "net"}, false},
         {"app", "all above but wasm",
-         with(core, {"files", "material", "job", "protocol", "session", "report", "net", "devices"}), false},
+         with(core, {"files", "material", "job", "protocol", "session", "report", "tribo", "net", "devices"}),
+         false},
     };
     return table;
 }

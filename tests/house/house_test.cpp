@@ -71,6 +71,31 @@ TEST(House, the_table_of_the_readme_is_the_one_that_is_checked) {
 }
 
 // What is installed can be used: a public header includes public headers alone, and is there.
+// What the comment of a public header shows is what tests/package compiles.
+TEST(House, examples_in_public_headers_are_lines_of_the_example_programs) {
+    const auto trimmed = [](std::string_view line) {
+        const std::size_t begin = std::min(line.find_first_not_of(" /"), line.size());
+        return std::string(line.substr(begin));
+    };
+    std::set<std::string> known;
+    for (const char* program : {"mill.cpp", "touch.cpp", "hand.cpp"}) {
+        std::ifstream file(std::string(TRIBO_SOURCE_DIR "/examples/source/") + program);
+        ASSERT_TRUE(file) << program;
+        for (std::string line; std::getline(file, line);) known.insert(trimmed(line));
+    }
+    for (const char* header : {"mill.hpp", "sound.hpp", "touch.hpp"}) {
+        std::ifstream file(std::string(TRIBO_SOURCE_DIR "/src/tribo/") + header);
+        ASSERT_TRUE(file) << header;
+        int shown = 0;
+        for (std::string line; std::getline(file, line);) {
+            if (!line.starts_with("//     ")) continue;
+            ++shown;
+            EXPECT_TRUE(known.contains(trimmed(line))) << header << ": " << line;
+        }
+        EXPECT_GT(shown, 0) << header;
+    }
+}
+
 TEST(House, public_headers_include_only_public_headers) {
     const std::string list = read(kRoot / "cmake/public_headers.cmake");
     static const std::regex entry(R"re(\n +([a-z_0-9/]+\.(hpp|h)))re");

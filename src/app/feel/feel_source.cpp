@@ -7,11 +7,11 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/threads.hpp"
 #include "files/disk_source.hpp"
 #include "files/mapped_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "readers/tables/force_bake.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 namespace {

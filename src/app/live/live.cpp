@@ -9,10 +9,10 @@
 #include "app/live/live_server.hpp"
 #include "app/live/live_show.hpp"
 #include "app/render/render_job.hpp"
-#include "app/threads.hpp"
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 namespace {

@@ -10,11 +10,11 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "app/render/render_outputs.hpp"
-#include "app/threads.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/mill_warnings.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 namespace {

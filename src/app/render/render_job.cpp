@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/render/listening.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "surface/deviation.hpp"
+#include "tribo/job_hearing.hpp"
 
 namespace tribo::app {
 namespace {
@@ -56,7 +56,8 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const session::Mill
     prepared.warnings = std::move(loaded->warnings);
     if (sound_rate_hz) {
         const job::JobSound& sound = loaded->job.sound;
-        auto head = head_of(sound, *sound_rate_hz, file, prepared.warnings);
+        auto head = head_of(sound, *sound_rate_hz, file, SofaReader{"/proc/self/exe", kReadSofaVerb},
+                            prepared.warnings);
         if (!head) return std::unexpected(head.error());
         prepared.track.head = std::move(*head);
         if (auto read = read_voices(sound, prepared.track); !read) return std::unexpected(read.error());

@@ -14,6 +14,9 @@
 
 namespace tribo::app {
 
+// The verb, not shown in the help, by which the program starts itself to read a SOFA file.
+inline constexpr const char* kReadSofaVerb = "read-sofa";
+
 struct PreparedJob {
     job::Job job;
     milling::WorkpieceMaterial material;

@@ -6,92 +6,39 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <optional>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
-#include "app/threads.hpp"
-#include "elastic/picture.hpp"
-#include "elastic/sheet.hpp"
 #include "files/image/image_file.hpp"
 #include "files/json/json.hpp"
 #include "files/output_folder.hpp"
-#include "material/material_json.hpp"
 #include "readers/tables/stroke_csv.hpp"
+#include "tribo/threads.hpp"
+#include "tribo/touch_image.hpp"
 
 namespace tribo::app {
 namespace {
 
 constexpr double kMostFrames = 100'000;
-// Width of the image where the material does not say one.
-constexpr double kAssumedWidthMm = 100;
 // Rows that one thread draws at a time.
 constexpr int kBandRows = 16;
 
 struct Inputs {
-    material::Material material;
-    files::Image image;  // at the size of the frames
-    elastic::SmallRelief relief;
-    double width_mm = 0;  // of a frame
+    TouchImage touch;  // at the size of the frames
     std::vector<readers::FingerPoint> stroke;
-    Warnings warnings;
 };
 
-files::Image plain_image() {
-    return {1, 1, {206, 200, 190, 255}};
-}
-
 FileResult<Inputs> read_inputs(const PressCall& call) {
-    Inputs inputs;
-    FileResult<material::Material> material = material::read_material(call.material);
-    if (!material) return std::unexpected(material.error());
-    inputs.material = *std::move(material);
-    const material::Material& m = inputs.material;
-    if (auto good = elastic::check({m.stiffness_n_per_mm, m.viscosity_n_s_per_mm}); !good) {
-        Error error = good.error();
-        error.file = call.material;
-        return std::unexpected(FileFailure(error));
-    }
-
+    auto touch = read_touch_image(call.material, call.size_px);
+    if (!touch) return std::unexpected(touch.error());
     FileResult<std::string> bytes = files::read_file(call.stroke);
     if (!bytes) return std::unexpected(bytes.error());
     readers::StrokeOptions options;
     options.source_name = call.stroke;
     auto stroke = readers::read_finger_stroke(*bytes, options);
     if (!stroke) return std::unexpected(FileFailure(stroke.error()));
-    inputs.stroke = *std::move(stroke);
-
-    const auto beside = [&](const std::string& file) {
-        return (std::filesystem::path(call.material).parent_path() / file).string();
-    };
-    files::Image image = plain_image();
-    std::optional<files::Image> map;
-    if (m.image.empty()) {
-        inputs.warnings.push_back({call.material, 0, "the material has no image: a plain one stands for it"});
-    } else {
-        FileResult<files::Image> read = files::read_image(beside(m.image));
-        if (!read) return std::unexpected(read.error());
-        image = *std::move(read);
-    }
-    if (!m.height_map.empty()) {
-        FileResult<files::Image> read = files::read_height_map(beside(m.height_map), image);
-        if (!read) return std::unexpected(read.error());
-        map = *std::move(read);
-    }
-    inputs.width_mm = m.width_mm;
-    if (!(inputs.width_mm > 0)) {
-        inputs.width_mm = kAssumedWidthMm;
-        inputs.warnings.push_back({call.material, 0, "no width_mm: the image is taken to be 100 mm wide"});
-    }
-    // A frame is the top left square of the image.
-    inputs.width_mm *= static_cast<double>(std::min(image.width, image.height)) / image.width;
-    inputs.image = files::square_at(image, call.size_px);
-    const files::Image heights = map ? files::square_at(*map, call.size_px) : inputs.image;
-    inputs.relief =
-        elastic::small_relief(heights.rgba, call.size_px, call.size_px, static_cast<float>(m.relief_slope));
-    return inputs;
+    return Inputs{*std::move(touch), *std::move(stroke)};
 }
 
 // Where the finger is at a time, and whether it touches.
@@ -144,16 +91,16 @@ std::string summary(const PressCall& call, const Inputs& inputs, int frames, con
     json["frames"] = frames;
     json["fps"] = call.fps;
     json["size_px"] = call.size_px;
-    json["mm_per_pixel"] = inputs.width_mm / call.size_px;
-    json["stiffness_n_per_mm"] = inputs.material.stiffness_n_per_mm;
-    json["viscosity_n_s_per_mm"] = inputs.material.viscosity_n_s_per_mm;
+    json["mm_per_pixel"] = inputs.touch.width_mm / call.size_px;
+    json["stiffness_n_per_mm"] = inputs.touch.material.stiffness_n_per_mm;
+    json["viscosity_n_s_per_mm"] = inputs.touch.material.viscosity_n_s_per_mm;
     json["radius_mm"] = call.radius_mm;
     json["contact"] = call.contact == elastic::ContactShape::area ? "area" : "point";
     json["as_published"] = call.as_published;
     json["deepest_mm"] = deepest.mm;
     json["deepest_frame"] = deepest.frame;
     json["warnings"] = files::Json::array();
-    for (const Warning& w : inputs.warnings) json["warnings"].push_back(w.message());
+    for (const Warning& w : inputs.touch.warnings) json["warnings"].push_back(w.message());
     return files::pretty(json);
 }
 
@@ -173,15 +120,15 @@ int press(const PressCall& call) {
     const int frames = static_cast<int>(intervals) + 1;
     auto folder = files::OutputFolder::open(call.out);
     if (!folder) return report(folder.error());
-    report(inputs->warnings);
+    report(inputs->touch.warnings);
 
-    elastic::Sheet sheet({call.size_px, call.size_px, inputs->width_mm / call.size_px});
-    sheet.set_material({inputs->material.stiffness_n_per_mm, inputs->material.viscosity_n_s_per_mm});
+    elastic::Sheet sheet(inputs->touch.sheet_size());
+    sheet.set_material(inputs->touch.sheet_material());
     const auto scheme = call.as_published ? elastic::TimeScheme::implicit_euler : elastic::TimeScheme::exact;
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
-    const elastic::Finish finish{&inputs->relief, static_cast<float>(inputs->material.gloss),
-                                 static_cast<float>(inputs->material.roughness)};
-    files::Image picture = inputs->image;
+    const elastic::Finish finish = inputs->touch.finish();
+    const files::Image& image = inputs->touch.image;
+    files::Image picture = image;
     Finger finger(stroke);
     Progress progress;
     Deepest deepest;
@@ -206,7 +153,7 @@ int press(const PressCall& call) {
         const int bands = (call.size_px + kBandRows - 1) / kBandRows;
         parallel(static_cast<std::size_t>(bands), [&](std::size_t band) {
             const int first = static_cast<int>(band) * kBandRows;
-            elastic::draw_rows(sheet, inputs->image.rgba, picture.rgba, first,
+            elastic::draw_rows(sheet, image.rgba, picture.rgba, first,
                                std::min(kBandRows, call.size_px - first),
                                call.as_published ? nullptr : &finish);
         });

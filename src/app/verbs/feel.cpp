@@ -6,8 +6,8 @@
 #include <string>
 
 #include "app/options.hpp"
-#include "app/threads.hpp"
 #include "app/verbs/verbs.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 

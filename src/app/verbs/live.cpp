@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "app/options.hpp"
-#include "app/threads.hpp"
 #include "app/verbs/verbs.hpp"
 #include "net/addresses.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 

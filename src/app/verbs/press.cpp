@@ -6,9 +6,9 @@
 #include <string>
 
 #include "app/options.hpp"
-#include "app/threads.hpp"
 #include "app/verbs/verbs.hpp"
 #include "elastic/sheet.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 

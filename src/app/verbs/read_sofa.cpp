@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "app/render/listening.hpp"
+#include "app/render/render_job.hpp"
 #include "app/verbs/verbs.hpp"
 #include "files/sound/hrir_file.hpp"
 

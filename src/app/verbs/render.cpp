@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/options.hpp"
-#include "app/threads.hpp"
 #include "app/verbs/verbs.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::app {
 

@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "field/carved/carved_view.hpp"
+#include "milling/engagement/collision.hpp"
 #include "milling/engagement/cut_row.hpp"
 #include "milling/engagement/engagement_probe.hpp"
 #include "milling/tool/cutter.hpp"
@@ -22,9 +23,6 @@ struct Step {
     std::size_t cutter;
     bool joins = false;  // makes one pass with the step before it (JoinedMoves)
 };
-
-enum class CollisionKind { rapid_through_stock, shank, holder, tool_in_fixture, holder_in_fixture };
-const char* name(CollisionKind kind);  // as in summary.json
 
 struct Collision {
     std::size_t step;

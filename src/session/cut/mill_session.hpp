@@ -12,7 +12,6 @@
 
 #include "base/parallel.hpp"
 #include "field/carved/field_reader.hpp"
-#include "milling/engagement/chip.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/force/force.hpp"
 #include "milling/force/row_force.hpp"
@@ -21,6 +20,7 @@
 #include "motion/path/program.hpp"
 #include "motion/path/timing.hpp"
 #include "session/cut/earlier_cuts.hpp"
+#include "session/cut/mill_totals.hpp"
 
 namespace tribo::session {
 
@@ -52,33 +52,6 @@ struct MillSetup {
 // When each move runs: as prepare_mill() found it, or worked out for a setup that it has not made. Never
 // null; motion::schedule() accepts the moves.
 std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup);
-
-struct MillCollision {
-    milling::CollisionKind kind;
-    int line = 0;
-    double t_s = 0;
-    Vec3 tip_mm;
-};
-
-struct MillTotals {
-    double duration_s = 0, cutting_s = 0;
-    double path_mm = 0;                         // feed moves
-    double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; in the end
-    double chip_mm3 = 0;  // as measured, before they are reconciled: should equal what feed moves removed
-    double fed_mm3 = 0;   // removed by feed moves
-    double mean_force_n = 0, peak_force_n = 0;
-    double peak_torque_nmm = 0, peak_power_w = 0;
-    // Of the spindle, and what of it the shear coefficient ktc explains: ktc times the chips' volume. The
-    // rest is the edge coefficient's.
-    double work_j = 0, shear_work_j = 0;
-    double tooth_passing_hz = 0;  // of the longest cutting time
-    std::size_t rows = 0;
-    // The work that shears over ktc times the volume that feed moves removed: 1 where the force is true to
-    // the metal, whatever the cut. Absent where nothing was cut or the engagement is prescribed.
-    std::optional<double> energy_balance;
-    std::vector<MillCollision> collisions;  // one per line and kind
-    milling::ChipFindings chips;
-};
 
 struct MillSinks {
     // In the order of time, while cutting only; may be empty. References are valid during the call only.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The program's thread pool, handed to the rooms as a ParallelFor.
+// A pool of threads, handed to the rooms as a ParallelFor.
 #pragma once
 
 #include "base/parallel.hpp"
 
-namespace tribo::app {
+namespace tribo {
 
 inline constexpr int kMaxThreads = 256;
 
@@ -15,4 +15,4 @@ int available_threads();
 // as long as the function object.
 ParallelFor parallel_for_over(int threads);
 
-}  // namespace tribo::app
+}  // namespace tribo

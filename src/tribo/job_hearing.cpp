@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/render/listening.hpp"
+#include "tribo/job_hearing.hpp"
 
 #include "files/sound/hrir_file.hpp"
 #include "files/sound/sound_file.hpp"
 #include "material/material_json.hpp"
 
-namespace tribo::app {
+namespace tribo {
 
 namespace {
 
@@ -27,13 +27,17 @@ FileResult<std::shared_ptr<const sound::Recording>> recording(const std::string&
 using Heard = std::shared_ptr<const sound::Head>;
 
 FileResult<Heard> head_of(const job::JobSound& sound, int sample_rate_hz, const std::string& job_file,
-                          Warnings& warnings) {
+                          const std::optional<SofaReader>& reader, Warnings& warnings) {
     const double rate = sample_rate_hz;
     const job::SoundMode mode = sound.mode.value_or(job::SoundMode::hrtf);
     if (mode == job::SoundMode::pan) return sound::Head::panning(rate);
     if (mode == job::SoundMode::sphere) return sound::Head::sphere(rate);
+    if (!sound.hrtf.empty() && !reader) {
+        return std::unexpected(FileFailure({job_file, 0, 0, "the job names head responses of its own (hrtf)",
+                                            "only the program reads them: take mode = \"sphere\" here"}));
+    }
     auto set = sound.hrtf.empty() ? files::builtin_hrirs()
-                                  : files::read_hrirs(sound.hrtf, "/proc/self/exe", kReadSofaVerb);
+                                  : files::read_hrirs(sound.hrtf, reader->program, reader->verb);
     if (set) {
         const std::string file = sound.hrtf.empty() ? job_file : sound.hrtf;
         switch (sound::ear_order(*set)) {
@@ -90,4 +94,4 @@ FileResult<void> read_voices(const job::JobSound& sound, sound::SoundtrackOption
     return {};
 }
 
-}  // namespace tribo::app
+}  // namespace tribo

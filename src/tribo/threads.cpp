@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/threads.hpp"
+#include "tribo/threads.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <tbb/task_arena.h>
 #include <thread>
 
-namespace tribo::app {
+namespace tribo {
 
 int available_threads() {
     return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
@@ -21,4 +21,4 @@ ParallelFor parallel_for_over(int threads) {
     };
 }
 
-}  // namespace tribo::app
+}  // namespace tribo

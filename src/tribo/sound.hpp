@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The sound of a cut in 3D, from its contact samples: stereo, as the job's [sound] says who listens where.
+//
+//     auto sound = tribo::CutSound::of(*mill, {.ears = tribo::Ears::sphere});
+//     sound->excite(mill->contact(row, force, row.start_s));
+//     while (sound->frames_left() > 0) {
+//         sound->render(block);
+//     }
+//
+// The whole program: examples/source/mill.cpp.
+//
+// excite(), release() and render() are real-time safe: no allocation, lock, exception or output. One thread
+// at a time.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "contact/contact_sample.hpp"
+#include "tribo/mill.hpp"
+
+namespace tribo {
+
+// How places are heard.
+enum class Ears { as_the_job_says, measured_head, sphere, panning };
+
+struct SoundOptions {
+    int sample_rate_hz = 48000;         // 32000 ... 192000
+    std::optional<Vec3> listener_mm{};  // stock frame, looks along +y; absent: as the job says
+    Ears ears = Ears::as_the_job_says;
+};
+
+class CutSound {
+  public:
+    // Machine, room, chips, levels and recordings are the job's. Refused: options out of range, and sound
+    // files that cannot be read.
+    static FileResult<CutSound> of(const Mill& mill, const SoundOptions& options = {});
+    CutSound(CutSound&&) noexcept;
+    CutSound& operator=(CutSound&&) noexcept;
+    ~CutSound();
+
+    const Warnings& warnings() const;  // that a head is missing, for instance
+    // The contact moves on to `next`, whose time is the track's; render frames_left() frames before the one
+    // after it. False: a number is not finite, nothing changes. The sample is not kept.
+    bool excite(const contact::ContactSample& next);
+    std::int64_t frames_left() const;
+    // No contact from now on; what sounds dies away within tail_seconds().
+    void release();
+    double tail_seconds() const;
+    // The next interleaved.size() / 2 frames, full scale 1 and never beyond.
+    void render(std::span<float> interleaved);
+
+  private:
+    struct State;
+    explicit CutSound(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tribo
