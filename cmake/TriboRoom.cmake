@@ -4,7 +4,6 @@ add_library(tribo_options INTERFACE)
 # The core gives the same bits on every compiler: no fused multiply-add, no reordering (CONTRIBUTING.md, "Same bits").
 target_compile_options(tribo_options INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion> -ffp-contract=off -fno-math-errno
                                                $<BUILD_INTERFACE:-Wno-psabi>)
-target_compile_definitions(tribo_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # `"literal" + std::string` warns falsely in g++ 12 (GCC bug 105651).
   target_compile_options(tribo_options INTERFACE $<BUILD_INTERFACE:-Wno-restrict>)

@@ -128,7 +128,6 @@ TEST(House, the_notice_names_what_is_linked_and_bundled) {
     const std::string notice = read(kRoot / "NOTICE");
     const std::map<std::string, std::string> libraries{
         {"libtbb-dev", "oneTBB"},
-        {"libeigen3-dev", "Eigen"},
         {"libcli11-dev", "CLI11"},
         {"libtomlplusplus-dev", "toml++"},
         {"nlohmann-json3-dev", "JSON for Modern C++"},
