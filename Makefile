@@ -3,7 +3,7 @@ BUDGET ?= short
 PREFIX ?= /usr/local
 ROOM ?=
 
-.PHONY: help setup build run test soak bench tidy format install clean
+.PHONY: help setup build run test soak bench docs tidy format install clean
 
 help:
 	@echo "make run      build, mill the main example into out/bowl and, on a terminal, show it live"
@@ -11,6 +11,7 @@ help:
 	@echo "make test     every test: g++, clang, WebAssembly"
 	@echo "make soak     sanitizers and fuzzing, BUDGET=short or long"
 	@echo "make bench    measure into build/bench.json"
+	@echo "make docs     the API reference of the installed headers into build/docs/html"
 	@echo "make install  PREFIX=$(PREFIX), DESTDIR as usual"
 	@echo "make tidy     clang-tidy, ROOM=field for one room"
 	@echo "make format   clang-format and Prettier in place"
@@ -18,7 +19,7 @@ help:
 	@echo "make clean    remove build/ and out/"
 
 setup:
-	@scripts/setup.sh run test
+	@scripts/setup.sh run test docs
 
 build:
 	@scripts/setup.sh run
@@ -31,7 +32,7 @@ run:
 	@scripts/run.sh
 
 test:
-	@scripts/setup.sh run test
+	@scripts/setup.sh run test docs
 	@scripts/test.sh
 
 soak:
@@ -41,6 +42,10 @@ soak:
 bench:
 	@scripts/setup.sh run bench
 	@scripts/bench.sh
+
+docs:
+	@scripts/setup.sh docs
+	@scripts/docs.sh
 
 tidy:
 	@scripts/tidy.sh $(ROOM)

@@ -32,7 +32,9 @@ set(TRIBO_MILL_HEADERS
     session/cut/mill_totals.hpp)
 
 # A material under a finger: the sheet that yields, its picture, its voice.
-set(TRIBO_TOUCH_HEADERS tribo/touch.hpp elastic/contact_ellipse.hpp)
+set(TRIBO_TOUCH_HEADERS
+    tribo/touch.hpp
+    elastic/contact_ellipse.hpp)
 
 # A hand: a probe on a distance field, the servo, a force and an arm of one's own.
 set(TRIBO_SENSE_HEADERS

@@ -10,6 +10,7 @@ step "clang-format" scripts/check_format.sh
 test_preset release
 test_preset dev
 step "clang-tidy" scripts/tidy.sh --changed
+step "API reference" scripts/docs.sh
 say "wasm"
 step "wasm: build" configure_and_build wasm
 say "web"

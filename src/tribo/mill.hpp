@@ -40,7 +40,7 @@ struct MillOptions {
     std::optional<double> memory_mb{};
 };
 
-// One thread at a time.
+// A job or a program, open and milled row by row. One thread at a time.
 class Mill {
   public:
     // A job (docs/job.md), or a program in any language that Tribo reads, with a blank and a tool that are

@@ -32,6 +32,7 @@ struct SoundOptions {
     Ears ears = Ears::as_the_job_says;
 };
 
+// What is heard of a cut: contact samples in, stereo out.
 class CutSound {
   public:
     // Machine, room, chips, levels and recordings are the job's. Refused: options out of range, and sound

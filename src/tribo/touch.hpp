@@ -30,6 +30,7 @@ struct TouchOptions {
     std::uint64_t seed = 1;         // of its noise
 };
 
+// A material that is pressed, drawn and rubbed.
 class TouchMaterial {
   public:
     // A material file (docs/material.md) with its image and height map. Refused, with file and key: what
