@@ -158,7 +158,7 @@ void measure_load(Report& report, bool real_time) {
     over = true;
     for (std::thread& t : burners) t.join();
     const std::string how = real_time ? ", real-time class" : ", ordinary class";
-    if (real_time && !loop.granted().real_time.empty()) report.note(loop.granted().real_time);
+    if (real_time && !loop.problems().real_time.empty()) report.note(loop.problems().real_time);
     const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
     report.add({"lateness p50" + how, us(loop.lateness().quantile_ns(0.5)), "us"});
     report.add({"lateness p99" + how, us(loop.lateness().quantile_ns(0.99)), "us"});

@@ -199,7 +199,7 @@ double soundtrack_percent(const std::shared_ptr<const sound::Head>& head, const 
     sound::SoundtrackOptions options;
     options.head = head;
     options.tool = sound::tool_body(12, 60, 0.03);
-    sound::furnish(workshop, options);
+    sound::apply(workshop, options);
     sound::Soundtrack track(options);
     contact::ForceSpectrum spectrum;
     spectrum.order_step = 2;

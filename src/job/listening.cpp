@@ -46,7 +46,7 @@ void apply(const Listening& listening, sound::SoundtrackOptions& options) {
     options.gain_db = listening.gain_db;
     options.reference_distance_m = listening.reference_distance_m;
     options.tool = listening.tool;
-    sound::furnish(listening.workshop, options);
+    sound::apply(listening.workshop, options);
 }
 
 }  // namespace tribo::job

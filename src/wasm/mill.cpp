@@ -11,7 +11,7 @@
 
 #include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
-#include "session/live/live_touch.hpp"
+#include "session/live/single_threaded_touch.hpp"
 #include "wasm/mill_job.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -94,7 +94,7 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     mill().touch.reset();
     mill().controller.reset();
     mill().live = std::move(*live);
-    mill().controller = std::make_unique<session::LiveController>(*mill().live, session::LiveFeelOptions{},
+    mill().controller = std::make_unique<session::LiveController>(*mill().live, session::LiveForceOptions{},
                                                                   nullptr, std::move(settings));
     mill().touch = std::make_unique<session::SingleThreadedTouch>(*mill().controller);
     mill().text = warnings;

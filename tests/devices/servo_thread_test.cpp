@@ -23,7 +23,7 @@ TEST(ServoThread, ticks_at_multiples_of_its_period_and_stops_when_told) {
     for (std::size_t n = 1; n < times.size(); ++n) EXPECT_GT(times[n], times[n - 1]);
     // As many deadlines as there were ticks and skips: none is made up for.
     EXPECT_GE(times.back(), 0.199 + 1e-3 * static_cast<double>(thread.skipped()) - 1e-6);
-    EXPECT_FALSE(thread.granted().real_time.empty());
+    EXPECT_FALSE(thread.problems().real_time.empty());
 }
 
 TEST(ServoThread, skips_what_it_missed_instead_of_hurrying) {

@@ -2,8 +2,8 @@
 #include "base/hash.hpp"
 #include "golden/golden.hpp"
 #include "golden/golden_grooves.hpp"
+#include "haptics/servo/force_table_player.hpp"
 #include "haptics/servo/simulated_hand.hpp"
-#include "haptics/servo/swapped_force.hpp"
 #include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
 #include "session/live/force_look_ahead.hpp"
@@ -56,7 +56,7 @@ std::uint64_t haptics() {
     rub(finger, hash, still);
 
     const session::CutterTrack track(grooves());
-    haptics::SwappedForce force(1 / kTickS);
+    haptics::ForceTablePlayer force(1 / kTickS);
     force.replace(ahead.table({}, {}), {});
     const haptics::TextureMap textures = ahead.textures();
     session::StockAtTime stock(grooves(), serial_for, 0);

@@ -32,7 +32,7 @@ std::uint64_t milled(const job::Job& job, motion::Program program) {
     Hash hash;
     sound::SoundtrackOptions sounds;
     sounds.head = sound::Head::sphere(sounds.sample_rate_hz);
-    sound::furnish({.machine = 1, .room = 1, .chips = sound::ChipMaterial::aluminium}, sounds);
+    sound::apply({.machine = 1, .room = 1, .chips = sound::ChipMaterial::aluminium}, sounds);
     sound::Soundtrack track(sounds);
     std::vector<float> block_of_sound(1000);
     session::MillSinks sinks;

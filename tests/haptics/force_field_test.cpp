@@ -19,8 +19,8 @@ class Steady final : public CuttingForce {
     Vec3 force_;
 };
 
-FieldMoment moment(double apart) {
-    FieldMoment m;
+ForceFieldInput moment(double apart) {
+    ForceFieldInput m;
     m.cutter = {{0, 0, 0}, {0, 0, 1}, 5, 40};
     m.finger = {{5 + 8 + apart, 0, 0}, {0, 0, 1}, 8, 30};
     return m;

@@ -160,12 +160,12 @@ TEST(LoopDelay, other_hands_get_nothing_either) {
 }
 
 TEST(LoopDelay, without_delay_the_hand_is_where_it_is) {
-    HandAhead ahead(1e-3, 0);
+    HandPredictor ahead(1e-3, 0);
     for (int n = 0; n < 10; ++n) EXPECT_EQ(ahead.at({1.0 * n, 0, 0}), (Vec3{1.0 * n, 0, 0}));
 }
 
 TEST(LoopDelay, a_steady_hand_is_ahead_by_one_and_a_half_times_the_delay_and_half_a_tick) {
-    HandAhead ahead(1e-3, 4e-3);
+    HandPredictor ahead(1e-3, 4e-3);
     EXPECT_EQ(ahead.at({5, 0, 0}), (Vec3{5, 0, 0}));
     for (int n = 1; n < 10; ++n) {
         const double at = 5 + 0.1 * n;  // 0.1 mm a tick

@@ -174,7 +174,7 @@ TEST(Servo, sends_nothing_to_a_device_that_is_gone) {
     hand.gone = true;
     hand.sent = {7, 7, 7};
     for (int k = 0; k < 20; ++k) servo.tick(n++ * 1e-3);
-    EXPECT_FALSE(servo.device_there());
+    EXPECT_FALSE(servo.is_device_connected());
     EXPECT_EQ(hand.sent, (Vec3{7, 7, 7}));
 }
 
@@ -208,7 +208,7 @@ TEST(Servo, hears_from_the_answer_to_a_force_that_a_device_is_gone) {
     for (; n < 100; ++n) servo.tick(n * 1e-3);
     hand.drops = true;
     servo.tick(n++ * 1e-3);
-    EXPECT_FALSE(servo.device_there());
+    EXPECT_FALSE(servo.is_device_connected());
 }
 
 TEST(Servo, gives_a_device_that_never_spoke_no_force) {

@@ -189,7 +189,7 @@ struct Twice {
         add(both, cutter_b, b);
         one = milled(std::move(both), stop ? first.totals.duration_s : 0);
         MillSetup next = setup_on(kBlank, {}, cell);
-        next.earlier.push_back(cuts_of(first.session->setup()));
+        next.earlier.push_back(planned_cuts(first.session->setup()));
         add(next, cutter_b, b);
         chain = milled(std::move(next));
     }
@@ -271,7 +271,7 @@ TEST(EarlierCuts, turned_by_right_angles_take_the_same_volume_where_the_grids_me
         const Rows one = milled(std::move(both));
 
         MillSetup next = setup_on(blank, frame, kCell);
-        next.earlier.push_back(turned(cuts_of(before.session->setup()), frame));
+        next.earlier.push_back(turned(planned_cuts(before.session->setup()), frame));
         std::vector<motion::Move> own;
         for (const motion::Move& move : b) own.push_back(in_frame(move, frame));
         add(next, second, own);
@@ -334,7 +334,7 @@ TEST(EarlierCuts, turned_anyhow_leave_the_volume_that_chance_finds) {
         }
         MillSetup both = setup_on(blank, {}, 0.3);
         add(both, first, a);
-        const EarlierCuts earlier = cuts_of(both);
+        const EarlierCuts earlier = planned_cuts(both);
         add(both, second, b);
         const double share = left_by_chance(blank, both, draw, kPoints);
         const double one = milled(std::move(both)).totals.remaining_mm3;

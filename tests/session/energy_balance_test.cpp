@@ -93,7 +93,7 @@ TEST(EnergyBalance, nothing_is_felt_where_nothing_is_left_to_cut) {
         if (turns(cut.motion)) continue;  // a sweep that turns is met again within its own tolerance
         const double cell = cut.setup.cell_mm, first_mm3 = mill(random_cut(seed).setup).totals.removed_mm3;
         if (first_mm3 < kEnoughCells * cell * cell * cell) continue;
-        cut.setup.earlier.push_back(cuts_of(cut.setup));
+        cut.setup.earlier.push_back(planned_cuts(cut.setup));
         const Outcome again = mill(std::move(cut.setup));
         EXPECT_EQ(again.totals.rows, 0u) << cut.words;
         EXPECT_EQ(again.totals.work_j, 0) << cut.words;

@@ -14,7 +14,7 @@
 #include "motion/path/path.hpp"
 #include "session/live/force_look_ahead.hpp"
 #include "session/live/live_mill.hpp"
-#include "session/live/live_touch.hpp"
+#include "session/live/single_threaded_touch.hpp"
 
 namespace tribo::session {
 namespace {
@@ -55,9 +55,10 @@ void drop(std::span<const std::uint8_t>) {}
 class Bench {
   public:
     Bench() : live(*LiveMill::create(slot, serial_for)), finger({}, nullptr, {20, 10, 5}) {
-        live->watch([this](MillSession* session) { finger.feel().set_session(session); });
+        live->set_session_observer(
+            [this](MillSession* session) { finger.force_source().set_session(session); });
     }
-    ~Bench() { finger.feel().set_session(nullptr); }
+    ~Bench() { finger.force_source().set_session(nullptr); }
 
     void run(double seconds, double pictures_per_s = 60) {
         for (int n = 0; n < std::lround(pictures_per_s * seconds); ++n) {
@@ -96,7 +97,7 @@ class Bench {
 TEST(LiveFinger, RestsOnTheSurfaceWithTheForceOfItsSprings) {
     Bench bench;
     bench.scene.cut_mode = false;
-    bench.finger.lead({20, 4, -1}, true);
+    bench.finger.set_pointer({20, 4, -1}, true);
     bench.run(2);
     const double hand = haptics::HandModel{}.stiffness_n_per_mm, surface = 0.5;
     EXPECT_NEAR(bench.touch.force_n.z, hand * surface / (hand + surface), 1e-3);
@@ -109,7 +110,7 @@ TEST(LiveFinger, RestsOnTheSurfaceWithTheForceOfItsSprings) {
 TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
     Bench bench;
     bench.scene.cut_mode = false;
-    bench.finger.lead({20, 10, -3}, true);
+    bench.finger.set_pointer({20, 10, -3}, true);
     bench.run(1);
     EXPECT_NEAR(bench.touch.proxy_mm.z, 0, 1e-6);
     bench.live->play(true);
@@ -124,11 +125,11 @@ TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
     ForceLookAhead ahead(*slot(), serial_for);
     ASSERT_TRUE(ahead.run(always));
     Bench bench;
-    bench.finger.feel().set_force(ahead.table({}, {}), {});
-    bench.finger.feel().set_textures(ahead.textures());
+    bench.finger.force_source().set_force(ahead.table({}, {}), {});
+    bench.finger.force_source().set_textures(ahead.textures());
     bench.live->play(true);
     bench.run(1);
-    bench.finger.lead(bench.live->state().tip_mm + Vec3{8, 0, 8}, true);  // where the tool will be
+    bench.finger.set_pointer(bench.live->state().tip_mm + Vec3{8, 0, 8}, true);  // where the tool will be
     bench.run(0.5);
     Vec3 sum;
     constexpr int count = 200;  // ticks: twenty turns
@@ -145,7 +146,7 @@ TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
     bench.run(0.2);
     EXPECT_EQ(length(bench.touch.force_n), 0);
     bench.scene.cutting_force = true;
-    bench.finger.lead({20, 10, 60}, true);
+    bench.finger.set_pointer({20, 10, 60}, true);
     bench.run(0.5);
     EXPECT_EQ(length(bench.touch.force_n), 0);
 }
@@ -153,7 +154,7 @@ TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
 TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
     Bench bench;
     bench.scene.cut_mode = false;
-    bench.finger.lead({20, 4, -1}, true);
+    bench.finger.set_pointer({20, 4, -1}, true);
     bench.run(1);
     ASSERT_GT(bench.touch.force_n.z, 0.1);
     bench.finger.stop(bench.scene);
@@ -164,13 +165,13 @@ TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
     bench.scene.stopped = false;
     bench.run(0.5);
     EXPECT_EQ(length(bench.touch.force_n), 0);
-    bench.finger.lead({20, 4, 2}, true);
+    bench.finger.set_pointer({20, 4, 2}, true);
     bench.run(0.5);
-    bench.finger.lead({20, 4, -1}, true);
+    bench.finger.set_pointer({20, 4, -1}, true);
     bench.run(1);
     EXPECT_GT(bench.touch.force_n.z, 0.1);
     // Nobody there: nothing is felt, and nothing is told.
-    bench.finger.lead({}, false);
+    bench.finger.set_pointer({}, false);
     bench.run(0.2);
     EXPECT_FALSE(bench.touch.hand);
     EXPECT_EQ(length(bench.touch.force_n), 0);
@@ -220,12 +221,12 @@ TEST(LiveFinger, FeelsTheTeethWhereTheSpindleShowsThem) {
 TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
     auto live = *LiveMill::create(slot, serial_for);
     LiveFinger finger({}, nullptr, {20, 10, 5});
-    live->watch([&](MillSession* session) { finger.feel().set_session(session); });
+    live->set_session_observer([&](MillSession* session) { finger.force_source().set_session(session); });
     std::atomic<bool> over{false};
     std::thread servo([&] {
         for (int n = 0; !over.load(); ++n) finger.tick(n / kRateHz);
     });
-    finger.lead({20, 10, -3}, true);
+    finger.set_pointer({20, 10, -3}, true);
     live->play(true);
     live->set_speed(4);
     LiveScene scene;
@@ -241,8 +242,8 @@ TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
         }
     }
     EXPECT_TRUE(begun_again);
-    live->watch({});
-    finger.feel().set_session(nullptr);
+    live->set_session_observer({});
+    finger.force_source().set_session(nullptr);
     live.reset();
     over = true;
     servo.join();
@@ -252,7 +253,7 @@ TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
 TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
     Bench bench;
     bench.scene.cut_mode = false;
-    bench.finger.lead({20, 4, -1}, true);
+    bench.finger.set_pointer({20, 4, -1}, true);
     bench.run(1);
     // A quarter of a second without a scene: the guard takes the force away.
     for (int n = 0; n < 300; ++n) bench.finger.tick(1.1 + n / kRateHz);
@@ -270,7 +271,7 @@ TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
     live->play(true);
     for (int picture = 0; picture < 120; ++picture) {
         ASSERT_TRUE(live->tick(1.0 / 60, always, drop));
-        controller.finger().lead(live->state().tip_mm, true);
+        controller.finger().set_pointer(live->state().tip_mm, true);
         touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
             protocol::LiveTexture texture;
             protocol::LiveTouch felt;

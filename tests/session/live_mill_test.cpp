@@ -10,7 +10,7 @@
 #include "field/shape/box_shape.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
-#include "session/live/live_memory.hpp"
+#include "session/live/frame_cache.hpp"
 
 namespace tribo::session {
 namespace {
@@ -229,7 +229,7 @@ TEST(LiveMill, KeepsItsClockWhateverItIsTold) {
 TEST(LiveMill, IsRememberedForALatecomer) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer, latecomer;
-    LiveMemory memory;
+    FrameCache memory;
     const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
         memory.take(frame);
         viewer.sink()(frame);
@@ -270,7 +270,7 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
 
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer;
-    LiveMemory memory;
+    FrameCache memory;
     const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
         memory.take(frame);
         viewer.sink()(frame);

@@ -79,7 +79,7 @@ TEST(LivePlate, SoundsTheSameFromStructsAndFromFrames) {
     sound::SoundtrackOptions options;
     options.head = sound::Head::sphere(options.sample_rate_hz);
     LiveSound from_structs(options), from_frames(options);
-    (*live)->hear([&](const LiveSoundNews& news) {
+    (*live)->set_sound_listener([&](const LiveSoundUpdate& news) {
         std::visit([&](const auto& told) { from_structs.take(told); }, news);
     });
     int told = 0;

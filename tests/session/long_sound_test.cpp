@@ -205,7 +205,7 @@ TEST_P(LongSound, of_everything_at_once_stays_within_full_scale) {
     for (const bool recorded : {true, false}) {
         // The spindle and half of the cut recorded, then all of it made.
         if (!recorded) options.recording = options.idle = nullptr;
-        sound::furnish({.machine = 3, .room = 3, .chips = sound::ChipMaterial::nickel}, options);
+        sound::apply({.machine = 3, .room = 3, .chips = sound::ChipMaterial::nickel}, options);
         sound::Soundtrack track(options);
         Watch watch(4);
         play(track, {.chips = true, .leaps = true}, watch, 0.5 * GetParam());

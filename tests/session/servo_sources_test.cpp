@@ -9,8 +9,8 @@
 #include "base/counted_allocations.hpp"
 #include "base/counted_locks.hpp"
 #include "field/shape/box_shape.hpp"
+#include "haptics/servo/force_table_player.hpp"
 #include "haptics/servo/simulated_hand.hpp"
-#include "haptics/servo/swapped_force.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/stock_at_time.hpp"
@@ -124,7 +124,7 @@ class ServoSourcesOfACut : public testing::Test {
         textures_ = ahead_.textures();
     }
     ForceLookAhead ahead_;
-    haptics::SwappedForce force_{1 / kTickS};
+    haptics::ForceTablePlayer force_{1 / kTickS};
     haptics::TextureMap textures_;
 };
 
@@ -143,34 +143,34 @@ TEST_F(ServoSourcesOfACut, feeling_the_cut_neither_allocates_nor_locks_nor_print
 // With another table, other textures, the switches and a stop on the way.
 TEST_F(ServoSourcesOfACut, the_live_finger_neither_allocates_nor_locks_nor_prints) {
     const auto live = *LiveMill::create(slot, serial_for);
-    LiveFeelOptions options;
+    LiveForceOptions options;
     options.finger_mm = 8;
     LiveFinger finger(options, nullptr, {20, 10, 2});
-    live->watch([&](MillSession* session) { finger.feel().set_session(session); });
-    finger.feel().set_force(ahead_.table({}, {}), {});
-    finger.feel().set_textures(ahead_.textures());
+    live->set_session_observer([&](MillSession* session) { finger.force_source().set_session(session); });
+    finger.force_source().set_force(ahead_.table({}, {}), {});
+    finger.force_source().set_textures(ahead_.textures());
     live->play(true);
     LiveScene scene;
     double force_n = 0;
     const auto picture = [&](int n) {
         if (n % 16 != 0) return;
         ASSERT_TRUE(live->tick(16e-3, [] { return true; }, [](auto) {}));
-        if (n == 160) finger.feel().set_force(ahead_.table({}, {}), {});
-        if (n == 320) finger.feel().set_textures(ahead_.textures());
+        if (n == 160) finger.force_source().set_force(ahead_.table({}, {}), {});
+        if (n == 320) finger.force_source().set_textures(ahead_.textures());
         scene.program_s = live->clock_s();
         scene.pace = live->pace();
         scene.cutting_force = n < 480 || n > 640;
         if (n == 1440) finger.stop(scene);
-        finger.lead({20 + 5e-3 * n, 10, -3}, true);
+        finger.set_pointer({20 + 5e-3 * n, 10, -3}, true);
         finger.show(scene, live->state().tip_mm, [](auto) {});
     };
     expect_none(count(1500, picture, [&](int n) {
         EXPECT_TRUE(finger.tick(n * kTickS));
         force_n = std::max(force_n, finger.servo().largest_force_n);
-        return finger.feel().touched().contact;
+        return finger.force_source().touch_state().contact;
     }));
     EXPECT_GT(force_n, 0.1);
-    finger.feel().set_session(nullptr);
+    finger.force_source().set_session(nullptr);
 }
 
 TEST(ServoSources, the_counters_count) {

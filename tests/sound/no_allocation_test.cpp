@@ -19,7 +19,7 @@ TEST(SoundOfTheAudioThread, never_allocates) {
         options.as_published = n == 1;
         if (n == 2) {
             options.head = Head::sphere(options.sample_rate_hz);
-            furnish({.machine = 1, .room = 1, .chips = ChipMaterial::steel}, options);
+            apply({.machine = 1, .room = 1, .chips = ChipMaterial::steel}, options);
         }
         Soundtrack track(options);
         const long before = allocations;

@@ -259,19 +259,19 @@ TEST(SoundtrackOptions, are_refused_out_of_range_by_name) {
 RC_GTEST_PROP(Limiter, changes_nothing_below_its_knee_never_passes_1_and_never_turns_back, ()) {
     const auto any = [] { return *rc::gen::inRange(-4000, 4001) / 1000.0; };
     const double a = any(), b = any();
-    if (std::abs(a) <= kLimiterKnee) RC_ASSERT(limited(a) == a);
-    RC_ASSERT(std::abs(limited(a)) < 1);
-    RC_ASSERT(limited(-a) == -limited(a));
-    RC_ASSERT((a < b) == (limited(a) < limited(b)));
+    if (std::abs(a) <= kLimiterKnee) RC_ASSERT(soft_limit(a) == a);
+    RC_ASSERT(std::abs(soft_limit(a)) < 1);
+    RC_ASSERT(soft_limit(-a) == -soft_limit(a));
+    RC_ASSERT((a < b) == (soft_limit(a) < soft_limit(b)));
 }
 
 TEST(Limiter, leaves_its_knee_with_the_same_slope_and_survives_anything) {
     const double h = 1e-6;
-    EXPECT_NEAR((limited(kLimiterKnee + h) - limited(kLimiterKnee)) / h, 1, 1e-5);
-    EXPECT_NEAR(limited(2), 0.958, 5e-4);
-    EXPECT_EQ(limited(std::numeric_limits<double>::infinity()), 1);
-    EXPECT_EQ(limited(-1e300), -1);
-    EXPECT_EQ(limited(std::numeric_limits<double>::quiet_NaN()), 0);
+    EXPECT_NEAR((soft_limit(kLimiterKnee + h) - soft_limit(kLimiterKnee)) / h, 1, 1e-5);
+    EXPECT_NEAR(soft_limit(2), 0.958, 5e-4);
+    EXPECT_EQ(soft_limit(std::numeric_limits<double>::infinity()), 1);
+    EXPECT_EQ(soft_limit(-1e300), -1);
+    EXPECT_EQ(soft_limit(std::numeric_limits<double>::quiet_NaN()), 0);
 }
 
 TEST(PublishedSound, is_the_first_sine_alone_whatever_the_second_is_given) {

@@ -49,7 +49,7 @@ TEST(Machines, all_have_names_spectra_and_levels_of_their_own) {
         const Machine& machine = machines()[n];
         EXPECT_FALSE(machine.name.empty() || machine.what.empty());
         SoundtrackOptions options;
-        furnish({.machine = n}, options);
+        apply({.machine = n}, options);
         const double idle = level(track_of(steady(nullptr, machine.spindle.rpm, 4), 4, options));
         EXPECT_NEAR(idle * kFullScalePascal / machine.spindle.pa, 1, 0.1) << machine.name;
         const double cut = level(track_of(steady(&spectrum, 4500, 4), 4, options));
@@ -66,7 +66,7 @@ TEST(Machine, makes_noise_of_the_cutting_power) {
             spectrum.harmonics.resize(1);
             spectrum.harmonics[0].torque = torque;
             SoundtrackOptions options;
-            furnish({.machine = 1, .spindle_db = -60}, options);
+            apply({.machine = 1, .spindle_db = -60}, options);
             const double watts = torque / 1000 * rpm / 60 * 2 * std::numbers::pi;
             const double expected = std::sqrt(kSoundShare * watts * kAirImpedance / (4 * std::numbers::pi));
             const double found = level(track_of(steady(&spectrum, rpm, 10), 10, options)) * kFullScalePascal;
@@ -78,7 +78,7 @@ TEST(Machine, makes_noise_of_the_cutting_power) {
 TEST(Machine, none_is_the_force_alone) {
     const contact::ForceSpectrum spectrum = working_spectrum();
     SoundtrackOptions options;
-    furnish({}, options);
+    apply({}, options);
     EXPECT_EQ(track_of(steady(&spectrum, 4500, 1, 500, 5), 1, options),
               track_of(steady(&spectrum, 4500, 1, 500, 5), 1));
 }
@@ -86,7 +86,7 @@ TEST(Machine, none_is_the_force_alone) {
 TEST(Machine, keeps_the_teeth_at_their_frequencies) {
     const contact::ForceSpectrum spectrum = working_spectrum(0);
     SoundtrackOptions options;
-    furnish({.machine = 1, .spindle_db = -60}, options);
+    apply({.machine = 1, .spindle_db = -60}, options);
     BodyFilter body;
     body.set(options.machine.radiation, kRate);
     const std::vector<float> wave = track_of(steady(&spectrum, 4500, 2.2), 2.2, options);
@@ -100,7 +100,7 @@ TEST(Machine, keeps_the_teeth_at_their_frequencies) {
 TEST(Machine, keeps_the_teeth_at_their_frequencies_to_a_hundred_thousandth) {
     const contact::ForceSpectrum spectrum = working_spectrum(0);
     SoundtrackOptions options;
-    furnish({.machine = 1, .spindle_db = -60}, options);
+    apply({.machine = 1, .spindle_db = -60}, options);
     const std::vector<float> wave = track_of(steady(&spectrum, 4500, 6), 6, options);
     // How far a line turns against its own frequency from one second to another, 4 s later.
     const auto turn = [&](std::size_t from, double hz) {
@@ -125,7 +125,7 @@ TEST(Machine, sounds_louder_where_the_force_says_so) {
         contact::ForceSpectrum spectrum = falling_spectrum(5, 8, force);
         spectrum.harmonics[0].torque = torque;
         SoundtrackOptions options;
-        furnish({.machine = 1, .chips = ChipMaterial::steel}, options);
+        apply({.machine = 1, .chips = ChipMaterial::steel}, options);
         return test::decibel(level(track_of(steady(&spectrum, 4500, 4, removal, 5), 4, options)));
     };
     const double usual = loud(40, 5000, 600);

@@ -117,7 +117,7 @@ class Run {
         devices::ServoThread thread({rate_hz_}, [&](double now_s) {
             clock_s.store(now_s, std::memory_order_relaxed);
             keep(servo_.tick(now_s));
-            return done_ < count_ && servo_.device_there() && !interrupted();
+            return done_ < count_ && servo_.is_device_connected() && !interrupted();
         });
         std::thread miller;
         if (felt.mills_in_time()) {
@@ -133,7 +133,7 @@ class Run {
         if (miller.joinable()) miller.join();
         stats.late = thread.late();
         stats.lateness = figures_of(thread.lateness());
-        for (const std::string& note : {thread.granted().real_time, thread.granted().memory}) {
+        for (const std::string& note : {thread.problems().real_time, thread.problems().memory}) {
             if (!note.empty()) stats.notes.push_back(note);
         }
         take(thread.clock(), stats);
@@ -142,7 +142,7 @@ class Run {
     }
 
     const std::vector<readers::FeelTraceRow>& trace() const { return trace_; }
-    bool device_there() const { return servo_.device_there(); }
+    bool is_device_connected() const { return servo_.is_device_connected(); }
 
   private:
     void keep(const haptics::ServoTick& tick) noexcept {
@@ -330,7 +330,7 @@ int feel(const FeelCall& call) {
     }
     print(stats, run.trace(), call.out);
     felt.print();
-    if (run.device_there()) return kDone;
+    if (run.is_device_connected()) return kDone;
     report(Error{"", 0, 0, trouble.empty() ? "the arm is gone" : trouble, ""});
     return kRefused;
 }

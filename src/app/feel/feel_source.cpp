@@ -103,7 +103,7 @@ void FeelSource::inspect(const contact::DistanceField& surface) {
 void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     knots_ = table.table().knots();
     table_bytes_ = table.bytes();
-    force_ = std::make_unique<haptics::SwappedForce>(call_.rate_hz);
+    force_ = std::make_unique<haptics::ForceTablePlayer>(call_.rate_hz);
     force_->replace(std::move(table), scaling_);
     if (call_.texture && milled_)
         textures_ = session::texture_map(record_.rows(), milled_->stock(), parallel);

@@ -7,7 +7,7 @@
 
 #include "app/feel/feel.hpp"
 #include "files/files.hpp"
-#include "haptics/servo/swapped_force.hpp"
+#include "haptics/servo/force_table_player.hpp"
 #include "job/job.hpp"
 #include "report/feel_stats_json.hpp"
 #include "session/cut/stock_at_time.hpp"
@@ -53,7 +53,7 @@ class FeelSource {
     std::unique_ptr<const contact::DistanceField> surface_;
     session::CutRecord record_;
     std::unique_ptr<session::CutterTrack> track_;
-    std::unique_ptr<haptics::SwappedForce> force_;
+    std::unique_ptr<haptics::ForceTablePlayer> force_;
     haptics::TextureMap textures_;
     std::unique_ptr<session::StockAtTime> stock_;
     std::unique_ptr<haptics::ForceSource> source_;

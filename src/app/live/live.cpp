@@ -7,7 +7,7 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/live/live_server.hpp"
-#include "app/live/live_show.hpp"
+#include "app/live/live_view.hpp"
 #include "app/render/render_job.hpp"
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
@@ -25,9 +25,9 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
     return arm;
 }
 
-LiveShowOptions show_options(const LiveCall& call, const PreparedJob& loaded,
+LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
-    LiveShowOptions options;
+    LiveViewOptions options;
     options.info.version = TRIBO_VERSION;
     options.info.job = call.job;
     options.info.warnings = loaded.warnings;
@@ -77,7 +77,7 @@ int live(const LiveCall& call) {
         report(arm.error());
         return kRefused;
     }
-    LiveShowOptions show_how =
+    LiveViewOptions show_how =
         show_options(call, *first, profile, *arm ? (*arm)->limits() : haptics::kSimulatedLimits);
 
     std::unique_ptr<LiveAudio> audio;
@@ -114,7 +114,7 @@ int live(const LiveCall& call) {
         std::move(extras));
     if (!mill) return report(mill.error());
 
-    LiveShow show(**mill, std::move(show_how), *std::move(arm), std::move(audio));
+    LiveView show(**mill, std::move(show_how), *std::move(arm), std::move(audio));
     int exit_code = kDone;
     auto server = open_live_server(call, call.job, show.handlers(*files), exit_code);
     if (!server) return exit_code;

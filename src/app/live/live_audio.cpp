@@ -36,7 +36,7 @@ LiveAudio::~LiveAudio() {
     out_.reset();
 }
 
-void LiveAudio::take(session::LiveSoundNews news) {
+void LiveAudio::take(session::LiveSoundUpdate news) {
     const std::lock_guard lock(mutex_);
     news_.push_back(std::move(news));
 }
@@ -53,7 +53,7 @@ void LiveAudio::work() {
         const auto all_news = std::exchange(news_, {});
         const Clock clock = std::exchange(clock_, {});
         lock.unlock();
-        for (const session::LiveSoundNews& news : all_news)
+        for (const session::LiveSoundUpdate& news : all_news)
             std::visit([this](const auto& told) { sound_.take(told); }, news);
         const double lead_s =
             static_cast<double>(queue_.frames()) / sound_.sample_rate_hz() + out_->latency_s();

@@ -30,7 +30,7 @@ class LiveAudio {
 
     const std::string& device() const { return out_->device(); }
     // One thread: all that the mill tells an ear, and the clock at each picture.
-    void take(session::LiveSoundNews news);
+    void take(session::LiveSoundUpdate news);
     void follow(double t_s, double speed, bool playing);
 
   private:
@@ -45,7 +45,7 @@ class LiveAudio {
     devices::SampleQueue queue_;
     std::mutex mutex_;
     std::condition_variable wake_;
-    std::vector<session::LiveSoundNews> news_;
+    std::vector<session::LiveSoundUpdate> news_;
     Clock clock_;
     bool stop_ = false;
     std::unique_ptr<devices::AudioOut> out_;

@@ -131,7 +131,7 @@ report::ReportSound SoundFile::for_report() const {
     report::ReportSound sound;
     const double rate = options_.track.sample_rate_hz;
     sound.seconds = static_cast<double>(waveform_.frames()) / rate;
-    for (const sound::Extremes& e : waveform_.columns()) {
+    for (const sound::MinMax& e : waveform_.columns()) {
         constexpr auto kPascal = static_cast<float>(sound::kFullScalePascal);
         sound.envelope_pascal.emplace_back(kPascal * e.min, kPascal * e.max);
     }
@@ -179,7 +179,7 @@ std::vector<report::ReportWave> ReportRows::waves(const session::MillSetup& setu
     if (worst_force_n_ <= 0) return waves;
     // The force's own wave: chips and machine would hide it.
     sound::SoundtrackOptions force_alone = options;
-    sound::furnish({}, force_alone);
+    sound::apply({}, force_alone);
     force_alone.chips.learned.reset();
     const auto wave = [&](double speed, double feed) {
         milling::CutRow cut = worst_;

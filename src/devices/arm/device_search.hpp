@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which arms there are, and for those there are not: what was looked for, where, and what to do.
+// Search for haptic arms. For a missing arm the report says what was searched, where, and the remedy.
 #pragma once
 
 #include <memory>
@@ -15,21 +15,21 @@ namespace tribo::devices {
 // openhaptics, forcedimension, haply, serial: the words that open_arm() takes.
 const std::vector<std::string>& arm_names();
 
-// Opens an arm by its word, for OpenHaptics also with the name that the vendor's set-up gave it
-// ("openhaptics:Left Device"), for a serial arm with its port ("serial:/dev/ttyACM0@115200"); "auto": the
-// first that opens. The error of an unknown word names the known ones.
+// Opens an arm by its name in arm_names(). OpenHaptics also accepts the device name of the vendor's set-up
+// ("openhaptics:Left Device"). A serial arm needs its port ("serial:/dev/ttyACM0@115200"). "auto" opens the
+// first available arm. The error of an unknown name lists the known names.
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting);
 
 struct ArmReport {
-    std::string name, makes;  // the word, and whose arms it drives
+    std::string name, makes;  // name for open_arm(), and the supported makes
     bool available = false;
-    std::string model;               // where it is available
-    haptics::DeviceLimits limits;    // likewise; its name is empty
-    std::string problem, remedy;     // where it is not
-    std::vector<std::string> ports;  // device files that look like an arm's, with what is wrong with them
+    std::string model;               // of an available arm
+    haptics::DeviceLimits limits;    // of an available arm; its name is empty
+    std::string problem, remedy;     // of an unavailable arm
+    std::vector<std::string> ports;  // device files that may belong to an arm, with their problems
 };
 
-// Opens and closes each in turn. Takes up to a few seconds; not while one is in use.
+// Opens and closes each arm in turn. Takes up to a few seconds. No arm may be in use.
 std::vector<ArmReport> search_arms();
 
 }  // namespace tribo::devices

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A force that comes from a shared library of the user's (force_plugin.h), around the one that Tribo has.
+// Force source from a shared library of the user (force_plugin.h). It wraps the force source of Tribo.
 #pragma once
 
 #include <memory>
@@ -12,17 +12,17 @@
 
 namespace tribo::devices {
 
-// One thread; render() is as real-time safe as the library's function is. What is not a number stops at the
-// servo's guard.
+// One thread. render() is real-time safe if the function of the library is. The safety guard stops forces
+// that are not finite.
 class ForcePlugin final : public haptics::ForceSource {
   public:
-    // Refused: no such library, a function missing, or one that does not speak this version.
+    // Refuses a missing library, a missing function and an unsupported version.
     static Result<std::unique_ptr<ForcePlugin>> open(const std::string& library, double rate_hz);
     ForcePlugin(const ForcePlugin&) = delete;
     ForcePlugin& operator=(const ForcePlugin&) = delete;
     ~ForcePlugin() override;
 
-    // What Tribo would give, from now on; must live as long. Before the first render().
+    // The wrapped force source; must outlive this object. Call before the first render().
     void set_inner(haptics::ForceSource& inner) { inner_ = &inner; }
     haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
                                   double tick_s) noexcept override;

@@ -20,12 +20,13 @@ struct HaplyOptions {
     Mounting mounting;
 };
 
-// The service answers a command with the next state, so a thread of its own sends the servo's newest force
-// (zero where the servo has been silent for 5 ms) and takes the state that comes back; the servo sees both
-// through snapshots. Errors say what to do: no service, no arm, another version.
+// The service answers each command with the next state. A separate thread sends the newest force of the servo
+// (zero after 5 ms without one) and receives the state. The servo exchanges both through snapshots. Errors
+// give a remedy: no service, no arm, another version.
 Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options);
 
-// One message of the service. `id` is kept once known; false where the message tells no place of an Inverse3.
+// Reads one message of the service. A known `id` is kept. False if the message has no position of an
+// Inverse3.
 struct HaplyState {
     std::string id;
     Vec3 position_m, velocity_m_per_s;

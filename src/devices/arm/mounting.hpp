@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Where an arm stands against the stock: its own axes to the stock's, its middle to a place on the part.
+// Mounting of an arm: rotation from its axes to the axes of the stock, and position of its zero.
 #pragma once
 
 #include "base/vec3.hpp"
 
 namespace tribo::devices {
 
-// The user sits at -y of the stock and looks along +y; up is +z. Columns are the arm's axes in the stock's
+// The user sits at -y of the stock and looks along +y; up is +z. x, y, z are the axes of the arm in the stock
 // frame.
 struct Axes {
     Vec3 x, y, z;
     Vec3 to_stock(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
     Vec3 from_stock(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
 };
-// 3D Systems and Haply: x right, y up, z towards the user. (The Inverse3's own base is z up: below.)
+// 3D Systems and Haply: x right, y up, z towards the user. (The base of the Inverse3 has z up: see below.)
 inline constexpr Axes kRightUpNear{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 // Force Dimension: x towards the user, y right, z up.
 inline constexpr Axes kNearRightUp{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
@@ -21,7 +21,7 @@ inline constexpr Axes kNearRightUp{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
 inline constexpr Axes kRightAwayUp{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 struct Mounting {
-    Vec3 origin_mm;    // of the arm's own zero, stock frame
+    Vec3 origin_mm;    // zero of the arm, stock frame
     double scale = 1;  // millimetres in the stock per millimetre of the hand, > 0
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// 3D Systems arms (Touch, Touch X, Phantom) through OpenHaptics' HD layer, libHD.so, loaded while the program
-// runs (OpenHaptics API reference 3.5; only the types and constants of its interface are written here).
+// 3D Systems arms (Touch, Touch X, Phantom) through the HD layer of OpenHaptics, libHD.so, loaded at run time
+// (OpenHaptics API reference 3.5; this code declares only the types and constants it needs).
 #pragma once
 
 #include <memory>
@@ -13,15 +13,15 @@
 namespace tribo::devices {
 
 struct OpenHapticsOptions {
-    std::string driver;                     // path; empty: libHD.so and libHD.so.3 where the loader looks
-    std::string device = "Default Device";  // as the vendor's set-up named it; never empty (HD's NULL
-                                            // failed for many)
+    std::string driver;                     // path; empty: libHD.so and libHD.so.3 in the loader path
+    std::string device = "Default Device";  // name in the vendor's set-up; not empty (NULL in HD
+                                            // failed for many users)
     Mounting mounting;
 };
 
-// HD allows forces only in its own scheduler's callback: that exchanges the newest reading and force with the
-// servo through snapshots, and sends zero itself where the servo has been silent for 5 ms.
-// The errors say what to do: driver missing, wrong version, unplugged, not calibrated.
+// HD allows forces only in the callback of its own scheduler. The callback exchanges readings and forces with
+// the servo through snapshots. It sends zero after 5 ms without a new force.
+// Errors give a remedy: driver missing, wrong version, unplugged, not calibrated.
 Result<std::unique_ptr<haptics::Device>> open_openhaptics(const OpenHapticsOptions& options);
 
 }  // namespace tribo::devices

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An arm of one's own on a serial port: a HapKit, a paddle, three motors and a microcontroller. It speaks the
-// packets of serial_packets.h; examples/serial_arm has a firmware.
+// A self-made arm on a serial port, such as a HapKit. It uses the packets of serial_packets.h;
+// examples/serial_arm has a firmware.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ namespace tribo::devices {
 
 struct SerialArmOptions {
     std::string port;       // /dev/ttyACM0
-    int baud = 1'000'000;   // of a true serial line, one of the usual rates; USB takes no notice
-    int timeout_ms = 4000;  // for the arm's first line: opening a port resets many a board
+    int baud = 1'000'000;   // a standard rate of a real serial line; USB ignores it
+    int timeout_ms = 4000;  // for the first line of the arm: opening a port resets many boards
     Mounting mounting;
 };
 
-// Read and written without waiting, on the servo's thread. The arm's own firmware lets go where no force came
-// for 5 ms. Errors say what to do: no port, no rights, nobody who answers, another version.
+// Reads and writes on the servo thread, without waiting. The firmware of the arm switches the force off after
+// 5 ms without a force packet. Errors give a remedy: no port, no rights, no answer, another version.
 Result<std::unique_ptr<haptics::Device>> open_serial_arm(const SerialArmOptions& options);
 
-// The arm's first line. Facts that it leaves out stay as they are; one that is no number or out of range
-// makes it an error.
+// The first line of the arm. Missing values keep their defaults. A value that is no number or out of range is
+// an error.
 struct SerialArmFacts {
     std::string name = "serial arm";
     haptics::DeviceLimits limits{"", 1, 0.3, 0.002, 0.01};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A vendor's library loaded while the program runs: nothing of it is needed to build Tribo.
+// A shared library of a vendor, loaded at run time: Tribo builds without it.
 #pragma once
 
 #include <initializer_list>
@@ -12,15 +12,15 @@ namespace tribo::devices {
 
 class SharedLibrary {
   public:
-    // The first of the names that the system's loader finds; a name with a slash is a path. The error lists
-    // what was tried and what the loader said.
+    // Opens the first name that the loader finds. A name with a slash is a path. The error lists all names
+    // and the messages of the loader.
     static Result<SharedLibrary> open(std::initializer_list<std::string> names);
     SharedLibrary(SharedLibrary&& other) noexcept;
     SharedLibrary& operator=(SharedLibrary&& other) noexcept;
     ~SharedLibrary();
 
     const std::string& name() const { return name_; }
-    // False, and the first such name kept, where the library has no such symbol.
+    // False if the symbol is missing; missing() then keeps the first such symbol.
     template <class Function>
     bool find(const char* symbol, Function*& function) {
         function = reinterpret_cast<Function*>(address(symbol));

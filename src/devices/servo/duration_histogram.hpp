@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How long ticks took: counts in buckets of at most 1/64 of their size, from a nanosecond to a quarter of an
-// hour. One thread records (real-time safe); any thread may read meanwhile.
+// Histogram of tick durations, from 1 ns to 15 minutes, with a bucket width of at most 1/64 of the duration.
+// One thread records (real-time safe); any thread may read at the same time.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@ class DurationHistogram {
     }
     std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
     std::uint64_t max_ns() const { return max_.load(std::memory_order_relaxed); }
-    // The duration that the share `q` (0..1) of all ticks stayed within, rounded up to its bucket's end.
+    // The quantile `q` (0..1), rounded up to the end of its bucket.
     std::uint64_t quantile_ns(double q) const;
-    // How many were longer than `ns`, to within a bucket.
+    // Number of durations above `ns`, to within a bucket.
     std::uint64_t count_above(std::uint64_t ns) const;
 
   private:
-    // Below 64 ns a bucket each; above, 64 buckets an octave.
+    // One bucket per nanosecond below 64 ns; 64 buckets per octave above.
     static constexpr int kBits = 6;
     static constexpr std::uint32_t kPerOctave = 1U << kBits;
     static constexpr int kOctaves = 34;

@@ -44,21 +44,21 @@ void ServoThread::join() {
     if (thread_.joinable()) thread_.join();
 }
 
-void ServoThread::ask_the_system() {
+void ServoThread::request_real_time() {
     if (options_.real_time) {
         const sched_param priority{kPriority};
         const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
         if (error != 0) {
-            granted_.real_time =
+            problems_.real_time =
                 std::string("no real-time class (") + std::strerror(error) +
                 "): other programs may hold a tick up by milliseconds; allow it with a line '@realtime "
                 "- rtprio 50' in /etc/security/limits.d/ and yourself in that group";
         }
     } else {
-        granted_.real_time = "no real-time class was asked for";
+        problems_.real_time = "no real-time class was asked for";
     }
     if (options_.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-        granted_.memory =
+        problems_.memory =
             std::string("memory is not locked (") + std::strerror(errno) +
             "): a tick may wait for a page; allow it with a line '@realtime - memlock unlimited' in "
             "/etc/security/limits.d/";
@@ -67,7 +67,7 @@ void ServoThread::ask_the_system() {
 }
 
 void ServoThread::run() {
-    ask_the_system();
+    request_real_time();
     clock_ = std::make_unique<TickClock>();
     ready_.store(true, std::memory_order_release);
     ready_.notify_all();

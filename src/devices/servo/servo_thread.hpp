@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thread of its own for the servo: absolute deadlines, the real-time class and locked memory where the
-// system allows them.
+// Thread of the servo: absolute deadlines; real-time class and locked memory if the system allows them.
 #pragma once
 
 #include <atomic>
@@ -19,47 +18,47 @@ struct ServoThreadOptions {
     bool lock_memory = true;  // ask for mlockall
 };
 
-// What the system granted, in words that say what to do where it did not. Empty: granted.
-struct Granted {
+// Why the system refused real-time class or locked memory, with a remedy. Empty: granted.
+struct RealTimeProblems {
     std::string real_time, memory;
 };
 
-// Calls `tick(now_s)` at k / rate_hz seconds from the start, k = 0, 1, ..., until it gives false or stop().
-// Overruns: a tick whose time has passed is not made up for; the next one happens at the next multiple of the
-// period, so that a stall never becomes a burst. The tick must not throw.
+// Calls `tick(now_s)` at k / rate_hz seconds from the start, k = 0, 1, ..., until it returns false or stop().
+// Missed deadlines are skipped: the next tick is at the next multiple of the period. So a stall never causes
+// a burst of ticks. The tick must not throw.
 class ServoThread {
   public:
     using Tick = std::function<bool(double now_s)>;
 
     ServoThread(const ServoThreadOptions& options, Tick tick);
-    // Stops and waits.
+    // Calls stop() and join().
     ~ServoThread();
     ServoThread(const ServoThread&) = delete;
     ServoThread& operator=(const ServoThread&) = delete;
 
     void stop() { stop_.store(true, std::memory_order_relaxed); }
-    // Waits until the last tick is over.
+    // Waits for the end of the last tick.
     void join();
     bool running() const { return running_.load(std::memory_order_acquire); }
 
-    // Of the thread, once it runs; valid until this object goes.
-    const Granted& granted() const { return granted_; }
+    // State of the running thread. References are valid until this object is destroyed.
+    const RealTimeProblems& problems() const { return problems_; }
     const TickClock& clock() const { return *clock_; }
-    // How long after its deadline each tick began.
+    // Delay of each tick after its deadline.
     const DurationHistogram& lateness() const { return lateness_; }
-    // Ticks that ended after the next one's deadline, and deadlines that so went by without a tick.
+    // Number of ticks that ended after the next deadline; number of skipped deadlines.
     std::uint64_t late() const { return late_.load(std::memory_order_relaxed); }
     std::uint64_t skipped() const { return skipped_.load(std::memory_order_relaxed); }
 
   private:
     void run();
-    void ask_the_system();
+    void request_real_time();
 
     ServoThreadOptions options_;
     Tick tick_;
     std::unique_ptr<TickClock> clock_;
     DurationHistogram lateness_;
-    Granted granted_;
+    RealTimeProblems problems_;
     std::atomic<bool> stop_{false}, running_{true};
     std::atomic<std::uint64_t> late_{0}, skipped_{0};
     std::atomic<bool> ready_{false};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Clocks around one tick, with what reading them costs taken off.
+// Measures the duration of ticks, without the cost of reading the clocks.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace tribo::devices {
 std::uint64_t wall_ns() noexcept;
 std::uint64_t thread_cpu_ns() noexcept;
 
-// Measures sections of one thread. Real-time safe but for the constructor, which measures empty sections for
+// Measures sections of one thread. Real-time safe, except for the constructor: it measures empty sections for
 // a few milliseconds.
 class TickClock {
   public:
@@ -22,12 +22,12 @@ class TickClock {
         cpu_start_ = thread_cpu_ns();
         wall_start_ = wall_ns();
     }
-    // Records what has passed since begin(), less an empty section's median.
+    // Records the time since begin(), minus the median of an empty section.
     void end() noexcept;
 
     const DurationHistogram& cpu() const { return cpu_; }
     const DurationHistogram& wall() const { return wall_; }
-    // Empty sections, nothing taken off: what this machine does to a loop by itself.
+    // Durations of empty sections, without correction: the jitter of this machine.
     const DurationHistogram& empty_cpu() const { return empty_cpu_; }
     const DurationHistogram& empty_wall() const { return empty_wall_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sound to a loudspeaker: a plain callback that is asked for the next frames (RtAudio). Whoever renders knows
-// nothing of devices; this file knows nothing of what is rendered.
+// Sound output to the default device (RtAudio). A callback provides the next frames. The renderer does not
+// depend on devices, and this file does not depend on the renderer.
 #pragma once
 
 #include <functional>
@@ -14,16 +14,17 @@ namespace tribo::devices {
 
 struct AudioOutOptions {
     int sample_rate_hz = 48000;
-    int buffer_frames = 256;  // 128 ... 256 keep touch and sound together; the device may choose another
+    int buffer_frames = 256;  // 128 ... 256 keep touch and sound in sync; the device may choose another size
 };
 
-// Fills interleaved stereo, all of it. Runs on the device's thread: no allocation, lock, throw or log.
+// Fills all of the interleaved stereo buffer. Runs on the device thread: no allocation, lock, throw or log.
 using AudioRender = std::function<void(std::span<float> interleaved)>;
 
 // A stream to the default device, from open() until it is destroyed.
 class AudioOut {
   public:
-    // An error where there is no sound card or it refuses: the caller says so and goes on without.
+    // Returns an error without a sound card, or if it refuses. The caller reports it and continues without
+    // sound.
     static Result<std::unique_ptr<AudioOut>> open(const AudioOutOptions& options, AudioRender render);
     ~AudioOut();
     AudioOut(const AudioOut&) = delete;
@@ -31,8 +32,7 @@ class AudioOut {
 
     const std::string& device() const { return device_; }
     int buffer_frames() const { return buffer_frames_; }
-    // From render() to the loudspeaker, as far as the device tells: its own latency, or the two buffers that
-    // every device has.
+    // Latency from render() to the loudspeaker: the value of the device, but at least two buffers.
     double latency_s() const;
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stereo samples from the thread that renders them to the one that plays them.
+// Queue of stereo samples from the rendering thread to the playing thread.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace tribo::devices {
 
-// One thread puts, one takes; neither waits. Real-time safe.
+// One thread puts, one thread takes. Neither waits. Real-time safe.
 class SampleQueue {
   public:
     static constexpr std::size_t kFrames = 4096;
@@ -19,7 +19,7 @@ class SampleQueue {
         return written_.load(std::memory_order_acquire) - read_.load(std::memory_order_acquire);
     }
 
-    // As many whole frames as there is room for, counted; the rest is left.
+    // Stores as many frames as fit and returns their number.
     std::size_t put(std::span<const float> interleaved) noexcept {
         const std::size_t written = written_.load(std::memory_order_relaxed);
         const std::size_t room = kFrames - (written - read_.load(std::memory_order_acquire));
@@ -29,7 +29,7 @@ class SampleQueue {
         return count;
     }
 
-    // Fills all of it, with silence where there is nothing.
+    // Fills the whole buffer, with silence if the queue is empty.
     void take(std::span<float> interleaved) noexcept {
         const std::size_t read = read_.load(std::memory_order_relaxed);
         const std::size_t there = written_.load(std::memory_order_acquire) - read;
@@ -41,7 +41,7 @@ class SampleQueue {
 
   private:
     std::array<float, 2 * kFrames> ring_{};
-    std::atomic<std::size_t> written_{0}, read_{0};  // frames since the beginning
+    std::atomic<std::size_t> written_{0}, read_{0};  // frames since the start
 };
 
 }  // namespace tribo::devices

@@ -32,7 +32,7 @@ double cylinder_distance_mm(const Cylinder& a, const Cylinder& b) {
     return length(r + s * u - t * v) - a.radius_mm - b.radius_mm;
 }
 
-FieldForce ForceField::render(const FieldMoment& m) noexcept {
+FieldForce ForceField::render(const ForceFieldInput& m) noexcept {
     FieldForce out;
     const double share = options_.tick_s / options_.switch_s;
     way_ = std::clamp(way_ + (cutting_on_ ? share : -share), 0.0, 1.0);

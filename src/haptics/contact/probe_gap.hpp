@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a probe is from touching: the smallest distance over its parts.
+// Gap between a probe and a surface: the smallest gap of its balls.
 #pragma once
 
 #include <array>
@@ -9,35 +9,36 @@
 
 namespace tribo::haptics {
 
-// A probe is a set of balls of one radius that move together: one ball (a stylus tip; radius 0 is a point), a
-// row along a segment (a stylus, whose direction matters), or a shell around a cylinder (a finger). Offsets
-// from the probe's position stand in the stock's frame and may change from tick to tick.
+// A probe is a rigid set of balls with one radius: one ball (a stylus tip; radius 0 is a point), a row along
+// a segment (a whole stylus), or a shell around a cylinder (a finger). Offsets from the probe position are in
+// the stock frame and may change from tick to tick.
 //
-// Real-time safe. Cost: a ball that cannot be the nearest, by what was last known of it and how far it has
-// moved since, is not asked: a shell costs little more than its one or two nearest balls.
+// Real-time safe. A ball that cannot be the nearest is not queried; its last gap and its motion since then
+// bound its gap. So a shell costs little more than its one or two nearest balls.
 class ProbeGap {
   public:
     static constexpr std::size_t kMostBalls = 64;
 
     explicit ProbeGap(double radius_mm = 0) : radius_(radius_mm) {}
 
-    // At most kMostBalls, at least one. Gives how far the ball that moved most has moved against the probe
-    // (without end where their number is another).
+    // 1 to kMostBalls offsets. Returns the largest motion of a ball relative to the probe (infinite if the
+    // number of balls changes).
     double set_balls(std::span<const Vec3> offsets_mm);
     void set_radius(double radius_mm) { radius_ = radius_mm; }
     double radius_mm() const { return radius_; }
     std::size_t balls() const { return count_; }
-    // What was known does not hold any more: another surface, not one from which material was taken.
+    // Discards all stored gaps: for another surface. Not needed when material is removed.
     void forget();
 
     struct Gap {
-        double gap_mm = 0;  // 0: touching; negative: in material by about that much
+        double gap_mm = 0;  // 0: touching; negative: about the depth in material
         Vec3 normal{0, 0, 1};
         std::uint32_t piece = 0;
-        std::size_t ball = 0;  // the one that is nearest
+        std::size_t ball = 0;  // index of the nearest ball
     };
     Gap measure(const contact::DistanceField& field, Vec3 position_mm);
-    // A way that the probe may go without touching, up to about `enough_mm`; 0 or less: none.
+    // Distance that the probe can move in any direction without contact, up to about `enough_mm`. 0 or less:
+    // none.
     double clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm);
     Vec3 offset_mm(std::size_t ball) const { return ball_[ball].offset; }
     // Queries of the field so far.
@@ -46,11 +47,11 @@ class ProbeGap {
   private:
     struct Ball {
         Vec3 offset;
-        Vec3 seen_at;             // where it was last asked
+        Vec3 seen_at;             // position of the last query
         double seen_gap = -1e30;  // a lower bound of its gap there
-        // Of the surface next to it, while it is looked for contact and for room: these places are apart.
+        // The nearest surface for contact queries and for clearance queries; these points differ.
         struct Near {
-            Vec3 foot;  // the surface point last nearest, from the ball's centre
+            Vec3 foot;  // last nearest surface point, from the centre of the ball
             contact::NearHint hint;
         } touch, room;
         double bound(Vec3 at) const { return seen_gap - distance(at, seen_at); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scripted hand: where it means to be at a time.
+// Target positions of a scripted hand over time.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@ struct StrokePoint {
     Vec3 position_mm;
 };
 
-// Straight between its points, still before the first and after the last. One thread per object: it remembers
-// where it was asked last, so that a servo's ticks cost the same at any length.
+// Linear between its points, constant before the first and after the last. One thread per object: it keeps
+// the segment of the last call, so that the cost of a tick does not depend on the length.
 class Stroke {
   public:
-    // At least one point, times rising.
+    // At least one point, with rising times.
     explicit Stroke(std::vector<StrokePoint> points);
 
     struct At {
@@ -32,7 +32,7 @@ class Stroke {
 
   private:
     std::vector<StrokePoint> points_;
-    std::size_t next_ = 1;  // the piece asked for last ends there
+    std::size_t next_ = 1;  // end of the segment of the last call
 };
 
 }  // namespace tribo::haptics

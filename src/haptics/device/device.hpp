@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the servo asks of a haptic arm, whoever made it: a reading of the hand, and a force for it.
+// Interface of a haptic arm for the servo: read the hand, write a force.
 #pragma once
 
 #include <cstdint>
@@ -12,35 +12,35 @@ namespace tribo::haptics {
 
 struct HandReading {
     Vec3 position_mm;            // of the probe, stock frame
-    Vec3 velocity_mm_per_s;      // as the device says, or differences of its positions
+    Vec3 velocity_mm_per_s;      // from the device, or differences of its positions
     Vec3 stylus{0, 0, 1};        // unit, from the probe's tip to the hand
-    unsigned buttons = 0;        // a bit each
-    std::uint64_t sequence = 0;  // rises with every reading that is new; unchanged: the device said nothing
+    unsigned buttons = 0;        // one bit each
+    std::uint64_t sequence = 0;  // increases with every new reading
 };
 
 enum class DeviceState : std::uint8_t {
     ready,
-    silent,   // no new reading this time; the last one stands
-    refused,  // no force, but that may pass: motors switched off by a button, too warm, a limit of the
-              // device's own
-    gone,     // unplugged or closed: nothing will come any more
+    silent,   // no new reading; the last one is kept
+    refused,  // no force for now: motors switched off by a button, too warm, or a limit of the
+              // device
+    gone,     // unplugged or closed, for good
 };
 
-// One thread at a time. read() and write() are real-time safe (no allocation, lock or throw) and return
-// without waiting for more than the device's own period.
+// One thread at a time. read() and write() are real-time safe (no allocation, lock or throw). They wait for
+// at most one period of the device.
 class Device {
   public:
     virtual ~Device() = default;
     virtual const DeviceLimits& limits() const = 0;
     virtual DeviceState read(HandReading& reading) noexcept = 0;
-    // Newtons on the hand, stock frame.
+    // Force on the hand in N, stock frame.
     virtual DeviceState write(Vec3 force_n) noexcept = 0;
-    // Whether motors move a person's hand. If not, there is nothing to ramp up for.
+    // Whether motors move the hand of a person. If not, the servo needs no ramp.
     virtual bool has_motors() const { return true; }
-    // Whether the hand gives way to a force. If not, no force gives it energy.
+    // Whether forces move the hand. If not, no energy can reach it.
     virtual bool yields() const { return true; }
-    // What the last state that was not ready means, and what of its safety the device lacks, in words; empty:
-    // all is well. Not for the servo's thread.
+    // Explains the last state that was not `ready` and missing safety functions of the device. Empty: no
+    // problem. Not for the servo thread.
     virtual std::string trouble() const { return {}; }
 };
 

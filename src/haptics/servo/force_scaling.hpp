@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hundreds of newtons at the cutter to a few at a desk-top arm.
+// Scales forces from hundreds of newtons at the cutter to a few newtons at a desktop arm.
 #pragma once
 
 #include "base/vec3.hpp"
@@ -7,9 +7,9 @@
 namespace tribo::haptics {
 
 enum class ScalingLaw {
-    gain,         // gain |F|: ratios stay as they are; what is above the arm's force is clamped
-    compressive,  // gain |F| / (1 + gain |F| / limit): slope `gain` near zero, never reaches the limit, so
-                  // that a heavy cut still feels heavier than a medium one
+    gain,         // gain |F|: keeps ratios; the arm clamps large forces
+    compressive,  // gain |F| / (1 + gain |F| / limit): slope `gain` near zero, always below the limit, so
+                  // that a heavy cut feels heavier than a medium one
 };
 
 struct ForceScaling {

@@ -20,14 +20,14 @@ double passive_stiffness_n_per_mm(double tick_s, double delay_s, double damping)
     return damping / (0.5 * tick_s + delay_s);
 }
 
-HandAhead::HandAhead(double tick_s, double delay_s) {
+HandPredictor::HandPredictor(double tick_s, double delay_s) {
     assert(tick_s > 0 && delay_s >= 0);
     if (delay_s <= 0) return;
     ahead_ticks_ = kLead * (delay_s / tick_s + 0.5);
     past_.resize(static_cast<std::size_t>(std::max(1.0, std::round(kSpeedOverS / tick_s))));
 }
 
-Vec3 HandAhead::at(Vec3 position) noexcept {
+Vec3 HandPredictor::at(Vec3 position) noexcept {
     if (past_.empty()) return position;
     const std::size_t count = past_.size();
     if (known_ == 0) past_[next_] = position;

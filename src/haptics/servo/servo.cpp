@@ -24,7 +24,7 @@ ServoTick Servo::tick(double now_s) noexcept {
     const bool first = ticks_ == 0;
     const std::uint64_t known = hand_.sequence;
     const DeviceState state = device_.read(hand_);
-    if (state == DeviceState::gone) device_there_ = false;
+    if (state == DeviceState::gone) device_connected_ = false;
     refused_ = refused_ || state == DeviceState::refused;
     // A device that never spoke has been silent since before the start.
     if (hand_.sequence != known) device_s_ = now_s;
@@ -51,8 +51,8 @@ ServoTick Servo::tick(double now_s) noexcept {
         safety_.tick({now_s, device_s_, felt.simulation_s, hand_.velocity_mm_per_s, wanted, refused_});
     tick.fault = safety_.fault();
     tick.touching = felt.touching;
-    const DeviceState taken = device_there_ ? device_.write(tick.force_n) : DeviceState::gone;
-    if (taken == DeviceState::gone) device_there_ = false;
+    const DeviceState taken = device_connected_ ? device_.write(tick.force_n) : DeviceState::gone;
+    if (taken == DeviceState::gone) device_connected_ = false;
     refused_ = taken == DeviceState::refused;
     max_force_ = std::max(max_force_, length(tick.force_n));
     last_now_s_ = now_s;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every sense needs to know of a cut, out of the record of the cut: the one place where a cut becomes a
-// contact::ContactSample.
+// Converts a row of a cut to a contact::ContactSample. This is the only place that does.
 #pragma once
 
 #include "contact/contact_sample.hpp"
@@ -9,12 +8,12 @@
 
 namespace tribo::session {
 
-// The contact of the row at `t_s`, with the row's mean force. `edges`: of the cutter. The sample borrows the
-// spectrum of `force`.
+// The contact of the row at `t_s`, with the mean force of the row. `edges`: number of cutting edges. The
+// sample refers to the spectrum of `force`, which must outlive it.
 contact::ContactSample contact_of_cut(const milling::CutRow& row, const milling::RowForce& force, int edges,
                                       double t_s);
 
-// The spindle turns in the air where the row begins, at `t_s`: no force, nothing removed.
+// The spindle turns in air at the start of the row, at `t_s`: no force, no removed material.
 contact::ContactSample contact_in_air(const milling::CutRow& row, double t_s);
 
 }  // namespace tribo::session

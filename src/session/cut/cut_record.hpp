@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A cut as it was measured, kept so that its force can be worked out again for another feed, spindle speed,
-// material or helix without milling again: what the teeth meet does not depend on them (but for the feed's
-// share in the chip).
+// Record of the rows of a cut. Its forces can be computed again for another feed, spindle speed, material or
+// helix without milling again: the engagement of the teeth does not depend on them. (The feed only scales
+// the chip.)
 #pragma once
 
 #include <optional>
@@ -24,27 +24,26 @@ class CutRecord {
     std::vector<milling::CutRow> rows_;
 };
 
-// What may change while it runs.
+// Changes that need no new milling.
 struct CutChange {
-    double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle
+    double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle speed
     std::optional<milling::CuttingCoefficients> coefficients{};
     std::optional<double> helix_deg{};
 
-    // Whether the forces are those of the program as it was written.
+    // Whether nothing is changed.
     bool none() const {
         return feed_factor == 1 && speed_factor == 1 && !coefficients.has_value() && !helix_deg.has_value();
     }
-    // The times of a program go by faster by the feed, its spindle angle by the speed.
+    // Factor on the spindle angle per program time.
     double angle_factor() const { return speed_factor / feed_factor; }
-    double chip_factor() const { return feed_factor / speed_factor; }  // of the feed per tooth
+    double chip_factor() const { return feed_factor / speed_factor; }  // factor on the feed per tooth
 };
 
-// The spindle's angle where a row begins with something changed; whole turns are left out.
+// Spindle angle at the start of a row with this change, without whole turns.
 double changed_phase_rad(const milling::CutRow& row, const CutChange& change);
 
-// The spectra of rows with something changed, on all threads; times are those of the program at the
-// changed feed. A feed override F shortens all times by F (rapids and dwells too, as the record does not know
-// them).
+// Force spectra of rows with this change, on all threads. Times are those at the changed feed. A feed
+// override F divides all times by F, also those of rapids and dwells: the record does not contain them.
 std::vector<contact::ForceStretch> force_stretches(std::span<const milling::CutRow> rows,
                                                    const MillSetup& setup, const CutChange& change = {},
                                                    const ParallelFor& parallel = serial_for);
@@ -54,12 +53,12 @@ inline std::vector<contact::ForceStretch> force_stretches(const CutRecord& recor
     return force_stretches(record.rows(), setup, change, parallel);
 }
 
-// The forces of rows with something changed; spectra of those from `spectra_from` on only.
+// Forces of rows with this change. Only rows from `spectra_from` on get a spectrum.
 std::vector<milling::RowForce> changed_forces(std::span<const milling::CutRow> rows, const MillSetup& setup,
                                               const CutChange& change, std::size_t spectra_from,
                                               const ParallelFor& parallel = serial_for);
 
-// Tells records of different jobs apart: everything that the force along the path depends on.
+// Hash of everything on which the force along the path depends.
 std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions& options);
 
 }  // namespace tribo::session

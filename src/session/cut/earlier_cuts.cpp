@@ -23,7 +23,7 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 
 }  // namespace
 
-EarlierCuts cuts_of(const MillSetup& setup) {
+EarlierCuts planned_cuts(const MillSetup& setup) {
     EarlierCuts cuts;
     cuts.cutters = setup.cutters;
     const auto schedule = setup.until_s ? schedule_of(setup) : nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What earlier jobs cut out of the stock that a job begins with: their moves again, without forces, rows and
-// collisions. The field then holds the very sweeps that a session of the earlier job carves.
+// Cuts of earlier jobs in the stock of this job: their moves are carved again, without forces, rows and
+// collision tests. The field then holds the same sweeps as after the earlier session.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +17,28 @@ namespace tribo::session {
 
 struct MillSetup;
 
-// The cuts of one job, in the order in which it makes them.
+// The cuts of one job, in their order.
 struct EarlierCuts {
     std::vector<milling::Cutter> cutters;
     std::vector<motion::Move> moves;          // elementary, without dwells
     std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
 };
 
-// What a setup cuts, up to its until_s; the last move is then cut short where the time ends.
-EarlierCuts cuts_of(const MillSetup& setup);
+// The cuts of a setup up to its until_s. The last move ends there.
+EarlierCuts planned_cuts(const MillSetup& setup);
 
-// A hash of all that decides the material that they take: paths and kinds of the moves, and apart from it
-// sizes of the cutters. Feeds, speeds and flutes do not count.
+// Hashes of everything that decides the removed material: paths and kinds of the moves; sizes of the cutters.
+// Feeds, speeds and flutes are not included.
 std::uint64_t hash_of_moves(const EarlierCuts& cuts);
 std::uint64_t hash_of_cutters(const EarlierCuts& cuts);
 
-// The same move in the coordinates of a frame. Exact where the frame's axes are those of the stock, or
-// opposite to them, and its origin is 0.
+// The move in the coordinates of a frame. Exact if the origin is 0 and the axes are parallel to the axes of
+// the stock.
 motion::Move in_frame(const motion::Move& move, const motion::WorkFrame& frame);
 
-// Carves all of them. The carving thread's; other threads through the field's own ParallelFor. `progress`
-// hears now and then which fraction is done, and may be empty; false stops, and is given back.
+// Carves all cuts, on the carving thread; the field may use others through its ParallelFor. `progress` is
+// called from time to time with the finished fraction and may be empty. If it returns false, carve() stops
+// and returns false.
 bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
            const std::function<bool(double fraction)>& progress);
 

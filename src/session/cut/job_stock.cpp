@@ -51,12 +51,12 @@ std::uint64_t hash_of(const job::StockRecord& left, const motion::WorkFrame& fra
 }
 
 // What an earlier job cuts, in its own coordinates.
-Result<EarlierCuts> cuts_of(const job::EarlierJob& earlier, Warnings& warnings) {
+Result<EarlierCuts> planned_cuts(const job::EarlierJob& earlier, Warnings& warnings) {
     MillOptions options;
     if (earlier.source.record) options.until_s = earlier.source.record->until_s;
     auto setup = prepare_moves(earlier.job, earlier.program, options, warnings);
     if (!setup) return std::unexpected(setup.error());
-    return cuts_of(*setup);
+    return planned_cuts(*setup);
 }
 
 // Refuses a folder that shows another stock than its job leaves now; `next` is the job that names it.
@@ -80,7 +80,7 @@ Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings) {
     std::vector<Link> links;
     for (std::size_t n = loaded.earlier.size(); n-- > 0;) {
         const job::Job& next = n > 0 ? loaded.earlier[n - 1].job : loaded.job;
-        auto cuts = cuts_of(loaded.earlier[n], warnings);
+        auto cuts = planned_cuts(loaded.earlier[n], warnings);
         if (!cuts) return std::unexpected(cuts.error());
         const job::StockRecord now = record_of(*cuts, stock.hash);
         if (auto same = check_record(next, loaded.earlier[n].source, now); !same)
@@ -100,7 +100,7 @@ Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings) {
 }
 
 job::StockRecord stock_record(const MillSetup& setup) {
-    job::StockRecord record = record_of(cuts_of(setup), setup.stock_hash);
+    job::StockRecord record = record_of(planned_cuts(setup), setup.stock_hash);
     record.until_s = setup.until_s;
     return record;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stock that a job begins with: a solid, or what earlier jobs leave of one.
+// The stock at the start of a job: a solid, or the result of earlier jobs.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,20 @@
 
 namespace tribo::session {
 
-// In the coordinates of the job that begins with it.
+// In the coordinates of this job.
 struct JobStock {
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
-    std::vector<EarlierCuts> earlier;  // of the first job first
-    std::uint64_t hash = 0;            // of all that decides it
+    std::vector<EarlierCuts> earlier;  // oldest job first
+    std::uint64_t hash = 0;            // of blank, earlier cuts and frames
 };
 
-// Refused: an earlier job that prepare_moves() refuses, and, at the place of `from`, the folder of a render
-// whose record does not fit what its job would do now. `warnings` gains what was assumed for earlier jobs.
+// Refuses an earlier job that prepare_moves() refuses. Also refuses a render folder whose record differs from
+// its job file as it is now; the error is at the place of `from`. Assumptions about earlier jobs are added
+// to `warnings`.
 Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings);
 
-// What a render of this setup leaves a later job to check. Version and job file are the caller's.
+// The record that a later job checks. The caller sets version and job file.
 job::StockRecord stock_record(const MillSetup& setup);
 
 }  // namespace tribo::session

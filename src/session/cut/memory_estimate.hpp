@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run will hold in memory, told from its moves before it starts.
+// Estimates the memory of a run from its moves, before it starts.
 #pragma once
 
 #include <functional>
@@ -9,25 +9,25 @@
 
 namespace tribo::session {
 
-// Follows the program: the tool at poses along each move marks the cells of a coarse grid that it empties and
-// those that keep a piece of its surface. The cells are as large as the field's bricks, or larger where that
-// would cost more than kMostTests looks at cells; then bricks are counted by the area. Built in some ten
-// milliseconds at most, and asked for any spacing of the grid after that.
+// Follows the program with the tool over a coarse grid. It marks the cells that become empty and the cells
+// that keep a piece of surface. The cells are as large as the bricks of the field. If that needs more than
+// kMostTests tests, the cells are larger and the number of bricks follows from the area. The constructor
+// takes about ten milliseconds at most; the functions then accept any spacing of the grid.
 class MemoryEstimate {
   public:
     static constexpr double kMostTests = 2e6;
 
-    // `cell_mm`: the spacing at which it is to be good.
+    // `cell_mm`: the spacing for which the estimate is most accurate.
     MemoryEstimate(const MillSetup& setup, double cell_mm);
 
-    // All bytes that the session holds at once when it has run: moves, sweeps and field.
+    // Bytes of the session after the run: moves, sweeps and field.
     double session_bytes(double cell_mm) const;
-    // What field::contour takes besides, its mesh included.
+    // Additional bytes of field::contour, with its mesh.
     double mesh_bytes(double cell_mm) const;
     // Vertices of that mesh.
     double vertices(double cell_mm) const;
 
-    // Bricks with nodes of their own, at most, and bricks that are no longer as in the blank.
+    // Upper limit of bricks with own nodes; bricks that differ from the blank.
     double cut_bricks(double cell_mm) const;
     double touched_bricks(double cell_mm) const;
 
@@ -38,15 +38,15 @@ class MemoryEstimate {
     double moves_ = 0, curved_moves_ = 0;
 };
 
-// A run that would take more than it may, and what to do about it.
+// A run over the memory budget, and a grid with which it fits.
 struct MemoryShortage {
     double need_bytes = 0;
     std::optional<double>
-        fitting_cell_mm;     // the finest tried at which it fits; absent: at none below the blank
-    double least_bytes = 0;  // at the coarsest tried
+        fitting_cell_mm;     // finest tried spacing that fits; absent: no spacing below the blank size fits
+    double least_bytes = 0;  // at the coarsest tried spacing
 };
 
-// `bytes_at` gives all that the run holds at once at a spacing. None where it fits at the setup's own.
+// `bytes_at` gives the bytes of the run at a spacing. No value if the run fits at the spacing of the setup.
 std::optional<MemoryShortage> memory_shortage(
     const MillSetup& setup, double budget_bytes,
     const std::function<double(const MemoryEstimate& estimate, double cell_mm)>& bytes_at);

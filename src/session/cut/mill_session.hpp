@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A milling job from the first move to the last: stock, engagement, force and time wired into one stream of
-// rows. No files and no clocks: what comes out goes to sinks, what takes time is told to `progress`.
+// Runs a milling job from the first move to the last. Stock, engagement, force and time give one stream of
+// rows. No files and no clocks: rows go to sinks, and long work reports to `progress`.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace tribo::session {
 
-// Engagement that the job prescribes: it replaces the measured one wherever the tool cuts at all.
+// Engagement prescribed by the job. It replaces the measured engagement wherever the tool cuts.
 struct PrescribedEngagement {
     double entry_rad = 0, exit_rad = 0, axial_depth_mm = 0;
 };
@@ -37,51 +37,52 @@ struct MillSetup {
     milling::CuttingCoefficients coefficients;
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
-    std::vector<EarlierCuts> earlier;  // carved before the session begins, in this order
-    std::uint64_t stock_hash = 0;      // of all that decides the stock: blank, earlier cuts and frames
+    std::vector<EarlierCuts> earlier;  // carved before the run, in this order
+    std::uint64_t stock_hash = 0;      // hash of blank, earlier cuts and frames
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
     std::optional<PrescribedEngagement> engagement;
     motion::TimingOptions timing;
-    std::shared_ptr<const motion::Schedule> schedule;  // of the moves; null: schedule_of() works it out
+    std::shared_ptr<const motion::Schedule> schedule;  // of the moves; null: schedule_of() computes it
     double cell_mm = 0.25;
     std::optional<double> until_s;
     int harmonics =
-        16;  // multiples of the tooth passing frequency (of the spindle's where teeth differ: times flutes)
+        16;  // multiples of the tooth passing frequency; if teeth differ: of the spindle's, times flutes
 };
 
-// When each move runs: as prepare_mill() found it, or worked out for a setup that it has not made. Never
-// null; motion::schedule() accepts the moves.
+// The times of the moves: from prepare_mill(), or computed for a setup that prepare_mill() did not make.
+// Never null. motion::schedule() must accept the moves.
 std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup);
 
 struct MillSinks {
-    // In the order of time, while cutting only; may be empty. References are valid during the call only.
+    // Called in the order of time, only while cutting. May be empty. References are valid during the call.
     std::function<void(const milling::CutRow&, const milling::RowForce&)> row;
-    std::function<bool(double fraction)> progress;  // now and then; false stops the run; may be empty
+    std::function<bool(double fraction)>
+        progress;  // called from time to time; false stops the run; may be empty
 };
 
 class MillSession {
   public:
-    // The setup is as prepare_mill() checked it. Earlier cuts are carved here; `progress` is told as
-    // MillSinks tell it, and where it stops them the session mills nothing.
+    // The setup must pass the checks of prepare_mill(). The constructor carves the earlier cuts. `progress`
+    // works as in MillSinks; if it returns false here, the session mills nothing.
     MillSession(MillSetup setup, ParallelFor parallel,
                 const std::function<bool(double fraction)>& progress = {});
     ~MillSession();
 
-    // Mills on to the end. False: stopped by `progress`; the stock is then somewhere in between.
+    // Mills to the end. False: stopped by `progress`, with a partly milled stock.
     bool run(const MillSinks& sinks);
-    // Mills on through the moves that begin before `t_s`, and those that share rows with the last of them:
-    // what follows the session as it goes on.
+    // Mills the moves that begin before `t_s`, and the moves that share rows with the last of them. Can be
+    // called again to continue.
     bool run_to(double t_s, const MillSinks& sinks);
-    // Up to here it has milled.
+    // The program time up to which the stock is milled.
     double milled_s() const;
 
-    // Of the program, or until_s where that is sooner.
+    // Duration of the program, or until_s if that is earlier.
     double duration_s() const;
-    // When each of setup().moves is where.
+    // The times of setup().moves.
     const motion::Schedule& schedule() const;
     const field::CarvedField& stock() const;
-    // The stock for another thread while this one mills: one at a time, gone before the session. Made and
-    // destroyed on the milling thread (field/field_reader.hpp).
+    // A reader of the stock for another thread while this one mills. At most one exists at a time. Created
+    // and destroyed on the milling thread, before the session (field/carved/field_reader.hpp).
     std::unique_ptr<field::FieldReader> read_stock();
     const MillTotals& totals() const;
     const MillSetup& setup() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is known of a cut as a whole.
+// Totals of a cut.
 #pragma once
 
 #include <cstddef>
@@ -22,20 +22,20 @@ struct MillCollision {
 struct MillTotals {
     double duration_s = 0, cutting_s = 0;
     double path_mm = 0;                         // feed moves
-    double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; in the end
-    double chip_mm3 = 0;  // as measured, before they are reconciled: should equal what feed moves removed
-    double fed_mm3 = 0;   // removed by feed moves
+    double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; at the end
+    double chip_mm3 = 0;                        // measured, before reconciliation: should equal fed_mm3
+    double fed_mm3 = 0;                         // removed by feed moves
     double mean_force_n = 0, peak_force_n = 0;
     double peak_torque_nmm = 0, peak_power_w = 0;
-    // Of the spindle, and what of it the shear coefficient ktc explains: ktc times the chips' volume. The
-    // rest is the edge coefficient's.
+    // Work of the spindle, and the part from the shear coefficient: ktc times the volume of the chips. The
+    // rest comes from the edge coefficients.
     double work_j = 0, shear_work_j = 0;
-    double tooth_passing_hz = 0;  // of the longest cutting time
+    double tooth_passing_hz = 0;  // of the cutter with the longest cutting time
     std::size_t rows = 0;
-    // The work that shears over ktc times the volume that feed moves removed: 1 where the force is true to
-    // the metal, whatever the cut. Absent where nothing was cut or the engagement is prescribed.
+    // Shear work over ktc times the volume that feed moves removed. 1 if force and removed volume agree, for
+    // any cut. Absent without a cut or with a prescribed engagement.
     std::optional<double> energy_balance;
-    std::vector<MillCollision> collisions;  // one per line and kind
+    std::vector<MillCollision> collisions;  // at most one per line and kind
     milling::ChipFindings chips;
 };
 

@@ -16,7 +16,7 @@ constexpr double kFreeSlew = 20;
 
 }  // namespace
 
-haptics::ProbeContact SurfaceTouch::update(const haptics::HandReading& hand) noexcept {
+haptics::ProbeContact SurfaceContact::update(const haptics::HandReading& hand) noexcept {
     if (probe_.size() <= 1) return contact_.update(hand.position_mm);
     const std::span<Vec3> balls = std::span(balls_).first(probe_.size());
     probe_.turned(hand.stylus, balls);
@@ -47,17 +47,17 @@ haptics::Cylinder CutterTrack::at(double t_s) const noexcept {
     return cutter;
 }
 
-NearCutter::NearCutter(haptics::CuttingForce& force, double finger_mm, double tick_s)
+CutterForceRenderer::CutterForceRenderer(haptics::CuttingForce& force, double finger_mm, double tick_s)
     : finger_mm_(finger_mm), field_(force, [&] {
           haptics::ForceFieldOptions field;
           field.tick_s = tick_s;
           return field;
       }()) {}
 
-haptics::FieldForce NearCutter::render(const haptics::HandReading& hand, double at_s,
-                                       const CutterTrack& track,
-                                       const haptics::TextureMap* textures) noexcept {
-    haptics::FieldMoment moment;
+haptics::FieldForce CutterForceRenderer::render(const haptics::HandReading& hand, double at_s,
+                                                const CutterTrack& track,
+                                                const haptics::TextureMap* textures) noexcept {
+    haptics::ForceFieldInput moment;
     moment.at_s = at_s;
     moment.cutter = track.at(at_s);
     moment.finger = {hand.position_mm, hand.stylus, finger_mm_, kFingerMm};
@@ -94,14 +94,14 @@ CutSource::CutSource(const CutterTrack& track, haptics::CuttingForce& force,
     : track_(track),
       textures_(textures),
       options_(options),
-      near_cutter_(force, options.finger_mm, options.tick_s) {
+      cutter_force_(force, options.finger_mm, options.tick_s) {
     if (options.part != nullptr) touch_.emplace(*options.part, options.contact, options.probe);
 }
 
 haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, double now_s,
                                          double /*tick_s*/) noexcept {
     const haptics::FieldForce force =
-        near_cutter_.render(hand, options_.start_s + now_s, track_, options_.texture ? &textures_ : nullptr);
+        cutter_force_.render(hand, options_.start_s + now_s, track_, options_.texture ? &textures_ : nullptr);
     haptics::RenderedForce felt;
     felt.simulation_s = now_s;
     if (touch_) {

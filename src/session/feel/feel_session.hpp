@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hand feels of a milled part and of its cut: the sources of force that a servo asks, made from a run.
+// Force sources for the servo: contact with a milled part, and the cutting force near the cutter.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@
 
 namespace tribo::session {
 
-// Contact of what the hand holds with a surface: F_reaction = k N_sur from a god-object on it (the paper's
-// section 3.2). One thread; update() is real-time safe.
-class SurfaceTouch {
+// Contact of the probe with a surface: F_reaction = k N_sur from a god-object (section 3.2 of the paper). One
+// thread; update() is real-time safe.
+class SurfaceContact {
   public:
-    // `surface` must outlive this. It may change between updates.
-    SurfaceTouch(const contact::DistanceField& surface, const haptics::ContactOptions& options,
-                 haptics::ProbeShape probe = {})
+    // `surface` must outlive this object. It may change between updates.
+    SurfaceContact(const contact::DistanceField& surface, const haptics::ContactOptions& options,
+                   haptics::ProbeShape probe = {})
         : contact_(surface, options), probe_(std::move(probe)) {}
 
     haptics::ProbeContact update(const haptics::HandReading& hand) noexcept;
-    // The next update begins at the hand's place.
+    // The next update starts a new contact at the position of the hand.
     void reset() noexcept { contact_.reset(); }
 
   private:
@@ -37,10 +37,10 @@ class SurfaceTouch {
     std::array<Vec3, haptics::ProbeGap::kMostBalls> balls_{};
 };
 
-// Inspect mode: the finished part.
+// Inspect mode: contact with the finished part.
 class InspectSource final : public haptics::ForceSource {
   public:
-    // `surface` must outlive this and stay as it is.
+    // `surface` must outlive this object and must not change.
     InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options,
                   haptics::ProbeShape probe = {})
         : touch_(surface, options, std::move(probe)) {}
@@ -49,13 +49,13 @@ class InspectSource final : public haptics::ForceSource {
                                   double tick_s) noexcept override;
 
   private:
-    SurfaceTouch touch_;
+    SurfaceContact touch_;
 };
 
-// Where the cutter is at a time of the program. Real-time safe; any thread.
+// Position of the cutter as a function of program time. Real-time safe; any thread.
 class CutterTrack {
   public:
-    // Of a setup before it is run.
+    // `setup` has not run yet.
     explicit CutterTrack(const MillSetup& setup);
     haptics::Cylinder at(double t_s) const noexcept;
 
@@ -66,15 +66,15 @@ class CutterTrack {
     std::vector<haptics::Cylinder> cutters_;  // radius and length
 };
 
-// F_fem + F_tex about the cutter on its track (the paper's section 3.2). One thread; render() is real-time
+// Force near the moving cutter: F_fem + F_tex (section 3.2 of the paper). One thread; render() is real-time
 // safe.
-class NearCutter {
+class CutterForceRenderer {
   public:
-    // `force` must outlive this. `finger_mm`: radius of the finger's cylinder.
-    NearCutter(haptics::CuttingForce& force, double finger_mm, double tick_s);
+    // `force` must outlive this object. `finger_mm`: radius of the finger cylinder.
+    CutterForceRenderer(haptics::CuttingForce& force, double finger_mm, double tick_s);
 
     void switch_cutting(bool on) { field_.switch_cutting(on); }
-    // At this moment of the program. `textures`: null for none.
+    // `at_s`: program time. `textures`: null for none.
     haptics::FieldForce render(const haptics::HandReading& hand, double at_s, const CutterTrack& track,
                                const haptics::TextureMap* textures) noexcept;
 
@@ -83,26 +83,25 @@ class NearCutter {
     haptics::ForceField field_;
 };
 
-// Eight textured triangles for places along the cut, at least `spacing_mm` of path apart.
+// Texture records along the cut, at least `spacing_mm` of path apart.
 haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const contact::DistanceField& machined,
                                 const ParallelFor& parallel, double spacing_mm = 2);
 
 struct CutSourceOptions {
-    double start_s = 0;    // of the program, where the servo's clock is 0
+    double start_s = 0;    // program time at servo time 0
     double finger_mm = 0;  // radius of the finger's cylinder
     double tick_s = 1e-3;
     bool texture = true;
-    // The part while it is milled, which must outlive the source; null: it is not felt.
+    // The part while it is milled; must outlive the source. Null: no contact with the part.
     field::FieldReader* part = nullptr;
-    haptics::ContactOptions contact{};  // with the part
+    haptics::ContactOptions contact{};  // with `part`
     haptics::ProbeShape probe{};
 };
 
-// Cut mode: the force near the cutter while the program runs, and contact where the probe touches the part as
-// it stands at that moment.
+// Cut mode: the force near the cutter while the program runs, and contact with the part as milled so far.
 class CutSource final : public haptics::ForceSource {
   public:
-    // Everything must outlive this; no force where the table holds none.
+    // All arguments must outlive this object. There is no force outside of the force table.
     CutSource(const CutterTrack& track, haptics::CuttingForce& force, const haptics::TextureMap& textures,
               const CutSourceOptions& options);
 
@@ -113,12 +112,12 @@ class CutSource final : public haptics::ForceSource {
     const CutterTrack& track_;
     const haptics::TextureMap& textures_;
     CutSourceOptions options_;
-    NearCutter near_cutter_;
-    std::optional<SurfaceTouch> touch_;
+    CutterForceRenderer cutter_force_;
+    std::optional<SurfaceContact> touch_;
 };
 
-// Limits for a device: its own numbers. Where no motors move a hand there is no ramp, and the slew limit is
-// what leaves a tooth's force as it is.
+// Safety limits of a device, from its own data. A device without motors gets no ramp, and a slew limit that
+// does not change the force of a tooth.
 haptics::SafetyLimits safety_limits(const haptics::Device& device, double rate_hz);
 
 }  // namespace tribo::session

@@ -2,7 +2,7 @@
 #include "session/live/force_look_ahead.hpp"
 
 #include "session/feel/feel_session.hpp"
-#include "session/live/live_feel.hpp"
+#include "session/live/live_force_source.hpp"
 
 namespace tribo::session {
 
@@ -19,7 +19,7 @@ bool ForceLookAhead::run(const std::function<bool()>& has_time) {
 contact::ForceTable ForceLookAhead::table(const CutChange& change,
                                           const contact::ForceTableOptions& options) const {
     auto stretches = force_stretches(record_, session_.setup(), change, parallel_);
-    in_written_time(stretches, change.feed_factor);
+    to_program_time(stretches, change.feed_factor);
     return contact::build_force_table(contact::force_function(stretches, options), options);
 }
 

@@ -16,18 +16,18 @@ auto cut_of(const protocol::LiveSettings& s) {
 
 }  // namespace
 
-LiveController::LiveController(LiveMill& mill, const LiveFeelOptions& options,
+LiveController::LiveController(LiveMill& mill, const LiveForceOptions& options,
                                std::unique_ptr<haptics::Device> arm, protocol::LiveSettings settings)
     : mill_(mill),
       job_settings_(std::move(settings)),
       settings_(job_settings_),
       finger_(options, std::move(arm), mill.session().stock().blank().bounds_mm().max) {
-    mill_.watch([this](MillSession* session) { finger_.feel().set_session(session); });
+    mill_.set_session_observer([this](MillSession* session) { finger_.force_source().set_session(session); });
 }
 
 LiveController::~LiveController() {
-    mill_.watch({});
-    finger_.feel().set_session(nullptr);
+    mill_.set_session_observer({});
+    finger_.force_source().set_session(nullptr);
 }
 
 LiveScene LiveController::scene() const {
@@ -57,7 +57,7 @@ Result<void> LiveController::obey(const protocol::LiveCommand& command) {
         case LiveOp::resync:
             break;
         case LiveOp::finger:
-            finger_.lead(command.position_mm, command.on);
+            finger_.set_pointer(command.position_mm, command.on);
             break;
         case LiveOp::mode:
             wanted.cut_mode = command.word == "cut";
@@ -120,7 +120,7 @@ void LiveController::use_force() {
     haptics::ForceScaling scaling;
     scaling.gain = settings_.force_scale;
     scaling.limit_n = finger_.limits().max_force_n;
-    finger_.feel().set_force(table_, scaling);
+    finger_.force_source().set_force(table_, scaling);
 }
 
 }  // namespace tribo::session

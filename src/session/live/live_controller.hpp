@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Obeys the commands of a page (docs/live-protocol.md), in the program and in the page's own mill: the mill,
-// the finger, and what is set. No threads and no clocks of its own.
+// Executes the commands of a page (docs/live-protocol.md) on mill, finger and settings. Used by the program
+// and by the mill in the page. No threads and no clocks of its own.
 #pragma once
 
 #include "contact/force_table.hpp"
@@ -12,27 +12,28 @@ namespace tribo::session {
 
 class LiveController {
   public:
-    // `mill` must outlive it. `arm`: null for a hand that commands lead. `settings`: with material and helix
-    // of the job.
-    LiveController(LiveMill& mill, const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm,
+    // `mill` must outlive this object. `arm`: null for a pointer device, moved by commands. `settings`
+    // contains material and helix of the job.
+    LiveController(LiveMill& mill, const LiveForceOptions& options, std::unique_ptr<haptics::Device> arm,
                    protocol::LiveSettings settings);
-    ~LiveController();  // the finger's servo has ended
+    ~LiveController();  // after the servo has stopped
     LiveController(const LiveController&) = delete;
     LiveController& operator=(const LiveController&) = delete;
 
-    // Refused, it changes nothing. To send frames again (resync) is the task of whoever keeps them.
+    // A refused command changes nothing. The caller must handle resync: it keeps the frames.
     Result<void> obey(const protocol::LiveCommand& command);
 
     LiveMill& mill() { return mill_; }
     LiveFinger& finger() { return finger_; }
     const protocol::LiveSettings& settings() const { return settings_; }
-    // The world of the finger as it is now.
+    // The current scene for the finger.
     LiveScene scene() const;
 
-    // Counts the changes that the force on the finger depends on.
+    // Number of changes so far that need a new force table.
     int force_changes() const { return force_changes_; }
     contact::ForceTableOptions table_options() const;
-    // The force of the cut, built with table_options(); scaled as set, also when that changes later.
+    // Sets the force of the cut, built with table_options(). The current force scale applies, also after
+    // changes.
     void set_force(contact::ForceTable table);
 
   private:

@@ -15,7 +15,7 @@ std::unique_ptr<haptics::Device> arm_or_hand(std::unique_ptr<haptics::Device> ar
 }
 
 // The force that each triangle adds where a finger presses as the force field lets it.
-protocol::LiveTexture told_texture(double t_s, const contact::TextureRecord* texture) {
+protocol::LiveTexture texture_message(double t_s, const contact::TextureRecord* texture) {
     protocol::LiveTexture told{t_s, {}};
     if (texture == nullptr) return told;
     const haptics::ForceFieldOptions felt;
@@ -29,34 +29,34 @@ protocol::LiveTexture told_texture(double t_s, const contact::TextureRecord* tex
 
 }  // namespace
 
-LiveFinger::LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm)
+LiveFinger::LiveFinger(const LiveForceOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm)
     : rate_hz_(options.rate_hz),
       device_(arm_or_hand(std::move(arm), start_mm, options.rate_hz, pointer_)),
-      feel_(options),
-      servo_(*device_, feel_, safety_limits(*device_, options.rate_hz),
+      force_source_(options),
+      servo_(*device_, force_source_, safety_limits(*device_, options.rate_hz),
              pointer_ != nullptr ? 0 : options.delay_s) {}
 
 bool LiveFinger::tick(double now_s) noexcept {
     const haptics::ServoTick tick = servo_.tick(now_s);
-    const LiveFeel::Touched& touched = feel_.touched();
+    const LiveForceSource::TouchState& touch = force_source_.touch_state();
     Seen& seen = seen_.back();
-    seen.touch.t_s = touched.program_s;
+    seen.touch.t_s = touch.program_s;
     seen.touch.probe_mm = tick.position_mm;
-    seen.touch.proxy_mm = touched.proxy_mm;
+    seen.touch.proxy_mm = touch.proxy_mm;
     seen.touch.force_n = tick.force_n;
-    seen.touch.slip_mm_per_s = touched.slip_mm_per_s;
-    seen.touch.contact = touched.contact;
-    seen.touch.hand = touched.hand;
+    seen.touch.slip_mm_per_s = touch.slip_mm_per_s;
+    seen.touch.contact = touch.contact;
+    seen.touch.hand = touch.hand;
     seen.servo.ticks = static_cast<std::uint32_t>(servo_.ticks());
     seen.servo.fault = static_cast<std::uint32_t>(tick.fault);
     seen.servo.rate_hz = rate_hz_;
     seen.servo.force_limit_n = servo_.safety().limits().max_force_n;
     seen.servo.largest_force_n = servo_.max_force_n();
     seen_.publish();
-    return servo_.device_there();
+    return servo_.is_device_connected();
 }
 
-void LiveFinger::lead(Vec3 aim_mm, bool down) {
+void LiveFinger::set_pointer(Vec3 aim_mm, bool down) {
     if (pointer_ == nullptr) return;
     if (down) pointer_->set_target(aim_mm);
     down_ = down;
@@ -64,12 +64,12 @@ void LiveFinger::lead(Vec3 aim_mm, bool down) {
 
 void LiveFinger::stop(LiveScene scene) {
     scene.stopped = true;
-    feel_.show(scene);
+    force_source_.show(scene);
 }
 
 void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& frames) {
     scene.hand = has_arm() || down_;
-    feel_.show(scene);
+    force_source_.show(scene);
     const Seen& seen = seen_.read();
     seen_servo_ = seen.servo;
     protocol::LiveTouch touch = seen.touch;
@@ -84,12 +84,12 @@ void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& f
         frames(frame_);
         std::swap(frame_, last_finger_);
     }
-    const contact::TextureRecord* texture = feel_.texture_at(tip_mm);
-    if (texture == shown_texture_ && feel_.textures_set() == shown_textures_set_) return;
+    const contact::TextureRecord* texture = force_source_.texture_at(tip_mm);
+    if (texture == shown_texture_ && force_source_.textures_set() == shown_textures_set_) return;
     if (texture == nullptr && shown_texture_ == nullptr) return;
     shown_texture_ = texture;
-    shown_textures_set_ = feel_.textures_set();
-    protocol::write_frame(told_texture(scene.program_s, texture), frame_);
+    shown_textures_set_ = force_source_.textures_set();
+    protocol::write_frame(texture_message(scene.program_s, texture), frame_);
     frames(frame_);
 }
 

@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: MIT
-// The finger of the live view: an arm that a person holds, or a hand led by a mouse, a screen or a headset's
-// controller, on its servo; and its frames for the picture. Who has a clock calls tick(): a thread of its own
-// (the servo), or the picture itself, several times a frame, where there are no threads.
+// The finger of the live view, with its servo and its frames. It is a haptic arm, or a device driven by a
+// mouse, a touch screen or a VR controller. The servo thread calls tick(). Without threads the picture calls
+// it, several times per frame.
 #pragma once
 
 #include "haptics/servo/servo.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "protocol/live_frame.hpp"
-#include "session/live/live_feel.hpp"
+#include "session/live/live_force_source.hpp"
 
 namespace tribo::session {
 
 class LiveFinger {
   public:
-    // `arm`: null for a led hand, which begins at `start_mm`.
-    LiveFinger(const LiveFeelOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm);
+    // `arm`: null for a pointer device, which starts at `start_mm`.
+    LiveFinger(const LiveForceOptions& options, std::unique_ptr<haptics::Device> arm, Vec3 start_mm);
 
-    // The servo's; `now_s` on its own clock. False once the arm is gone. Real-time safe.
+    // Servo thread. `now_s`: servo time. False after the arm is disconnected. Real-time safe.
     bool tick(double now_s) noexcept;
 
-    // The picture's, all that follows.
-    LiveFeel& feel() { return feel_; }
+    // All following functions: picture thread.
+    LiveForceSource& force_source() { return force_source_; }
     bool has_arm() const { return pointer_ == nullptr; }
     double rate_hz() const { return rate_hz_; }
     const haptics::DeviceLimits& limits() const { return device_->limits(); }
-    // What is wrong with the arm, in words; empty: nothing.
+    // Problem of the arm, as text; empty: none.
     std::string trouble() const { return device_->trouble(); }
-    // Where a led hand should be, and whether there is one; an arm leads itself.
-    void lead(Vec3 aim_mm, bool down);
-    // No force from the next tick on, before the next scene says so too.
+    // Position of the pointer and whether it is pressed. Ignored with an arm.
+    void set_pointer(Vec3 aim_mm, bool down);
+    // Switches the force off from the next tick on, before the next show().
     void stop(LiveScene scene);
-    // Hands the scene to the servo and tells what is new of the finger and of the texture near the cutter.
+    // Gives the scene to the servo. Sends frames for changes of the finger and of the texture near the
+    // cutter.
     void show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& frames);
-    // Ticks, fault and forces of the servo so far; durations are its clock's to add.
+    // Ticks, fault and forces of the servo so far. The caller adds the durations.
     protocol::LiveServo servo() const { return seen_servo_; }
 
   private:
@@ -42,12 +43,12 @@ class LiveFinger {
     };
 
     double rate_hz_;
-    haptics::PointerDevice* pointer_ = nullptr;  // the device, where it is one
+    haptics::PointerDevice* pointer_ = nullptr;  // device_ if it is a pointer device, else null
     std::unique_ptr<haptics::Device> device_;
-    LiveFeel feel_;
+    LiveForceSource force_source_;
     haptics::Servo servo_;
     Snapshot<Seen> seen_;
-    // The picture's.
+    // Picture thread.
     bool down_ = false;
     protocol::LiveServo seen_servo_;
     const contact::TextureRecord* shown_texture_ = nullptr;

@@ -58,7 +58,7 @@ Box3 swept_box(const MillSession& session, double from_s, double to_s) {
     return box;
 }
 
-protocol::LiveCutter told_cutter(const milling::Cutter& cutter) {
+protocol::LiveCutter live_cutter(const milling::Cutter& cutter) {
     protocol::LiveCutter told{
         cutter.number, cutter.flutes, cutter.radius_mm(), cutter.corner_radius_mm(), cutter.length_mm, {}};
     for (const milling::HolderStep& step : cutter.holder)
@@ -67,8 +67,8 @@ protocol::LiveCutter told_cutter(const milling::Cutter& cutter) {
 }
 
 // All that the ear needs of a row with its spectrum.
-protocol::LiveSoundPiece told_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum,
-                                    int edges, const CutChange& change) {
+protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum,
+                                          int edges, const CutChange& change) {
     protocol::LiveSoundPiece piece;
     piece.t_s = row.start_s;
     piece.duration_s = static_cast<float>(row.duration_s());
@@ -100,7 +100,7 @@ Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, Paralle
 Result<void> LiveMill::begin() {
     auto setup = make_setup_();
     if (!setup) return std::unexpected(setup.error());
-    if (watcher_) watcher_(nullptr);
+    if (session_observer_) session_observer_(nullptr);
     session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
     path_ = path_of(*session_);
@@ -112,13 +112,13 @@ Result<void> LiveMill::begin() {
     shown_s_ = 0;
     begun_anew_ = true;
     set_back_ = false;
-    if (watcher_) watcher_(session_.get());
+    if (session_observer_) session_observer_(session_.get());
     return {};
 }
 
-void LiveMill::watch(std::function<void(MillSession*)> watcher) {
-    watcher_ = std::move(watcher);
-    if (watcher_) watcher_(session_.get());
+void LiveMill::set_session_observer(std::function<void(MillSession*)> observer) {
+    session_observer_ = std::move(observer);
+    if (session_observer_) session_observer_(session_.get());
 }
 
 void LiveMill::set_change(const CutChange& change) {
@@ -178,7 +178,7 @@ void LiveMill::set_force(std::size_t n, const milling::RowForce& force) {
     row.chip_mm = force.chip_mm;
     row.chip_verdict = static_cast<std::uint32_t>(milling::chip_verdict(force.chip_mm, cutter));
     if (force.spectrum.empty()) return;
-    sound_.pieces.push_back(told_piece(cut, force.spectrum, cutter.flutes, change_));
+    sound_.pieces.push_back(live_sound_piece(cut, force.spectrum, cutter.flutes, change_));
 }
 
 void LiveMill::set_changed_forces(std::size_t first_row, std::size_t first_heard) {
@@ -227,14 +227,14 @@ void LiveMill::show_job(const protocol::FrameSink& frames) {
     const MillSetup& setup = session_->setup();
     protocol::LiveJob job{duration_s(), setup.cell_mm,           session_->stock().blank().bounds_mm(),
                           {},           milling::kRubbingChipMm, milling::kOverloadShare};
-    for (const milling::Cutter& cutter : setup.cutters) job.cutters.push_back(told_cutter(cutter));
+    for (const milling::Cutter& cutter : setup.cutters) job.cutters.push_back(live_cutter(cutter));
     protocol::write_frame(job, frame_);
     frames(frame_);
     job::Listening listening = this->listening();
     protocol::write_frame(listening, frame_);
     frames(frame_);
     // In the precision of the frame: the sound is the page's, bit by bit.
-    if (ear_ && protocol::read_frame(frame_, listening)) ear_(listening);
+    if (sound_listener_ && protocol::read_frame(frame_, listening)) sound_listener_(listening);
 }
 
 job::Listening LiveMill::listening() const {
@@ -275,7 +275,7 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
                             std::move_iterator(all.begin() + static_cast<std::ptrdiff_t>(last)));
         protocol::write_frame(sound, frame_);
         frames(frame_);
-        if (ear_) ear_(std::move(sound));
+        if (sound_listener_) sound_listener_(std::move(sound));
     }
     all.clear();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A milling job as a film that is made while it is watched: a clock that plays, pauses, runs faster and is
-// set, the part milled up to it, and frames of what has changed. No threads and no clocks of its own: the
-// caller says how much time has passed and when to stop for now.
+// A milling job that is shown while it is milled. It has a program clock (play, pause, speed, seek), a part
+// milled up to this clock, and frames for all changes. No threads and no real clock: the caller gives the
+// passed time and a time budget.
 #pragma once
 
 #include <functional>
@@ -17,19 +17,19 @@
 
 namespace tribo::session {
 
-// What a viewer is told besides the mill itself.
+// Additional data for a viewer.
 struct LiveExtras {
-    std::optional<job::Listening> listening{};  // none: from the centre of the blank's top
+    std::optional<job::Listening> listening{};  // none: at the centre of the top of the blank
     std::shared_ptr<const TriangleMesh> designed{};
 };
 
 class LiveMill {
   public:
-    // Makes the same setup each time: the clock was set back, and the part begins again. Its moves should be
-    // short (MillOptions::longest_piece_mm), as the part is seen between moves only.
+    // Makes the same setup at each call; called again when the clock is set back. Moves should be short
+    // (MillOptions::longest_piece_mm): the part is shown only between moves.
     using MakeSetup = std::function<Result<MillSetup>()>;
     static constexpr double kPieceMm = 2;
-    static constexpr double kFastest = 1000;  // seconds of the program per second
+    static constexpr double kFastest = 1000;  // program seconds per second
 
     static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel,
                                                     LiveExtras extras = {});
@@ -39,27 +39,26 @@ class LiveMill {
     bool playing() const { return playing_; }
     protocol::LiveState state() const;
     const MillSession& session() const { return *session_; }
-    // What was cut so far.
+    // The rows so far.
     const CutRecord& record() const { return record_; }
 
-    // At the end, play begins anew.
+    // play(true) at the end starts again from the beginning.
     void play(bool on);
-    void set_speed(double seconds_per_second);  // > 0, at most kFastest; else nothing changes
-    void set_clock(double t_s);                 // clamped to the program; not a number: nothing changes
-    // Overrides of feed and spindle, another material or helix: rows so far are told anew, the clock of the
-    // program as it was written runs faster by the feed's.
+    void set_speed(double seconds_per_second);  // > 0, at most kFastest; other values are ignored
+    void set_clock(double t_s);                 // clamped to the program; NaN is ignored
+    // Sets overrides of feed and spindle, material or helix. All rows are sent again. The program clock runs
+    // faster by the feed override.
     void set_change(const CutChange& change);
     const CutChange& change() const { return change_; }
     double speed() const { return speed_; }
     double pace() const { return playing_ ? speed_ * change_.feed_factor : 0; }
-    // Told the session that mills from now on, and null before it goes.
-    void watch(std::function<void(MillSession*)> watcher);
-    // An ear in this process, told with the frames from now on.
-    void hear(std::function<void(LiveSoundNews)> ear) { ear_ = std::move(ear); }
+    // Called with each new session, and with null before a session is destroyed.
+    void set_session_observer(std::function<void(MillSession*)> observer);
+    // Receiver of sound updates in this process, called together with the frames.
+    void set_sound_listener(std::function<void(LiveSoundUpdate)> ear) { sound_listener_ = std::move(ear); }
 
-    // The viewer's time moves on by dt_s >= 0: mills towards the clock as long as `has_time` says so (asked
-    // every few moves), then tells what is new (LiveMemory keeps it for who comes later). The clock waits for
-    // the part.
+    // Advances the time by dt_s >= 0. Mills towards the clock while `has_time` is true (checked every few
+    // moves), then sends frames for all changes (FrameCache keeps them). The clock waits for the part.
     Result<void> tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
@@ -84,18 +83,18 @@ class LiveMill {
     std::unique_ptr<PartPicture> picture_;
     protocol::LivePath path_;
     std::vector<protocol::LiveRow> rows_;
-    // What a state needs of a row besides.
+    // Additional data of a row for state frames.
     struct RowState {
         Vec3 force_n;            // stock frame
-        double removed_mm3 = 0;  // up to and with this row
+        double removed_mm3 = 0;  // up to the end of this row
     };
     std::vector<RowState> row_states_;  // one per row
-    CutRecord record_;                  // likewise
-    protocol::LiveSoundPieces sound_;   // not yet told
+    CutRecord record_;                  // also one per row
+    protocol::LiveSoundPieces sound_;   // not sent yet
     CutChange change_;
     bool rows_anew_ = false;
-    std::function<void(MillSession*)> watcher_;
-    std::function<void(LiveSoundNews)> ear_;
+    std::function<void(MillSession*)> session_observer_;
+    std::function<void(LiveSoundUpdate)> sound_listener_;
     std::size_t rows_sent_ = 0, collisions_sent_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;

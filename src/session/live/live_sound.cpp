@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kMostEdges = 1000;
 
-// Samples between two looks at the pieces: four quanta, 5 ms.
+// Samples between two updates from the pieces: four quanta, 5 ms.
 constexpr std::int64_t kHop = std::int64_t{4} * sound::kQuantumFrames;
-// A clock that is told this far from where it was thought, in s of sound, was set; less is jitter of who
-// tells, of which a share is believed.
-constexpr double kJumpS = 0.12, kBelieved = 0.04;
-// The phase follows the spindle's by at most this much a hop: 3 Hz.
+// Clock correction, in s of sound: from this difference on the clock was set. Below it we assume network
+// jitter and apply only a fraction.
+constexpr double kClockJumpS = 0.12, kJitterGain = 0.04;
+// Largest correction of the phase per update: 3 Hz.
 constexpr double kLargestCorrectionRad = 0.1;
-// Pieces this near to one another are one cut.
+// Pieces with a smaller gap are one cut.
 constexpr double kSameCutS = 1e-4;
 
 double end_s(const protocol::LiveSoundPiece& piece) {
@@ -77,8 +77,8 @@ void LiveSound::follow(double t_s, double speed, bool playing, double lead_s) {
     const double told = t_s + (playing ? speed * pace_ * std::clamp(lead_s, 0.0, 1.0) : 0);
     const double off = told - clock_s_;
     const bool set =
-        !known_ || speed != speed_ || playing != playing_ || std::abs(off) > kJumpS * speed * pace_;
-    clock_s_ = set ? told : clock_s_ + kBelieved * off;
+        !known_ || speed != speed_ || playing != playing_ || std::abs(off) > kClockJumpS * speed * pace_;
+    clock_s_ = set ? told : clock_s_ + kJitterGain * off;
     speed_ = speed;
     playing_ = playing;
     known_ = true;

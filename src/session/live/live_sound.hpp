@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a live mill sounds like, made from the pieces of the cut that it tells: in the page's audio thread
-// (out of frames) and in the program. A clock of the program, steered by the states that arrive, runs beside
-// the clock of the samples: the sound stands where the picture stands, and its phase is the spindle's.
+// Sound of a live mill, rendered from pieces of the cut: in the audio thread of the page (from frames) and in
+// the program. A program clock runs beside the sample clock and is corrected by follow(). So the sound is at
+// the same program time as the picture, and its phase is the phase of the spindle.
 #pragma once
 
 #include <cstdint>
@@ -15,31 +15,31 @@
 
 namespace tribo::session {
 
-// What a live mill tells an ear in this process: the same as its frames of these kinds.
-using LiveSoundNews = std::variant<job::Listening, protocol::LiveSoundPieces>;
+// Sound update inside one process; same contents as the frames of these kinds.
+using LiveSoundUpdate = std::variant<job::Listening, protocol::LiveSoundPieces>;
 
-// One thread; take() allocates until a thousand pieces were told, render() never does. 1 MB.
+// One thread. take() allocates during the first thousand pieces, render() never. 1 MB.
 //
-// At speed 1 the phase is that of the spindle angle at the program's time. At other speeds the cut is heard
-// as it sounds where the clock stands, at its true pitch: a tooth is no slower for being watched slowly.
+// At speed 1 the phase is the spindle angle at the program time. At other speeds the cut at the current
+// program time sounds at its true pitch.
 class LiveSound {
   public:
-    // `base`: sample rate, head and seed; the rest comes with the listening.
+    // `base`: sample rate, head and seed. take(Listening) sets the rest.
     explicit LiveSound(sound::SoundtrackOptions base);
 
-    // What was told of the job before is void.
+    // Discards all data of the job before.
     void begin_job();
-    // Who listens from now on; begins a job too. What no soundtrack can have is left alone.
+    // Sets listener and workshop, and begins a job. Invalid values are ignored.
     void take(const job::Listening& listening);
-    // A later piece of the same time replaces the earlier.
+    // A later piece replaces an earlier piece with the same time.
     void take(const protocol::LiveSoundPieces& sound);
-    // The clock of the program is at t_s now, at the next sample that will be rendered, and `lead_s` of sound
-    // more is on its way to the ear.
+    // Corrects the program clock: the next rendered sample is at t_s. `lead_s` of rendered sound is not
+    // played yet.
     void follow(double t_s, double speed, bool playing, double lead_s = 0);
     // interleaved.size() / 2 frames.
     void render(std::span<float> interleaved);
 
-    // Where in the program the next sample is.
+    // Program time of the next sample.
     double program_s() const { return clock_s_; }
     int sample_rate_hz() const { return base_.sample_rate_hz; }
 
@@ -53,13 +53,13 @@ class LiveSound {
     sound::SoundtrackOptions base_;
     std::unique_ptr<sound::Soundtrack> track_;
     std::vector<protocol::LiveSoundPiece> pieces_;  // the last kPieces
-    std::size_t written_ = 0;                       // pieces so far
+    std::size_t written_ = 0;                       // number of pieces so far
     double clock_s_ = 0, speed_ = 1, pace_ = 1;
     bool playing_ = false, known_ = false, sounding_ = false;
     double phase_rad_ = 0;
-    Vec3 idle_tip_mm_;  // where no metal is cut
+    Vec3 idle_tip_mm_;  // position of the tool in air
     double idle_rad_per_s_ = 0;
-    std::int64_t left_ = 0;  // samples until the next look at the pieces
+    std::int64_t left_ = 0;  // samples until the next update from the pieces
     contact::ForceSpectrum spectrum_;
 };
 

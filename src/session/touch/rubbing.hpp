@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The friction sound of a stroke that is known from beginning to end.
+// Friction sound of a complete stroke.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,20 @@
 
 namespace tribo::session {
 
-// Speed and force along a stroke. Between two points the finger moves evenly; from one speed to the next it
-// changes within kSpeedChangeS, or half of the shorter of the two stretches, on either side of the point.
-// The same is true of the way into and out of contact.
+// Speed and force along a stroke. The speed is constant between two points. Around a point it changes over
+// kSpeedChangeS on either side, or over half of the shorter neighbouring interval. The same holds at the
+// start and at the end of contact.
 inline constexpr double kSpeedChangeS = 0.01;
 
 class StrokeMotion {
   public:
-    // `points` rise in time and number at least two; borrowed.
+    // `points`: at least two, with rising times; must outlive this object.
     explicit StrokeMotion(std::span<const readers::FingerPoint> points);
 
     struct State {
         double speed_mm_per_s = 0, force_n = 0;
     };
-    // Times may only rise from call to call. Outside the stroke: no contact. Real-time safe.
+    // Times must not fall from call to call. No contact outside of the stroke. Real-time safe.
     State at(double t_s);
 
   private:
@@ -41,7 +41,7 @@ class Rubbing {
     Rubbing(const noise::MaterialVoices& voices, std::span<const readers::FingerPoint> points,
             const noise::FrictionOptions& options);
 
-    // Frames until the stroke is over and its last sound has died.
+    // Length in frames: the stroke and the decay of the sound.
     std::int64_t frames() const { return frames_; }
     void render(std::span<float> out);
 

@@ -87,7 +87,7 @@ void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quant
     if (to_.level.partials.silent()) return;
     if (!was_in_contact && !sounding()) phase_.forget();
     const double seconds_per_quantum = kQuantumFrames / options_.sample_rate_hz;
-    phase_.lead(next.phase_rad, next.phase_rate_rad_per_s * seconds_per_quantum, quanta, sounding());
+    phase_.set_target(next.phase_rad, next.phase_rate_rad_per_s * seconds_per_quantum, quanta, sounding());
 }
 
 void CuttingVoice::release() {

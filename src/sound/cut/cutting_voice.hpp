@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sound of a cutter in material: a force that repeats with the spindle, and chips that do not.
+// Sound of a cutter in material: tones that repeat with the spindle, and noise.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace tribo::sound {
 
-// What a cut sounds of besides its force.
+// Sound of a cut in addition to the harmonics of its force.
 struct CutSound {
-    Body body{};             // what becomes of the force: machine and tool
-    double sound_share = 0;  // of the cutting power that becomes noise, through the body
-    ChipOptions chips{};     // in the air, past the body
+    Body body{};             // resonances of machine and tool
+    double sound_share = 0;  // share of the cutting power that becomes noise, through the body
+    ChipOptions chips{};     // in the air, without the body
 };
 
-// RMS pressures at 1 m of the noise of a cut: what comes through the body, and what the chips make in the
-// air. A learned colour knows both: the chips have all of it.
+// RMS pressures at 1 m of the noise of a cut: through the body, and from the chips in the air. A learned
+// spectrum contains both; chips_pa then has all of it.
 struct CutNoise {
     double body_pa = 0, chips_pa = 0, coarse = 0;
 };
@@ -35,16 +35,16 @@ struct CuttingVoiceOptions {
     CutSound sound{};
 };
 
-// Eq. 22 of the paper made to work: partials at the harmonics of the force spectrum (tooth passing and its
-// multiples; the spindle's own with run-out), each kPascalPerNewton times the force's, in phase with the
-// spindle angle that picture and arm are shown; pink noise by the cutting power; both through the body.
-// Plus the noise of the chips (the paper's A2). Noise swings by half with the partials, as chips come tooth
-// by tooth.
+// Eq. 22 of the paper, corrected. Partials stand at the harmonics of the force spectrum (tooth passing and
+// its multiples; with run-out also the spindle's). Their amplitude is kPascalPerNewton times the force. Their
+// phase follows the spindle angle of picture and arm. Pink noise follows the cutting power. Both go through
+// the body. The noise of the chips is added (A2 of the paper). Half of the noise level is modulated by the
+// partials, because chips break tooth by tooth.
 //
-// An amplitude that steps takes 13 ms along a smooth S, and amplitudes stay 6.7 ms behind their excitation
-// (at 48 kHz); the phase does not. Samples without a spectrum need not know the spindle: theirs is
-// not listened to. A spectrum with another order_step waits until the old one has faded.
-// About 80 ns a frame with 32 partials and noise, nothing in silence; 50 KB, no allocation after
+// A step of an amplitude becomes a smooth S of 13 ms. Amplitudes lag 6.7 ms behind their excitation (at
+// 48 kHz); the phase has no lag. The spindle angle of a sample without a spectrum is ignored. A spectrum with
+// another order_step waits until the old one has faded.
+// About 80 ns per frame with 32 partials and noise, nothing in silence. 50 KB, no allocation after
 // construction.
 class CuttingVoice final : public Voice {
   public:
@@ -68,24 +68,24 @@ class CuttingVoice final : public Voice {
     static constexpr std::size_t kMaxKernel = 40;
 
     Excitation now() const;
-    // The bell over what was asked for, cut to what the sample rate carries.
+    // The requested levels, smoothed by the bell and limited to the sample rate.
     Level next_level(const PhasePiece& phase) const;
     bool sounding() const {
         return asked_sounding_ > 0 || !before_.silent() || !here_.silent() || !after_.silent();
     }
-    // How much louder noise is in each frame, as the teeth come and go.
+    // Gain of the noise in each frame, modulated by the teeth.
     void swing(const Quantum& tone, Quantum& out) const;
 
     CuttingVoiceOptions options_;
     noise::PinkNoise pink_;
     ChipNoise chips_;
     BodyFilter body_;
-    double pink_gain_ = 0;  // that the body makes a level of 1 of
-    int ringing_ = 0;       // quanta for which the body is still heard
+    double pink_gain_ = 0;  // gain of the body for pink noise of level 1
+    int ringing_ = 0;       // quanta until the body is silent
     SpindlePhase phase_;
     Excitation from_, to_;
-    std::int64_t length_ = 0, elapsed_ = 0;  // of the way from one to the other, quanta
-    bool excited_ = false, waits_ = false;   // waits: stays at from_ until the end of the way
+    std::int64_t length_ = 0, elapsed_ = 0;  // of the transition from from_ to to_, in quanta
+    bool excited_ = false, waits_ = false;   // waits: stays at from_ until the end of the transition
 
     std::array<double, kMaxKernel> bell_{};  // sum 1
     std::size_t bell_size_ = 0;
@@ -93,7 +93,7 @@ class CuttingVoice final : public Voice {
     std::size_t newest_ = 0;
     std::size_t asked_sounding_ = 0;  // how many of asked_ are not silent
     int step_ = 1;                    // of asked_ and what is played
-    Level before_, here_, after_;     // the spline of the quantum in hand
+    Level before_, here_, after_;     // spline of the current quantum
     std::uint64_t quantum_ = 0;
 };
 

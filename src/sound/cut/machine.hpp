@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Machines by name: what becomes of a cutting force before it is heard, and what the spindle sounds like on
-// its own.
+// Machines by name: their radiation of a cutting force, and the sound of their spindle.
 #pragma once
 
 #include <array>
@@ -12,20 +11,19 @@
 
 namespace tribo::sound {
 
-// A tone that stands at `order` times the spindle's speed: 1 its imbalance, whole multiples motor and teeth
-// of gears, others the balls of its bearings. `level` counts against the other lines.
+// A tone at `order` times the spindle speed. Order 1 is the imbalance; integer orders are motor and gear
+// teeth; other orders are the balls of the bearings. `level` is relative to the other lines.
 struct SpindleLine {
     double order = 0;  // 0: none
     double level = 0;  // of the amplitude
 };
 
-// A spindle that turns: lines that follow its speed, and pink noise through the broad resonances of its
-// housing, which stay where they are. RMS pressure at 1 m is pa (speed / rpm)^exponent, up to
-// four times that speed.
+// Sound of a turning spindle: lines that follow its speed, and pink noise through the fixed broad resonances
+// of its housing. The RMS pressure at 1 m is pa (speed / rpm)^exponent, up to four times rpm.
 struct SpindleSound {
     static constexpr std::size_t kLines = 8;
     double pa = 0, rpm = 6000, exponent = 1;
-    double tonal = 0.3;  // share of the power that is lines, 0 ... 1
+    double tonal = 0.3;  // share of the power in lines, 0 ... 1
     std::array<SpindleLine, kLines> lines{};
     Body housing{};
 };
@@ -33,13 +31,12 @@ struct SpindleSound {
 struct Machine {
     std::string_view name = "none", what = "force and vibration alone";
     Body radiation{};        // of a force times kPascalPerNewton
-    double tool_gain = 1;    // of the tool's own modes
-    double sound_share = 0;  // of the cutting power that leaves as noise, through `radiation`
+    double tool_gain = 1;    // gain of the modes of the tool
+    double sound_share = 0;  // share of the cutting power that becomes noise, through `radiation`
     SpindleSound spindle{};
 };
 
-// "none" comes first. Levels and spectra are set by what such machines are known for; of "mill" the radiation
-// is fitted to third octaves of end milling in steel on a vertical machining centre (docs/sound.md), the rest
-// is not measured.
+// "none" comes first. The radiation of "mill" is fitted to measured third octaves of end milling in steel on
+// a vertical machining centre (docs/sound.md). All other levels and spectra are typical, not measured.
 std::span<const Machine> machines();
 }  // namespace tribo::sound

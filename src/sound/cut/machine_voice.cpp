@@ -29,16 +29,16 @@ MachineVoice::MachineVoice(const MachineVoiceOptions& options)
 }
 
 void MachineVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
-    rate_.lead(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
-    cutting_.lead(next.spectrum != nullptr && !next.spectrum->empty() ? 1 : 0, quanta);
+    rate_.set_target(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
+    cutting_.set_target(next.spectrum != nullptr && !next.spectrum->empty() ? 1 : 0, quanta);
     // A spindle that nobody hears is at its speed.
-    if (level_.over()) rate_.leap(rate_.target());
-    told_ = true;
+    if (level_.over()) rate_.jump_to(rate_.target());
+    has_speed_ = true;
 }
 
 void MachineVoice::release() {
-    told_ = false;  // it dies away at its speed
-    rate_.leap(rate_.target());
+    has_speed_ = false;  // it dies away at its speed
+    rate_.jump_to(rate_.target());
 }
 
 void MachineVoice::add_lines(double turns_per_frame, Quantum& sound) {
@@ -72,7 +72,7 @@ void MachineVoice::add(Quantum& pressure_pa) {
     const double rate = rate_.advance();
     const double speed = rate * 60 * options_.sample_rate_hz / options_.spindle.rpm;
     const double share = 1 + cutting_.advance() * (options_.share_in_cut - 1);
-    const bool turns = told_ && speed > kLeastSpeed;
+    const bool turns = has_speed_ && speed > kLeastSpeed;
     level_.follow(turns ? share * options_.spindle.pa *
                               math::pow(std::min(speed, kLoudestSpeed), options_.spindle.exponent)
                         : 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sound of a spindle that turns, whether it cuts or not.
+// Sound of the turning spindle, in a cut and in air.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ struct MachineVoiceOptions {
     double sample_rate_hz = 48000;
     std::uint64_t seed = 1;  // of the noise
     SpindleSound spindle{};
-    double share_in_cut = 1;  // of the pressure while the tool cuts: a recorded cut brings its own machine
+    double share_in_cut = 1;  // of the pressure during a cut: a recorded cut already contains the machine
 };
 
-// Lines and noise as SpindleSound says, by the speed that samples tell; a sample with a spectrum cuts. Lines
-// follow the speed without a step of their phase, levels within 20 ms. Lines that the sample rate does not
-// carry are left out. About 17 ns a frame, nothing where no spindle turns; no allocation after construction.
+// Lines and noise of a SpindleSound at the speed of the samples. A sample with a spectrum counts as a cut.
+// Lines follow the speed without a phase step; levels follow within 20 ms. Lines above the sample rate limit
+// are left out. About 17 ns per frame, nothing while the spindle stands. No allocation after construction.
 class MachineVoice final : public Voice {
   public:
     explicit MachineVoice(const MachineVoiceOptions& options);
@@ -37,11 +37,11 @@ class MachineVoice final : public Voice {
     MachineVoiceOptions options_;
     noise::PinkNoise pink_;
     BodyFilter housing_;
-    double noise_gain_ = 0, line_gain_ = 0;  // of a level of 1
+    double noise_gain_ = 0, line_gain_ = 0;  // for a level of 1
     Ramp rate_;                              // turns per frame
     Ramp cutting_;                           // 1: the tool cuts
     SmoothLevel level_;
-    bool told_ = false;  // whether anybody says how it turns
+    bool has_speed_ = false;  // whether the spindle speed is known
     std::uint64_t quantum_ = 0;
     std::array<double, SpindleSound::kLines> turns_{};  // phase of each line
 };

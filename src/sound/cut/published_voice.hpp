@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Eq. 23 of the paper as it is printed, for --as-published.
+// Eq. 23 of the paper as printed, for --as-published.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace tribo::sound {
 // turns per second and A2 feed x cutter area x a scalar.
 double published_sound(double t_s, double a1, double f1_hz, double a2);
 
-// That equation over a cut. Each cutter position holds until the next one is reached, so a change of spindle
-// speed makes the phase jump, and the tooth passing is not there: both as printed. A1 is the size of the
-// sample's force, scaled like every sound of this room.
+// The equation along a cut. Each cutter position holds until the next one. As printed, a change of the
+// spindle speed makes the phase jump, and the tooth passing frequency is missing. A1 is the size of the force
+// of the sample, scaled like all sound of this room.
 class PublishedVoice final : public Voice {
   public:
     explicit PublishedVoice(double sample_rate_hz) : sample_rate_hz_(sample_rate_hz) {}

@@ -111,10 +111,10 @@ RecordedVoice::RecordedVoice(const Recording& recording, const RecordedVoiceOpti
 }
 
 void RecordedVoice::excite(const contact::ContactSample& next, std::int64_t quanta) {
-    rate_.lead(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
+    rate_.set_target(std::abs(next.phase_rate_rad_per_s) / math::kTwoPi / options_.sample_rate_hz, quanta);
     const double rate = rate_.target();
     if (options_.idle_pa > 0) {
-        level_.leap(rate > 0 ? options_.idle_pa : 0);
+        level_.jump_to(rate > 0 ? options_.idle_pa : 0);
     } else {
         const CutNoise noise = noise_of(options_.cut, next);
         double power = noise.chips_pa * noise.chips_pa + noise.body_pa * noise.body_pa;
@@ -126,15 +126,15 @@ void RecordedVoice::excite(const contact::ContactSample& next, std::int64_t quan
                 power += 2 * gain * gain * (p.re[n] * p.re[n] + p.im[n] * p.im[n]);
             }
         }
-        level_.lead(rate > 0 ? std::sqrt(power) : 0, quanta);
+        level_.set_target(rate > 0 ? std::sqrt(power) : 0, quanta);
     }
     // A spindle that nobody hears is at its speed.
-    if (loudness_.over()) rate_.leap(rate);
+    if (loudness_.over()) rate_.jump_to(rate);
 }
 
 void RecordedVoice::release() {
-    level_.leap(0);
-    rate_.leap(rate_.target());
+    level_.jump_to(0);
+    rate_.jump_to(rate_.target());
 }
 
 double RecordedVoice::read(const std::vector<float>& copy, double place) const {
@@ -149,7 +149,7 @@ double RecordedVoice::read(const std::vector<float>& copy, double place) const {
 }
 
 void RecordedVoice::add(Quantum& pressure_pa) {
-    const double rate0 = rate_.here(), rate1 = rate_.advance();
+    const double rate0 = rate_.value(), rate1 = rate_.advance();
     loudness_.follow(options_.share * level_.advance());
     if (loudness_.silent()) return;
 

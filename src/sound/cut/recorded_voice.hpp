@@ -18,39 +18,40 @@ namespace tribo::sound {
 struct Recording {
     std::vector<float> samples;  // one channel, any level
     double sample_rate_hz = 0;
-    double spindle_rpm = 0;  // at which it was recorded, even throughout
+    double spindle_rpm = 0;  // constant speed during the recording
 };
 
-// The spindle may run at up to this many times the recorded speed; beyond, the voice keeps to it.
+// Largest ratio of spindle speed to recorded speed. Faster spindles sound as at this ratio.
 inline constexpr double kFastestPlay = 4;
 
-// Refuses what cannot be looped: less than four turns, more than two minutes, silence, no rate or speed.
+// Refuses recordings that cannot be looped: less than four turns, more than two minutes, silence, no sample
+// rate or no speed.
 Result<void> check_recording(const Recording& recording);
 
 struct RecordedVoiceOptions {
     double sample_rate_hz = 48000;
     double share = 1;  // of the pressure
-    // Of an idle spindle: RMS pressure in Pa at 1 m whenever the spindle turns. 0: of a cut, as loud (RMS) as
-    // CuttingVoice would be.
+    // > 0: recording of an idle spindle, with this RMS pressure in Pa at 1 m while the spindle turns. 0:
+    // recording of a cut, with the RMS level of CuttingVoice.
     double idle_pa = 0;
     CutSound cut{};  // of the CuttingVoice
 };
 
-// Order tracking: the recording is a loop of whole turns, read as fast as the spindle turns now over how fast
-// it did, so its lines stay on the orders of the synthetic ones. The loop's seam is a crossfade of constant
-// power whatever its two sides have in common. Below the recorded speed the recording's own band shrinks;
-// above, copies low-passed an octave and two keep it under half the sample rate. Levels follow within 20 ms,
-// without a step.
+// Order tracking: the recording is a loop of whole turns. The read rate is the ratio of current to recorded
+// speed, so its lines have the same orders as the synthetic ones. The seam of the loop is a crossfade with
+// constant power for any correlation of its sides. Below the recorded speed the bandwidth shrinks. Above it,
+// copies that are low-passed by one and by two octaves avoid aliasing. Levels follow within 20 ms, without a
+// step.
 class RecordedVoice final : public Voice {
   public:
-    // The recording is as check_recording() accepts it.
+    // check_recording() must accept the recording.
     RecordedVoice(const Recording& recording, const RecordedVoiceOptions& options);
 
     void excite(const contact::ContactSample& next, std::int64_t quanta) override;
     void release() override;
     void add(Quantum& pressure_pa) override;
 
-    // Frames of the recording that are one turn and one loop.
+    // Frames of one turn and of one loop.
     double frames_per_turn() const { return frames_per_turn_; }
     double loop_frames() const { return loop_frames_; }
 
@@ -62,7 +63,7 @@ class RecordedVoice final : public Voice {
     double frames_per_turn_ = 0, loop_frames_ = 0;
     std::array<std::vector<float>, kCopies> copies_;  // the loop, RMS 1, with some of its start at its end
     const InterpolatorTable* table_;
-    BodyFilter body_;  // of which only the gain is asked
+    BodyFilter body_;  // only its gain is used
 
     Ramp rate_;   // turns per frame
     Ramp level_;  // Pa RMS

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The angle of the spindle as sound needs it: smooth between the few moments at which it is told.
+// Smooth spindle angle for sound, interpolated between the few given targets.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,29 @@ struct PhasePiece {
     double slope(double frame) const { return c1 + frame * (2 * c2 + frame * 3 * c3); }
 };
 
-// Cubic interpolation of phase that meets angle and rate at both ends (McAulay and Quatieri 1986, section
-// IV): when the told angle is the integral of a rate that runs linearly, so does the rate of the piece; whole
-// turns missing from an angle do not matter. Neither angle nor rate ever jumps while `sounding`.
+// Cubic phase interpolation with angle and rate at both ends (McAulay and Quatieri 1986, section IV). If the
+// given angles are the integral of a linear rate, the interpolated rate is linear too. Whole turns missing
+// from an angle do not matter. Angle and rate never jump while `sounding`.
 // Rates are in rad per quantum. Real-time safe.
 class SpindlePhase {
   public:
-    // The spindle is at `angle` with `rate` after `quanta` >= 0 quanta. Unless something sounds, what was
-    // told before holds exactly; while it sounds, an angle that does not fit is approached.
-    void lead(double angle, double rate, std::int64_t quanta, bool sounding);
-    // What was told before no longer counts: the next lead() holds from now on, at its rate.
-    void forget() { told_ = false; }
+    // The spindle is at `angle` with `rate` after `quanta` >= 0 quanta. In silence the angle is exact. While
+    // `sounding`, an angle that does not fit is approached smoothly.
+    void set_target(double angle, double rate, std::int64_t quanta, bool sounding);
+    // Discards the target: the next set_target() takes effect at once, with its rate.
+    void forget() { has_target_ = false; }
     // The next quantum.
     PhasePiece advance();
 
   private:
-    // A wrong angle is put right over at least this many quanta (43 ms), or only in part: half a turn then
-    // bends the rate by at most 18 Hz.
+    // Least number of quanta (43 ms) for the full correction of an angle: half a turn changes the rate by at
+    // most 18 Hz. Shorter segments correct only a part.
     static constexpr double kLeastCorrection = 32;
 
-    double c_[4] = {0, 0, 0, 0};             // angle over quanta since the segment began
-    std::int64_t length_ = 0, elapsed_ = 0;  // of the segment, quanta
-    double told_angle_ = 0, told_rate_ = 0;  // at the end of the segment
-    bool told_ = false;
+    double c_[4] = {0, 0, 0, 0};                 // angle over quanta since the segment began
+    std::int64_t length_ = 0, elapsed_ = 0;      // of the segment, quanta
+    double target_angle_ = 0, target_rate_ = 0;  // at the end of the segment
+    bool has_target_ = false;
 };
 
 }  // namespace tribo::sound

@@ -10,7 +10,7 @@
 
 namespace tribo::sound {
 
-Waveform::Waveform(int columns, std::vector<Zoom> zooms)
+Waveform::Waveform(int columns, std::vector<DetailWindow> zooms)
     : wanted_(static_cast<std::size_t>(columns)), zooms_(std::move(zooms)) {
     assert(columns >= 1);
     columns_.reserve(2 * wanted_);
@@ -21,7 +21,7 @@ void Waveform::add(std::span<const float> interleaved) {
 }
 
 void Waveform::add_frame(float sample) {
-    for (Zoom& zoom : zooms_) {
+    for (DetailWindow& zoom : zooms_) {
         if (frames_ >= zoom.first_frame && frames_ - zoom.first_frame < zoom.frames) {
             zoom.samples.push_back(sample);
         }
@@ -36,7 +36,7 @@ void Waveform::add_frame(float sample) {
     }
     if (columns_.size() == 2 * wanted_) {
         for (std::size_t i = 0; i < wanted_; ++i) {
-            const Extremes a = columns_[2 * i], b = columns_[2 * i + 1];
+            const MinMax a = columns_[2 * i], b = columns_[2 * i + 1];
             columns_[i] = {std::min(a.min, b.min), std::max(a.max, b.max)};
         }
         columns_.resize(wanted_);

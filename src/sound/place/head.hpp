@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a head does to sound from each direction: the two filters and the two delays at its ears.
+// Head-related transfer functions: two filters and two delays at the ears for each direction.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace tribo::sound {
 
 // Directions are seen from the head: x to the right ear, y to the front, z up.
 
-// Head responses as they were measured: an impulse response per direction and ear.
+// Measured head responses: an impulse response per direction and ear.
 struct HrirSet {
     double sample_rate_hz = 0;
     int taps = 0;                        // of each response
@@ -23,54 +23,53 @@ struct HrirSet {
     std::vector<double> extra_delays_s;  // direction, ear: of the response as a whole
 };
 
-// Refuses a set that is no set: sizes that do not fit, numbers that are none, directions that are none.
+// Refuses an invalid set: sizes that do not match, values that are not finite, directions of length 0.
 Result<void> check_hrirs(const HrirSet& set);
 
-// By which ear hears a source at its side earlier and louder, over all directions more than 20 degrees from
-// the median plane. `unclear`: the two do not agree, or ears are alike.
+// Order of the ears, from arrival time and level of all directions more than 20 degrees from the median
+// plane. `unclear`: time and level disagree, or both ears are alike.
 enum class EarOrder : std::uint8_t { right, exchanged, unclear };
 EarOrder ear_order(const HrirSet& set);
 void exchange_ears(HrirSet& set);
 
-// What ears are made for. Headphones that give every ear the sound of a diffuse field, as most do, bring that
-// ear's own amplification with them: `diffuse` takes it out of the head, where it would count twice. `none`
-// keeps the responses as they were measured.
+// Equalization of the responses. Most headphones are diffuse-field equalized: they already contain the
+// amplification by the ear. `diffuse` removes it from the responses, where it would count twice. `none` keeps
+// the measured responses.
 enum class Equalization : std::uint8_t { diffuse, none };
 
-// A radius within which a source is inside the head: there its direction fades into "everywhere", as the
-// angle of a source that passes through the middle would leap. In m; the sphere's radius (Duda and Martens
-// 1998).
+// Radius of the head in m; same as the sphere of Duda and Martens 1998. A source inside has no direction: the
+// response fades to the mean over all directions, so that a source can pass through the centre without a
+// jump.
 inline constexpr double kHeadRadius = 0.0875;
 inline constexpr double kSoundSpeed = 343;  // m/s, dry air at 20 degrees
 
-// Filters of minimum phase and delays on a grid of 5 degrees, bilinear between. Delays count from the arrival
-// at the place of the head's centre, on average over all directions. Immutable, 3 MB; any thread.
+// Minimum-phase filters and delays on a grid of 5 degrees, with bilinear interpolation. Delays are relative
+// to the arrival at the centre of the head, on average over all directions. Immutable, 3 MB; any thread.
 class Head {
   public:
-    // From measurements. A set's level is that of the free field from 200 to 400 Hz, on average over its
-    // directions and ears; below 400 Hz, where sets tell of their loudspeaker and room, it has the magnitude
-    // of the sphere below, from 800 Hz on its own. Ears amplify: the shipped set by up to 25 dB near 3 kHz.
-    // Takes some 0.5 s.
-    // `diffuse`: from 800 Hz on divided by the root of the mean power of all its directions, smoothed over a
-    // third octave, by no more than 20 dB either way.
+    // From measurements. The mean level from 200 to 400 Hz over all directions and ears is that of the free
+    // field. Below 400 Hz measured sets contain loudspeaker and room: the magnitude of sphere() replaces
+    // them. From 800 Hz on the measured magnitude is used. Ears amplify: the shipped set by up to 25 dB near
+    // 3 kHz. Takes about 0.5 s. `diffuse`: from 800 Hz on divided by the RMS over all directions, smoothed
+    // over a third octave, by at most 20 dB up or down.
     static Result<std::shared_ptr<const Head>> measured(const HrirSet& set, double sample_rate_hz,
                                                         Equalization equalization = Equalization::none);
-    // A rigid sphere with ears 10 degrees behind its sides, in closed form (Duda and Martens 1998), and
-    // behind it up to 8 dB less above 3 kHz, as outer ears do. Takes some 30 ms.
+    // A rigid sphere with ears 10 degrees behind the sides, in closed form (Duda and Martens 1998). Sources
+    // behind are up to 8 dB quieter above 3 kHz, like with outer ears. Takes about 30 ms.
     static std::shared_ptr<const Head> sphere(double sample_rate_hz);
-    // No head: two loudspeakers with equal power, no difference in time. A source in front has level 1 on
+    // No head: equal-power panning for two loudspeakers, without delays. A source in front has level 1 on
     // both.
     static std::shared_ptr<const Head> panning(double sample_rate_hz);
 
     double sample_rate_hz() const { return sample_rate_hz_; }
-    // Between the ears; 0 for two loudspeakers.
+    // Distance between the ears; 0 for two loudspeakers.
     double ears_apart_m() const { return ears_apart_m_; }
     int taps() const { return taps_; }  // a multiple of 16; the rest of EarResponses is zero
 
-    // Responses to a source at `place` in head radii (longer than 1: that direction). Real-time safe, about
-    // 0.3 us.
+    // Responses to a source at `place`, in head radii (beyond 1 only the direction matters). Real-time safe,
+    // about 0.3 us.
     void hear(Vec3 place, EarResponses& out, const EarKernels& kernels = ear_kernels()) const;
-    // The same of a direction, of any length, and the distance in head radii.
+    // The same for a direction of any length and a distance in head radii.
     void hear(Vec3 direction, double radii, EarResponses& out, const EarKernels& kernels) const;
 
     // Grid of the directions: azimuth from the front to the right, elevation up.
@@ -85,7 +84,8 @@ class Head {
     const EarResponses& node(int row, int column) const {
         return nodes_[static_cast<std::size_t>(row * kColumns + column)];
     }
-    // The poles' columns made alike, delays set to mean 0, and what is heard of a source everywhere.
+    // Makes the columns at the poles equal, sets the mean delay to 0, and computes the mean over all
+    // directions.
     void finish();
 
     double sample_rate_hz_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A head response split in two: what it does to the spectrum (a filter of minimum phase, short) and how much
-// later it comes (a delay). Nothing else of it is heard (Kulkarni, Isabelle, Colburn 1999).
+// Splits a head response into a short minimum-phase filter and a delay. Nothing else of the response is
+// audible (Kulkarni, Isabelle, Colburn 1999).
 #pragma once
 
 #include <array>
@@ -34,10 +34,10 @@ using HeadTaps = std::array<float, kHeadTaps>;
 // The responses of both ears to one direction.
 struct EarResponses {
     std::array<HeadTaps, 2> taps{};       // left, right
-    std::array<double, 2> delay_s{0, 0};  // of the response beyond its filter; may be negative
+    std::array<double, 2> delay_s{0, 0};  // in addition to the filter; may be negative
 };
 
-// Frequencies at which a response is asked for: bins of the transform below, 0 ... half the sample rate.
+// Spectra have the bins of the transform below, from 0 to half the sample rate.
 class MinimumPhase {
   public:
     explicit MinimumPhase(double sample_rate_hz);
@@ -45,10 +45,10 @@ class MinimumPhase {
     std::size_t bins() const { return fourier_.size() / 2 + 1; }
     double bin_hz() const { return sample_rate_hz_ / static_cast<double>(fourier_.size()); }
 
-    // Filters of the magnitudes of both spectra (bins() values each, of any phase), cut to kHeadTaps with
-    // their level as a whole and at 1 kHz kept, and the delay by which each spectrum lags behind its filter
-    // between 300 and 1500 Hz, where ears compare phases: together they keep the arrival offset, the peak of
-    // the ears' cross-correlation over that band.
+    // Makes a filter from the magnitude of each spectrum (bins() values, any phase). Filters are cut to
+    // kHeadTaps; their total level and their level at 1 kHz are kept. The delay is the lag of the spectrum
+    // behind its filter from 300 to 1500 Hz, where ears compare phases. Both delays together keep the
+    // interaural delay: the peak of the cross-correlation of the ears in this band.
     EarResponses split(std::span<const std::complex<double>> left,
                        std::span<const std::complex<double>> right);
 

@@ -107,7 +107,7 @@ Vec3 SpatialSource::retarded(const Listener& listener) {
 SpatialSource::State SpatialSource::state(Vec3 place_m, const Listener& listener, EarResponses& heard) {
     const Vec3 towards = place_m - listener.position_m;
     const double rate = head_->sample_rate_hz(), metres = length(towards);
-    head_->hear(axes_.seen(towards), metres * (1 / kHeadRadius), heard, *kernels_);
+    head_->hear(axes_.to_head_frame(towards), metres * (1 / kHeadRadius), heard, *kernels_);
     const double travel = std::min(metres * frames_per_metre_, kLongestTravelSeconds * rate);
     State s;
     for (std::size_t ear = 0; ear < 2; ++ear) {

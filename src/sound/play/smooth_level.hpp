@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a voice gets from one level and speed to the next. Real-time safe.
+// Smooth transitions of level and speed. Real-time safe.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,29 @@
 
 namespace tribo::sound {
 
-// A number that is told where to be, and when: it goes there in a straight line.
+// A value that moves linearly to its target.
 class Ramp {
   public:
     // Reaches `to` after `quanta` >= 0 quanta.
-    void lead(double to, std::int64_t quanta) {
-        from_ = here();
+    void set_target(double to, std::int64_t quanta) {
+        from_ = value();
         to_ = to;
         length_ = quanta;
         elapsed_ = 0;
     }
-    void leap(double to) {
+    void jump_to(double to) {
         from_ = to_ = to;
         length_ = elapsed_ = 0;
     }
     double target() const { return to_; }
-    double here() const {
+    double value() const {
         if (elapsed_ >= length_) return to_;
         return from_ + static_cast<double>(elapsed_) / static_cast<double>(length_) * (to_ - from_);
     }
-    // A quantum on.
+    // Advances by one quantum.
     double advance() {
         if (elapsed_ < length_) ++elapsed_;
-        return here();
+        return value();
     }
 
   private:
@@ -38,12 +38,12 @@ class Ramp {
     std::int64_t length_ = 0, elapsed_ = 0;
 };
 
-// A pressure that follows steps within 20 ms, along a smooth S, and ends in exact silence.
+// A pressure that follows steps within 20 ms along a smooth S, and ends in exact silence.
 class SmoothLevel {
   public:
-    // A quantum on, towards `pa`; it is at spline() throughout that quantum.
+    // Advances by one quantum towards `pa`. spline() then gives the level during this quantum.
     void follow(double pa) {
-        constexpr double kFollow = 0.125;  // of what is left, per quantum, twice over
+        constexpr double kFollow = 0.125;  // share of the remaining way per quantum, applied twice
         constexpr double kInaudiblePa = 1e-9;
         before_ = here_;
         here_ = after_;
@@ -53,7 +53,7 @@ class SmoothLevel {
     }
     Spline spline() const { return {before_, here_, after_}; }
     bool silent() const { return before_ == 0 && here_ == 0 && after_ == 0; }
-    // Whether nothing is to come of what was asked for.
+    // Whether the level has ended.
     bool over() const { return here_ == 0 && after_ == 0; }
 
   private:

@@ -139,8 +139,8 @@ bool Soundtrack::excite(const contact::ContactSample& next) {
     rolloff_from_ = arrival == quantum_ ? loudness : rolloff_now();
     rolloff_to_ = loudness;
     const bool unheard = !source_ || !source_->sounding();
-    source_m_.lead(in_metres(next.position_mm), arrival - quantum_,
-                   !excited_ || (unheard && arrival == quantum_));
+    source_m_.set_target(in_metres(next.position_mm), arrival - quantum_,
+                         !excited_ || (unheard && arrival == quantum_));
     departure_ = quantum_;
     arrival_ = alive_until_ = arrival;
     excited_ = true;
@@ -183,7 +183,7 @@ void Soundtrack::make_quantum() {
         const Spline loudness(before_, here_, after_);
         for (std::size_t j = 0; j < made_.left.size(); ++j) {
             const double share = loudness.at(static_cast<double>(j) * (1.0 / kQuantumFrames));
-            made_.left[j] = static_cast<float>(limited(samples_per_pascal_ * share * pressure_pa[j]));
+            made_.left[j] = static_cast<float>(soft_limit(samples_per_pascal_ * share * pressure_pa[j]));
         }
         made_.right = made_.left;
     }
@@ -196,7 +196,8 @@ void Soundtrack::place(const Quantum& pressure_pa) {
     source_->add(pressure_pa, place_m, listener_, made_);
     if (room_) room_->add(pressure_pa, place_m, listener_, made_);
     for (EarQuantum* ear : {&made_.left, &made_.right}) {
-        for (float& v : *ear) v = static_cast<float>(limited(samples_per_pascal_ * static_cast<double>(v)));
+        for (float& v : *ear)
+            v = static_cast<float>(soft_limit(samples_per_pascal_ * static_cast<double>(v)));
     }
 }
 

@@ -20,7 +20,7 @@ bool is_valid(const Workshop& w) {
     return valid;
 }
 
-void furnish(const Workshop& workshop, SoundtrackOptions& options) {
+void apply(const Workshop& workshop, SoundtrackOptions& options) {
     options.machine = machines()[workshop.machine];
     options.machine.sound_share *= gain_of(2 * workshop.cut_db);
     options.machine.spindle.pa *= gain_of(workshop.spindle_db);

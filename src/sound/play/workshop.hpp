@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands around a cut, by choice: machine, chips and room, and how loud each is.
+// Acoustic environment of a cut: machine, chips and room, with their levels.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace tribo::sound {
 
 inline constexpr double kLargestLevelDb = 60;
 
-// Levels in dB against what the machine, the material and the room have, within +-kLargestLevelDb.
+// Levels in dB relative to the defaults of machine, material and room, within +-kLargestLevelDb.
 struct Workshop {
     std::size_t machine = 0, room = 0;  // in machines() and rooms(); 0: none
     ChipMaterial chips = ChipMaterial::none;
@@ -19,10 +19,10 @@ struct Workshop {
     double chips_db = 0, room_db = 0;
 };
 
-// Whether everything that is chosen exists, and levels are in range.
+// Whether machine and room exist and all levels are in range.
 bool is_valid(const Workshop& workshop);
 
-// Sets machine, chips (but for a learned colour, which stays) and room of a track.
-void furnish(const Workshop& workshop, SoundtrackOptions& options);
+// Sets machine, chips and room of a track. A learned spectrum of chips is kept.
+void apply(const Workshop& workshop, SoundtrackOptions& options);
 
 }  // namespace tribo::sound

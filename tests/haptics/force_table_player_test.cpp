@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "haptics/servo/swapped_force.hpp"
+#include "haptics/servo/force_table_player.hpp"
 
 #include <atomic>
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ contact::ForceTable steady(double newtons, int pieces) {
     return build_force_table(force_function(cut, options), options);
 }
 
-TEST(SwappedForce, plays_whole_tables_while_others_are_swapped_in) {
-    SwappedForce force(1000);
+TEST(ForceTablePlayer, plays_whole_tables_while_others_are_swapped_in) {
+    ForceTablePlayer force(1000);
     EXPECT_EQ(force.force_n(1), Vec3{});  // none yet
     force.replace(steady(100, 2), {});
     ASSERT_NEAR(force.force_n(1).z, 1, 1e-6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/live/live_show.hpp"
+#include "app/live/live_view.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -44,7 +44,7 @@ std::deque<LiveInbox::Event> LiveInbox::take_all() {
     return std::exchange(events_, {});
 }
 
-LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm,
+LiveView::LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique_ptr<haptics::Device> arm,
                    std::unique_ptr<LiveAudio> audio)
     : mill_(mill),
       options_(std::move(options)),
@@ -59,18 +59,19 @@ LiveShow::LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique
     options_.info.max_force_n = finger_.limits().max_force_n;
     options_.info.rate_hz = options_.feel.rate_hz;
     options_.info.arm = finger_.has_arm();
-    if (audio_) mill_.hear([this](session::LiveSoundNews news) { audio_->take(std::move(news)); });
-    ask_for_force();
+    if (audio_)
+        mill_.set_sound_listener([this](session::LiveSoundUpdate news) { audio_->take(std::move(news)); });
+    request_forces();
     servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
                                                     [this](double now_s) { return finger_.tick(now_s); });
 }
 
-LiveShow::~LiveShow() {
+LiveView::~LiveView() {
     servo_.reset();
-    mill_.hear({});
+    mill_.set_sound_listener({});
 }
 
-net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
+net::ServerHandlers LiveView::handlers(const WebFiles& files) {
     using Event = LiveInbox::Event;
     net::ServerHandlers h;
     h.on_get = [&files](std::string_view path, net::AcceptedEncodings accepted) {
@@ -86,7 +87,7 @@ net::ServerHandlers LiveShow::handlers(const WebFiles& files) {
     return h;
 }
 
-Result<void> LiveShow::run(net::Server& server) {
+Result<void> LiveView::run(net::Server& server) {
     auto before = Clock::now(), next = before;
     const auto frames = [&](std::span<const std::uint8_t> frame) {
         memory_.take(frame);
@@ -100,7 +101,7 @@ Result<void> LiveShow::run(net::Server& server) {
         const auto has_time = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
         if (auto done = mill_.tick(dt, has_time, frames); !done) return done;
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
-        take_built();
+        collect_forces();
         finger_.show(controller_.scene(), mill_.state().tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
         next = std::max(next + kFrameTime, Clock::now());
@@ -109,19 +110,19 @@ Result<void> LiveShow::run(net::Server& server) {
     return {};
 }
 
-void LiveShow::ask_for_force() {
+void LiveView::request_forces() {
     contact::ForceTableOptions wanted = controller_.table_options();
     wanted.profile = options_.profile;
     builder_.request(mill_.change(), wanted);
 }
 
-void LiveShow::take_built() {
+void LiveView::collect_forces() {
     ForceBuilder::Built built = builder_.take();
-    if (built.textures) finger_.feel().set_textures(*std::move(built.textures));
+    if (built.textures) finger_.force_source().set_textures(*std::move(built.textures));
     if (built.table) controller_.set_force(*std::move(built.table));
 }
 
-void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames) {
+void LiveView::show_servo(net::Server& server, const protocol::FrameSink& frames) {
     protocol::LiveServo servo = finger_.servo();
     servo.t_s = mill_.clock_s();
     servo.late = static_cast<std::uint32_t>(servo_->late());
@@ -140,7 +141,7 @@ void LiveShow::show_servo(net::Server& server, const protocol::FrameSink& frames
     server.send_text_all(protocol::live_refusal({"", 0, 0, "the arm is gone", "plug it in and start again"}));
 }
 
-void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
+void LiveView::answer(const LiveInbox::Event& event, net::Server& server) {
     using Kind = LiveInbox::Event::Kind;
     switch (event.kind) {
         case Kind::connected:
@@ -159,11 +160,11 @@ void LiveShow::answer(const LiveInbox::Event& event, net::Server& server) {
     }
 }
 
-void LiveShow::replay(net::ClientId to, net::Server& server) {
+void LiveView::replay(net::ClientId to, net::Server& server) {
     memory_.replay([&](std::span<const std::uint8_t> frame) { server.send(to, shared(frame)); });
 }
 
-void LiveShow::obey(const LiveInbox::Event& event, net::Server& server) {
+void LiveView::obey(const LiveInbox::Event& event, net::Server& server) {
     const auto command = protocol::parse_live_command(event.text);
     if (!command) return server.refuse(event.client, protocol::live_refusal(command.error()));
     if (auto obeyed = controller_.obey(*command); !obeyed)
@@ -171,7 +172,7 @@ void LiveShow::obey(const LiveInbox::Event& event, net::Server& server) {
     if (command->op == protocol::LiveOp::resync) replay(event.client, server);
     if (force_changes_ != controller_.force_changes()) {
         force_changes_ = controller_.force_changes();
-        ask_for_force();
+        request_forces();
     }
     if (controller_.settings() == sent_settings_) return;
     sent_settings_ = controller_.settings();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keeps of a stream of live frames what a viewer that comes later needs to see the same: the job, the newest
-// of each chunk, all rows and collisions, the designed surface, the end of the sound, the newest of
-// every other kind.
+// Cache of live frames for viewers that connect late. It keeps the job, the newest frame of each chunk, all
+// rows and collisions, the designed surface, the last sound frames, and the newest frame of each other kind.
 #pragma once
 
 #include <deque>
@@ -12,11 +11,11 @@
 
 namespace tribo::session {
 
-class LiveMemory {
+class FrameCache {
   public:
-    // A job frame begins anew. Bytes that are no frame are left alone.
+    // A job frame clears the cache. Invalid frames are ignored.
     void take(std::span<const std::uint8_t> frame);
-    // Everything kept, in an order that a viewer can take in.
+    // Sends all frames in a valid order.
     void replay(const protocol::FrameSink& frames) const;
 
   private:

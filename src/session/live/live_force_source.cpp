@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/live/live_feel.hpp"
+#include "session/live/live_force_source.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,30 +16,30 @@ constexpr double kClockJumpS = 0.05;
 
 }  // namespace
 
-struct LiveFeel::Part {
+struct LiveForceSource::Part {
     Part(MillSession& session, const haptics::ContactOptions& options)
         : reader(session.read_stock()), touch(*reader, options), track(session.setup()) {}
     std::unique_ptr<field::FieldReader> reader;
-    SurfaceTouch touch;
+    SurfaceContact touch;
     CutterTrack track;
 };
 
-LiveFeel::LiveFeel(const LiveFeelOptions& options)
+LiveForceSource::LiveForceSource(const LiveForceOptions& options)
     : options_(options),
       force_(options.rate_hz),
-      near_cutter_(force_, options.finger_mm, 1 / options.rate_hz) {
+      cutter_force_(force_, options.finger_mm, 1 / options.rate_hz) {
     options_.contact.tick_s = 1 / options.rate_hz;
 }
 
-LiveFeel::~LiveFeel() = default;
+LiveForceSource::~LiveForceSource() = default;
 
-void LiveFeel::show(const LiveScene& scene) {
+void LiveForceSource::show(const LiveScene& scene) {
     scenes_.back() = scene;
     scenes_.back().number = ++shown_;
     scenes_.publish();
 }
 
-void LiveFeel::set_session(MillSession* session) {
+void LiveForceSource::set_session(MillSession* session) {
     lent_part_.lend(nullptr);
     part_.reset();
     if (session == nullptr) return;
@@ -47,11 +47,11 @@ void LiveFeel::set_session(MillSession* session) {
     lent_part_.lend(part_.get());
 }
 
-void LiveFeel::set_force(contact::ForceTable table, const haptics::ForceScaling& scaling) {
+void LiveForceSource::set_force(contact::ForceTable table, const haptics::ForceScaling& scaling) {
     force_.replace(std::move(table), scaling);
 }
 
-void LiveFeel::set_textures(haptics::TextureMap textures) {
+void LiveForceSource::set_textures(haptics::TextureMap textures) {
     const int next = 1 - current_;
     textures_[next] = std::move(textures);
     lent_textures_.lend(&textures_[next]);
@@ -60,7 +60,7 @@ void LiveFeel::set_textures(haptics::TextureMap textures) {
 }
 
 // The program's clock runs at its pace by the servo's own, drawn towards what the scenes say.
-void LiveFeel::keep_time(double now_s, double tick_s) noexcept {
+void LiveForceSource::keep_time(double now_s, double tick_s) noexcept {
     const LiveScene& newest = scenes_.read();
     if (!begun_ || newest.number != scene_.number) {
         scene_ = newest;
@@ -73,12 +73,12 @@ void LiveFeel::keep_time(double now_s, double tick_s) noexcept {
     begun_ = true;
 }
 
-haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double now_s,
-                                        double tick_s) noexcept {
+haptics::RenderedForce LiveForceSource::render(const haptics::HandReading& hand, double now_s,
+                                               double tick_s) noexcept {
     keep_time(now_s, tick_s);
     haptics::RenderedForce felt;
     felt.simulation_s = seen_s_;
-    touched_ = {program_s_, hand.position_mm, 0, false, scene_.hand};
+    touch_state_ = {program_s_, hand.position_mm, 0, false, scene_.hand};
     const Loan<Part>::Use part(lent_part_);
     const Loan<const haptics::TextureMap>::Use textures(lent_textures_);
     if (part.get() == nullptr) return felt;
@@ -90,15 +90,15 @@ haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double
         return felt;
     }
     const haptics::ProbeContact contact = part.get()->touch.update(hand);
-    touched_.proxy_mm = contact.proxy_mm;
-    touched_.slip_mm_per_s = length(contact.slip_mm_per_s);
-    touched_.contact = contact.in_contact;
+    touch_state_.proxy_mm = contact.proxy_mm;
+    touch_state_.slip_mm_per_s = length(contact.slip_mm_per_s);
+    touch_state_.contact = contact.in_contact;
 
     // A cutter that stands does not cut.
-    near_cutter_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
+    cutter_force_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
     if (scene_.pace > 0) force_.set_pace(scene_.pace);
     const haptics::FieldForce near_cutter =
-        near_cutter_.render(hand, program_s_, part.get()->track, textures.get());
+        cutter_force_.render(hand, program_s_, part.get()->track, textures.get());
 
     // A surface that comes back under a hand that presses would throw it out: it must leave first.
     if (scene_.stopped) must_leave_ = true;
@@ -110,7 +110,7 @@ haptics::RenderedForce LiveFeel::render(const haptics::HandReading& hand, double
     return felt;
 }
 
-void in_written_time(std::vector<contact::ForceStretch>& stretches, double feed_factor) {
+void to_program_time(std::vector<contact::ForceStretch>& stretches, double feed_factor) {
     for (contact::ForceStretch& s : stretches) {
         s.start_s *= feed_factor;
         s.end_s *= feed_factor;

@@ -13,8 +13,8 @@
 #include "devices/servo/servo_thread.hpp"
 #include "net/server.hpp"
 #include "protocol/live_message.hpp"
+#include "session/live/frame_cache.hpp"
 #include "session/live/live_controller.hpp"
-#include "session/live/live_memory.hpp"
 
 namespace tribo::app {
 
@@ -35,21 +35,21 @@ class LiveInbox {
     std::deque<Event> events_;
 };
 
-struct LiveShowOptions {
+struct LiveViewOptions {
     protocol::LiveServerInfo info;  // materials and device are added here
     protocol::LiveSettings settings;
     contact::JndProfile profile;
-    session::LiveFeelOptions feel;
+    session::LiveForceOptions feel;
     std::function<Result<session::MillSetup>()> make_setup;  // on any thread
 };
 
-class LiveShow {
+class LiveView {
   public:
     // `arm`: null for the simulated hand.
     // `audio`: null where the engine does not sound.
-    LiveShow(session::LiveMill& mill, LiveShowOptions options, std::unique_ptr<haptics::Device> arm,
+    LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique_ptr<haptics::Device> arm,
              std::unique_ptr<LiveAudio> audio);
-    ~LiveShow();
+    ~LiveView();
 
     net::ServerHandlers handlers(const WebFiles& files);
     // Until the user ends it.
@@ -59,16 +59,16 @@ class LiveShow {
     void answer(const LiveInbox::Event& event, net::Server& server);
     void obey(const LiveInbox::Event& event, net::Server& server);
     void replay(net::ClientId to, net::Server& server);
-    void ask_for_force();
-    void take_built();
+    void request_forces();
+    void collect_forces();
     void show_servo(net::Server& server, const protocol::FrameSink& frames);
 
     session::LiveMill& mill_;
-    LiveShowOptions options_;
+    LiveViewOptions options_;
     session::LiveController controller_;
     session::LiveFinger& finger_;  // the controller's
     protocol::LiveSettings sent_settings_;
-    session::LiveMemory memory_;
+    session::FrameCache memory_;
     LiveInbox inbox_;
     ForceBuilder builder_;
     int force_changes_ = 0;  // that the builder was asked for

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/live/live_touch.hpp"
+#include "session/live/single_threaded_touch.hpp"
 
 #include <algorithm>
 
@@ -33,9 +33,9 @@ void SingleThreadedTouch::renew() {
     std::size_t first = all.size() > kMostStretches ? all.size() - kMostStretches : 0;
     while (first < all.size() && all[first].end_s < from) ++first;
     const auto cut = all.subspan(first);
-    controller_.finger().feel().set_textures(texture_map(cut, mill.session().stock(), serial_for));
+    controller_.finger().force_source().set_textures(texture_map(cut, mill.session().stock(), serial_for));
     auto recent = force_stretches(cut, mill.session().setup(), mill.change());
-    in_written_time(recent, mill.change().feed_factor);
+    to_program_time(recent, mill.change().feed_factor);
     const contact::ForceTableOptions options = controller_.table_options();
     controller_.set_force(contact::build_force_table(contact::force_function(recent, options), options));
 }

@@ -7,13 +7,12 @@
 
 namespace tribo::sound {
 
-// A point that is told where to be, and when. It goes there in a straight line; where it is told too late,
-// the leap is made up for along a smooth S of about 20 ms, so that nothing that follows it clicks. Real-time
-// safe.
-class Glide {
+// Smooths a position for click-free sound. The position moves in a straight line and reaches its target in
+// time. A target that comes too late is approached along a smooth S of about 20 ms. Real-time safe.
+class PositionSmoother {
   public:
-    // Reaches `to` after `quanta` >= 0 quanta; `at_once`: without the S (nobody listens).
-    void lead(Vec3 to, std::int64_t quanta, bool at_once) {
+    // Reaches `to` after `quanta` >= 0 quanta. `at_once`: jumps without the S, for silence.
+    void set_target(Vec3 to, std::int64_t quanta, bool at_once) {
         const Vec3 here = straight();
         if (at_once) late_ = late_slow_ = {};
         if (quanta == 0 && !at_once) {
@@ -25,7 +24,7 @@ class Glide {
         length_ = quanta;
         elapsed_ = 0;
     }
-    // The place at the end of the next quantum.
+    // Returns the position at the end of the next quantum.
     Vec3 advance() {
         if (elapsed_ < length_) ++elapsed_;
         constexpr double kFollow = 0.125;
@@ -41,7 +40,7 @@ class Glide {
     }
     Vec3 from_, to_;
     std::int64_t length_ = 0, elapsed_ = 0;
-    Vec3 late_, late_slow_;  // what is still to be made up for
+    Vec3 late_, late_slow_;  // remaining offset from the straight line
 };
 
 }  // namespace tribo::sound

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The cutting force from a table that another thread may replace while the servo plays it: when feed, spindle
-// speed, material or helix change, the table is rebuilt aside and swapped in without a lock. The old one is
-// freed by the thread that brings the next but one, never by the servo's.
+// Plays the cutting force from a table. Another thread may replace the table without a lock, for example
+// after a change of feed, spindle speed, material or helix. The replacing thread frees old tables, never the
+// servo.
 #pragma once
 
 #include "base/hand_over.hpp"
@@ -11,18 +11,18 @@
 
 namespace tribo::haptics {
 
-class SwappedForce final : public CuttingForce {
+class ForceTablePlayer final : public CuttingForce {
   public:
-    explicit SwappedForce(double rate_hz) : rate_hz_(rate_hz) {}
+    explicit ForceTablePlayer(double rate_hz) : rate_hz_(rate_hz) {}
 
-    // From one thread, at any time.
+    // Called from one other thread, at any time.
     void replace(contact::ForceTable table, const ForceScaling& scaling) {
         tables_.back() = {std::move(table), scaling, ++sequence_};
         tables_.publish();
     }
-    // The servo's: how fast the times of the table go by, in their seconds per second; > 0. Real-time safe.
+    // Servo thread. `pace` > 0: table seconds per second. Real-time safe.
     void set_pace(double pace) noexcept { pace_ = pace; }
-    // The servo's. Real-time safe.
+    // Servo thread. Real-time safe.
     Vec3 force_n(double at_s) noexcept override {
         const Entry& now = tables_.read();
         if (now.sequence != playing_) {
@@ -40,7 +40,7 @@ class SwappedForce final : public CuttingForce {
         std::uint64_t sequence = 0;
     };
     Snapshot<Entry> tables_;
-    std::uint64_t sequence_ = 0;  // the writer's
+    std::uint64_t sequence_ = 0;  // of the replacing thread
     double rate_hz_, pace_ = 1;
     std::uint64_t playing_ = 0;
     contact::ForceTable::Cursor cursor_;

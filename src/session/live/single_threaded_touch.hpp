@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A finger beside a live mill where there is one thread: the servo's ticks are made by the picture, and the
-// cutting force and the grooves' texture are those of what was cut in the last moments.
+// The finger of a live mill on a single thread. The picture calls the servo ticks. Cutting force and texture
+// come from the most recent rows of the cut.
 #pragma once
 
 #include "session/live/live_controller.hpp"
@@ -9,19 +9,19 @@ namespace tribo::session {
 
 class SingleThreadedTouch {
   public:
-    // `controller` must outlive it.
+    // `controller` must outlive this object.
     explicit SingleThreadedTouch(LiveController& controller) : controller_(controller) {}
 
-    // After the mill's own tick: so much of the servo's time has passed. Tells what is new of the finger.
+    // Call after LiveMill::tick(). Advances the servo by dt_s and sends frames for changes of the finger.
     void tick(double dt_s, const protocol::FrameSink& frames);
 
   private:
     void renew();
 
     LiveController& controller_;
-    double now_s_ = 0, owed_s_ = 0;  // of the servo's clock
+    double now_s_ = 0, owed_s_ = 0;  // servo time
     double renewed_s_ = -1;
-    std::size_t stretches_ = 0;  // in the force that is felt
+    std::size_t stretches_ = 0;  // in the current force table
     int force_changes_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "session/live/live_memory.hpp"
+#include "session/live/frame_cache.hpp"
 
 namespace tribo::session {
 namespace {
@@ -9,7 +9,7 @@ constexpr std::size_t kSoundFrames = 64;
 
 }  // namespace
 
-void LiveMemory::take(std::span<const std::uint8_t> frame) {
+void FrameCache::take(std::span<const std::uint8_t> frame) {
     const auto kind = protocol::frame_kind(frame);
     if (!kind) return;
     Frame copy(frame.begin(), frame.end());
@@ -45,7 +45,7 @@ void LiveMemory::take(std::span<const std::uint8_t> frame) {
     }
 }
 
-void LiveMemory::replay(const protocol::FrameSink& frames) const {
+void FrameCache::replay(const protocol::FrameSink& frames) const {
     if (job_.empty()) return;
     frames(job_);
     for (const auto& [place, frame] : chunks_) frames(frame);
