@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C and its relatives as a flag that a run looks at, so that it can unwind and leave nothing
-// half-written.
+// Turns Ctrl-C and similar signals into a flag. A run checks the flag, so that it can end without
+// incomplete files.
 #pragma once
 
 #include <atomic>
 
 namespace tribo::app {
 
-// From now on SIGINT, SIGTERM and SIGHUP raise the flag; a second one ends the program at once, as if this
-// had never been called. Also makes a broken pipe and a file-size limit errors of the write instead of
+// From now on SIGINT, SIGTERM and SIGHUP set the flag. A second signal ends the program at once.
+// A broken pipe and the limit of file sizes then give errors of the write, not
 // signals.
 void catch_signals();
 
-// True once a signal came. Any thread may look.
+// True after a signal. Any thread may read it.
 const std::atomic<bool>& interrupted();
 
-// 128 + the number of the signal, as shells count: 130 for Ctrl-C.
+// 128 + the number of the signal, as in shells: 130 for Ctrl-C.
 int interrupted_exit_code();
 
 }  // namespace tribo::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks of what stands behind a flag, with messages in the program's own manner.
+// Checks of the values of flags, with the error messages of the program.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,13 +8,13 @@
 
 namespace tribo::app {
 
-// A finite number above `above` and at most `most`.
+// A finite number, > `above` and <= `most`.
 CLI::Validator finite_number(double above, double most);
 // One of the words, or a comma-separated list of them.
 CLI::Validator one_of(std::vector<std::string_view> words);
 
-// What a failed parse should have said: the known flag or verb nearest to an unknown one. `program` has the
-// state of that parse.
+// The message for a failed parse, with the nearest known flag or verb. `program` has the state
+// of this parse.
 std::string explain_usage(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace tribo::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a run is: a bar with the remaining time on a terminal, a plain line now and then elsewhere.
+// Progress of a run: a bar with the remaining time on a terminal, plain lines from time to time elsewhere.
 #pragma once
 
 #include <chrono>
@@ -21,12 +21,12 @@ class Progress {
     explicit Progress(std::FILE* out = stderr);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    ~Progress();  // takes the bar away
+    ~Progress();  // removes the bar
 
     // The share of the whole run that is done, 0..1. May be called often and from any thread; most calls only
     // look at the clock.
     void update(const std::string& stage, double fraction);
-    // Takes the bar away, so that something else can be printed.
+    // Removes the bar, so that other text can be printed.
     void clear();
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A contact at a moment, as a sense needs to know it. Whoever makes contact (a cutter in stock, a finger on a
-// surface or on a screen) writes ContactSamples; sound reads them. Neither side knows the other. Of a cut,
-// session/cut/contact_of_cut.hpp makes them.
+// A contact at one moment, for a sense such as sound. Producers (a cutter in stock, a finger on a surface or
+// on a screen) write ContactSamples, and sound reads them. Neither side depends on the other.
+// session/cut/contact_of_cut.hpp makes the samples of a cut.
 //
 //   field        a cutter                               a finger or probe
 //   position     tool tip                               point of contact
@@ -16,8 +16,8 @@
 //   spectrum     force over the turn                    none
 //   edges        that pass in a turn of the spindle     0
 //
-// Plain data: copied freely, no allocation. Vectors stand in the stock's (the touched body's) frame. A sample
-// is a moment, not an interval; between two of them every number runs linearly, phase with its own rate.
+// Plain data: copied freely, no allocation. Vectors are in the frame of the stock (the touched body). A
+// sample is a moment, not an interval. Between two samples all values are linear; the phase follows its rate.
 #pragma once
 
 #include <cmath>
@@ -28,24 +28,24 @@
 namespace tribo::contact {
 
 struct ContactSample {
-    double t_s = 0;  // since the session began; samples come in order of time, equal times make a step
+    double t_s = 0;  // since the session start; times never fall, equal times make a step
     Vec3 position_mm;
     Vec3 normal{0, 0, 1};          // unit
-    Vec3 force_n;                  // on the one that touches; zero: no contact
-    Vec3 slip_mm_per_s;            // of the one that touches, relative to the material
+    Vec3 force_n;                  // on the touching object; zero: no contact
+    Vec3 slip_mm_per_s;            // of the touching object, relative to the material
     double area_mm2 = 0;           // >= 0
     double removed_mm3_per_s = 0;  // >= 0
 
     double phase_rad = 0;             // at t_s; whole turns may be left out
     double phase_rate_rad_per_s = 0;  // >= 0 for a spindle that turns the right way
 
-    // The periodic part of the force, in the tool's frame; null or empty: none. Borrowed: it has to live only
-    // as long as the call that takes the sample.
+    // The periodic part of the force, in the frame of the tool; null or empty: none. It must live only as
+    // long as the call that takes the sample.
     const ForceSpectrum* spectrum = nullptr;
-    int edges = 0;  // of the cutter; 0: not told
+    int edges = 0;  // of the cutter; 0: unknown
 };
 
-// Whether every number of the sample is one; senses refuse a sample that is not. Real-time safe.
+// Whether all values are finite; senses refuse other samples. Real-time safe.
 inline bool is_finite(const ContactSample& s) {
     if (!(std::isfinite(s.t_s) && tribo::is_finite(s.position_mm) && tribo::is_finite(s.normal) &&
           tribo::is_finite(s.force_n) && tribo::is_finite(s.slip_mm_per_s) && std::isfinite(s.area_mm2) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The point of an intersection of up to four half-spaces that is nearest to a given one.
+// Nearest point in the intersection of up to four half-spaces.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ struct HalfSpaces {
     std::array<HalfSpace, kMost> side;
     int count = 0;
 
-    // Renews the half-space of the same piece (normals within acos(alike)), else adds one; a full set loses
-    // the oldest.
+    // Replaces the half-space of the same piece (angle of the normals within acos(alike)), else adds one. A
+    // full set drops the oldest.
     void put(const HalfSpace& h, double alike);
-    // Nearest point to y that is in all of them; where they leave nothing, in the last one.
+    // The nearest point to y in all half-spaces; if their intersection is empty, in the last one.
     Vec3 nearest(Vec3 y) const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person can just tell apart: every table that is sampled by perception is sampled by these numbers.
-// Weber fractions are differences relative to what is there; below a floor nothing is told apart any more.
+// Just noticeable differences (JND) of a person. They set the sampling of all perceptual tables.
+// Weber fractions are differences relative to the value. Values below a floor count as the floor.
 #pragma once
 
 namespace tribo::contact {
@@ -20,8 +20,8 @@ struct JndProfile {
     // Pitch: a Weber fraction of 0.002 from 500 to 2000 Hz (Roederer).
     double pitch = 0.002;
 
-    // At the hand: smaller forces and vibrations than these count as this large. A choice, not a measurement:
-    // the lower end of what desk-top arms render above their own friction, and a fifth of that for
+    // Floors at the hand. Chosen, not measured: the smallest force that desktop arms render above their own
+    // friction, and a fifth of it for
     // vibrations.
     double force_floor_n = 0.05;
     double vibration_floor_n = 0.01;

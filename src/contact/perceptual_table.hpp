@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One mechanism for everything that is sampled ahead of time: a function of one variable (force along a path,
-// rolloff over distance, Doppler factor over time), straight between knots that stand as far apart as
-// perception allows. Pieces end where the function jumps.
+// Table of a function of one variable (force along a path, rolloff over distance, Doppler factor over time).
+// It is linear between knots. The knots are as far apart as just noticeable differences (JND) allow. A piece
+// ends where the function jumps.
 //
-// Values are kept as float32: its 24 bits are two thousand times finer than the finest JND.
+// Values are stored as float32: its 24 bits are two thousand times finer than the finest JND.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace tribo::contact {
 
-// A function, sampled densely enough that it is straight in between. A piece is the samples first ... first
-// of the next - 1, at least one; `at` rises within a piece and does not fall from piece to piece.
+// A function with so many samples that it is linear in between. A piece has the samples from its first to the
+// one before the next piece. `at` rises within a piece and does not fall from piece to piece.
 struct DenseFunction {
     std::size_t channels = 1;
     std::vector<double> at;
     std::vector<double> values;               // channels per sample
-    std::vector<std::size_t> piece_starts{};  // rising, the first is 0; empty: one piece
+    std::vector<std::size_t> piece_starts{};  // index of first samples, rising, from 0; empty: one piece
 
     std::size_t size() const { return at.size(); }
     std::span<const double> row(std::size_t n) const { return {values.data() + n * channels, channels}; }
@@ -33,10 +33,10 @@ struct DenseFunction {
     }
 };
 
-// How far what is shown lies from the truth, in just-noticeable differences of the user.
+// Error of the shown value, in just noticeable differences of the user.
 using ErrorInJnd = std::function<double(std::span<const double> truth, std::span<const double> shown)>;
 
-// A share of a JND that nobody tells from none.
+// An error, in JND, that nobody notices.
 inline constexpr double kInaudibleJnd = 0.5;
 
 // Immutable; copies share the knots, which may lie in a mapped file. Any number of threads.
@@ -46,8 +46,8 @@ class PerceptualTable {
         double from = 0, to = 0;
         std::uint64_t first = 0;  // knot; the piece ends before the next one's first
     };
-    // What a table is made of, in the order of a file. All spans live in `owner`. One more piece than there
-    // are stands at the end, with the number of all knots as its first.
+    // Contents of a table, in file order. `owner` keeps the memory of all spans. The last entry of `pieces`
+    // is a sentinel: its `first` is the number of knots.
     struct Parts {
         std::size_t channels = 1;
         std::span<const Piece> pieces;
@@ -57,14 +57,14 @@ class PerceptualTable {
     };
 
     PerceptualTable() = default;
-    // Parts as parts_are_sound() accepts them.
+    // parts_are_sound() must accept the parts.
     explicit PerceptualTable(Parts parts) : parts_(std::move(parts)) {}
 
-    // Where the last look-up was: the next one starts there. One per reader.
+    // Position of the last look-up; the next one starts there. One per reader.
     struct Cursor {
         std::size_t piece = 0, knot = 0;
     };
-    // The first out.size() channels at `at`; false, and `out` untouched, between pieces and outside.
+    // The first out.size() channels at `at`. Between pieces and outside: false, with `out` unchanged.
     // Real-time safe: a few steps from the cursor, else bisection.
     bool look_up(double at, std::span<double> out, Cursor& cursor) const noexcept;
     // The piece that holds `at`, or pieces().size().
@@ -84,20 +84,20 @@ class PerceptualTable {
     Parts parts_;
 };
 
-// Whether the numbers describe a table: counts agree, everything is finite and rises.
+// Whether the parts are a valid table: consistent counts, finite values, rising knots.
 bool parts_are_sound(const PerceptualTable::Parts& parts);
 
-// Knots at samples of the function, each as far from the last as the error between them, as stored, stays
-// within `most_jnd` at every sample passed over and at eight places between each two.
+// Chooses knots among the samples. Each knot is as far from the last as possible, with an error of the stored
+// table within `most_jnd` at all skipped samples and at eight places between each two.
 PerceptualTable build_perceptual_table(const DenseFunction& function, const ErrorInJnd& error,
                                        double most_jnd = kInaudibleJnd);
 
-// The worst error at `per_interval` places within every interval of samples, and at the samples.
+// The largest error at the samples and at `per_interval` places between each two samples.
 double worst_error_jnd(const PerceptualTable& table, const DenseFunction& function, const ErrorInJnd& error,
                        int per_interval = 8);
 
-// How many knots a table with one spacing throughout takes for an error within `most_jnd`: the widest spacing
-// that reaches it, found by bisection. Jumps are given to it: it too is split into the pieces.
+// Number of knots of a table with constant spacing and an error within `most_jnd`. Bisection finds the widest
+// such spacing. This table has the same pieces.
 std::size_t uniform_knots(const DenseFunction& function, const ErrorInJnd& error,
                           double most_jnd = kInaudibleJnd);
 

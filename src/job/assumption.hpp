@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A job for a program that comes alone: dropped into the page, or named in place of a job.
+// Makes a job for a program without a job file: dropped into the page, or given in place of a job.
 #pragma once
 
 #include "job/job.hpp"
@@ -7,11 +7,11 @@
 
 namespace tribo::job {
 
-// What a program must be read with when nobody says more: a feed and a spindle speed where it has none.
+// A job with default feed and spindle speed, for reading the program.
 Job job_of_program(const std::string& file, PathKind kind);
 
-// Gives the job what complete_job() would miss: a block around the path, with its top at zero where the path
-// goes below it, and a cutter of 6 mm for each tool that nobody describes. Says each assumption.
+// Adds everything that complete_job() requires: a block around the path, with its top at zero if the path
+// goes below zero, and a cutter of 6 mm for each undescribed tool. Each assumption gives a warning.
 void assume_job(Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::job

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a job leaves out and its program or tool table says: stock and tools. The order of precedence is the
+// Completes stock and tools of a job from its program and tool table. The order of precedence is the
 // job file, then the tool table, then the program itself (BLK FORM, CUTTER/, tool comments).
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace tribo::job {
 
-// Gives the job a stock where it has none and a cutter for each tool of the program that it does not
-// describe, each with a warning that says where it was taken from and what was assumed. Refuses a job that
-// then still has no stock or no cutter.
+// Adds a missing stock, and a cutter for each tool of the program that the job does not describe. Each gives
+// a warning with its source and the assumptions. Refuses a job that
+// still has no stock or no cutter.
 Result<void> complete_job(Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::job

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a job's files are: on a disk (files/disk_source.hpp), or in memory (job/memory_source.hpp), where a
-// page has dropped them or a test has written them.
+// Source of the files of a job: a disk (files/disk_source.hpp), or memory (job/memory_source.hpp) with files
+// from a page or a test.
 #pragma once
 
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace tribo::job {
 
-// What `[stock] from` names.
+// The job that `[stock] from` names.
 struct StockSource {
-    std::string job;                    // the earlier job's file, as FileSource::read() takes it
-    std::optional<StockRecord> record;  // where the folder of its render was named
-    std::string folder;                 // that folder, absolute, links resolved; else empty
+    std::string job;                    // file of the earlier job, for FileSource::read()
+    std::optional<StockRecord> record;  // if the folder of its render is named
+    std::string folder;                 // this folder, absolute, without links; else empty
 };
 
 class FileSource {
   public:
     virtual ~FileSource() = default;
 
-    // The bytes of a file. Refuses more than `limit_bytes` before any memory is taken for them.
+    // Reads a file. Refuses more than `limit_bytes` before it allocates memory.
     virtual FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const = 0;
-    // A model of any format that the source reads, with the files that it names itself.
+    // Reads a model in any supported format, with the files that it refers to.
     virtual FileResult<readers::Model> read_model(const readers::ModelFile& file) const = 0;
-    // An error without a file is about the key that names the path: the caller knows its place.
+    // An error without a file belongs to the key with this path; the caller adds its place.
     virtual FileResult<StockSource> stock_source(const std::string& path) const = 0;
-    // Equal for two names that are surely one file.
+    // Equal for two names of the same file.
     virtual std::string identity(const std::string& path) const = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Who listens to a cut, and what stands around it: what a job says of its sound but for recordings.
+// Listener and acoustic environment of a cut: the sound options of a job, without recordings.
 #pragma once
 
 #include "base/vec3.hpp"
@@ -15,8 +15,8 @@ struct Listening {
     sound::Workshop workshop{};
 };
 
-// As the job says; without `listener_mm`, from the middle of the blank's top. The first cutter's bar rings.
-// Machine and room have names that exist.
+// The options of a job. Default listener: middle of the top of the blank. The first cutter gives the body.
+// The names of machine and room must exist.
 Listening listening_to(const Job& job, const Box3& blank_mm);
 
 void apply(const Listening& listening, sound::SoundtrackOptions& options);

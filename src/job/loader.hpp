@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one loader of jobs: a job with all the files that it names, read and checked, from wherever they are.
-// The program, the page's module and the tests use it; session::prepare_mill() makes a run of it.
+// The loader of jobs: reads and checks a job with all its files, from any FileSource. Used by the program, by
+// the module of the page and by the tests. session::prepare_mill() makes a run from the result.
 #pragma once
 
 #include <string>
@@ -13,42 +13,42 @@
 
 namespace tribo::job {
 
-// A job that leaves the stock with which another begins.
+// An earlier job, whose result is the stock of another job.
 struct EarlierJob {
     Job job;
     motion::Program program;
-    StockSource source;  // what the other job names
+    StockSource source;  // as named by the other job
 };
 
 struct LoadedJob {
     Job job;  // after complete_job()
     motion::Program program;
-    Solid blank;                      // of the first job, in that job's coordinates
-    std::vector<EarlierJob> earlier;  // the nearest first; each begins with the stock that the next leaves
+    Solid blank;                      // of the first job, in its coordinates
+    std::vector<EarlierJob> earlier;  // latest first; the stock of each is the result of the next entry
     std::vector<Solid> fixtures;
     std::optional<readers::Model> part;  // the designed surface
     Warnings warnings;
 };
 
 struct LoadOptions {
-    std::string part;  // a model as the designed surface in place of the job's; empty: as the job says
+    std::string part;  // model of the designed surface in place of that of the job; empty: from the job
 };
 
-// More earlier jobs in a row are taken for a mistake.
+// Largest number of earlier jobs in a chain; more are probably a mistake.
 inline constexpr std::size_t kLongestChain = 100;
 
-// Reads the job, its program, its blank or the earlier jobs, fixtures and designed surface. Of earlier jobs
-// it reads what decides the stock: their designed surfaces, fixtures and sounds are not looked at. Refused,
-// at the place of `from`: jobs that begin with each other's stock, and more than kLongestChain of them.
+// Reads the job, its program, its blank or earlier jobs, fixtures and designed surface. Of earlier jobs only
+// the files that decide the stock are read, no designed surfaces, fixtures and sounds. Refuses cycles of
+// jobs and chains longer than kLongestChain, with the place of `from`.
 FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
                                const LoadOptions& options = {});
 
-// The same for a program that comes without a job; what it does not say is assumed, with a warning each.
+// The same for a program without a job. Each missing value is assumed, with a warning.
 FileResult<LoadedJob> load_program(const FileSource& files, const std::string& name,
                                    const LoadOptions& options = {});
 
-// A job's program alone. The job gains what complete_job() finds in it, and the program's warnings what that
-// says.
+// Reads only the program of a job, and completes the job from it with complete_job(). Its warnings are added
+// to those of the program.
 FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job);
 
 }  // namespace tribo::job

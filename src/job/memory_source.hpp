@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files in memory: dropped into a page, or written by a test.
+// Files in memory, for pages and tests.
 #pragma once
 
 #include <map>
@@ -16,14 +16,14 @@ class MemorySource final : public FileSource {
     MemorySource() = default;
     explicit MemorySource(std::map<std::string, std::string> files) : files_(std::move(files)) {}
 
-    // Names may hold folders ("bowl/bowl.csv"). A file of that name is replaced.
+    // Names may contain folders ("bowl/bowl.csv"). An existing file is replaced.
     void put(std::string name, std::string bytes);
     void clear();
 
     FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override;
-    // glTF is refused: its reader needs a library that the page's module does without.
+    // glTF is refused: the module of the page does not contain the library of its reader.
     FileResult<readers::Model> read_model(const readers::ModelFile& file) const override;
-    // Earlier jobs alone: no folder of a render is among the files.
+    // Only earlier jobs; render folders are not supported in memory.
     FileResult<StockSource> stock_source(const std::string& path) const override;
     std::string identity(const std::string& path) const override { return path; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A blank or a fixture: an axis-aligned box, or what a closed mesh encloses, and the shapes for the field
-// that are made from it.
+// A blank or a fixture: an axis-aligned box or the inside of a closed mesh, and its shape for the
+// distance field.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@ namespace tribo::job {
 
 // Copies share the mesh.
 struct Solid {
-    Box3 box_mm;                           // empty where it is a mesh
-    std::optional<field::MeshShape> mesh;  // absent where it is a box
+    Box3 box_mm;                           // empty for a mesh
+    std::optional<field::MeshShape> mesh;  // absent for a box
     double volume_mm3 = 0;
     std::uint64_t hash = 0;  // of the box or of the mesh
 };
 
 Solid box_solid(const Box3& box_mm);
-// Refuses what field::MeshShape refuses, in the name of the file.
+// Refuses meshes that field::MeshShape refuses. The error names the file.
 Result<Solid> mesh_solid(TriangleMesh mesh, const std::string& file);
 
-// The solid in the coordinates of a frame that stands in the solid's own. A box stays a box where the frame's
-// axes run along those of the box.
+// The solid in the coordinates of a frame. `frame` is given in the coordinates of the solid. A box stays a
+// box if the axes are parallel.
 std::unique_ptr<const field::Shape> shape_of(const Solid& solid, const motion::WorkFrame& frame = {});
 
 }  // namespace tribo::job

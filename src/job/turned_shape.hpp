@@ -9,8 +9,8 @@
 
 namespace tribo::job {
 
-// A solid in the coordinates of a frame that stands in the solid's own: a blank as the next set-up sees it.
-// Distances are those of the solid at the point turned back, node by node.
+// A solid in the coordinates of a frame: the blank in the next set-up. Distances are those of the solid at
+// the transformed point.
 class TurnedShape final : public field::Shape {
   public:
     // `bounds_mm` contains the turned solid.

@@ -14,20 +14,21 @@
 
 namespace tribo {
 
-// Reads a SOFA file as `program verb FILE` (files/sound/hrir_file.hpp): a broken file may end the reader.
+// Reads a SOFA file in a separate process, as `program verb FILE` (files/sound/hrir_file.hpp): a broken file
+// may crash the reader.
 struct SofaReader {
     std::string program, verb;
 };
 
-// By [sound] mode and hrtf: measured responses (the file's, or libmysofa's own), a sphere, or panning. Where
-// the shipped set is missing and the job did not ask for it, a sphere, and a warning.
-// A file of responses is refused without `reader`.
+// The head for [sound] mode and hrtf: measured responses (file or libmysofa), a sphere, or panning.
+// If the shipped set is missing and the job did not request it: a sphere, with a warning.
+// Without `reader` a file of responses is refused.
 FileResult<std::shared_ptr<const sound::Head>> head_of(const job::JobSound& sound, int sample_rate_hz,
                                                        const std::string& job_file,
                                                        const std::optional<SofaReader>& reader,
                                                        Warnings& warnings);
 
-// What else [sound] names: recordings and the colour of the chips, read, checked and put into `track`.
+// Reads and checks recordings and the spectrum of chips from [sound], and sets them in `track`.
 FileResult<void> read_voices(const job::JobSound& sound, sound::SoundtrackOptions& track);
 
 }  // namespace tribo

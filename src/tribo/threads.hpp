@@ -8,11 +8,11 @@ namespace tribo {
 
 inline constexpr int kMaxThreads = 256;
 
-// As many as this process may use at once.
+// Number of threads that this process may use.
 int available_threads();
 
-// Loops over a pool of `threads` threads (the caller is one of them); 1 gives the plain loop. The pool lives
-// as long as the function object.
+// A parallel loop over a pool of `threads` threads, including the caller; 1 gives a plain loop. The function
+// object owns the pool.
 ParallelFor parallel_for_over(int threads);
 
 }  // namespace tribo

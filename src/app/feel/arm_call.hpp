@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The flags that say where a haptic arm stands and how late it is, for every verb that drives one.
+// Flags for position, scale and delay of a haptic arm, for all verbs that use one.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,17 +15,17 @@
 namespace tribo::app {
 
 struct ArmCall {
-    std::vector<double> at_mm;  // its zero, stock frame; empty: the middle of the stock's top
+    std::vector<double> at_mm;  // zero of the arm, stock frame; empty: middle of the top of the stock
     double scale = 1;           // millimetres of the part per millimetre of the hand
-    double delay_ms = 0;        // of arm, driver and line, both ways together
+    double delay_ms = 0;        // round trip of arm, driver and connection
 
     double delay_s() const { return 1e-3 * delay_ms; }
 };
 
-// `call` lives as long as the verb.
+// `call` must live as long as the verb.
 void add_arm_flags(CLI::App& verb, ArmCall& call);
-// Of a surface: what was asked for, else 0.5 N/mm, at most what the arm keeps stable and the delay allows.
-// Says so in `warnings`, about `file`, where that is less than was asked for.
+// Stiffness of a surface: the requested one or 0.5 N/mm, limited by the stability of the arm and the delay.
+// If it is less than requested, `warnings` gets a warning about `file`.
 double stable_stiffness(std::optional<double> asked_n_per_mm, const haptics::DeviceLimits& limits,
                         double rate_hz, const ArmCall& call, const std::string& file, Warnings& warnings);
 devices::Mounting mounting(const ArmCall& call, const Box3& stock);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `tribo feel` does once its flags are read: a part, a hand, a servo, a trace.
+// Runs `tribo feel` after its flags are read: part, hand, servo and trace.
 #pragma once
 
 #include <optional>
@@ -18,13 +18,13 @@ struct FeelCall {
     std::optional<double> stiffness_n_per_mm, friction_static, friction_kinetic, resolution_mm, until_s;
     std::optional<double> unit_mm;  // of a model
     double scale = 1;               // of a model
-    std::string source;             // a library with a force of one's own; empty: none
+    std::string source;             // a library with the user's force; empty: none
     bool real_time = false, texture = true, compressive = false;
     std::string profile, bake;
     int threads = 0;
 };
 
-// The exit code. Says on stderr what is wrong; prints what was felt on stdout.
+// Returns the exit code. Prints errors to stderr and a summary to stdout.
 int feel(const FeelCall& call);
 
 }  // namespace tribo::app

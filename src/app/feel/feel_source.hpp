@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `tribo feel` feels: a job milled, and the force that comes out of it.
+// Makes the force source of `tribo feel` from a milled job or a model.
 #pragma once
 
 #include <memory>
@@ -17,28 +17,28 @@ namespace tribo::app {
 
 class FeelSource {
   public:
-    // `surface_n_per_mm`: stiffness that the device keeps stable; `start_s`: where the stroke begins.
+    // `surface_n_per_mm`: stable stiffness of the device. `start_s`: start of the stroke.
     FeelSource(const FeelCall& call, const job::Job& job, double surface_n_per_mm, double start_s,
                const haptics::DeviceLimits& limits);
 
-    // Mills, or reads the baked table where that is all that is needed. Look at interrupted() afterwards.
-    // `in_time`: in cut mode the same job in short moves, which is milled while it is felt.
+    // Mills the job, or reads the baked table if that is enough. Check interrupted() afterwards.
+    // `in_time`: in cut mode the same job with short moves, which is milled during the stroke.
     FileResult<void> make(session::MillSetup setup, std::optional<session::MillSetup> in_time);
-    // A surface that was only read, as it is.
+    // Uses a surface from a model file.
     void make(std::unique_ptr<const contact::DistanceField> surface);
     haptics::ForceSource& source() { return *source_; }
-    // Mills on to the moment of the stroke, `now_s` after its start; on one thread, any but the servo's.
+    // Mills up to `now_s` after the start of the stroke. One thread, not the servo thread.
     void mill_to(double now_s) {
         if (stock_) stock_->advance(start_s_ + now_s);
     }
     bool mills_in_time() const { return stock_ != nullptr; }
-    // What there is to say about the table.
+    // Prints facts about the table.
     void print() const;
     const std::optional<report::ForceTableFigures>& table_figures() const { return figures_; }
 
   private:
     FileResult<contact::ForceTableOptions> table_options() const;
-    // The table in the file that --bake names, where it is this job's.
+    // The table in the --bake file, if it belongs to this job.
     std::optional<contact::ForceTable> baked(std::uint64_t key) const;
     bool mill(session::MillSetup setup, const ParallelFor& parallel);
     haptics::ContactOptions contact_options(haptics::ProbeShape& probe) const;

@@ -5,8 +5,8 @@
 
 namespace tribo::app {
 
-// Shows the address in the user's browser, without waiting for it; where there is none, or no screen for it,
-// says so on stderr.
+// Opens the address in the browser of the user, without waiting. Without a browser or a screen it prints a
+// message to stderr.
 void open_browser(const std::string& url);
 
 }  // namespace tribo::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo live [JOB]`: the job milled before the eyes of a browser.
+// `tribo live [JOB]`: shows the job in a browser while it is milled.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ namespace tribo::app {
 inline constexpr std::uint16_t kLivePort = 8317;
 
 struct LiveCall {
-    std::string job;  // empty: an empty bench
+    std::string job;  // empty: no job
     std::uint16_t port = kLivePort;
     std::string listen = "127.0.0.1";      // an address in digits
     std::string tls_certificate, tls_key;  // files in PEM; both or none
-    bool open = false;                     // the page in the user's browser
-    std::string web_root;                  // empty: as built or installed
-    std::optional<double> resolution_mm;   // absent: as render
+    bool open = false;                     // opens the page in the browser of the user
+    std::string web_root;                  // empty: folder of the build or installation
+    std::optional<double> resolution_mm;   // absent: as in render
     int threads = 0;                       // 0: all
-    std::string audio = "browser";         // who sounds: browser, native or off
+    std::string audio = "browser";         // sound output: browser, native or off
     ArmCall arm;
-    std::string device = "auto";  // the first arm that opens, else the simulated hand; or its word
+    std::string device = "auto";  // "auto": first available arm, else the simulated hand; or a name
 };
 
 // Serves until Ctrl-C; gives the exit code.

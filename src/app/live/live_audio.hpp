@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sound of `tribo live` out of this machine's own loudspeaker: what a page makes of its frames, rendered
-// a little ahead on a thread of its own and handed to the device without a lock.
+// Sound of `tribo live` on the loudspeaker of this machine: the same sound as in a page. A separate thread
+// renders it ahead of time and passes it to the device without a lock.
 #pragma once
 
 #include <condition_variable>
@@ -19,17 +19,17 @@ namespace tribo::app {
 
 class LiveAudio {
   public:
-    // Rendered ahead of the device: what the thread's scheduling may cost without a gap.
+    // Frames rendered ahead, so that a delay of the thread makes no gap.
     static constexpr std::size_t kAheadFrames = 1024;
 
-    // The error of a machine without a loudspeaker.
+    // Returns an error without a loudspeaker.
     static Result<std::unique_ptr<LiveAudio>> open(const sound::SoundtrackOptions& options);
     ~LiveAudio();
     LiveAudio(const LiveAudio&) = delete;
     LiveAudio& operator=(const LiveAudio&) = delete;
 
     const std::string& device() const { return out_->device(); }
-    // One thread: all that the mill tells an ear, and the clock at each picture.
+    // Called on one thread: the sound updates of the mill, and the clock at each picture.
     void take(session::LiveSoundUpdate news);
     void follow(double t_s, double speed, bool playing);
 
@@ -41,7 +41,7 @@ class LiveAudio {
     explicit LiveAudio(const sound::SoundtrackOptions& options) : sound_(options) {}
     void work();
 
-    session::LiveSound sound_;  // the thread's
+    session::LiveSound sound_;  // used by the thread only
     devices::SampleQueue queue_;
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What `tribo live` shows to everybody who watches: the part while it is milled, the finger and what it
-// feels, and the answers to what pages ask for.
+// Live view of `tribo live` for all clients: mills the part, runs the finger, sends frames and answers
+// commands.
 #pragma once
 
 #include <deque>
@@ -18,14 +18,14 @@
 
 namespace tribo::app {
 
-// From the server's thread to the show's, which alone answers.
+// Queue from the server thread to the thread of the live view, which sends all answers.
 class LiveInbox {
   public:
     struct Event {
         enum class Kind { connected, overflowed, message } kind;
         net::ClientId client;
         std::string text = {};        // of a message
-        net::ResumeInfo resume = {};  // of one who came
+        net::ResumeInfo resume = {};  // of `connected`
     };
     void put(const Event& event);
     std::deque<Event> take_all();
@@ -40,19 +40,19 @@ struct LiveViewOptions {
     protocol::LiveSettings settings;
     contact::JndProfile profile;
     session::LiveForceOptions feel;
-    std::function<Result<session::MillSetup>()> make_setup;  // on any thread
+    std::function<Result<session::MillSetup>()> make_setup;  // may be called on any thread
 };
 
 class LiveView {
   public:
     // `arm`: null for the simulated hand.
-    // `audio`: null where the engine does not sound.
+    // `audio`: null without native sound.
     LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique_ptr<haptics::Device> arm,
              std::unique_ptr<LiveAudio> audio);
     ~LiveView();
 
     net::ServerHandlers handlers(const WebFiles& files);
-    // Until the user ends it.
+    // Runs until the user interrupts it.
     Result<void> run(net::Server& server);
 
   private:
@@ -66,17 +66,17 @@ class LiveView {
     session::LiveMill& mill_;
     LiveViewOptions options_;
     session::LiveController controller_;
-    session::LiveFinger& finger_;  // the controller's
+    session::LiveFinger& finger_;  // owned by controller_
     protocol::LiveSettings sent_settings_;
     session::FrameCache memory_;
     LiveInbox inbox_;
     ForceBuilder builder_;
-    int force_changes_ = 0;  // that the builder was asked for
+    int force_changes_ = 0;  // last requested from the builder
     std::unique_ptr<LiveAudio> audio_;
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;
     bool arm_gone_ = false;
-    std::string trouble_;  // of the arm, as it was last told
+    std::string trouble_;  // last reported problem of the arm
     std::vector<std::uint8_t> frame_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The built pages, held in memory for as long as they are served.
+// The built pages, kept in memory while they are served.
 #pragma once
 
 #include <map>
@@ -13,12 +13,12 @@ namespace tribo::app {
 
 class WebFiles {
   public:
-    // All files directly in the folder; NAME.br and NAME.gz beside NAME are its compressed forms.
+    // Reads all files in the folder. NAME.br and NAME.gz are compressed forms of NAME.
     static FileResult<WebFiles> read(const std::string& folder);
-    // Where this program finds the pages of `name`: beside it in a build, under share/tribo where installed.
+    // Folder of the pages `name`: beside the program in a build, under share/tribo after installation.
     static std::string folder_of(const std::string& name);
 
-    // "/" is index.html. Nothing beyond the files that were read.
+    // "/" is index.html. Only files from read() are served.
     std::optional<net::Page> page(std::string_view path, net::AcceptedEncodings accepted) const;
 
   private:

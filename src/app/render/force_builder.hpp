@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A thread of its own that mills a job ahead and makes what a hand feels of it, again whenever something
-// changes, while the live view goes on.
+// A separate thread that mills a job ahead of the live view and makes its force table and textures. It makes
+// the table again after each change.
 #pragma once
 
 #include <condition_variable>
@@ -15,20 +15,20 @@ namespace tribo::app {
 
 class ForceBuilder {
   public:
-    // `make_setup` is called on the thread.
+    // `make_setup` is called on this thread.
     explicit ForceBuilder(std::function<Result<session::MillSetup>()> make_setup);
     ~ForceBuilder();
     ForceBuilder(const ForceBuilder&) = delete;
     ForceBuilder& operator=(const ForceBuilder&) = delete;
 
-    // The newest one counts.
+    // Only the newest request is processed.
     void request(const session::CutChange& change, const contact::ForceTableOptions& options);
 
     struct Built {
         std::optional<contact::ForceTable> table;
-        std::optional<haptics::TextureMap> textures;  // comes once
+        std::optional<haptics::TextureMap> textures;  // set once
     };
-    // What is new since the last call. Does not wait for the thread's work.
+    // Results since the last call. Does not wait.
     Built take();
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `tribo render` does once its flags are read: files in, a session, files out.
+// Runs `tribo render` after its flags are read: input files, session, output files.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ struct RenderCall {
     std::set<std::string> only;  // of summary, forces, sound, mesh, report; empty: all
     std::optional<double> memory_mb;
     bool as_published = false;
-    int threads = 0;  // 0: as many as there are
+    int threads = 0;  // 0: all
 
     bool wants(const std::string& output) const { return only.empty() || only.contains(output); }
 };
 
-// The exit code. Says on stderr what is wrong; prints the summary and where the files are on stdout.
+// Returns the exit code. Prints errors to stderr; summary and output folder to stdout.
 int render(const RenderCall& call);
 
 }  // namespace tribo::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A job of the command line, ready to run, and whether it fits into memory.
+// Loads a job for the command line and checks that it fits into memory.
 #pragma once
 
 #include <optional>
@@ -21,23 +21,23 @@ struct PreparedJob {
     job::Job job;
     milling::WorkpieceMaterial material;
     session::MillSetup setup;
-    std::vector<std::string> stock_folders;  // renders that the stock comes from; absolute, links resolved
+    std::vector<std::string> stock_folders;  // render folders of the stock; absolute, without links
     std::optional<readers::Model> part;
-    sound::SoundtrackOptions track;  // head and voices, where sound is asked for
+    sound::SoundtrackOptions track;  // head and voices, if sound is requested
     Warnings warnings;
 };
 
-// From the disk. Its sound files are read where `sound_rate_hz` says at which rate they will be heard.
+// Loads from the disk. Reads sound files only if `sound_rate_hz` is set.
 FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
                                     std::optional<int> sound_rate_hz = {});
 
-// What a run makes besides the milled part.
+// Outputs of a run besides the milled part.
 struct RunOutputs {
     bool mesh = false, report = false, sound = false;
 };
 
-// Refuses what would not fit, naming the finest spacing of the grid that would. Absent `memory_mb`: as much
-// as the machine gives.
+// Refuses a run that does not fit into memory. The error names the finest grid spacing that fits. Absent
+// `memory_mb`: memory of the machine.
 Result<void> check_memory(const std::string& file, const session::MillSetup& setup,
                           const std::optional<readers::Model>& part, RunOutputs outputs,
                           std::optional<double> memory_mb = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of one render, in the order in which they are made.
+// Writes the output files of one render.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@ namespace tribo::app {
 
 class RenderOutputs {
   public:
-    // All of them outlive this object.
+    // All arguments must outlive this object.
     RenderOutputs(const RenderCall& call, PreparedJob& loaded, files::OutputFolder& folder,
                   const ParallelFor& parallel)
         : call_(call), loaded_(loaded), folder_(folder), parallel_(parallel) {}
 
-    // Before the session runs.
+    // Call before the session runs.
     FileResult<void> open(double duration_s, const Box3& blank);
     bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
     void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup);
-    // After it; `summary` gains what comes out here. Takes the designed part's mesh.
+    // Call after it. Adds results to `summary`. Moves the mesh of the designed part out of the job.
     FileResult<void> finish(const session::MillSession& session, report::Summary& summary);
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the rows of a session go: forces.csv, sound.wav, and what the report shows.
+// Receivers of the rows of a session: forces.csv, sound.wav and the data of the report.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@
 
 namespace tribo::app {
 
-// forces.csv, row by row; with the paper's forces beside the corrected ones in published_forces.csv where
-// asked for.
+// Writes forces.csv row by row.
+// PublishedForceFile writes the forces of the paper.
 class ForceFile {
   public:
     static FileResult<ForceFile> create(const std::string& path);
@@ -31,7 +31,7 @@ class ForceFile {
     std::string line_;
 };
 
-// The paper's [K]{A}, as printed and as corrected, for each row's deepest band in the middle of its
+// Writes [K]{A} of the paper, as printed and corrected, for the deepest band of each row at the middle of its
 // engagement.
 class PublishedForceFile {
   public:
@@ -50,7 +50,7 @@ struct SoundFileOptions {
     sound::SoundtrackOptions track;
 };
 
-// sound.wav as long as the program, silent where nothing is cut, and the stretch of it that the report plays.
+// Writes sound.wav, as long as the program, and keeps the part that the report plays.
 class SoundFile {
   public:
     static FileResult<SoundFile> create(const std::string& path, const SoundFileOptions& options,
@@ -63,7 +63,7 @@ class SoundFile {
   private:
     SoundFile(files::WavWriter file, const SoundFileOptions& options);
     void write(std::span<const float> block);
-    // The last row sounds to its end, and no longer.
+    // Ends the sound at the end of the last row.
     void end_cut();
 
     SoundFileOptions options_;
@@ -76,15 +76,15 @@ class SoundFile {
     std::int64_t heard_from_ = -1;  // frame of the first sound
 };
 
-// Rows for the plots, and the turn with the largest force.
+// Collects rows for the plots, and the turn with the largest force.
 class ReportRows {
   public:
     void add(const milling::CutRow& row, const milling::ForcePeaks& force);
     std::vector<report::ReportRow> rows;
-    // Works the worst turn out again, instant by instant.
+    // Computes the turn with the largest force again, with all instants.
     std::optional<report::ReportTurn> turn(const session::MillSetup& setup) const;
-    // Figure 8 of the paper: how that cut sounds, and how it would half as fast with the spindle at one and a
-    // half times its speed.
+    // Figure 8 of the paper: sound of this cut, and of the same cut at half the feed and 1.5 times the
+    // spindle speed.
     std::vector<report::ReportWave> waves(const session::MillSetup& setup,
                                           const sound::SoundtrackOptions& options) const;
 

@@ -18,7 +18,7 @@ struct PressCall {
     int threads = 0;  // 0: all processors
 };
 
-// The code to exit with.
+// Returns the exit code.
 int press(const PressCall& call);
 
 }  // namespace tribo::app

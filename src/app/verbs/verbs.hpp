@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The verbs of the program, one file each: a function that adds the verb to the command line and, when it is
-// called, stores the code to exit with.
+// The verbs of the program, one file each. A function adds the verb to the command line; when the verb runs,
+// it stores the exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>
