@@ -13,9 +13,9 @@ case ${1:-short} in
 esac
 
 # Threads come in from outside; only these tests bring some.
-with_threads='^(field|haptics|devices|net|session|files|app)\.'
+with_threads='^(field|haptics|devices|net|session|files|tribo|app)\.'
 thread_targets() {
-    ninja -C build/tsan -t targets all 2>/dev/null | grep -oE '^test_(field|haptics|devices|net|session|files|app):' | tr -d ':' || true
+    ninja -C build/tsan -t targets all 2>/dev/null | grep -oE '^test_(field|haptics|devices|net|session|files|tribo|app):' | tr -d ':' || true
 }
 thread_sanitizer() {
     cmake --preset tsan >/dev/null || return 1
