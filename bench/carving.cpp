@@ -6,7 +6,7 @@
 #include "harness.hpp"
 #include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
-#include "openvdb_peer.hpp"
+#include "peers/openvdb_peer.hpp"
 
 namespace tribo::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/noise_hash.hpp"
 #include "contact/perceptual_table.hpp"
 #include "harness.hpp"
-#include "openal_peer.hpp"
+#include "peers/openal_peer.hpp"
 #include "sound/place/spatial_source.hpp"
 #include "sound/play/workshop.hpp"
 

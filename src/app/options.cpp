@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/nearest.hpp"
+#include "base/text/nearest.hpp"
 
 namespace tribo::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/file_names.hpp"
+#include "base/text/file_names.hpp"
 #include "files/files.hpp"
 #include "files/json/stock_record_json.hpp"
 #include "files/model/model_file.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::job {
 namespace {

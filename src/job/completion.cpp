@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::job {
 namespace {

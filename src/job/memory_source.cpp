@@ -4,7 +4,7 @@
 #include <string_view>
 #include <utility>
 
-#include "base/file_names.hpp"
+#include "base/text/file_names.hpp"
 
 namespace tribo::job {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "base/file_names.hpp"
+#include "base/text/file_names.hpp"
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "base/decimal.hpp"
-#include "base/json_string.hpp"
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/json_string.hpp"
 #include "material/material_schema.hpp"
 
 namespace tribo::material {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/decimal.hpp"
-#include "base/json_string.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/json_string.hpp"
 
 namespace tribo::protocol {
 namespace {

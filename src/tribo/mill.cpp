@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/decimal.hpp"
-#include "base/file_names.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/file_names.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"

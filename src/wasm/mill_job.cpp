@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "base/decimal.hpp"
-#include "base/file_names.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/file_names.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "session/live/live_mill.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// base/decimal.hpp against the C library's strtod, which rounds correctly, and against halfway cases known by
-// hand.
-#include "base/decimal.hpp"
+// base/text/decimal.hpp against the C library's strtod, which rounds correctly, and against halfway cases
+// known by hand.
+#include "base/text/decimal.hpp"
 
 #include <bit>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/nearest.hpp"
+#include "base/text/nearest.hpp"
 
 #include <array>
 #include <gtest/gtest.h>

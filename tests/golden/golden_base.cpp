@@ -2,10 +2,10 @@
 #include <bit>
 #include <string_view>
 
-#include "base/decimal.hpp"
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "base/noise_hash.hpp"
+#include "base/text/decimal.hpp"
 #include "golden/golden.hpp"
 
 namespace tribo::golden {

@@ -2,9 +2,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/decimal.hpp"
 #include "base/hash.hpp"
 #include "base/noise_hash.hpp"
+#include "base/text/decimal.hpp"
 #include "golden/golden.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/mesh/model.hpp"

@@ -143,7 +143,7 @@ std::vector<std::string> same_bits_complaints(const std::string& path, std::stri
                 R"(#\s*include\s*<(iostream|fstream|sstream|cstdio|filesystem|regex|locale|iomanip)>)"),
             "rooms down to wasm/ know no streams, files, locales or regular expressions"},
         Ban{std::regex(R"(\bstd::(sto(d|f|ld)|strto(d|f|ld)|atof)\b)"),
-            "use parse_decimal of base/decimal.hpp"},
+            "use parse_decimal of base/text/decimal.hpp"},
     };
     std::vector<std::string> complaints;
     const Room* room = room_of(path);

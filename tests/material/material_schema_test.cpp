@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 #include "files/files.hpp"
 #include "files/json/json.hpp"
 #include "material/material_fields.hpp"

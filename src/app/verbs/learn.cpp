@@ -13,7 +13,7 @@
 #include "app/exit.hpp"
 #include "app/options.hpp"
 #include "app/verbs/verbs.hpp"
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 #include "files/image/image_file.hpp"
 #include "files/sound/sound_file.hpp"
 #include "material/learned_material.hpp"

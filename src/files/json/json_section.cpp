@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "base/decimal.hpp"
-#include "base/nearest.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/nearest.hpp"
 
 namespace tribo::files {
 namespace {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <sndfile.h>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::files {
 namespace {

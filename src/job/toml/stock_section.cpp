@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 #include "job/toml/sections.hpp"
 
 namespace tribo::job {

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 #define TOML_FLOAT_CHARCONV 1
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "base/decimal.hpp"
-#include "base/file_names.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/file_names.hpp"
 
 namespace tribo::job {
 namespace {

@@ -24,9 +24,9 @@
 #endif
 #include <toml++/toml.h>
 
-#include "base/nearest.hpp"
 #include "base/range.hpp"
 #include "base/result.hpp"
+#include "base/text/nearest.hpp"
 #include "base/vec3.hpp"
 
 namespace tribo::job {

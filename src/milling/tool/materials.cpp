@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/math.hpp"
-#include "base/nearest.hpp"
+#include "base/text/nearest.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "base/nearest.hpp"
+#include "base/text/nearest.hpp"
 
 namespace tribo::motion {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <complex>
 
-#include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 #include "noise/learn/sound_statistics.hpp"
 #include "noise/learn/texture_learning.hpp"
 #include "noise/model/fourier.hpp"

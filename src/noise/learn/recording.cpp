@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::noise {
 namespace {

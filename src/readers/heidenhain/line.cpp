@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers::heidenhain {

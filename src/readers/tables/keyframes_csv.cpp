@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 #include "readers/text/csv_fields.hpp"
 #include "readers/text/length_unit.hpp"
 #include "readers/text/text_lines.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/decimal.hpp"
-#include "base/nearest.hpp"
+#include "base/text/decimal.hpp"
+#include "base/text/nearest.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {

@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {

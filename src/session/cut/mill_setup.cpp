@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/decimal.hpp"
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 #include "motion/path/close_passes.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::session {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::session {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <rapidcheck/gtest.h>
 
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 namespace tribo::readers {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/json_string.hpp"
+#include "base/text/json_string.hpp"
 
 #include <algorithm>
 

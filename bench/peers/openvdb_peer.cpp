@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "openvdb_peer.hpp"
+#include "peers/openvdb_peer.hpp"
 
 #ifdef TRIBO_OPENVDB
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/decimal.hpp"
+#include "base/text/decimal.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "openal_peer.hpp"
+#include "peers/openal_peer.hpp"
 
 #if defined(TRIBO_OPENAL)
 #include <AL/al.h>
