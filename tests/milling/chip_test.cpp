@@ -49,9 +49,10 @@ TEST(Chip, of_a_plunge_is_the_way_down_per_tooth) {
     EXPECT_EQ(thickest_chip_mm(plunge, {0.1, 0}, cutter_of(CutterKind::flat, 8)), 0);
 }
 
-RC_GTEST_PROP(Chip, is_the_largest_travel_along_the_normal, (int a, int b, int c, int d, bool ball)) {
-    const auto in = [](int n, double low, double high) {
-        return low + (high - low) * (static_cast<unsigned>(n) % 1009) / 1009.0;
+RC_GTEST_PROP(Chip, is_the_largest_travel_along_the_normal,
+              (unsigned a, unsigned b, unsigned c, unsigned d, bool ball)) {
+    const auto in = [](unsigned n, double low, double high) {
+        return low + (high - low) * (n % 1009) / 1009.0;
     };
     const ToolTravel feed{in(a, 0, 0.3), in(b, -0.1, 0.1), in(c, -0.002, 0.002), in(d, -0.002, 0.002)};
     const double entry = in(a + 7 * b, 0, 6), exit = entry + in(c + 5 * d, 0.001, math::kTwoPi - entry);
