@@ -69,6 +69,8 @@ void fields(Wire& wire, FrameOf<Wire, LiveChunk> chunk) {
     wire.time("t_s", chunk.t_s);
     fields(wire, chunk.at);
     wire.mesh(chunk.mesh);
+    wire.added();
+    wire.last_floats("deviations_mm", chunk.deviations_mm);
 }
 
 template <>

@@ -80,6 +80,13 @@ class Writer {
     void each(const char*, const std::vector<Item>& items, const Visit& visit) {
         for (const Item& item : items) visit(*this, item);
     }
+    // Of no values nothing is written: the frame ends sooner.
+    void last_floats(const char* name, const std::vector<float>& values) {
+        if (values.empty()) return;
+        u32(name, values.size());
+        out_.reserve(out_.size() + 4 * values.size());
+        for (const float v : values) f32(v);
+    }
     void mesh(const TriangleMesh& mesh) {
         assert(mesh.positions.size() <= 65536);
         const Box3 box = bounds(mesh);
@@ -186,6 +193,12 @@ class Reader {
     template <class Item, class Visit>
     void each(const char*, std::vector<Item>& items, const Visit& visit) {
         for (Item& item : items) visit(*this, item);
+    }
+    void last_floats(const char*, std::vector<float>& values) {
+        std::uint32_t told = 0;
+        u32("", told);
+        values.resize(has(4 * std::uint64_t{told}) ? told : 0);
+        for (float& v : values) v = f32();
     }
     void mesh(TriangleMesh& mesh) {
         std::uint32_t vertices = 0, triangles = 0;

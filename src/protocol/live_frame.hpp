@@ -65,6 +65,9 @@ struct LiveChunk {
     double t_s = 0;
     LiveChunkPlace at;  // replaces the chunk of the same place
     TriangleMesh mesh;
+    // Of each vertex from the designed surface, + material left, - gouge; NaN far from it. Empty: there is
+    // none.
+    std::vector<float> deviations_mm;
 };
 
 // A piece of the designed surface, as a chunk is written.

@@ -2,6 +2,7 @@
 // The surface that a part is meant to have: any mesh, open or closed, with a side that is outside.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/result.hpp"
@@ -32,6 +33,13 @@ class DesignedSurface {
     // The same, faster where `guess` is the triangle of an answer near by.
     field::MeshPoint closest(Vec3 point_mm, std::uint32_t guess) const {
         return sided(point_mm, distance_.closest(point_mm, guess));
+    }
+    // The same where it is nearer than reach_mm, else none.
+    std::optional<field::MeshPoint> closest_within(Vec3 point_mm, double reach_mm,
+                                                   std::uint32_t guess) const {
+        const auto found = distance_.closest_within(point_mm, reach_mm, guess);
+        if (!found) return std::nullopt;
+        return sided(point_mm, *found);
     }
     double signed_distance_mm(Vec3 point_mm) const { return closest(point_mm).distance_mm; }
 

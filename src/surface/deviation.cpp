@@ -221,15 +221,17 @@ DeviationReport compare(const contact::DistanceField& machined, const DesignedSu
 }
 
 std::vector<float> deviations_of(const TriangleMesh& machined, const DesignedSurface& designed,
-                                 const ParallelFor& parallel) {
-    std::vector<float> result(machined.positions.size());
+                                 const ParallelFor& parallel, double reach_mm) {
+    std::vector<float> result(machined.positions.size(), std::numeric_limits<float>::quiet_NaN());
     parallel((result.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         const std::size_t end = std::min(result.size(), (chunk + 1) * kChunk);
         std::uint32_t guess = 0;
         for (std::size_t i = chunk * kChunk; i < end; ++i) {
-            const auto found = designed.closest(machined.position(static_cast<std::uint32_t>(i)), guess);
-            result[i] = static_cast<float>(found.distance_mm);
-            guess = found.triangle;
+            const Vec3 point = machined.position(static_cast<std::uint32_t>(i));
+            const auto found = designed.closest_within(point, reach_mm, guess);
+            if (!found) continue;
+            result[i] = static_cast<float>(found->distance_mm);
+            guess = found->triangle;
         }
     });
     return result;

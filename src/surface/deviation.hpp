@@ -2,6 +2,7 @@
 // How a machined part differs from the surface it was meant to have: + material left, - gouge.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -67,8 +68,10 @@ inline constexpr std::size_t kMaxSamples = 400'000;
 DeviationReport compare(const contact::DistanceField& machined, const DesignedSurface& designed,
                         const DeviationOptions& options = {}, const ParallelFor& parallel = serial_for);
 
-// Signed distance of each position to the designed surface, mm: the colours of a picture.
+// Signed distance of each position to the designed surface, mm: the colours of a picture. NaN from reach_mm
+// on.
 std::vector<float> deviations_of(const TriangleMesh& machined, const DesignedSurface& designed,
-                                 const ParallelFor& parallel = serial_for);
+                                 const ParallelFor& parallel = serial_for,
+                                 double reach_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace tribo::surface

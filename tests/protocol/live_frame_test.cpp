@@ -4,6 +4,7 @@
 // test with TRIBO_STORE_FRAMES=1, then read what it has stored.
 #include "protocol/live_frame.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -92,6 +93,11 @@ class Teller {
         told["triangles"] = mesh.triangles;
     }
 
+    void last_floats(const char* name, const std::vector<float>& values) {
+        told[name] = Json::array();
+        for (const float v : values) told[name].push_back(std::isnan(v) ? Json() : Json(v));
+    }
+
     Json told = Json::object();
 };
 
@@ -126,8 +132,9 @@ void expect_as_stored(const Frame& frame, const std::string& name) {
         whole += read_frame(std::span(bytes).first(length), part) ? 1 : 0;
     }
     constexpr std::size_t header_bytes = 16, count_bytes = 4;
-    constexpr bool grew = std::is_same_v<Frame, LiveJob> || std::is_same_v<Frame, LiveSoundPieces> ||
-                          std::is_same_v<Frame, job::Listening>;
+    bool grew = std::is_same_v<Frame, LiveJob> || std::is_same_v<Frame, LiveSoundPieces> ||
+                std::is_same_v<Frame, job::Listening>;
+    if constexpr (std::is_same_v<Frame, LiveChunk>) grew = !frame.deviations_mm.empty();
     const bool rows = std::is_same_v<Frame, LiveRows> && bytes.size() > header_bytes + count_bytes;
     const bool ends_anywhere = std::is_same_v<Frame, LiveTexture> && bytes.size() > header_bytes;
     EXPECT_EQ(whole > 0, grew || rows || ends_anywhere) << whole;
@@ -159,7 +166,9 @@ TEST(LiveFrames, AreTheStoredBytes) {
                              0.015625,
                              0.03125},
                      "job");
-    expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh()}, "chunk");
+    expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {}}, "chunk");
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {0.25f, none, -0.5f}}, "compared_chunk");
     expect_as_stored(LiveDesigned{mesh()}, "designed");
     expect_as_stored(LiveState{1.25,
                                {1, 2, 3},
@@ -238,6 +247,11 @@ TEST(LiveFrames, ThatSayTooMuchAreRefused) {
     std::fill_n(bytes.begin() + 16, 8, std::uint8_t{0xff});
     LiveDesigned read;
     EXPECT_FALSE(read_frame(bytes, read));
+    write_frame(LiveChunk{0, {}, mesh(), {1, 2, 3}}, bytes);
+    std::fill_n(bytes.end() - 16, 4, std::uint8_t{0xff});
+    LiveChunk chunk;
+    EXPECT_TRUE(read_frame(bytes, chunk));
+    EXPECT_TRUE(chunk.deviations_mm.empty());
 }
 
 }  // namespace

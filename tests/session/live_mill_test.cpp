@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
+#include <memory>
 
+#include "field/contour/contour.hpp"
 #include "field/shape/box_shape.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
@@ -294,6 +296,73 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
     Viewer latecomer;
     memory.replay(latecomer.sink());
     EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
+}
+
+// The design is the blank, sunk by half a millimetre at its top: what no cut has reached is as far from it
+// as it was sunk, the bottom of a groove as deep as it was cut.
+TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
+    constexpr double sunk_mm = 0.5, groove_mm = 2;
+    auto designed = std::make_shared<TriangleMesh>();
+    const auto top = static_cast<float>(-sunk_mm);
+    designed->positions = {{0, 0, top}, {40, 0, top}, {40, 20, top}, {0, 20, top}};
+    designed->triangles = {{0, 1, 2}, {0, 2, 3}};
+    auto live = *LiveMill::create(slot, serial_for, {{}, designed});
+    std::map<protocol::LiveChunkPlace, protocol::LiveChunk> chunks;
+    const auto keep = [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveChunk chunk;
+        if (protocol::read_frame(frame, chunk)) chunks[chunk.at] = chunk;
+    };
+    live->set_clock(live->duration_s());
+    ASSERT_TRUE(live->tick(0, always, keep));
+    double least = 0, most = 0;
+    std::size_t far = 0;
+    for (const auto& [at, chunk] : chunks) {
+        ASSERT_EQ(chunk.deviations_mm.size(), chunk.mesh.positions.size());
+        for (std::size_t n = 0; n < chunk.deviations_mm.size(); ++n) {
+            const Vec3 p = chunk.mesh.position(static_cast<std::uint32_t>(n));
+            const auto off = static_cast<double>(chunk.deviations_mm[n]);
+            // Over the surface, whose plane is nearest there.
+            const double height = p.z + sunk_mm;
+            if (std::abs(height) > PartPicture::kReachMm + 1e-3) {
+                EXPECT_TRUE(std::isnan(off)) << p.z;
+                ++far;
+            } else if (std::abs(height) < PartPicture::kReachMm - 1e-3) {
+                ASSERT_NEAR(off, height, 1e-3);
+                const bool inside = p.x > 1 && p.x < 39 && p.y > 1 && p.y < 19;
+                if (inside) least = std::min(least, off);
+                most = std::max(most, off);
+            }
+        }
+    }
+    EXPECT_GT(far, 0u);
+    EXPECT_NEAR(least, sunk_mm - groove_mm, 2e-3);
+    EXPECT_NEAR(most, sunk_mm, 1e-3);
+    // Without a design there is none to be told.
+    const auto expect_none = [](std::span<const std::uint8_t> frame) {
+        protocol::LiveChunk chunk;
+        (void)protocol::read_frame(frame, chunk);
+        EXPECT_TRUE(chunk.deviations_mm.empty());
+    };
+    ASSERT_TRUE((*LiveMill::create(slot, serial_for))->tick(0, always, expect_none));
+}
+
+TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
+    MillSession alone(*slot(), serial_for);
+    ASSERT_TRUE(alone.run({}));
+    const auto designed = std::make_shared<const TriangleMesh>(field::contour(alone.stock()));
+    auto live = *LiveMill::create(slot, serial_for, {{}, designed});
+    std::size_t compared = 0;
+    const auto keep = [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveChunk chunk;
+        if (!protocol::read_frame(frame, chunk)) return;
+        for (const float off : chunk.deviations_mm) {
+            ASSERT_LT(std::abs(off), 1e-5f);
+            ++compared;
+        }
+    };
+    live->set_clock(live->duration_s());
+    ASSERT_TRUE(live->tick(0, always, keep));
+    EXPECT_GT(compared, 100u);
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <numeric>
+#include <rapidcheck/gtest.h>
 #include <thread>
 
 #include "field/shape/box_shape.hpp"
@@ -157,6 +158,41 @@ TEST(Deviation, positions_get_their_signed_distance_to_the_design) {
     const auto designed = surface_of(rectangle(0, 10, 0, 10));
     const TriangleMesh machined{{{1, 1, 0.25F}, {2, 2, -0.5F}, {3, 3, 0}}, {}, {}};
     EXPECT_EQ(deviations_of(machined, designed), (std::vector<float>{0.25F, -0.5F, 0}));
+}
+
+// Over faces, edges and corners; from the reach on there is none.
+TEST(Deviation, of_a_position_is_looked_for_within_a_reach) {
+    const auto designed = surface_of(rectangle(0, 10, 0, 10));
+    const TriangleMesh machined{
+        {{5, 5, 9}, {5, 5, 0.25F}, {-0.3F, 5, 0.4F}, {5, 5, -3.01F}, {10.2F, 10.1F, 0.2F}, {5, 5, -2.99F}},
+        {},
+        {}};
+    const std::vector<float> found = deviations_of(machined, designed, serial_for, 3);
+    ASSERT_EQ(found.size(), 6u);
+    EXPECT_TRUE(std::isnan(found[0]));
+    EXPECT_FLOAT_EQ(found[1], 0.25F);
+    EXPECT_FLOAT_EQ(found[2], 0.5F);
+    EXPECT_TRUE(std::isnan(found[3]));
+    EXPECT_FLOAT_EQ(found[4], 0.3F);
+    EXPECT_FLOAT_EQ(found[5], -2.99F);
+}
+
+RC_GTEST_PROP(Deviation, within_a_reach_is_the_same_as_without, (int a, int b, int c)) {
+    const auto in = [](int n, double low, double high) {
+        return low + (high - low) * (static_cast<unsigned>(n) % 1009) / 1009.0;
+    };
+    const auto designed = surface_of(rectangle(0, 10, 0, 10));
+    const TriangleMesh one{{{static_cast<float>(in(a, -5, 15)), static_cast<float>(in(b, -5, 15)),
+                             static_cast<float>(in(c, -5, 5))}},
+                           {},
+                           {}};
+    const float anywhere = deviations_of(one, designed).front();
+    const float near = deviations_of(one, designed, serial_for, 3).front();
+    if (std::abs(anywhere) < 3) {
+        RC_ASSERT(near == anywhere);
+    } else {
+        RC_ASSERT(std::isnan(near));
+    }
 }
 
 }  // namespace

@@ -27,6 +27,12 @@ class MeshDistance {
     MeshPoint closest(Vec3 point_mm, std::uint32_t guess) const {
         return describe(point_mm, tree_.nearest(point_mm, guess));
     }
+    // The same where it is nearer than reach_mm, else none.
+    std::optional<MeshPoint> closest_within(Vec3 point_mm, double reach_mm, std::uint32_t guess) const {
+        const auto nearest = tree_.nearest_within(point_mm, reach_mm, guess);
+        if (!nearest) return std::nullopt;
+        return describe(point_mm, *nearest);
+    }
 
     // As of MeshTree.
     int winding(Vec3 point_mm) const { return tree_.winding(point_mm); }

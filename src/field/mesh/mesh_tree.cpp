@@ -259,6 +259,16 @@ MeshTree::Nearest MeshTree::nearest(Vec3 point_mm, std::uint32_t guess) const {
     return best;
 }
 
+std::optional<MeshTree::Nearest> MeshTree::nearest_within(Vec3 point_mm, double reach_mm,
+                                                          std::uint32_t guess) const {
+    const double limit = reach_mm * reach_mm;
+    Nearest best = measure(point_mm, corners_[place_of_[guess]]);
+    best.at.squared_mm2 = std::min(best.at.squared_mm2, limit);
+    search(point_mm, best);
+    if (!(best.at.squared_mm2 < limit)) return std::nullopt;
+    return best;
+}
+
 int MeshTree::winding(Vec3 p) const {
     std::array<std::uint32_t, kMaxDepth> waiting;
     std::size_t count = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ class MeshTree {
     Nearest nearest(Vec3 point_mm) const;
     // The same answer, faster when `guess` is a triangle not far from the closest one.
     Nearest nearest(Vec3 point_mm, std::uint32_t guess) const;
+    // The same answer where it is nearer than reach_mm, else none: faster for points far away.
+    std::optional<Nearest> nearest_within(Vec3 point_mm, double reach_mm, std::uint32_t guess) const;
 
     // How often a watertight mesh winds around a point: 1 inside, 0 outside, others where it overlaps or
     // folds over itself. Counts the triangles above the point, with the sign of the side that they show.

@@ -89,6 +89,13 @@ protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const cont
 
 }  // namespace
 
+LiveMill::LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
+    : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)), extras_(std::move(extras)) {
+    if (!extras_.designed) return;
+    if (auto made = surface::DesignedSurface::make(*extras_.designed))
+        compared_ = std::make_shared<const surface::DesignedSurface>(*std::move(made));
+}
+
 Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel,
                                                    LiveExtras extras) {
     std::unique_ptr<LiveMill> live(
@@ -102,7 +109,7 @@ Result<void> LiveMill::begin() {
     if (!setup) return std::unexpected(setup.error());
     if (session_observer_) session_observer_(nullptr);
     session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
-    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_);
+    picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
     rows_.clear();
     row_states_.clear();
@@ -281,9 +288,11 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
 }
 
 void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) {
-    picture_->update(box_mm, [&](ChunkCoord c, TriangleMesh mesh) {
-        protocol::write_frame(protocol::LiveChunk{session_->milled_s(), {c.i, c.j, c.k}, std::move(mesh)},
-                              frame_);
+    picture_->update(box_mm, [&](ChunkCoord c, TriangleMesh mesh, std::vector<float> deviations_mm) {
+        protocol::write_frame(
+            protocol::LiveChunk{
+                session_->milled_s(), {c.i, c.j, c.k}, std::move(mesh), std::move(deviations_mm)},
+            frame_);
         frames(frame_);
     });
     shown_s_ = session_->milled_s();

@@ -62,8 +62,7 @@ class LiveMill {
     Result<void> tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
-    LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
-        : make_setup_(std::move(make_setup)), parallel_(std::move(parallel)), extras_(std::move(extras)) {}
+    LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras);
     Result<void> begin();
     void add_row(const milling::CutRow& row);
     void set_force(std::size_t row, const milling::RowForce& force);
@@ -79,6 +78,8 @@ class LiveMill {
     MakeSetup make_setup_;
     ParallelFor parallel_;
     LiveExtras extras_;
+    // Null: there is no designed surface, or it has no area.
+    std::shared_ptr<const surface::DesignedSurface> compared_;
     std::unique_ptr<MillSession> session_;
     std::unique_ptr<PartPicture> picture_;
     protocol::LivePath path_;

@@ -6,6 +6,7 @@
 
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
+#include "surface/deviation.hpp"
 
 namespace tribo::session {
 namespace {
@@ -25,8 +26,9 @@ BrickCoord first_brick(ChunkCoord c) {
 
 }  // namespace
 
-PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel)
-    : field_(field), parallel_(std::move(parallel)) {
+PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel,
+                         std::shared_ptr<const surface::DesignedSurface> designed)
+    : field_(field), parallel_(std::move(parallel)), designed_(std::move(designed)) {
     const BrickCoord n = field.size();
     const ChunkCoord last = chunk_of({n.i - 1, n.j - 1, n.k - 1});
     size_ = {last.i + 1, last.j + 1, last.k + 1};
@@ -63,7 +65,7 @@ std::uint64_t PartPicture::state(ChunkCoord chunk) const {
     return hash.value() | 1;
 }
 
-void PartPicture::update(const Box3& box_mm, const std::function<void(ChunkCoord, TriangleMesh)>& show) {
+void PartPicture::update(const Box3& box_mm, const Show& show) {
     if (box_mm.empty()) return;
     const BrickCoord n = field_.size();
     const auto inside = [&](BrickCoord b) {
@@ -82,18 +84,22 @@ void PartPicture::update(const Box3& box_mm, const std::function<void(ChunkCoord
                 const std::uint64_t now = state(chunk);
                 std::uint64_t& shown = shown_[number(chunk)];
                 if (now == shown) continue;
-                changes_.push_back({chunk, shown != kUnseen, {}});
+                changes_.push_back({chunk, shown != kUnseen, {}, {}});
                 shown = now;
             }
         }
     }
     parallel_(changes_.size(), [&](std::size_t n) {
-        const BrickCoord from = first_brick(changes_[n].chunk);
-        changes_[n].mesh = field::contour_part(
+        Change& change = changes_[n];
+        const BrickCoord from = first_brick(change.chunk);
+        change.mesh = field::contour_part(
             field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks});
+        if (designed_)
+            change.deviations_mm = surface::deviations_of(change.mesh, *designed_, serial_for, kReachMm);
     });
     for (Change& c : changes_) {
-        if (c.was_seen || !c.mesh.triangles.empty()) show(c.chunk, std::move(c.mesh));
+        if (c.was_seen || !c.mesh.triangles.empty())
+            show(c.chunk, std::move(c.mesh), std::move(c.deviations_mm));
     }
     changes_.clear();
 }

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "base/mesh.hpp"
 #include "base/parallel.hpp"
 #include "field/carved/carved_field.hpp"
+#include "surface/designed_surface.hpp"
 
 namespace tribo::session {
 
@@ -24,13 +26,20 @@ struct ChunkCoord {
 // One thread at a time, never while the field is carved.
 class PartPicture {
   public:
-    // The field must outlive it.
-    explicit PartPicture(const field::CarvedField& field, ParallelFor parallel = serial_for);
+    // Deviations from the designed surface are looked for up to here.
+    static constexpr double kReachMm = 3;
+    // A chunk's surface, and how far each vertex is from the designed one (surface::deviations_of), if there
+    // is any.
+    using Show = std::function<void(ChunkCoord, TriangleMesh, std::vector<float> deviations_mm)>;
 
-    // Calls show(chunk, mesh) for each chunk within `box_mm` whose surface is not as it was last shown; an
+    // The field must outlive it.
+    explicit PartPicture(const field::CarvedField& field, ParallelFor parallel = serial_for,
+                         std::shared_ptr<const surface::DesignedSurface> designed = {});
+
+    // Calls show for each chunk within `box_mm` whose surface is not as it was last shown; an
     // empty mesh stands for a surface that is gone. Cost: the chunks of the box, and a contour of those that
     // have changed.
-    void update(const Box3& box_mm, const std::function<void(ChunkCoord, TriangleMesh)>& show);
+    void update(const Box3& box_mm, const Show& show);
     // The box of everything.
     Box3 all() const;
 
@@ -41,12 +50,14 @@ class PartPicture {
 
     const field::CarvedField& field_;
     ParallelFor parallel_;
+    std::shared_ptr<const surface::DesignedSurface> designed_;
     ChunkCoord size_;
     std::vector<std::uint64_t> shown_;
     struct Change {
         ChunkCoord chunk;
         bool was_seen = false;
         TriangleMesh mesh;
+        std::vector<float> deviations_mm;
     };
     std::vector<Change> changes_;
 };

@@ -4,15 +4,12 @@
 
 import type { ChipVerdict, Cutter, Row } from "@tribo/protocol/frames";
 import { heat } from "./heat.js";
-import type { SurfaceDistance } from "./surface_distance.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 export type Colouring = "plain" | "force" | "chip" | "deviation" | "scallop";
 
 const RUBBING: Vec3 = [0.55, 0.3, 0.75];
 const OVERLOAD: Vec3 = [0.85, 0.2, 0.12];
-// Deviations are looked for up to this, mm.
-const REACH_MM = 3;
 
 // From blue over white to red; share -1 ... 1.
 export function diverging(share: number): Vec3 {
@@ -68,9 +65,9 @@ export class HeatMap {
     return [...this.marks.values()].sort((a, b) => a.line - b.line);
   }
 
-  colour(mode: Colouring, p: Vec3, designed: SurfaceDistance): Vec3 | undefined {
+  // `off`: of the point from the designed surface, mm; NaN where that is not known.
+  colour(mode: Colouring, p: Vec3, off: number): Vec3 | undefined {
     if (mode === "deviation" || mode === "scallop") {
-      const off = designed.empty ? Number.NaN : designed.at(p, REACH_MM);
       if (Number.isNaN(off)) return undefined;
       return mode === "deviation" ? diverging(off / this.scale.deviation) : heat(off / this.scale.deviation);
     }

@@ -29,7 +29,6 @@ import { HeatMap, type Colouring } from "./heat_map.js";
 import { Overlays } from "./overlays.js";
 import { PALETTES, type Palette } from "./palette.js";
 import { PathLines } from "./path_lines.js";
-import { SurfaceDistance } from "./surface_distance.js";
 import { Tool } from "./tool.js";
 import { vec3, type Axis, type Vec3 } from "@tribo/protocol/vec3";
 
@@ -59,6 +58,8 @@ export class Scene {
   private readonly stock = new Group();
   private readonly designed = new Group();
   private readonly chunks = new Map<string, Mesh>();
+  // Of their vertices, by chunk.
+  private readonly deviations = new Map<string, Float32Array>();
   private readonly material = new MeshStandardMaterial({
     vertexColors: true,
     flatShading: true,
@@ -89,7 +90,6 @@ export class Scene {
   private readonly box = new Mesh(new BoxGeometry(), this.material);
   private readonly tool: Tool;
   private readonly path = new PathLines();
-  private readonly distance = new SurfaceDistance();
   private readonly rays = new Raycaster();
   private axis: Vec3 = [0, 0, 1];
   private cutter = 0;
@@ -135,7 +135,7 @@ export class Scene {
   }
 
   get hasDesigned(): boolean {
-    return !this.distance.empty;
+    return this.designed.children.length > 0;
   }
 
   begin(job: JobFrame): void {
@@ -145,7 +145,7 @@ export class Scene {
     this.stock.clear();
     this.designed.clear();
     this.uncoloured.clear();
-    Object.assign(this.distance, new SurfaceDistance());
+    this.deviations.clear();
     const { min, max } = job.blank;
     this.box.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
     this.box.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
@@ -164,6 +164,7 @@ export class Scene {
       old.geometry.dispose();
       this.stock.remove(old);
       this.chunks.delete(key);
+      this.deviations.delete(key);
     }
     if (chunk.indices.length === 0 || !this.job) return;
     const geometry = new BufferGeometry();
@@ -172,6 +173,7 @@ export class Scene {
     geometry.setIndex(new BufferAttribute(chunk.indices, 1));
     const mesh = new Mesh(geometry, this.material);
     this.chunks.set(key, mesh);
+    this.deviations.set(key, chunk.deviations);
     this.stock.add(mesh);
     if (this.colouring !== "plain") this.colourLater([key]);
     this.draw();
@@ -190,7 +192,6 @@ export class Scene {
     const hidden = new Mesh(geometry, this.hiddenPink);
     hidden.renderOrder = 1;
     this.designed.add(new Mesh(geometry, this.pink), hidden);
-    this.distance.add(frame.positions, frame.indices);
     this.draw();
   }
 
@@ -382,11 +383,12 @@ export class Scene {
       const mesh = this.chunks.get(key);
       if (!mesh) continue;
       const positions = mesh.geometry.getAttribute("position").array as Float32Array;
+      const deviations = this.deviations.get(key);
       const colours = this.plain(positions, this.job);
       for (let n = 0; this.colouring !== "plain" && n < positions.length; n += 3) {
         if (this.onBlank(positions, n, this.job)) continue;
         const p = vec3((k) => positions[n + k]!);
-        const c = this.heatMap.colour(this.colouring, p, this.distance);
+        const c = this.heatMap.colour(this.colouring, p, deviations?.[n / 3] ?? Number.NaN);
         if (c) new Color().setRGB(...c, "srgb").toArray(colours, n);
       }
       mesh.geometry.setAttribute("color", new BufferAttribute(colours, 3));

@@ -4,11 +4,10 @@ import { afterEach, describe, expect, it, vi } from "vitest";
 import { liveUrl } from "../src/connection.js";
 import { heat } from "../src/heat.js";
 import { sort, tooLarge } from "../src/drop.js";
-import { HeatMap } from "../src/heat_map.js";
+import { diverging, HeatMap } from "../src/heat_map.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { Replay } from "../src/replay.js";
 import type { Listener } from "../src/source.js";
-import { SurfaceDistance } from "../src/surface_distance.js";
 import { outline } from "../src/tool.js";
 import { spectrum, turn } from "../src/turn.js";
 import type { Vec3 } from "@tribo/protocol/vec3";
@@ -47,18 +46,6 @@ describe("liveUrl", () => {
   it("is beside the page and keeps its token", () => {
     expect(liveUrl({ protocol: "http:", host: "127.0.0.1:8317", search: "" })).toBe("ws://127.0.0.1:8317/live");
     expect(liveUrl({ protocol: "https:", host: "mill", search: "?token=a%26b" })).toBe("wss://mill/live?token=a%26b");
-  });
-});
-
-describe("SurfaceDistance", () => {
-  it("is signed, and exact over faces, edges and corners", () => {
-    const surface = new SurfaceDistance();
-    surface.add(new Float32Array([0, 0, 0, 10, 0, 0, 10, 10, 0, 0, 10, 0]), new Uint16Array([0, 1, 2, 0, 2, 3]));
-    expect(surface.at([5, 5, 0.25], 3)).toBeCloseTo(0.25, 12);
-    expect(surface.at([5, 5, -0.25], 3)).toBeCloseTo(-0.25, 12);
-    expect(surface.at([-0.3, 5, 0.4], 3)).toBeCloseTo(0.5, 12);
-    expect(surface.at([10.2, 10.1, 0.2], 3)).toBeCloseTo(0.3, 12);
-    expect(surface.at([5, 5, 9], 3)).toBeNaN();
   });
 });
 
@@ -104,11 +91,17 @@ describe("chip load", () => {
     map.begin([ball]);
     map.add({ ...row, peakForce: 10 }, [0, 0, 1], ball);
     map.add({ ...row, tip: [0, 5, 0], peakForce: 20 }, [0, 0, 1], ball);
-    const none = new SurfaceDistance();
     // The lowest points of either ball, and one that neither made.
-    expect(map.colour("force", [0, 0, 0], none)).toEqual(heat(0.5));
-    expect(map.colour("force", [0, 5, 0], none)).toEqual(heat(1));
-    expect(map.colour("force", [0, 0, 40], none)).toBeUndefined();
+    expect(map.colour("force", [0, 0, 0], Number.NaN)).toEqual(heat(0.5));
+    expect(map.colour("force", [0, 5, 0], Number.NaN)).toEqual(heat(1));
+    expect(map.colour("force", [0, 0, 40], Number.NaN)).toBeUndefined();
+  });
+  it("colours a point by how far it is off the designed surface, where that is known", () => {
+    const map = new HeatMap();
+    expect(map.colour("deviation", [0, 0, 0], 0.05)).toEqual(diverging(0.5));
+    expect(map.colour("deviation", [0, 0, 0], -0.05)).toEqual(diverging(-0.5));
+    expect(map.colour("scallop", [0, 0, 0], 0.05)).toEqual(heat(0.5));
+    expect(map.colour("deviation", [0, 0, 0], Number.NaN)).toBeUndefined();
   });
 });
 

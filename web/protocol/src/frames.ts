@@ -43,6 +43,8 @@ export interface ChunkFrame {
   chunk: Vec3;
   positions: Float32Array;
   indices: Uint16Array;
+  // Of each vertex from the designed surface, mm, negative in a gouge; NaN far from it. Empty: there is none.
+  deviations: Float32Array;
 }
 
 export interface StateFrame {
@@ -312,7 +314,9 @@ function decodePath(r: Reader): PathFrame {
 
 function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
   const chunk: Vec3 = [r.i32(), r.i32(), r.i32()];
-  return { kind: "chunk", chunk, ...decodeMesh(r, buffer) };
+  const mesh = decodeMesh(r, buffer);
+  const compared = r.left() > 0 ? r.u32() : 0;
+  return { kind: "chunk", chunk, ...mesh, deviations: new Float32Array(buffer, r.at, compared) };
 }
 
 function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; indices: Uint16Array } {
@@ -324,6 +328,7 @@ function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; 
   const positions = new Float32Array(3 * vertices);
   for (let n = 0; n < packed.length; ++n) positions[n] = origin[(n % 3) as Axis] + step * packed[n]!;
   const begin = r.at + 4 * Math.ceil((6 * vertices) / 4);
+  r.at = begin + 4 * Math.ceil((6 * triangles) / 4);
   return { positions, indices: new Uint16Array(buffer, begin, 3 * triangles) };
 }
 

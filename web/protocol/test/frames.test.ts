@@ -88,6 +88,11 @@ describe("decodeFrame", () => {
     expect(chunk.chunk).toEqual([1, 2, 3]);
     expect([...chunk.positions]).toEqual([10, 20, 30, 11, 20, 30, 10, 22, 30 + 65535 * 0.5]);
     expect([...chunk.indices]).toEqual([0, 1, 2]);
+    expect(chunk.deviations).toHaveLength(0);
+    const compared = decodeFrame(bytes.u32(3).f32(0.25, Number.NaN, -0.5).done());
+    if (compared.kind !== "chunk") throw new Error();
+    expect([...compared.indices]).toEqual([0, 1, 2]);
+    expect([...compared.deviations]).toEqual([0.25, Number.NaN, -0.5]);
   });
 
   it("reads a state", () => {

@@ -45,7 +45,12 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     })),
     chipLimits: { rubbing: told.rubbing_chip_mm as number, overloadShare: told.overload_chip_share as number },
   }),
-  chunk: (told) => ({ kind: "chunk", chunk: [told.i, told.j, told.k] as never, ...mesh(told) }),
+  chunk: (told) => ({
+    kind: "chunk",
+    chunk: [told.i, told.j, told.k] as never,
+    ...mesh(told),
+    deviations: new Float32Array((told.deviations_mm as (number | null)[]).map((off) => off ?? Number.NaN)),
+  }),
   designed: (told) => ({ kind: "designed", ...mesh(told) }),
   state: (told) => ({
     kind: "state",
