@@ -2,7 +2,7 @@
 // What takes time but little code, begun while the page's script is on its way: the graphics, which the browser has to
 // start, and the line to the engine.
 
-import { Connection } from "./connection.js";
+import { Connection } from "./sources/connection.js";
 import { element } from "@tribo/ui/dom";
 
 export const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";

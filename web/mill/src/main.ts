@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
 // The mill's page: frames to picture, sound and plots; hands to whoever mills.
 
-import * as drop from "./drop.js";
+import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
-import { listed, order as orderOf } from "./examples.js";
-import { Finger } from "./finger.js";
+import { listed, order as orderOf } from "./sources/examples.js";
+import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
-import type { ChipMark, Colouring } from "./heat_map.js";
-import { History } from "./history.js";
-import { listenToKeys } from "./keys.js";
-import { showLegend } from "./legend.js";
-import { Memory } from "./memory.js";
+import type { ChipMark, Colouring } from "./sight/heat_map.js";
+import { History } from "./panels/history.js";
+import { listenToKeys } from "./panels/keys.js";
+import { showLegend } from "./sight/legend.js";
+import { FrameCache } from "./sources/frame_cache.js";
 import { clock, recall, remember } from "./page.js";
-import { PALETTES } from "./palette.js";
-import { Parameters } from "./parameters.js";
-import { Plot } from "./plot.js";
-import type { Plots } from "./plots.js";
-import { LineList, showServo, showState, showWarnings } from "./readout.js";
+import { PALETTES } from "./sight/palette.js";
+import { Parameters } from "./panels/parameters.js";
+import { Plot } from "./panels/plot.js";
+import type { Plots } from "./panels/plots.js";
+import { LineList, showServo, showState, showWarnings } from "./panels/readout.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { download, element, wordsOf } from "@tribo/ui/dom";
-import { Replay } from "./replay.js";
-import { Scene } from "./scene.js";
-import { Sound } from "./sound.js";
+import { Replay } from "./sources/replay.js";
+import { Scene } from "./sight/scene.js";
+import { Sound } from "./sound/sound.js";
 import type { ServerInfo, Settings } from "@tribo/protocol/messages";
-import type { Listener, Source } from "./source.js";
+import type { Listener, Source } from "./sources/source.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
-import { Workshop, type JobFile, type Order } from "./workshop.js";
+import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 
 const listener: Listener = {
   frame: take,
@@ -62,7 +62,7 @@ let source: Source | undefined = engine;
 
 const scene = new Scene(canvas, context);
 const history = new History();
-const memory = new Memory();
+const frameCache = new FrameCache();
 const sound = new Sound();
 // Whether the page sounds, and not the engine.
 let soundsHere = true;
@@ -134,7 +134,7 @@ function show(state: StateFrame): void {
 }
 
 function take(frame: Frame, bytes: ArrayBuffer): void {
-  memory.take(frame, bytes);
+  frameCache.take(frame, bytes);
   recorder?.take(bytes);
   sound.frame(frame.kind, bytes);
   switch (frame.kind) {
@@ -393,7 +393,7 @@ function toggles(button: string, panel: string, opened?: () => void): void {
 }
 toggles("show-panel", "panel");
 toggles("show-plots", "plots", async () => {
-  const loaded = await import("./plots.js");
+  const loaded = await import("./panels/plots.js");
   plots ??= new loaded.Plots(element("plots"), history, sound, seek);
   plots.changed();
 });
@@ -403,7 +403,7 @@ const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {
     recorder = new Recorder();
-    for (const bytes of memory.replay()) recorder.take(bytes);
+    for (const bytes of frameCache.replay()) recorder.take(bytes);
     record.textContent = "Stop and keep";
   } else {
     download(recorder.file(), `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`);
@@ -432,13 +432,13 @@ addEventListener("drop", (event) => {
 });
 
 // ---- VR, where there is any
-let xr: import("./xr.js").Headset | undefined;
+let xr: import("./touch/xr.js").Headset | undefined;
 void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
   const button = element<HTMLButtonElement>("vr");
   button.hidden = !can;
   button.addEventListener("click", async () => {
     void hear();
-    const { Headset } = await import("./xr.js");
+    const { Headset } = await import("./touch/xr.js");
     xr ??= new Headset(scene, finger, () => play.click());
     await xr.enter();
   });

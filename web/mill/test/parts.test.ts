@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 import { afterEach, describe, expect, it, vi } from "vitest";
 
-import { liveUrl } from "../src/connection.js";
-import { heat } from "../src/heat.js";
-import { sort, tooLarge } from "../src/drop.js";
-import { diverging, HeatMap } from "../src/heat_map.js";
+import { liveUrl } from "../src/sources/connection.js";
+import { heat } from "../src/sight/heat.js";
+import { sort, tooLarge } from "../src/sources/drop.js";
+import { diverging, HeatMap } from "../src/sight/heat_map.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
-import { Replay } from "../src/replay.js";
-import type { Listener } from "../src/source.js";
-import { outline } from "../src/tool.js";
-import { spectrum, turn } from "../src/turn.js";
+import { Replay } from "../src/sources/replay.js";
+import type { Listener } from "../src/sources/source.js";
+import { outline } from "../src/sight/tool.js";
+import { spectrum, turn } from "../src/panels/turn.js";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
 describe("heat", () => {

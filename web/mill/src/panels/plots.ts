@@ -7,8 +7,8 @@ import "uplot/dist/uPlot.min.css";
 
 import type { Row } from "@tribo/protocol/frames";
 import type { History } from "./history.js";
-import { heat } from "./heat.js";
-import type { Sound } from "./sound.js";
+import { heat } from "../sight/heat.js";
+import type { Sound } from "../sound/sound.js";
 import { spectrum, turn } from "./turn.js";
 
 const MOST_POINTS = 2000;

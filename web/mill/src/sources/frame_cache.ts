@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What a viewer that comes now would be sent: the bytes that a recording begins with.
+// The frames that a new viewer needs: a recording begins with them.
 
 import type { Frame } from "@tribo/protocol/frames";
 
 /** Frames of sound: the engine keeps as many. */
 export const KEPT_SOUNDS = 64;
 
-export class Memory {
+export class FrameCache {
   private job: ArrayBuffer | undefined;
   private chunks = new Map<string, ArrayBuffer>();
   private rows: ArrayBuffer[] = [];
@@ -17,7 +17,7 @@ export class Memory {
   take(frame: Frame, bytes: ArrayBuffer): void {
     switch (frame.kind) {
       case "job":
-        Object.assign(this, new Memory());
+        Object.assign(this, new FrameCache());
         this.job = bytes;
         break;
       case "chunk":

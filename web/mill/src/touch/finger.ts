@@ -3,8 +3,8 @@
 // the part; what hovers is above it.
 
 import { rumble } from "@tribo/ui/gamepad";
-import type { Scene } from "./scene.js";
-import type { Source } from "./source.js";
+import type { Scene } from "../sight/scene.js";
+import type { Source } from "../sources/source.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
 // How deep the hand wants to go where it presses, and how high it hovers; shares of the part's size.

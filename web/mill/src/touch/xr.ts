@@ -5,7 +5,7 @@ import { BoxGeometry, Color, Group, Mesh, MeshStandardMaterial, Vector3, type XR
 
 import type { FingerFrame } from "@tribo/protocol/frames";
 import type { Finger } from "./finger.js";
-import type { Scene } from "./scene.js";
+import type { Scene } from "../sight/scene.js";
 
 const BENCH_HEIGHT_M = 0.95;
 const BENCH_AWAY_M = 0.5;

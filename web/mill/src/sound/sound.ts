@@ -6,7 +6,7 @@ import type { MillSoundExports } from "@tribo/wasm/exports";
 import { openAudio } from "@tribo/ui/audio";
 import { compile } from "@tribo/wasm/module";
 import type { StateFrame } from "@tribo/protocol/frames";
-import { KEPT_SOUNDS } from "./memory.js";
+import { KEPT_SOUNDS } from "../sources/frame_cache.js";
 import workletUrl from "./sound_worklet.ts?worker&url";
 
 export type ToEar =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The keyboard, while the picture has the focus (space and M wherever nothing else wants them).
 
-import type { Finger } from "./finger.js";
-import type { Scene } from "./scene.js";
+import type { Finger } from "../touch/finger.js";
+import type { Scene } from "../sight/scene.js";
 
 const TURN = 0.1;
 const NEARER = 0.9;
