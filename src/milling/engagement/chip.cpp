@@ -9,7 +9,7 @@
 namespace tribo::milling {
 namespace {
 
-// The law's largest value between two rotations.
+// Returns the largest value of the law between two rotations.
 double largest(const TurnLaw& law, double entry_rad, double exit_rad) {
     const auto at = [&](double phi) {
         return law.sine * math::sin(phi) + law.cosine * math::cos(phi) + law.constant;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether the chips of a cut are within what a cutter bears: too thin a chip is rubbed off, too thick a one
-// overloads the tooth. Both limits are rules of thumb (docs/force.md).
+// Checks whether the chips of a cut are within the limits of a cutter. A chip that is too thin is rubbed off;
+// a chip that is too thick overloads the tooth. Both limits are rules of thumb (docs/force.md).
 #pragma once
 
 #include "milling/engagement/cut_row.hpp"
@@ -8,30 +8,31 @@
 
 namespace tribo::milling {
 
-// Below this the edge rubs: about a third of the radius of a used carbide edge, mm.
+// Below this thickness the edge rubs: about a third of the radius of a used carbide edge, mm.
 inline constexpr double kRubbingChipMm = 0.01;
-// Above this share of the cutter's diameter a tooth is overloaded.
+// Above this share of the cutter's diameter the chip overloads the tooth.
 inline constexpr double kOverloadShare = 0.025;
 
-// Live frames tell it by its number.
+// Live frames send its number.
 enum class ChipVerdict { cuts, rubs, overloads };
 
-// The thickest chip that a tooth takes in one turn, mm: the largest travel of its edge along the envelope's
-// normal since the tooth before, over the middles of all bands. Run-out is left out.
+// Returns the thickest chip that a tooth takes in one turn, mm: the largest travel of its edge along the
+// normal of the envelope since the previous tooth. It is evaluated at the middle of each band. Run-out is
+// left out.
 double thickest_chip_mm(const Engagement& engagement, const ToolTravel& feed_per_tooth, const Cutter& cutter);
 
 ChipVerdict chip_verdict(double thickest_mm, const Cutter& cutter);
 
-// What the rows of a whole program say, gathered row by row.
+// Findings of a whole program, collected row by row.
 struct ChipFindings {
     double rubbing_s = 0;    // cutting time in which the teeth rub
-    int rubbing_line = 0;    // with the most of that time without a break
-    double overload = 0;     // the thickest chip over the limit of its cutter; > 1: overloaded
+    int rubbing_line = 0;    // the line with the longest rubbing without a break
+    double overload = 0;     // thickest chip / limit of its cutter; > 1: overloaded
     double overload_mm = 0;  // that chip
     int overload_line = 0;
     std::size_t overloaded_lines = 0;
 
-    // `thickest_mm`: the row's chip.
+    // `thickest_mm` is the thickest chip of the row.
     void add(const CutRow& row, double thickest_mm, const Cutter& cutter);
 
   private:

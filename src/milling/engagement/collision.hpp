@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of the tool touches what it should not.
+// Kinds of collision: which part of the tool touches which obstacle.
 #pragma once
 
 namespace tribo::milling {

@@ -10,8 +10,8 @@
 namespace tribo::milling {
 namespace {
 
-// So many even rows at most, none shorter than this share of a cell; the first and the last are halved so
-// often.
+// Largest number of even rows; shortest row in cells; number of times that the first and the last row are
+// halved.
 constexpr int kRows = 32;
 constexpr double kLeastCells = 1;
 constexpr int kHalvings = 5;
@@ -70,7 +70,8 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
     for (int row = p.row0; row < p.row1; ++row) outward |= windows_[static_cast<std::size_t>(row)];
     if ((outward & mask) == 0) return;
 
-    // No cell's middle is further from the patch's than along the meridian and then around the axis.
+    // `reach` bounds the distance from the patch's middle to the middle of any cell: along the meridian and
+    // then around the axis.
     const double s0 = middle(p.row0), s1 = middle(p.row1 - 1);
     const double widest = std::min(radius_mm_, s1);
     const double half_s = 0.5 * (s1 - s0), half_turn = 0.5 * (columns - 1) * kColumnRad * widest;
@@ -79,7 +80,7 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
         const ProfilePoint at = profile_.at(0.5 * (s0 + s1));
         const AxisCircle circle{pose.on_axis(at.height_mm), at.radius_mm * pose.frame.x,
                                 at.radius_mm * pose.frame.y, at.radius_mm};
-        // The middle of the columns, in places.
+        // The middle of the columns, in places of the circle.
         constexpr int kPlaces = kTurnPlaces / kColumns;
         static_assert(kPlaces == 2);
         const double way =
@@ -99,7 +100,8 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
     } else {
         low.column1 = high.column0 = (p.column0 + p.column1) / 2;
     }
-    // First where the envelope moves outward fastest, as there most often is material, and a row counts once.
+    // First the half where the envelope moves outward fastest: most often there is material, and a row counts
+    // once.
     const auto off = [&](const Patch& part) {
         const double turn = (0.5 * (part.column0 + part.column1) - front_) / kColumns;
         return std::abs(turn - std::floor(turn + 0.5));

@@ -18,16 +18,16 @@ struct MeridianStretch {
     bool engaged = false;
 };
 
-// Divides a part of the envelope into rows along the meridian, finer towards its ends, and 64 columns around
-// the axis. Material counts where it holds the middle of a cell that moves outward. Whole patches of cells
-// are decided at once where no border can be near, so that few cells are looked at; the answer depends on the
-// material alone. Keeps scratch space: not for several threads at once; no allocation once warm.
+// Divides a part of the envelope into rows along the meridian (finer towards its ends) and 64 columns around
+// the axis. A cell is engaged if its middle lies in material and moves outward. Where no border can be near,
+// whole patches of cells are decided at once, so that few cells are looked at. The result depends on the
+// material alone. Keeps scratch space: one thread at a time; no allocation after the first calls.
 class ContactScout {
   public:
     explicit ContactScout(const Cutter& cutter);
 
-    // Appends the engaged stretches between s0 and s1, in order, and the row without contact before and
-    // after each. The part must lie on one side of the profile's corner ends.
+    // Appends the engaged stretches between s0 and s1 in order, each with the row without contact before and
+    // after it. The range must lie within the bottom, within the corner or on the cylinder.
     void look(const field::CarvedView& stock, const CutPose& pose, double s0_mm, double s1_mm,
               std::vector<MeridianStretch>& out);
 
@@ -49,7 +49,7 @@ class ContactScout {
     std::vector<double> borders_;         // of the rows, one more than these
     std::vector<std::uint64_t> windows_;  // by row: the columns that move outward
     std::vector<char> engaged_;           // by row
-    double front_ = 0;                    // column in the middle of the last window
+    double front_ = 0;                    // the column in the middle of the last window
 };
 
 }  // namespace tribo::milling

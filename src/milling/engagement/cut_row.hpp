@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// One moment of a cut: a stretch of the path that is short enough for one engagement. This is the record that
-// forces.csv, report, sound, hand and page show, each in its own form. Its force stands beside it
-// (milling/force/row_force.hpp). Angles in rad, speeds in mm/s; times from the start of the program.
+// One row of a cut: a stretch of the path that is short enough for one engagement. forces.csv, report, sound,
+// haptics and page all show this record, each in its own form. The force of the row is a separate record
+// (milling/force/row_force.hpp). Angles in rad, speeds in mm/s, times from the start of the program.
 //
-// Machining fills in what stands under "The cut"; the session adds time and spindle.
+// Machining fills in the fields under "The cut"; the session adds time and spindle.
 #pragma once
 
 #include "base/math.hpp"
@@ -14,8 +14,8 @@ namespace tribo::milling {
 
 struct CutRow {
     // The cut.
-    std::size_t step = 0;     // of a run of Machining: the first one of the row's pass
-    double from = 0, to = 0;  // fractions of that step; of the pass's path where other steps join it
+    std::size_t step = 0;     // index in a run of Machining: the first step of the row's pass
+    double from = 0, to = 0;  // fractions of that step; of the path of the whole pass if other steps join it
     double length_mm = 0;     // of the tip's path
     CutPose pose;             // in the middle, stock frame; its travel is that of the whole row
     Engagement engagement;    // in the middle
@@ -27,9 +27,9 @@ struct CutRow {
     std::size_t cutter = 0;
     double start_s = 0, end_s = 0;
     double spindle_rpm = 0;
-    double phase_rad = 0;    // of the spindle at start_s
-    double phase_turns = 0;  // whole turns before that angle
-    ToolTravel feed;         // travel per tooth, with `reconciled`
+    double phase_rad = 0;    // of the spindle, at start_s
+    double phase_turns = 0;  // whole turns before phase_rad
+    ToolTravel feed;         // travel per tooth, multiplied by `reconciled`
 
     double duration_s() const { return end_s - start_s; }
     double feed_mm_per_s() const { return duration_s() > 0 ? length_mm / duration_s() : 0; }  // of the tip

@@ -11,18 +11,19 @@ namespace tribo::milling {
 namespace {
 
 constexpr double kEvenPitchRad = 1e-9;   // pitch angles closer than this to even are even
-constexpr double kNarrowestRad = 1e-12;  // windows narrower than this carry no force worth a piece
+constexpr double kNarrowestRad = 1e-12;  // narrower windows have a negligible force
 constexpr std::size_t kUsualPieces = 64;
 constexpr std::size_t kUsualPiecesPerFlute = 16;
 constexpr double kAlways = -2, kFull = 2;  // bounds of sin phi that exclude nothing
 
-// Chip thickness of one place over the rotation: slope sin(phi + shift) + base, slope >= 0. All chips that a
-// place meets share the shift.
+// Chip thickness of one point over the rotation: slope sin(phi + shift) + base, slope >= 0. All chips of one
+// point have the same shift.
 struct ChipLine {
     double slope = 0, base = 0;
 
     double at(double sine) const { return slope * sine + base; }
-    // The chip is above 0 for sines above this; kAlways or kFull where it does not vary over the turn.
+    // The chip is above 0 for sines above this value. kAlways or kFull if the thickness is constant over the
+    // turn.
     double lowest_sine() const {
         if (slope > 0) return std::clamp(-base / slope, kAlways, kFull);
         return base > 0 ? kAlways : kFull;
@@ -37,7 +38,7 @@ double shift_of(const TurnLaw& h) {
 
 }  // namespace
 
-// A stretch of the profile with the window of one band, and the place on it at which its chips are judged.
+// A stretch of the profile with the window of one band, and the point at which its chips are evaluated.
 struct EngagedEdges::Part {
     EngagedEdge edge;
     ProfilePoint at;
@@ -105,8 +106,8 @@ void EngagedEdges::engage(const Engagement& engagement, const ToolTravel& feed) 
     }
 }
 
-// Cuts a part where its chips change along the profile: the rounded one in steps of kappa unless the tool
-// only moves across its axis, the cylinder in heights where the axis turns.
+// Cuts a part where its chips change along the profile: a rounded part in steps of kappa, unless the tool
+// only moves across its axis; a cylinder in heights if the axis turns.
 void EngagedEdges::add_lateral(Part part, const ToolTravel& feed) {
     const double z0 = part.edge.z0_mm, z1 = part.edge.z1_mm;
     if (!part.edge.round) {
@@ -142,8 +143,8 @@ void EngagedEdges::add_lateral(Part part, const ToolTravel& feed) {
     }
 }
 
-// Where the axis turns, the bottom dips on one side of a line: in narrow rings each end of an edge is judged
-// well enough by the middle.
+// Where the axis turns, the bottom dips on one side of a line. In narrow rings the chip in the middle is
+// accurate enough for both ends of an edge.
 void EngagedEdges::add_bottom(const BottomBand& band, const ToolTravel& feed) {
     const int steps = feed.turns() ? static_cast<int>(std::ceil(1 / kFeedStep)) : 1;
     Part part;
@@ -163,7 +164,7 @@ void EngagedEdges::add_teeth(const Part& part, const ToolTravel& feed) {
         const TurnLaw h = normal_travel(feed, part.at);
         return add_window(part, {feed, 0}, 0, shift_of(h), line_of(h).lowest_sine(), kFull);
     }
-    // Run-out is taken as constant over cells of lag.
+    // Run-out is constant over cells of lag.
     const double per_mm = std::abs(lag_per_mm_);
     const double lag0 = part.edge.z0_mm * per_mm, lag1 = part.edge.z1_mm * per_mm;
     const int first = static_cast<int>(std::floor(lag0 / kRunoutCellRad));
@@ -181,7 +182,7 @@ void EngagedEdges::add_teeth(const Part& part, const ToolTravel& feed) {
     }
 }
 
-// Each tooth by itself, `lag` behind its tip.
+// Adds each tooth separately, `lag` behind its tip.
 void EngagedEdges::add_teeth_apart(const Part& part, const ToolTravel& feed, double lag) {
     const ToolTravel per_turn = static_cast<double>(flutes_) * feed;
     const double shift = shift_of(normal_travel(per_turn, part.at));
@@ -190,7 +191,7 @@ void EngagedEdges::add_teeth_apart(const Part& part, const ToolTravel& feed, dou
         offset_[j] = runout_ * math::cos(runout_rad_ - phase_[j] + lag);
     }
     for (std::size_t j = 0; j < teeth; ++j) {
-        // The surface that the tooth n places ahead left.
+        // The chip to the surface that the tooth n places ahead left.
         const auto chip_after = [&](std::size_t n) {
             const std::size_t ahead = (j + n) % teeth;
             const double turn = j + n < teeth ? 0 : math::kTwoPi;
@@ -200,8 +201,8 @@ void EngagedEdges::add_teeth_apart(const Part& part, const ToolTravel& feed, dou
         const auto line = [&](std::size_t n) { return line_of(thickness(chip_after(n), part.at)); };
         double sine = kAlways;
         for (std::size_t n = 1; n <= teeth; ++n) sine = std::max(sine, line(n).lowest_sine());
-        // Along the lower envelope of the lines, whose slope grows with n: from the least at `sine` to ever
-        // smaller slopes.
+        // Follows the lower envelope of the lines, whose slope grows with n: starts with the lowest line at
+        // `sine`, then changes to ever smaller slopes.
         const double start = std::max(sine, -1.0);
         std::size_t n = 1;
         for (std::size_t other = 2; other <= teeth; ++other) {
@@ -263,7 +264,8 @@ void EngagedEdges::add_window(const Part& part, const Chip& chip, double phase, 
         if (clipped.exit_rad - clipped.entry_rad > kNarrowestRad) push(clipped);
     };
     if (sine_low <= -1 && sine_high >= 1) return clip(0, math::kTwoPi);
-    // Rising from `low` to `high`, falling from pi - high to pi - low, and again every turn.
+    // sin rises between the bounds from `low` to `high`, falls from pi - high to pi - low, and repeats every
+    // turn.
     const double low = sine_low <= -1 ? -math::kHalfPi : math::asin(sine_low);
     const double high = sine_high >= 1 ? math::kHalfPi : math::asin(sine_high);
     const auto clip_turns = [&](double from, double to) {
@@ -283,7 +285,7 @@ double EngagedEdges::mean_edge_torque_nmm() const {
     return sum * teeth / math::kTwoPi;
 }
 
-// Bands on top of each other with one window are one piece.
+// Adds a piece. Adjacent bands with the same window become one piece.
 void EngagedEdges::push(const EngagedEdge& edge) {
     constexpr std::size_t kLookBack = 4;
     const std::size_t oldest = edges_.size() > kLookBack ? edges_.size() - kLookBack : 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Engagement and travel turned into pieces of cutting edge that each meet one chip law: the common ground of
-// force over time, spectrum and peaks.
+// Turns engagement and travel into pieces of cutting edge with one chip law each. Force over time, spectrum
+// and peaks are all computed from these pieces.
 //
 // An edge cuts where it meets material and moves into it (chip thickness above 0). With run-out or unequal
-// pitch each tooth meets the surface that the deepest of the teeth before left: the least of h over the last
-// 1..N teeth (Kline and DeVor 1983), so what a tooth misses is left for the next, and the chips of all teeth
-// add up to the feed per turn exactly. Run-out is a parallel offset of the axis; its radii are held constant
-// over cells of lag (kRunoutCellRad), where they are off by at most 1/16 of the offset.
+// pitch each tooth meets the surface that the deepest of the teeth before it left: the chip thickness is the
+// least h over the last 1..N teeth (Kline and DeVor 1983). So the next tooth takes what one tooth misses, and
+// the chips of all teeth add up to the feed per turn exactly. Run-out is a parallel offset of the axis. Its
+// radii are constant over cells of lag (kRunoutCellRad); their error there is at most 1/16 of the offset.
 #pragma once
 
 #include <vector>
@@ -19,60 +19,64 @@
 
 namespace tribo::milling {
 
-// Lag over which run-out counts as constant: its force is off by at most cell^2 / 24, 0.3 % of run-out's
-// share.
+// Lag over which run-out counts as constant. The error of the force is at most cell^2 / 24, 0.3 % of the
+// share of run-out.
 inline constexpr double kRunoutCellRad = 0.125;
-// Step of kappa in which the border of the cut is followed on a rounded part that does not only move across
-// its axis, rad.
+// Step of kappa, rad. The border of the cut is followed in these steps on a rounded part if the tool does not
+// only move across its axis.
 inline constexpr double kKappaStepRad = 0.06;
-// Where the axis turns the feed grows along the edge: a piece of the cylinder is so short that it changes by
-// at most this share of the largest, a piece of the bottom that its chips may be judged in the middle.
+// Where the axis turns, the feed grows along the edge. A piece of the cylinder is so short that the feed
+// changes by at most this share of its largest value. A piece of the bottom is so short that its chips may be
+// evaluated in the middle.
 inline constexpr double kFeedStep = 0.08;
-// Below this lag from end to end a piece counts as straight: it enters and leaves all at once.
+// A piece whose lag from end to end is below this counts as straight: all of it enters and leaves at once.
 inline constexpr double kStraightRad = 1e-7;
 
-// A piece between two heights that lie both on the cylinder or both in the rounded part, or between two radii
-// of the flat bottom.
+// A piece between two heights or, on the flat bottom, between two radii. Both heights lie on the cylinder, or
+// both lie in the rounded part.
 struct EngagedEdge {
     double z0_mm = 0, z1_mm = 0;         // 0 on the bottom
-    double weight_mm = 0;                // what `load` is multiplied by: the height; 1 on the bottom
-    double lag0_rad = 0, lag1_rad = 0;   // behind the tip, the lesser first; equal when straight
+    double weight_mm = 0;                // factor on `load`: the height on the cylinder, 1 on the bottom
+    double lag0_rad = 0, lag1_rad = 0;   // lag behind the tip, the smaller value first; equal if straight
     double entry_rad = 0, exit_rad = 0;  // 0 <= entry < exit <= 2 pi
-    double phase_rad = 0;                // of its tooth ahead of flute 0; 0 where all teeth share it
+    double phase_rad = 0;                // of its tooth, ahead of flute 0; 0 if all teeth share the piece
     bool round = false;
     Chip chip;
-    EdgeLoad load;  // per mm height on the cylinder, of the whole piece on the bottom (round: it varies)
-    double edge_torque_nmm = 0;  // of the edge coefficient kte alone while the whole piece cuts
+    EdgeLoad load;  // per mm height on the cylinder, of the whole piece on the bottom; unused if round
+    double edge_torque_nmm = 0;  // of the edge coefficient kte alone, while the whole piece cuts
 
     bool straight() const { return lag1_rad - lag0_rad < kStraightRad; }
 };
 
-// The cutter's constants and the pieces for one engagement. Copies are independent; one thread per object.
+// The constants of the cutter and the pieces of one engagement. Copies are independent; one thread per
+// object.
 class EngagedEdges {
   public:
-    // `cutter` and `coefficients` as their check() accepts them. Reserves room for 64 pieces and, for a tool
-    // with run-out or unequal pitch, 16 per flute.
+    // `cutter` and `coefficients` must pass their check(). Reserves memory for 64 pieces and, for a tool with
+    // run-out or unequal pitch, for 16 per flute.
     EngagedEdges(const Cutter& cutter, const CuttingCoefficients& coefficients);
 
-    // Replaces the pieces; `feed` is the tool's mean travel from one tooth to the next. Real-time safe while
-    // they fit the room that earlier calls or reserve() made: a band is one piece or two, in the rounded part
-    // with axial feed one per kKappaStepRad, and each is multiplied by run-out cells and flutes.
+    // Replaces the pieces; `feed` is the mean travel of the tool from one tooth to the next. Real-time safe
+    // while the pieces fit the memory of earlier calls or of reserve(). A band needs one or two pieces; a
+    // band in the rounded part with axial feed needs one per kKappaStepRad. Run-out cells and flutes multiply
+    // this number.
     void engage(const Engagement& engagement, const ToolTravel& feed);
     void reserve(std::size_t pieces) { edges_.reserve(pieces); }
 
     const std::vector<EngagedEdge>& edges() const { return edges_; }
     bool empty() const { return edges_.empty(); }
-    // Of the lateral edge: on a left-hand helix kac and kae change sign, as the edge's other end leads.
+    // Coefficients of the lateral edge. On a left-hand helix kac and kae change sign, because the other end
+    // of the edge leads.
     const CuttingCoefficients& coefficients() const { return k_; }
     int flutes() const { return flutes_; }
-    // All teeth cut alike: the force repeats with the tooth, and every piece stands for all teeth.
+    // True if all teeth cut alike: the force repeats with each tooth, and every piece stands for all teeth.
     bool uniform() const { return uniform_; }
-    double period_rad() const;  // of the force: a tooth when uniform, else the turn
+    double period_rad() const;  // period of the force: one tooth if uniform, else one turn
     double radius_mm() const { return radius_; }
     double corner_mm() const { return corner_; }
     double lag_per_mm() const { return lag_per_mm_; }  // < 0 on a left-hand helix
-    // Mean over a turn of the torque that the edge coefficient kte alone asks for, N mm: the rest of the mean
-    // torque is ktc times the chips' area.
+    // Returns the mean torque over a turn of the edge coefficient kte alone, N mm. The rest of the mean
+    // torque is ktc times the area of the chips.
     double mean_edge_torque_nmm() const;
 
   private:
@@ -90,8 +94,8 @@ class EngagedEdges {
     int flutes_;
     bool uniform_;
     double runout_, runout_rad_;
-    std::vector<double> phase_;   // of each flute ahead of flute 0, and 2 pi at the end
-    std::vector<double> offset_;  // scratch: radius of each flute above the mean
+    std::vector<double> phase_;   // of each flute ahead of flute 0; the last entry is 2 pi
+    std::vector<double> offset_;  // scratch: radius of each flute minus the mean radius
     std::vector<EngagedEdge> edges_;
 };
 

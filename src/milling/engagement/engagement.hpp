@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the edges are in material: per axial band, the interval of rotation in which an edge at that height
-// cuts.
+// Engagement: for each axial band, the interval of rotation in which an edge at that height is in material.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +32,7 @@ struct Engagement {
     }
 };
 
-// The hull over all bands of the lateral edge; all zero without one.
+// The hull of all bands of the lateral edge; all zero without bands.
 struct EngagementHull {
     double entry_rad = 0, exit_rad = 0;
     double axial_depth_mm = 0;  // from the lowest band's bottom to the highest band's top

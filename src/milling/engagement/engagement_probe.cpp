@@ -11,20 +11,20 @@
 namespace tribo::milling {
 namespace {
 
-// An engaged stretch has its first circles in the middle of parts that begin at these shares of it: near its
-// ends, where what is engaged often changes, they are short. On bottom and cylinder, where more
-// are alike, they are fewer.
+// An engaged stretch is first divided at these shares of its length, with one circle in the middle of each
+// part. The parts near its ends are short, because the arcs often change there. Bottom and cylinder need
+// fewer parts, because their circles are more alike.
 constexpr std::array kCornerParts{0.0, 0.05, 0.35, 0.65, 0.95, 1.0};
 constexpr std::array kStraightParts{0.0, 0.1, 0.9, 1.0};
-// Circles of one part at most.
+// Largest number of circles of one part.
 constexpr std::size_t kMostLevels = 56;
-// Splitting goes on until no circle may change the chips' area by more than this share of all that is known,
-// and what is smaller than this is not looked for, R^2.
+// Splitting stops when no circle may change the area of the chips by more than this share of the known area.
+// Areas below kLeastArea (in R^2) are ignored.
 constexpr double kAreaShare = 0.004, kLeastArea = 1e-4;
-// Arcs that differ by less are one band on the cylinder, rad.
+// Arcs on the cylinder that differ by less form one band, rad.
 constexpr double kAlikeRad = 2e-3;
 
-// Integral of the law over the rotation.
+// Returns the integral of the law over the rotation.
 double integral(const TurnLaw& law, double from, double to) {
     double sin0, cos0, sin1, cos1;
     math::sincos(from, sin0, cos0);
@@ -121,11 +121,11 @@ void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock
     }
 }
 
-// Looks along three meridians of what was seen for where it ends before the next circle, which saw nothing:
-// where that is at one height, as at the top of a blank, no circles are needed to find it.
+// Searches the end of the contact between a circle with contact and the next circle without, along three
+// meridians. If the end is at one height, as at the top of a blank, no more circles are needed.
 void EngagementProbe::find_step(Level& seen, Level& empty, const field::CarvedView& stock,
                                 const CutPose& pose) const {
-    // Of the way between the two circles.
+    // Share of the distance between the two circles.
     constexpr int kHalvings = 9;
     constexpr double kAlike = 0.01;
     const auto end = arcs_.begin() + static_cast<std::ptrdiff_t>(seen.first + seen.count);
@@ -161,9 +161,9 @@ void EngagementProbe::find_step(Level& seen, Level& empty, const field::CarvedVi
     empty.s = 0.5 * (empty.s0 + empty.s1);
 }
 
-// What the area that the chips sweep may be off by between two circles.
+// Returns the largest expected error of the swept area between two circles.
 double EngagementProbe::error_between(const Level& a, const Level& b) const {
-    // Of the difference between the two, where the same arcs go on, where one begins and where one ends.
+    // Shares of the difference between the two: if the same arcs continue, if an arc begins, if an arc ends.
     constexpr double kBend = 0.06, kBegin = 0.3, kEnd = 0.3;
     const double apart = b.s - a.s, radius = std::max(a.at.radius_mm, b.at.radius_mm);
     const double speed = std::max(a.speed, b.speed);
@@ -204,7 +204,7 @@ double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& po
         const auto worst = std::max_element(levels_.begin(), levels_.end(),
                                             [](const Level& a, const Level& b) { return a.error < b.error; });
         if (worst == levels_.end() || worst->error <= most) break;
-        // In thirds: the one in the middle keeps its circle.
+        // In thirds: the middle one keeps its circle if that lies in it.
         const Level whole = *worst;
         const double third = (whole.s1 - whole.s0) / 3, s0 = whole.s0 + third, s1 = whole.s1 - third;
         const auto at = worst - levels_.begin();
@@ -223,7 +223,7 @@ double EngagementProbe::refine(const field::CarvedView& stock, const CutPose& po
     return area;
 }
 
-// Nearer to the window's end an arc ends there, rad.
+// An arc that ends nearer than this to the end of the window ends with the window, rad.
 constexpr double kSide = 0.01;
 bool EngagementProbe::starts_with_window(const Level& level, const MaterialArc& arc) const {
     return arc.from_rad - level.window.from_rad < kSide;
@@ -232,16 +232,17 @@ bool EngagementProbe::ends_with_window(const Level& level, const MaterialArc& ar
     return level.window.to_rad - arc.to_rad < kSide;
 }
 
-// How a border runs over a level's stretch: its mean, and its slope per mm of meridian.
+// A border of an arc over the stretch of a level: its mean, and its slope per mm of meridian.
 struct EngagementProbe::BorderRun {
     double mean, slope;
 };
 
-// By the same border on the levels below and above. The bend of the three corrects the mean; the slope is
-// the harmonic mean of both sides, none where one side rises and the other falls.
+// Computes the run of a border from the same border on the levels below and above. The bend of the three
+// corrects the mean. The slope is the harmonic mean of both sides; it is 0 if one side rises and the other
+// falls.
 EngagementProbe::BorderRun EngagementProbe::run_of(double low, double middle, double high, double from_below,
                                                    double to_above, double size) {
-    const auto step = [](double from, double to) {  // between rotations that may lie whole turns apart
+    const auto step = [](double from, double to) {  // the rotations may lie whole turns apart
         return to - from - math::kTwoPi * std::floor((to - from) / math::kTwoPi + 0.5);
     };
     const double before = step(low, middle) / from_below, after = step(middle, high) / to_above;
@@ -249,13 +250,13 @@ EngagementProbe::BorderRun EngagementProbe::run_of(double low, double middle, do
     return {mean, before * after > 0 ? 2 * before * after / (before + after) : 0};
 }
 
-// The last arc of a contact that gets narrower from `inner` on and ends no farther than at `end`. Where two
-// smooth surfaces part, the square of the width falls evenly.
+// Adds the last arc of a contact that gets narrower from `inner` on and ends at `end` or before. Where two
+// smooth surfaces separate, the square of the width falls linearly.
 void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, double end, std::size_t number,
                                       const CutPose& pose, Engagement& out) const {
     const MaterialArc &arc = arcs_[level.first + number], &before = arcs_[inner.first + number];
     const double width = arc.to_rad - arc.from_rad, wider = before.to_rad - before.from_rad;
-    // A fall of less than that is as good as none.
+    // A smaller fall counts as no fall.
     constexpr double kLevelRad = 1e-4;
     if (!(width < wider - kLevelRad)) {
         add_band(level, arc, level.s0, level.s1, arc, pose, out);
@@ -265,11 +266,11 @@ void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, do
     const double way = end > level.s ? 1 : -1;
     const double half = way > 0 ? level.s1 - level.s : level.s - level.s0;
     const double begin = way > 0 ? level.s0 - level.s : level.s - level.s1;
-    // Wider than that it ends at a step, somewhere between.
+    // If the contact is still open at `end`, it ends with a step somewhere in between.
     const double closed = width * width / fall;
     const double reach = closed < std::abs(end - level.s) ? closed : half;
     const bool at_start = starts_with_window(level, arc), at_end = ends_with_window(level, arc);
-    const auto cubed = [&](double x) {  // of the width, x towards the end
+    const auto cubed = [&](double x) {  // cube of the width at x, x towards the end
         const double square = std::max(width * width - fall * x, 0.0);
         return square * std::sqrt(square);
     };
@@ -279,7 +280,7 @@ void EngagementProbe::add_closing_arc(const Level& level, const Level& inner, do
         const double x0 = begin + (reach - begin) * n / kPieces;
         const double x1 = begin + (reach - begin) * (n + 1) / kPieces;
         const double mean = std::min((cubed(x0) - cubed(x1)) / (1.5 * fall * (x1 - x0)), wider);
-        const double share = at_start == at_end ? 0.5 : at_start ? 0 : 1;  // of what is lost, at the start
+        const double share = at_start == at_end ? 0.5 : at_start ? 0 : 1;  // of the lost width, at the start
         const double from = arc.from_rad + share * (width - mean);
         const double a = level.s + way * x0, b = level.s + way * x1;
         add_band(level, arc, std::min(a, b), std::max(a, b), {from, from + mean}, pose, out);
@@ -311,7 +312,7 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
     const double size = level.s1 - level.s0;
     const BorderRun from = run_of(a.from_rad, arc.from_rad, b.from_rad, from_below, to_above, size);
     const BorderRun to = run_of(a.to_rad, arc.to_rad, b.to_rad, from_below, to_above, size);
-    // A border that runs askew does so in steps of this size.
+    // A border that is not level is approximated by steps of this size.
     constexpr double kStepRad = 0.15;
     constexpr double kMostSteps = 3;
     const double skew = size * std::max(std::abs(from.slope), std::abs(to.slope));
@@ -323,8 +324,8 @@ void EngagementProbe::add_arc(std::size_t index, std::size_t number, const CutPo
     }
 }
 
-// A band from s0 to s1 of what the level saw as `seen`. Where that ends with the window, the band goes on as
-// far as the window does somewhere on it: the force knows where each edge moves outward.
+// Adds a band from s0 to s1 for the arc `seen` of the level. If `seen` ends with the window, the band extends
+// as far as the window does anywhere on it: the force computation knows where each edge moves outward.
 void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, double s0, double s1,
                                MaterialArc arc, const CutPose& pose, Engagement& out) const {
     if (!(s1 > s0)) return;
@@ -352,7 +353,7 @@ void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, doub
     }
 }
 
-// On the cylinder a band whose borders are those of one right below it is a part of that.
+// Extends the band right below on the cylinder if the borders of both are alike.
 bool EngagementProbe::joined_below(std::vector<EngagementBand>& bands, double s0,
                                    const EngagementBand& band) const {
     if (s0 < profile_.corner_end()) return false;
@@ -400,7 +401,7 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
         arcs_.clear();
     };
     each_part(stock, pose, [&](double s0, double s1) {
-        // The bottom alone, as what it counts for is known by then.
+        // The bottom is refined alone, after the lateral area is known.
         if (s0 < profile_.bottom_end()) finish();
         start(s0, s1, stock, pose);
     });
@@ -416,7 +417,7 @@ bool EngagementProbe::touches(const field::CarvedView& stock, const CutPose& pos
 
 double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTravel& travel) {
     const CutterProfile profile(cutter);
-    // Gauss-Legendre along the meridian, in closed form over the rotation.
+    // Gauss-Legendre along the meridian, closed form over the rotation.
     constexpr double kPlace[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
     constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double volume = 0;
@@ -434,7 +435,8 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
             }
         }
     };
-    // Where the axis turns, the window in which an edge moves outward has kinks along the meridian.
+    // Where the axis turns, the window in which an edge moves outward has kinks along the meridian. So it is
+    // cut into pieces.
     const int pieces = travel.turns() ? 6 : 1;
     const auto add = [&](double s0, double s1, double entry, double exit) {
         for (int n = 0; n < pieces && s1 > s0; ++n)

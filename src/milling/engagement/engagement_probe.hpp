@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Measures engagement: looks at the material on the cutter's surface, just ahead of the teeth.
+// Measures engagement: searches for material on the cutter's surface, just ahead of the teeth.
 #pragma once
 
 #include <vector>
@@ -17,41 +17,42 @@ class EngagementProbe {
   public:
     explicit EngagementProbe(const Cutter& cutter);
 
-    // Where the scout finds contact, circles about the axis are looked through for material where the
-    // envelope moves outward: few where they are alike, more where they differ, until the chips' area is
-    // known to about 0.5 % (on a cut as small as 1e-3 R^2, to a tenth). The stock must not hold the cut that
-    // is being measured yet. Not for several threads at once (it keeps scratch space); no allocation once
-    // warm.
+    // Measures the engagement at this pose. Where the scout finds contact, the probe searches circles about
+    // the axis for material where the envelope moves outward. It uses few circles where they are alike and
+    // more where they differ, until the area of the chips is known to about 0.5 % (to a tenth for a cut as
+    // small as 1e-3 R^2). The stock must not contain the cut that is being measured yet. Keeps scratch space:
+    // one thread at a time; no allocation after the first calls.
     void measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
-    // Whether the scout finds any contact there.
+    // Returns true if the scout finds any contact at this pose.
     bool touches(const field::CarvedView& stock, const CutPose& pose);
 
   private:
-    // A circle, what is engaged on it, and the stretch of the meridian that it stands for.
+    // A circle, its engaged arcs, and the stretch of the meridian that it stands for.
     struct Level {
-        double s0 = 0, s = 0, s1 = 0;  // along the meridian, mm: where it begins, its circle, its end
-        // Contact ends all at once at s0, at s1.
+        double s0 = 0, s = 0, s1 = 0;  // along the meridian, mm: start of the stretch, its circle, its end
+        // True if the contact ends with a step at s0 or at s1.
         bool step_below = false, step_above = false;
         ProfilePoint at;
         TurnWindow window;                 // where the envelope moves outward
         double speed = 0;                  // of the fastest point of the circle, outward
         std::size_t first = 0, count = 0;  // of arcs_
-        double width_rad = 0;              // of those arcs
+        double width_rad = 0;              // total width of those arcs
         double flow = 0;                   // area that they sweep outward, per mm of meridian
-        double error = 0;                  // what splitting it may change, of the chips' area
+        double error = 0;                  // change of the area of the chips that splitting may cause
     };
     // Calls `look(s0, s1)` for each part of the meridian that may cut: corner, cylinder, bottom.
     template <class Look>
     void each_part(const field::CarvedView& stock, const CutPose& pose, Look look) const;
-    // Heights at which the envelope can meet the blank at all; false: none.
+    // Computes the heights at which the envelope may meet the blank. Returns false if there are none.
     bool clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low, double& high) const;
     void start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
     void find_step(Level& seen, Level& empty, const field::CarvedView& stock, const CutPose& pose) const;
     Level look(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);
-    // Fills Level::error; gives the chips' area as it is known now.
+    // Fills Level::error. Returns the area of the chips as known so far.
     double judge();
     double error_between(const Level& a, const Level& b) const;
-    // Gives the chips' area on these levels, beside what is known of other parts.
+    // Splits levels until the area is known well enough. Returns the area of the chips on these levels;
+    // `known_area` is the area of the other parts.
     double refine(const field::CarvedView& stock, const CutPose& pose, double known_area);
     struct BorderRun;
     static BorderRun run_of(double low, double middle, double high, double from_below, double to_above,
@@ -69,12 +70,12 @@ class EngagementProbe {
     CutterProfile profile_;
     ContactScout scout_;
     double radius_mm_, core_mm_, length_mm_;
-    std::vector<Level> levels_;  // by s, of one part of the profile: the bottom, or the lateral edge
+    std::vector<Level> levels_;  // sorted by s, of one part of the profile: the bottom, or the lateral edge
     std::vector<MaterialArc> arcs_;
     std::vector<MeridianStretch> stretches_;  // scratch
 };
 
-// Volume that the engaged surface sweeps on that travel, mm3: what the chips take out of the stock.
+// Returns the volume that the engaged surface sweeps during this travel, mm3: the chips that leave the stock.
 double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTravel& travel);
 
 }  // namespace tribo::milling

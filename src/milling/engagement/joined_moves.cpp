@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kLongestRow = 0.5;  // mm
 constexpr double kLongestOfDiameter = 0.5;
-// Moves and rows of one pass at most: the stock is seen between passes only.
+// Largest number of moves and of rows in one pass: viewers see the stock between passes only.
 constexpr int kMostJoined = 16;
 constexpr double kMostRows = 4;
-// The tip's way, and with it that of the flutes' upper end, may differ from the first one by this share.
+// The travel of the tip and of the upper end of the flutes may differ from the first one by this share.
 constexpr double kOffWay = 0.05;
 constexpr double kOffFeed = 0.02;
-// Ends and starts nearer than this join, mm and rad.
+// Ends and starts that are nearer than this join, mm and rad.
 constexpr double kJoint = 1e-4;
 
 }  // namespace

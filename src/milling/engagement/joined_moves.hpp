@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far one engagement reaches: the longest row, and which moves share rows.
+// The longest row of one engagement, and the moves that share rows.
 #pragma once
 
 #include "base/vec3.hpp"
@@ -8,23 +8,24 @@
 
 namespace tribo::milling {
 
-// Longest row, of the tip's path and half way up the cutter, mm: within what forces.csv promises, and a part
-// of the cutter's diameter.
+// Returns the longest row, mm, along the path of the tip and half way up the cutter: within the limit that
+// forces.csv promises, and at most a share of the cutter's diameter.
 double longest_row_mm(const Cutter& cutter);
 
-// The way of a move that counts against it, mm: of the tip or half way up the cutter, the longer one.
+// Returns the length of a move that counts against this limit, mm: the longer one of the paths of the tip and
+// of the point half way up the cutter.
 double row_way_mm(const motion::Move& move, const Cutter& cutter);
 
-// Rows that such a way takes.
+// Returns the number of rows of this length.
 double rows_of(double way_mm, const Cutter& cutter);
 
-// Tells, move by move, what makes one pass with the move before. It hangs on the program alone, not on how
-// much of it is milled at once. One thread.
+// Decides, move by move, if a move forms one pass with the move before it. The result depends on the program
+// alone, not on the number of moves that are milled at once. One thread.
 class JoinedMoves {
   public:
-    // True where the program's next move, which takes `duration_s`, joins the pass of the one before it: the
-    // same cutter, speed and feed, tip and shank going on as on the first move of the pass, and fewer rows
-    // together than apart.
+    // Returns true if the next move of the program, which takes `duration_s`, joins the pass of the move
+    // before it. Conditions: the same cutter, speed and feed; tip and shank continue as on the first move of
+    // the pass; together the moves need fewer rows than alone.
     bool add(const motion::Move& move, const Cutter& cutter, double spindle_rpm, double duration_s);
 
   private:
@@ -34,8 +35,8 @@ class JoinedMoves {
     };
     bool goes_on(const Way& way) const;
 
-    bool open_ = false;  // the pass may go on
-    int count_ = 0;      // moves of the pass
+    bool open_ = false;  // another move may join the pass
+    int count_ = 0;      // number of moves in the pass
     double way_mm_ = 0, feed_mm_per_s_ = 0, spindle_rpm_ = 0;
     const Cutter* cutter_ = nullptr;
     Way first_;

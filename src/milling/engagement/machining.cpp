@@ -12,20 +12,20 @@
 namespace tribo::milling {
 namespace {
 
-// An overlap of shank, holder or fixture counts from this depth on: a shank as thick as its cutter slides
-// along the wall that the cutter left.
+// An overlap of shank, holder or fixture counts from this depth on, because a shank as thick as its cutter
+// slides along the wall that the cutter left.
 constexpr double kClearance = 0.05;  // mm
-// Steps and rows that are looked at together, and how many earlier sweeps of the same run may stand in the
-// way of one: with more it is cheaper to carve them first.
+// Largest numbers of steps and rows that are processed together, and of earlier sweeps of the same run that
+// may overlap one sweep. With more of them it is cheaper to carve them first.
 constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
-// Rows are shared out in so many parts, each with probes of its own.
+// Rows are divided into this number of shares, each with its own probes.
 constexpr std::size_t kShares = 16;
-// What cuts of a row in which contact begins or ends is divided into so many rows.
+// The cutting part of a row in which contact begins or ends is divided into this number of rows.
 constexpr int kTurnParts = 4;
-// Around a sweep, for what rounding makes of a point on its border.
+// Margin around a sweep for the rounding of points on its border.
 constexpr double kMargin = 1e-3;  // mm
 
-// A rapid that takes less than this has only brushed a surface that was cut before.
+// A rapid that removes less than this only brushed a surface that was cut before.
 constexpr double kBrush = 1e-4;  // mm3
 
 motion::Move raised(motion::Move move, double height) {
@@ -36,9 +36,10 @@ motion::Move raised(motion::Move move, double height) {
     return move;
 }
 
-// Where a path bends more sharply than the cutter is wide, earlier parts of the move itself cut ahead of it.
+// True if the path bends more sharply than the cutter is wide: then earlier parts of the same move cut ahead
+// of it.
 bool meets_itself(const motion::Move& move, const Cutter& cutter) {
-    constexpr double kSharp = 0.5;  // of the cutter's radius over the path's
+    constexpr double kSharp = 0.5;  // cutter's radius over the radius of the path
     return (move.arc || move.quadratic) && motion::max_curvature_per_mm(move) * cutter.radius_mm() > kSharp;
 }
 
@@ -60,21 +61,21 @@ const char* name(CollisionKind kind) {
     return "";
 }
 
-// One step of shank or holder: a cylinder whose lower end stands `height_mm` above the tip.
+// One step of shank or holder: a cylinder whose lower end is `height_mm` above the tip.
 struct Machining::Cylinder {
     CollisionKind in_stock;
     Cutter solid;
     double height_mm = 0;
 };
 
-// One step of the run that is going on.
+// One step of the current run.
 struct Machining::Sweep {
     Step step;
     const field::Shape* shape = nullptr;  // null for a dwell
     Box3 bounds_mm;
-    std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut where this one comes
-    double from = 0, to = 1;                   // of the pass that it belongs to
-    double contact = 0;                        // of a rapid: where it first meets stock
+    std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut here before
+    double from = 0, to = 1;                   // fractions of the pass that it belongs to
+    double contact = 0;                        // of a rapid: fraction at which it first meets stock
     std::vector<Collision> collisions;
 
     bool is_rapid() const { return step.move->kind == motion::MoveKind::rapid; }
@@ -135,7 +136,8 @@ double Machining::length_mm(std::size_t pass, double to) const {
     }
 }
 
-// The pose half way; `last_x` stands in for a direction of travel across the axis, and becomes it.
+// Returns the pose half way. `last_x` replaces the direction of travel if there is none across the axis;
+// otherwise it is set to this direction.
 CutPose Machining::pose_between(std::size_t pass, double from, double to, Vec3& last_x) const {
     const motion::ToolPose mid = pose_at(pass, 0.5 * (from + to));
     const motion::ToolPose first = pose_at(pass, from), last = pose_at(pass, to);
@@ -200,23 +202,24 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
 }
 
 bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
-    constexpr double kAround = 1e-4;  // of the pass: for the direction of travel
+    constexpr double kAround = 1e-4;  // fraction of the pass, for the direction of travel
     const Sweep& sweep = sweeps_[turn.step];
     Vec3 x = turn.x;
     const CutPose pose = pose_between(turn.step, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
     return probes[sweep.step.cutter].touches(before(sweep), pose);
 }
 
-// A row is judged by its middle. Where one cuts and the next does not, contact turned between their middles.
-// Of two passes only the later one is divided, so that nothing depends on how many are run at once; the end
-// of a pass is one more middle if it cuts, as that of a plunge may.
+// Finds the turns between rows. A row is represented by its middle. If one row cuts and the next does not,
+// contact turned between their middles. Of two passes only the later one is divided, so that the result does
+// not depend on the number of passes in a run. The end of a pass counts as one more middle if it cuts, as the
+// end of a plunge may.
 void Machining::find_turns(const Machined& out) {
     turns_.clear();
     std::size_t row = 0;
     for (std::size_t step = 0, next_step; step < sweeps_.size(); step = next_step) {
         next_step = pass_end(step);
         const Sweep& sweep = sweeps_[step];
-        // Another tool, or one that jumps, comes out of the air like one that comes fast.
+        // A different tool, or a jump of the tool, starts in the air, as after a rapid.
         const bool goes_on = sweep.step.cutter == end_.cutter &&
                              distance(sweep.step.move->start.tip_mm, end_.tip_mm) < kMargin;
         Turn last{step, {}, 0, 0, end_.in_cut && goes_on && !sweep.is_rapid()};
@@ -245,7 +248,7 @@ void Machining::find_turns(const Machined& out) {
     });
 }
 
-// Divides the rows in which contact turns there, and what cuts of them in parts.
+// Divides the rows in which contact turns at these places, and the cutting ones into parts.
 void Machining::divide_rows_at_turns(Machined& out) {
     find_turns(out);
     if (turns_.empty()) return;
@@ -310,7 +313,7 @@ void Machining::find_contact(std::size_t number, Sweep& sweep) const {
 void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
     const motion::Move& move = *sweep.step.move;
     const auto report = [&](CollisionKind kind, Vec3 place) {
-        // The fraction of the move at which the tip is nearest to the place: where to look in a picture.
+        // The fraction of the move at which the tip is nearest to the place, for display in a picture.
         double best = 0, nearest = 1e300;
         for (int n = 0; n <= 16; ++n) {
             const double d = distance(motion::pose_at(move, n / 16.0).tip_mm, place);
@@ -324,7 +327,8 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
     }
     for (const Cylinder& part : bodies_[sweep.step.cutter]) {
         const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
-        // The shank follows the cutter: what this move and those before it take away is not in its way.
+        // The shank follows the cutter: the volume that this move and those before it remove is not an
+        // obstacle.
         std::vector<field::PendingShape> gone;
         const Box3 reach = solid->bounds_mm();
         for (std::size_t n = 0; n <= number; ++n) {
@@ -350,7 +354,7 @@ bool Machining::add_sweep(const Step& step) {
     auto shape = make_sweep(cutters_[step.cutter], *step.move);
     sweep.shape = shape.get();
     sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
-    // What joins is measured with the first step of its pass.
+    // Steps that join are measured with the first step of their pass.
     for (const Sweep& other : sweeps_) {
         if (step.joins) break;
         if (!other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
@@ -375,7 +379,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         const bool ends = &step == &steps.back() || !(&step + 1)->joins;
         if (ends && step.move->kind == motion::MoveKind::feed) add_pass(pass, out);
     }
-    // Rows in shares, then what concerns whole steps.
+    // Rows in shares, then the checks of whole steps.
     const std::size_t count = sweeps_.size();
     parallel_(kShares + count, [&](std::size_t n) {
         if (n < kShares) {
@@ -407,14 +411,14 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     return count;
 }
 
-// Chips are reconciled with what the stock lost in their pass. The grid knows the volume to some cells only:
-// kRoughCells more stand on both sides, so that the factor of a short pass tends to 1. Up to kSlack the
-// difference is left to the grid's rounding. Each pass is reconciled alone, so that nothing depends on how
-// many are run at once.
+// Reconciles the chips of each pass with the volume that the stock lost. The grid knows the volume to some
+// cells only. Therefore kRoughCells are added on both sides, so that the factor of a short pass tends to 1. A
+// difference up to kSlack is attributed to the rounding of the grid. Each pass is reconciled separately, so
+// that the result does not depend on the number of passes in a run.
 void Machining::reconcile(Machined& out) const {
     constexpr double kRoughCells = 100;
     constexpr double kSlack = 0.005;
-    // Beyond these the engagement missed what was cut, and no factor makes a force of it.
+    // Beyond these limits the engagement missed the cut, and no factor can correct the force.
     constexpr double kLeast = 0.5, kMost = 2;
     const double cell = stock_.cell_mm(), rough = kRoughCells * cell * cell * cell;
     for (std::size_t first = 0; first < out.row_count;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tool moves against the stock: what the teeth meet, what is lost, what runs into what.
+// Runs tool moves against the stock: engagement, removed volume and collisions.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,12 @@
 
 namespace tribo::milling {
 
-// One elementary move (motion::to_elementary) of one of the cutters. The move must outlive the run. A pass is
-// one step with those that join it.
+// One elementary move (motion::to_elementary) with one of the cutters. The move must outlive the run. A pass
+// is one step and the steps that join it.
 struct Step {
     const motion::Move* move;
     std::size_t cutter;
-    bool joins = false;  // makes one pass with the step before it (JoinedMoves)
+    bool joins = false;  // forms one pass with the step before it (JoinedMoves)
 };
 
 struct Collision {
@@ -31,7 +31,7 @@ struct Collision {
     Vec3 tip_mm;
 };
 
-// What a run of steps gives. Rows beyond row_count are room that a later run may use.
+// Results of a run of steps. The rows beyond row_count are memory for later runs.
 struct Machined {
     std::vector<CutRow> rows;
     std::size_t row_count = 0;
@@ -40,42 +40,43 @@ struct Machined {
 };
 
 struct MachiningOptions {
-    double rapid_row_mm = 2;  // how far apart a rapid that touched stock is searched for the place
+    double rapid_row_mm = 2;  // step of the search for the contact of a rapid that touched stock
     bool collisions = true;
 };
 
 class Machining {
   public:
-    // The field, the cutters and the fixtures must outlive it. Fixtures are only ever tested, never cut.
+    // The field, the cutters and the fixtures must outlive this object. Fixtures are tested for collisions
+    // but never cut.
     Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
               std::span<const std::unique_ptr<const field::Shape>> fixtures, MachiningOptions options = {},
               ParallelFor parallel = serial_for);
     ~Machining();
 
-    // Runs the first of the steps: as many, at least one pass, as are worth looking at together, on all
-    // threads. Gives their number. What comes out depends on the steps alone, not on the threads. The first
-    // step joins no other, and all that join the last one are there.
+    // Runs the first of the steps, at least one pass: as many as are efficient to process together, on all
+    // threads. Returns their number. The results depend on the steps alone, not on the threads. The first
+    // step must not join an earlier one, and all steps that join the last one must be present.
     std::size_t run(std::span<const Step> steps, Machined& out);
 
   private:
     struct Cylinder;
     struct Sweep;
-    // False where too many earlier sweeps of this run stand in the step's way.
+    // Returns false if too many earlier sweeps of this run overlap the sweep of the step.
     bool add_sweep(const Step& step);
-    // Ends the pass that begins with that sweep and goes on to the last one.
+    // Ends the pass that begins with this sweep and contains all sweeps up to the last one.
     void add_pass(std::size_t first, Machined& out);
     std::size_t pass_end(std::size_t first) const;
-    // On the pass that begins with that sweep.
+    // Pose and length on the pass that begins with the sweep `pass`.
     motion::ToolPose pose_at(std::size_t pass, double at) const;
     double length_mm(std::size_t pass, double to) const;
     CutPose pose_between(std::size_t pass, double from, double to, Vec3& last_x) const;
     void measure_rows(std::size_t first, std::size_t last, std::vector<EngagementProbe>& probes,
                       Machined& out) const;
     field::CarvedView before(const Sweep& sweep) const;
-    // A place on a pass where contact begins (`into`) or ends, between two fractions of it; `x` stands in for
-    // the direction of travel.
+    // A place on a pass, between two fractions of it, where contact begins (`into`) or ends. `x` replaces the
+    // direction of travel where there is none.
     struct Turn {
-        std::size_t step = 0;  // the first one of the pass
+        std::size_t step = 0;  // the first step of the pass
         Vec3 x;
         double before = 0, after = 0;
         bool into = false;
@@ -95,19 +96,19 @@ class Machining {
     std::vector<std::vector<EngagementProbe>> probes_;  // by share of the work, then by cutter
     std::vector<std::vector<Cylinder>> bodies_;
     Vec3 last_x_{1, 0, 0};  // stock +x until the tool has moved across its axis
-    // At the end of what was run before.
+    // State at the end of the earlier runs.
     struct End {
         bool in_cut = false;
         std::size_t cutter = 0;
         Vec3 tip_mm;
     } end_;
-    // Of the run that is going on.
+    // State of the current run.
     std::vector<Sweep> sweeps_;
     std::vector<std::unique_ptr<const field::Shape>> shapes_;
     std::vector<double> removed_;  // by shape
     std::vector<Turn> turns_;
     std::vector<CutRow> divided_;
-    std::vector<std::size_t> fresh_;  // of the divided rows, those to be measured
+    std::vector<std::size_t> fresh_;  // indices of the divided rows to be measured
 };
 
 }  // namespace tribo::milling

@@ -8,7 +8,7 @@
 namespace tribo::milling {
 namespace {
 
-// Taylor series, good to 1e-16 up to here; most pieces of an edge turn less.
+// Up to this angle a Taylor series is used, accurate to 1e-16; most pieces of an edge turn less.
 constexpr double kSeriesRad = 0.5;
 
 void sinc_and_cos(double x, double& sinc, double& cosine) {
@@ -72,8 +72,7 @@ EdgeLoad bottom_load(const CuttingCoefficients& k, const ToolTravel& travel, dou
     const double width = r1_mm - r0_mm, middle = 0.5 * (r0_mm + r1_mm);
     const double first = width * middle;                                                // integral of r
     const double second = width * (r0_mm * r0_mm + r0_mm * r1_mm + r1_mm * r1_mm) / 3;  // of r^2
-    // `of_one` and `of_r` are the integrals that the constant and the turning part of the chip are
-    // multiplied by.
+    // `of_one` and `of_r` are the integrals for the constant part and the turning part of the chip.
     const auto law = [&](double shear, double edge, double of_one, double of_r) {
         return TurnLaw{shear * travel.turn_x_rad * of_r, shear * travel.turn_y_rad * of_r,
                        (shear * travel.down_mm + edge) * of_one};

@@ -12,26 +12,28 @@
 namespace tribo::milling {
 namespace {
 
-// Widest step between samples, rad: the parabola through three of them misses a second harmonic by 1e-4.
+// Widest step between samples, rad: with it the parabola through three samples misses a second harmonic by
+// 1e-4.
 constexpr double kStepRad = 1.0 / 24;
 // A stretch shorter than this, in which nothing enters or leaves, bends by less than 1e-4 of the force
 // between its ends.
 constexpr double kShortRad = 0.015;
-// Fewest steps over the whole of a rounded piece's entering or leaving, over any part of it where the piece
-// is one at the tip, and which piece counts as such.
+// Fewest steps over the whole entering or leaving of a rounded piece; fewest steps over any part of it if the
+// piece is at the tip; a piece is at the tip if z0 / z1 is below kTipShare.
 constexpr double kPartialSteps = 6;
 constexpr int kRootSteps = 4;
 constexpr double kTipShare = 0.2;
-// Borders closer than this are one.
+// Borders closer than this count as one.
 constexpr double kSameRad = 1e-9;
 constexpr int kNoChange = -1;
 
 }  // namespace
 
-// Signed extremes of the four channels and of the two squared sizes, by samples and parabolas through three.
+// Signed extremes of the four channels and extremes of the two squared sizes, from samples and parabolas
+// through three samples.
 class PeakFinder::Extremes {
   public:
-    // Samples of one stretch come in order; `index` counts them from 0.
+    // The samples of one stretch come in order; `index` counts them from 0.
     void add(const Lanes& f, int index) {
         const double xy2 = f[0] * f[0] + f[1] * f[1];
         const double now[kChannels] = {f[0], f[1], f[2], f[3], xy2, xy2 + f[2] * f[2]};
@@ -39,7 +41,7 @@ class PeakFinder::Extremes {
             take(i, now[i]);
             if (index >= 2) {
                 const double slope = now[i] - before_[i], bend = before_[i] - 2 * last_[i] + now[i];
-                // The vertex lies between the three samples and is the extreme.
+                // The vertex is the extreme if it lies between the three samples.
                 if (std::abs(slope) < 2 * std::abs(bend)) take(i, last_[i] - slope * slope / (8 * bend));
             }
             before_[i] = last_[i];
@@ -58,8 +60,8 @@ class PeakFinder::Extremes {
     double extreme_[kChannels] = {}, before_[kChannels] = {}, last_[kChannels] = {};
 };
 
-// `f` is a function of the rotation theta + phase - lag of a tooth that starts to count at `angle` and, with
-// what else this piece adds, ends at `last_angle` (angles of the tip).
+// `f` is a function of the rotation theta + phase - lag of a tooth. It starts to count at `angle` and ends,
+// with the other changes of this piece, at `last_angle` (angles of the tip).
 void PeakFinder::add_change(const EngagedEdge& edge, double angle, double last_angle, const TurnSeries& f,
                             double lag, double scale, double period) {
     const int n = static_cast<int>(std::floor((angle - edge.phase_rad) / period));
@@ -76,7 +78,7 @@ void PeakFinder::add_border(const EngagedEdge& edge, double angle, double period
     borders_.push_back({(along - std::floor(along)) * period, kNoChange});
 }
 
-// Whenever the tip of a tooth is between the two rotations.
+// Adds the times in which the tip of a tooth is between the two rotations.
 void PeakFinder::add_partial(const EngagedEdge& edge, double from_tip, double to_tip, double period) {
     const int first = static_cast<int>(std::ceil((from_tip - edge.phase_rad - period) / period));
     const int last = static_cast<int>(std::floor((to_tip - edge.phase_rad) / period));
@@ -125,9 +127,9 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
         }
         return;
     }
-    // The integral over a piece is the sum over its corners in the plane of rotation and lag: from the moment
-    // when the edge's end (lag) reaches the window's border, it adds or takes the integral from the border
-    // on.
+    // The integral over a piece is the sum over its corners in the plane of rotation and lag. When the end of
+    // the edge (lag) reaches the border of the window, the corner starts to add or subtract the integral from
+    // the border on.
     const TurnSeries integral = load_integral(edge.load);
     const double per_rad = 1 / std::abs(tool.lag_per_mm()), end = exit + lag1;
     const auto corner = [&](double border, double sine, double cosine, double lag, double sign) {
@@ -144,13 +146,13 @@ void PeakFinder::add_edge(const EngagedEdges& tool, const EngagedEdge& edge) {
     corner(exit, sine, cosine, lag1, 1);
 }
 
-// Between two borders.
+// Samples the force between two borders.
 void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes& extremes) {
     const double length = to - from, middle = 0.5 * (from + to);
-    // Teeth that are entering or leaving; those wholly within are in the series.
+    // Teeth that are entering or leaving. The series contains the teeth that are wholly within.
     here_.clear();
     bool root = false;
-    double shortest = math::kTwoPi;  // of the rotations over which one enters or leaves
+    double shortest = math::kTwoPi;  // of the rotations over which a tooth enters or leaves
     for (const PartialTooth& tooth : partial_) {
         if (middle < tooth.from || middle > tooth.to) continue;
         here_.push_back(&tooth);
@@ -167,15 +169,15 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
     math::sincos(from, sine, cosine);
     math::sincos(length / steps, sin_step, cos_step);
     for (int i = 0; i <= steps; ++i) {
-        // A piece at the tip enters and leaves with the root of the angle, of a left-hand helix at the end:
-        // even steps of that root.
+        // The force of a piece at the tip grows with the square root of the angle when it enters or leaves
+        // (on a left-hand helix: towards the end). Therefore the steps are even in this root.
         const double part = static_cast<double>(i) / steps, rest = 1 - part,
                      share = !root       ? part
                              : left_hand ? 1 - rest * rest
                                          : part * part;
         const double theta = from + length * share;
         if (root && i > 0) math::sincos(theta, sine, cosine);
-        // Helical edges leave no jump at a border: what ended the last stretch starts this one.
+        // Helical edges have no jump at a border: the last sample of a stretch is the first of the next.
         if (i > 0 || from == 0 || jumps_) {
             last_ = series_.at(theta, sine, cosine);
             for (const PartialTooth* p : here_) last_ += Lanes(piece_force(tool, *p->edge, theta + p->ahead));

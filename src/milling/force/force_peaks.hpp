@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The extremes of the cutting force over a turn, found on the closed form over time: between two borders (an
-// edge's end entering or leaving a window) the force of all edges together is one short series in the spindle
-// angle, kept up to date from border to border.
+// The extremes of the cutting force over a turn, computed from the closed form over time. A border is a
+// spindle angle at which an end of an edge enters or leaves a window. Between two borders the force of all
+// edges together is one short series in the spindle angle. The series is updated at each border.
 #pragma once
 
 #include <vector>
@@ -14,28 +14,28 @@ namespace tribo::milling {
 
 struct ForcePeaks {
     Vec3 mean_n;
-    Vec3 peak_n;              // of each component, its extreme of largest size, signed
+    Vec3 peak_n;              // of each component: the extreme of largest size, signed
     double peak_xy_n = 0;     // largest force across the axis
     double peak_force_n = 0;  // largest force
     double mean_torque_nmm = 0;
     double peak_torque_nmm = 0;  // extreme of largest size, signed
 };
 
-// Keeps its scratch space: real-time safe once it has seen as many pieces. One thread per object.
+// Keeps its scratch space: real-time safe once it has processed as many pieces. One thread per object.
 class PeakFinder {
   public:
-    // Extremes good to 0.1 % of the largest force, on flat cutters to 0.02 %.
+    // The extremes are accurate to 0.1 % of the largest force, on flat cutters to 0.02 %.
     ForcePeaks find(const EngagedEdges& edges);
 
   private:
     struct Border {
         double angle;  // rad, within the period
-        int change;    // into changes_, or none for a border that changes only what is sampled
+        int change;    // index into changes_; kNoChange for a border that only starts or ends a PartialTooth
     };
-    // A tooth while a rounded piece of it enters or leaves, which is no series.
+    // A tooth while a rounded piece of it enters or leaves. This force is not a series.
     struct PartialTooth {
         const EngagedEdge* edge;
-        double ahead;     // rad, of its tip ahead of theta
+        double ahead;     // rad, its tip ahead of theta
         double from, to;  // theta
     };
     class Extremes;
@@ -51,8 +51,8 @@ class PeakFinder {
     bool jumps_ = false;  // straight edges enter and leave all at once
     std::vector<TurnSeries> changes_;
     std::vector<Border> borders_;
-    std::vector<PartialTooth> partial_;      // of the whole period
-    std::vector<const PartialTooth*> here_;  // of the stretch that is scanned
+    std::vector<PartialTooth> partial_;      // all of the period
+    std::vector<const PartialTooth*> here_;  // those of the current stretch
 };
 
 }  // namespace tribo::milling

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The four channels of a tool force side by side in vectors of the compiler that every target has in
-// hardware.
+// The four channels of a tool force in vector types of the compiler that every target supports in hardware.
 #pragma once
 
 #include "contact/force_spectrum.hpp"
@@ -9,7 +8,7 @@ namespace tribo::milling {
 
 using Pair [[gnu::vector_size(16)]] = double;
 
-// Force along x, y, z, N (or N per something), and torque, N mm. Real-time safe.
+// Force along x, y, z, N (or N per unit), and torque, N mm. Real-time safe.
 struct Lanes {
     Pair xy{}, zt{};
 

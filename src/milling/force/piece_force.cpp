@@ -10,7 +10,7 @@
 namespace tribo::milling {
 namespace {
 
-// Taylor series, good to 1e-14 up to here.
+// Up to this angle a Taylor series is used, accurate to 1e-14.
 constexpr double kSmallTurnRad = 0.12;
 
 void small_sincos(double x, double& sine, double& cosine) {
@@ -32,7 +32,8 @@ contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge
     }
     double z0 = edge.z0_mm, z1 = edge.z1_mm;
     const double whole = high - low;
-    // A right-hand helix lags ever more with height, a left-hand one runs ahead: its low rotations are low.
+    // A right-hand helix lags more with height; a left-hand helix runs ahead, so that its low rotations are
+    // at low heights.
     const bool left_hand = tool.lag_per_mm() < 0;
     const auto height_at = [&](double rotation) {
         return std::clamp((tip_rad - rotation) / tool.lag_per_mm(), edge.z0_mm, edge.z1_mm);
@@ -49,7 +50,8 @@ contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge
         return segment_force(edge.load, low, high,
                              straight ? edge.weight_mm : edge.weight_mm * (high - low) / whole);
     }
-    // The rotations of the points lie close together: one sine and cosine, then small turns from there.
+    // The rotations of the points are close together: one sine and cosine for the middle, then small turns
+    // from there.
     const double middle = 0.5 * (low + high);
     double sin_middle, cos_middle;
     math::sincos(middle, sin_middle, cos_middle);

@@ -7,13 +7,13 @@
 
 namespace tribo::milling {
 
-// Of the tooth whose tip stands at `tip_rad` (rotation, any turn): closed form on the cylinder,
-// Gauss-Legendre along the profile in the rounded part; zero where nothing of the piece is within its window.
+// Returns the force of the tooth whose tip is at `tip_rad` (rotation, any turn): closed form on the cylinder,
+// Gauss-Legendre along the profile in the rounded part. Zero if no part of the piece is within its window.
 // Real-time safe.
 contact::ToolForce piece_force(const EngagedEdges& tool, const EngagedEdge& edge, double tip_rad);
 
-// The teeth whose part of this piece is within its window, at least in part, at spindle angle theta: tips
-// stand at theta + phase + n * period for n from first to last (none: last < first).
+// The teeth whose piece is at least partly within its window at spindle angle theta. Their tips are at theta
+// + phase + n * period for n from first to last (none: last < first).
 struct ToothRange {
     int first, last;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Gauss-Legendre points along the rounded part of the profile, where sin kappa makes the integrals of radial
-// and axial force non-elementary.
+// Gauss-Legendre points along the rounded part of the profile. There the integrals of radial and axial force
+// are not elementary because of sin kappa.
 #pragma once
 
 #include <algorithm>
@@ -28,10 +28,10 @@ inline constexpr GaussRule kGauss6{6,
                                    {0.17132449237917034504, 0.36076157304813860757, 0.46791393457269104739,
                                     0.46791393457269104739, 0.36076157304813860757, 0.17132449237917034504}};
 
-// Calls visit(lag, load) with the lag behind the tip, rad (negative on a left-hand helix), and the load times
-// the point's length of profile: N and N mm. The variable is u = sqrt(z / 2r) = sin(kappa / 2), smooth down
-// to the tip and free of trigonometry: sin kappa = 2 u sqrt(1 - u^2), cos kappa = 1 - 2 u^2, db = r dkappa =
-// 2 r du / sqrt(1 - u^2). Real-time safe.
+// Calls visit(lag, load) at each point, with the lag behind the tip, rad (negative on a left-hand helix), and
+// the load times the length of profile of the point: N and N mm. The variable is u = sqrt(z / 2r) = sin(kappa
+// / 2). It is smooth down to the tip and needs no trigonometry: sin kappa = 2 u sqrt(1 - u^2), cos kappa = 1
+// - 2 u^2, db = r dkappa = 2 r du / sqrt(1 - u^2). Real-time safe.
 template <class Visit>
 void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, double z1_mm,
                    const GaussRule& rule, Visit&& visit) {
@@ -54,8 +54,8 @@ void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, dou
     }
 }
 
-// Widest step of sin(kappa / 2) and widest turn of what multiplies the load over which three points are good
-// to 1e-7 of the force, and two to 1e-6.
+// Limits of the step of sin(kappa / 2) and of the turn of the factor of the load. Within them three points
+// are accurate to 1e-7 of the force, two points to 1e-6.
 inline constexpr double kThreePointProfile = 0.2, kThreePointRad = 0.5;
 inline constexpr double kTwoPointProfile = 0.05, kTwoPointRad = 0.2;
 

@@ -29,7 +29,7 @@ Result<PublishedCut> published_cut(const Cutter& cutter, const CuttingCoefficien
 
 // Legend: K11 = K33 = K_t / (2 tan beta), K13 = K31 = eta_r K_t / (2 sin beta), K22 = K_t, all times R f.
 Vec3 published_force(PublishedForm form, const PublishedCut& cut, std::span<const FluteSpan> flutes) {
-    Vec3 sums;  // over the flutes, of the brackets of equations 3, 4 and 5
+    Vec3 sums;  // sums over the flutes of the brackets of equations 3, 4 and 5
     for (const FluteSpan& flute : flutes) {
         double sin1, cos1, sin2, cos2;
         math::sincos(flute.entry_rad, sin1, cos1);

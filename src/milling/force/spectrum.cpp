@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Harmonics of the force in closed form. Legend: m order of the spindle's frequency; a tooth's piece at lag l
-// behind its tip stands at phi = theta + phase - l, so
+// Harmonics of the force in closed form. Legend: m is the order (multiple of the spindle frequency). A piece
+// of a tooth at lag l behind its tip is at phi = theta + phase - l. Therefore
 //   F_m = 1/(2 pi) sum over pieces of  integral dz load(z) e^{-i m (l(z) - phase)}  *  integral dphi s(phi)
 //   e^{-i m phi}
-// where s is one of sin cos, sin^2, cos, sin, 1. Those are sums of e^{i p phi}, |p| <= 2, whose integral over
+// where s is one of sin cos, sin^2, cos, sin, 1. These are sums of e^{i p phi}, |p| <= 2, whose integral over
 // the window is (e^{i(p-m) exit} - e^{i(p-m) entry}) / (i (p-m)), and exit - entry for p = m.
 #include <algorithm>
 #include <cassert>
@@ -20,7 +20,7 @@ namespace {
 
 using contact::ForceHarmonic;
 
-// A complex number whose product compiles to four multiplications (std::complex asks for infinities).
+// A complex number whose product compiles to four multiplications (std::complex handles infinities).
 struct Phasor {
     double re = 1, im = 0;
 };
@@ -42,7 +42,7 @@ Phasor unit(double angle) {
     return p;
 }
 
-// The powers e^{-i n step angle}, n = 0, 1, 2, ...: one product each.
+// The powers e^{-i n step angle}, n = 0, 1, 2, ...: one product for each.
 class Powers {
   public:
     Powers() = default;
@@ -70,7 +70,7 @@ class Window {
 
     WindowMoments moments(int m) const {
         const Phasor up = at_exit_.now, down = at_entry_.now;
-        // Of e^{i p phi}: e^{-i m phi} e^{i p phi} at both ends.
+        // Integrals of e^{i p phi}: e^{-i m phi} e^{i p phi} at both ends.
         const Phasor p0 = over(up - down, -m);
         const Phasor p1 = over(up * exit_ - down * entry_, 1 - m);
         const Phasor n1 = over(up * conjugate(exit_) - down * conjugate(entry_), -1 - m);
@@ -91,7 +91,7 @@ class Window {
   private:
     static Phasor conjugate(Phasor a) { return {a.re, -a.im}; }
     static Phasor minus_i(Phasor a) { return {a.im, -a.re}; }
-    // difference / (i q), and the width of the window for q = 0.
+    // difference / (i q); the width of the window for q = 0.
     Phasor over(Phasor difference, int q) const {
         return q == 0 ? Phasor{width_, 0} : (1.0 / q) * minus_i(difference);
     }
@@ -109,7 +109,7 @@ void add(ForceHarmonic& out, Lanes re, Lanes im) {
 }
 
 // On the cylinder the load is constant and the integral over the height is a sinc:
-// integral e^{-i m l} dz = height e^{-i m middle} sin(m half) / (m half), half the lag from end to end.
+// integral e^{-i m l} dz = height e^{-i m middle} sin(m half) / (m half), half: half the lag from end to end.
 void add_cylinder(const EngagedEdge& edge, double scale, int step, std::span<ForceHarmonic> out) {
     const TurnLaw &t = edge.load.t, &r = edge.load.r, &a = edge.load.a, &m = edge.load.m;
     // cos^2 is 1 - sin^2.
@@ -140,12 +140,12 @@ void add_cylinder(const EngagedEdge& edge, double scale, int step, std::span<For
     }
 }
 
-// In the rounded part the integral over the height is Gauss-Legendre; the caller keeps the piece short enough
+// In the rounded part the integral over the height is Gauss-Legendre. The caller keeps the piece short enough
 // for the highest harmonic.
 void add_round(const EngagedEdges& tool, const EngagedEdge& edge, double z0, double z1, double scale,
                int step, std::span<ForceHarmonic> out) {
     struct Point {
-        Lanes sine, cosine, constant;  // load's parts t, r, a, m
+        Lanes sine, cosine, constant;  // parts t, r, a, m of the load
         Powers lag;
     };
     Point points[6];
@@ -189,7 +189,7 @@ void add_round(const EngagedEdges& tool, const EngagedEdge& edge, double z0, dou
 
 // Widest turn of e^{-i m l} over one set of Gauss points.
 constexpr double kPhasePerPanelRad = 4;
-// Widest step of sin(kappa / 2) over one set.
+// Widest step of sin(kappa / 2) over one set of Gauss points.
 constexpr double kProfilePerPanel = 0.36;
 
 void add_pieces(const EngagedEdges& tool, int step, std::span<ForceHarmonic> out) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A tool force as a function of an angle: constant, linear, first and second harmonic of each channel. All
-// that a helical edge on a cylinder does between two borders of its engagement has this form.
+// A tool force as a function of an angle: constant, linear, first and second harmonic of each channel. The
+// force of a helical edge on a cylinder has this form between two borders of its engagement.
 #pragma once
 
 #include "milling/force/edge_force.hpp"
@@ -14,7 +14,7 @@ struct TurnSeries {
     Lanes of_one, of_angle, of_cos, of_sin, of_cos2, of_sin2;
 
     void add(const TurnSeries& f);
-    // f(x - by) times scale, added to this.
+    // Adds f(x - by) times scale.
     void add_shifted(const TurnSeries& f, double by_rad, double scale);
 
     Lanes at(double angle_rad, double sine, double cosine) const {
@@ -24,9 +24,9 @@ struct TurnSeries {
     }
 };
 
-// The load of one rotation, per mm.
+// Returns the load at a rotation, per mm.
 TurnSeries load_series(const EdgeLoad& load);
-// Its integral over the rotation, without a constant.
+// Returns the integral of load_series() over the rotation, without the constant of integration.
 TurnSeries load_integral(const EdgeLoad& load);
 
 }  // namespace tribo::milling

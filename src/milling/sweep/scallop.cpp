@@ -12,16 +12,16 @@ namespace tribo::milling {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Halvings of an interval: to the last bit of a double.
+// Number of bisections: to the last bit of a double.
 constexpr int kBisections = 60;
 
-// The lower outline of the tool seen along the feed, y across it and z along the surface normal: the ellipse
-// {e1 cos + e2 sin} of the circle that carries the corner, grown by the corner, and from where its normal is
-// across the tool axis on, on either side, the flank.
+// The lower outline of the tool seen along the feed, y across it and z along the surface normal. It is the
+// ellipse {e1 cos + e2 sin} of the circle that carries the corner, grown by the corner. On both sides the
+// flank begins where the normal of the outline is perpendicular to the tool axis.
 struct Outline {
     double e1y, e2y, e2z;  // e1z = 0
     double corner;
-    double lean;   // +1 where the axis leans towards +y, -1 towards -y
+    double lean;   // +1 if the axis leans towards +y, -1 towards -y
     double slope;  // of the flank: |dy / dz|
     double flank;  // angle of the normal at which the flank begins on the side of the lean, 0..pi/2
 
@@ -41,7 +41,8 @@ struct Outline {
     struct Point {
         double y, height;
     };
-    // The point whose outer normal is `angle` off straight down, towards +y; height above the lowest point.
+    // Returns the point whose outer normal is `angle` off straight down, towards +y; its height is above the
+    // lowest point.
     Point at(double angle) const {
         double s = 0, c = 1;
         math::sincos(angle, s, c);
@@ -50,9 +51,9 @@ struct Outline {
         if (support == 0) return {corner * s, corner * (1 - c)};
         return {(e1y * a + e2y * b) / support + corner * s, e2z * b / support + e2z + corner * (1 - c)};
     }
-    // The angle at which the flank begins, on the side towards `sign`.
+    // Returns the angle at which the flank begins, on the side of `sign`.
     double last_angle(double sign) const { return sign * (sign == lean ? flank : math::kPi - flank); }
-    // y of the outline at the height, on the side towards `sign`.
+    // Returns y of the outline at this height, on the side of `sign`.
     double reach(double height, double sign) const {
         double low = 0, high = last_angle(sign);
         const Point last = at(high);
@@ -64,12 +65,12 @@ struct Outline {
         return at(high).y;
     }
     double width(double height) const { return reach(height, 1) - reach(height, -1); }
-    // Below this height the outline is the curve alone, above the second one the flank alone.
+    // Below flank_height() the outline is the curve alone, above full_height() the flank alone.
     double flank_height() const { return at(last_angle(lean)).height; }
     double full_height() const { return at(last_angle(-lean)).height; }
 };
 
-// Height of a circle of radius r over its chord of the given length, without cancellation.
+// Returns the height of a circle of radius r over a chord of this length, without cancellation.
 double sagitta(double r, double chord) {
     const double half = 0.5 * chord;
     return half * half / (r + std::sqrt(r * r - half * half));

@@ -19,14 +19,14 @@ using namespace simd;
 
 using field::kLatticeEdge;
 
-// Each builds on the one before.
+// Each of these files uses the one before it.
 // clang-format off
 #include "milling/sweep/sweep_search.inl"
 #include "milling/sweep/sweep_distance.inl"
 #include "milling/sweep/sweep_curved.inl"
 // clang-format on
 
-// The tool at one pose, cap included.
+// Returns the box of the tool at one pose, cap included.
 Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {
     const double r = tool.radius_mm;
     const auto reach = [r](double u) { return r * std::sqrt(std::max(0.0, 1 - u * u)); };
@@ -53,7 +53,7 @@ auto by_kind(CutterKind kind, const F& f) {
     return f.template operator()<CutterKind::flat>();
 }
 
-// How the profile's distance grows with rho and with z: unit.
+// The gradient of the distance of the profile by rho and by z: a unit vector.
 struct ProfileNormal {
     double by_rho, by_z;
 };
@@ -64,9 +64,9 @@ ProfileNormal profile_normal(const ToolProfile& tool, double rho, double z) {
     return side >= under ? ProfileNormal{1, 0} : ProfileNormal{0, -1};
 }
 
-// The tool at one instant as a point sees it.
+// The tool at one instant as seen from a point.
 struct ToolView {
-    Vec3 axis, radial;  // unit; radial zero on the axis
+    Vec3 axis, radial;  // unit; radial is zero on the axis
     double rho, z, drho, dz;
 };
 ToolView view(const CurvedLine& c, Vec3 point, double t) {
@@ -85,10 +85,11 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
     return v;
 }
 
-// Out of the volume, where the tool touches it at the instant t. Where side and bottom of a flat cutter meet,
-// the edge makes the surface: across its travel, between the two normals.
+// Returns the outward normal of the volume where the tool touches it at the instant t. Where side and bottom
+// of a flat cutter meet, the edge makes the surface: its normal is perpendicular to the travel of the edge,
+// between the two normals.
 Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
-    constexpr double kEdge = 1e-5;  // mm; many times what the search settles at
+    constexpr double kEdge = 1e-5;  // mm; many times the accuracy of the search
     if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz > 0 &&
         std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
         const double side = std::abs(v.dz), bottom = std::abs(v.drho);
@@ -103,7 +104,7 @@ class StraightSweep final : public field::Shape {
     StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis) : tool_(tool), start_(from) {
         double rise = dot(travel, axis);
         Vec3 across = travel - rise * axis;
-        // Below this share the part along or across the axis is rounding of the axis itself.
+        // A part along or across the axis below this share is rounding of the axis itself.
         constexpr double kRounding = 1e-12;
         if (std::abs(rise) < kRounding * length(across)) rise = 0;
         if (length(across) < kRounding * std::abs(rise)) across = {};
@@ -125,8 +126,8 @@ class StraightSweep final : public field::Shape {
         const Vec3 q = frame_.into(point - start_);
         const Profile<double> p(tool_);
         const Line<double> l(line_);
-        // No tool comes nearer than the cylinder around its path, nor than the lowest plane of its tip, nor a
-        // ball below its centres than the nearest of these.
+        // Lower bounds of the distance: to the cylinder around the path, to the lowest plane of the tip, and
+        // for a ball also to the nearest of its centres if the point is below all of them.
         const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
         const double lowest = std::min(line_.rise, 0.0);
         if (lowest - q.z >= bound) return bound;
@@ -189,7 +190,7 @@ class ArcSweep final : public field::Shape {
         frame_.z = axis;
         frame_.x = normalized(radial, any_perpendicular(axis));
         frame_.y = cross(frame_.z, frame_.x);
-        // Turning to the right is turning to the left with y mirrored; the formula never sees the difference.
+        // A right turn is a left turn with y mirrored. The formula is the same for both.
         const double turn = arc.turn_rad * (dot(arc.normal, axis) < 0 ? -1 : 1);
         if (turn < 0) frame_.y = -frame_.y;
         assert(std::abs(turn) <= math::kPi + 1e-9);
@@ -200,7 +201,8 @@ class ArcSweep final : public field::Shape {
     Box3 bounds_mm() const override {
         Box3 box;
         const Box3 tool = tool_box(tool_, {}, frame_.z);
-        // The path's extremes: its ends, and where its tangent has no part along a coordinate.
+        // The extremes of the path: its ends, and the points where its tangent has no part along a
+        // coordinate.
         const auto include = [&](Vec3 radial) {
             const Vec3 tip = centre_ + line_.radius * radial;
             box.include(Box3{tip + tool.min, tip + tool.max});
@@ -263,8 +265,8 @@ class CurvedSweep final : public field::Shape {
         : tool_(tool), start_(move.start.tip_mm), line_(line_of(move)), instants_(line_) {}
 
     Box3 bounds_mm() const override {
-        // A point of the tool leaves the chord between two of the poses by at most a share of the square of
-        // their spacing.
+        // A point of the tool deviates from the chord between two neighbouring poses by at most a share of
+        // the square of their spacing.
         constexpr int kPoses = 17;
         const double turn = length(line_.axis1) + 2 * length(line_.axis2);
         const double bend = 2 * length(line_.tip2) +
@@ -281,7 +283,7 @@ class CurvedSweep final : public field::Shape {
 
     double distance_below(Vec3 point, double bound) const override {
         const Vec3 d = point - start_;
-        // Longer than this, too many instants matter for one to tell.
+        // On a longer travel too many instants matter: one instant alone gives no useful bound.
         constexpr double kShort = 0.25;
         if (bound < kNever && line_.bounds.speed < kShort * tool_.radius_mm) {
             const Profile<double> p(tool_);
@@ -331,7 +333,8 @@ class CurvedSweep final : public field::Shape {
                    axis1 = 2 * (middle.axis_control - a);
         return {tip1, move.end.tip_mm - move.start.tip_mm - tip1, a, axis1, b - a - axis1};
     }
-    // A straight tip and an axis that turns along the great circle at an even pace, to the fifth order.
+    // Returns the quadratic of a straight tip and an axis that turns evenly along the great circle, to the
+    // fifth order.
     static motion::Quadratic even_turn(const motion::Move& move) {
         const motion::ToolPose middle = motion::pose_at(move, 0.5);
         const double half = 0.5 * motion::angle_rad(move.start.axis, move.end.axis);
@@ -350,8 +353,9 @@ class CurvedSweep final : public field::Shape {
     CurvedInstants instants_;
 };
 
-// One stretch must be short enough that each part of the tool comes nearest at most once over it. More are
-// cheap: a brick looks at those few that may hold its nearest instants, and short ones take fewer looks.
+// Returns the number of stretches. A stretch must be short enough that each part of the tool comes nearest at
+// most once over it. More stretches are cheap: a brick searches only the few that may hold its nearest
+// instants, and short ones need fewer evaluations.
 int stretches_needed(const CurvedLine& c) {
     const Vec3 leaving = c.tip1 + 2 * c.tip2;
     const double speed = std::max(length(c.tip1), length(leaving));
@@ -380,7 +384,7 @@ TravelBounds bounds_of(const CurvedLine& c) {
     b.speed = std::max(length(c.tip1), length(c.tip1 + 2 * c.tip2));
     b.tip_bend = 2 * length(c.tip2);
     b.turn = std::max(length(rates[0]), length(rates[1])) / least_size;
-    // Of axis . axis', half the rate of its square.
+    // Bounds axis . axis', half the rate of change of its square.
     const double growth =
         std::max(std::max(std::abs(dot(axes[0], rates[0])), std::abs(dot(axes[2], rates[1]))),
                  std::max(std::abs(dot(axes[0], rates[1]) + 2 * dot(axes[1], rates[0])),

@@ -10,17 +10,17 @@
 
 namespace tribo::milling {
 
-// The cutting part is a cylinder of the cutter's radius, rounded at the bottom by its corner radius, from the
-// tip up to `length_mm` (a flat cap, exact for moves across the axis). The surface of the sweep is exact, to
-// rounding, for
-//   - straight moves with one axis, in any direction to it (flat and ball in closed form; a ramping bull-nose
-//     cutter by the same search), and
+// Returns the sweep of one elementary move. The cutting part is a cylinder of the cutter's radius from the
+// tip up to `length_mm`, rounded at the bottom by its corner radius, with a flat cap (exact for moves across
+// the axis). The surface of the sweep is exact, to rounding, for
+//   - straight moves with one axis, in any direction to it (flat and ball in closed form; a ramping
+//     bull-nose cutter by the search below), and
 //   - arcs of at most half a turn about a line parallel to the axis, without rise.
-// For pieces whose tip or axis runs along a quadratic, or whose axis turns, the nearest instant is found by
-// search, to 0.1 um at the surface for pieces as motion::to_elementary cuts them, up to 30 degrees of turn
-// and 10 mm of travel. The search itself is proven to 0.01 um (sweep_search.inl); the rest is for the
-// quadratic that stands for an even turn. The cap of a curved sweep is the highest that the tool's top comes.
-// Other moves are not elementary and must not come here.
+// If tip or axis runs along a quadratic, or if the axis turns, the nearest instant is found by search. The
+// error at the surface is at most 0.1 um for pieces as motion::to_elementary cuts them, up to 30 degrees of
+// turn and 10 mm of travel. The search itself is proven to 0.01 um (sweep_search.inl); the rest is the error
+// of the quadratic that approximates an even turn. The cap of a curved sweep is the highest position of the
+// top of the tool. Other moves are not elementary; do not pass them here.
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
 
 }  // namespace tribo::milling

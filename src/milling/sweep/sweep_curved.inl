@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Travels along quadratics (sweep_distance.inl says how this file is included). One point sees the tool
-// through the quadratics themselves; the eight nodes of a lattice row see it through polynomials of the
-// tool's frame that are as good as single precision, because those are linear in the point and so nearly free
-// along a row.
+// Travels along quadratics (sweep_distance.inl says how this file is included). One point evaluates the
+// quadratics themselves. The eight nodes of a lattice row evaluate polynomials of the tool's frame, which are
+// as accurate as single precision: they are linear in the point and therefore nearly free along a row.
 
 inline Vec3 tip_at(const CurvedLine& c, double t) {
     return t * (c.tip1 + t * c.tip2);
@@ -11,9 +10,9 @@ inline Vec3 axis_at(const CurvedLine& c, double t) {
     return normalized(c.axis0 + t * (c.axis1 + t * c.axis2));
 }
 
-// For a point relative to the tip at the start. In a frame that follows the axis and does not spin the point
-// runs along q with q' = -v - w x d and q'' = -a + 2 w x v - w' x d + w x (w x d): d the point from the tip,
-// v and a speed and acceleration of the tip, w the turn of the axis.
+// Bounds for a point relative to the tip at the start. In a frame that follows the axis without spin the
+// point runs along q with q' = -v - w x d and q'' = -a + 2 w x v - w' x d + w x (w x d). d is the point
+// relative to the tip, v and a are speed and acceleration of the tip, w is the rate of turn of the axis.
 template <class T>
 TRIBO_LANES PointBounds<T> bounds_of(const Profile<T>& p, const TravelBounds& b, T x, T y, T z) {
     const T dx = x - broadcast<T>(b.middle.x), dy = y - broadcast<T>(b.middle.y),
@@ -24,7 +23,7 @@ TRIBO_LANES PointBounds<T> bounds_of(const Profile<T>& p, const TravelBounds& b,
         broadcast<T>(b.speed) + broadcast<T>(b.turn) * reach, broadcast<T>(0), p.R, reach};
 }
 
-// The tool at the eight instants as one point sees it; the names are instant()'s.
+// The tool at the eight instants as seen from one point; the names are those of instant().
 struct Views {
     F8 rho_squared, half_rate, z, dz, way_squared;
 
@@ -59,7 +58,7 @@ template <CutterKind kind>
 TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
                                const float (&point)[3], Floors& out) {
     constexpr bool kEdge = kind == CutterKind::flat;
-    // What single precision may be off, per mm from the tip.
+    // Rounding error of single precision, per mm from the tip.
     constexpr float kRounding = 1e-6f;
     const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
     const Views v(c, point);
@@ -84,15 +83,15 @@ TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, co
     for (int k = 1; k < CurvedInstants::kCount; ++k) out.lowest = v.z[k] < out.lowest ? v.z[k] : out.lowest;
 }
 
-// How fast the distance of any point within `radius` of one changes at the eight instants, bounds on both
-// sides.
+// Lower and upper bounds, at the eight instants, of the rate of change of the distance for all points within
+// `radius` of one point.
 struct SlopeBounds {
     F8 least, most;
 };
 
-// Two points see the tool from directions that differ by at most 2 radius / (rho + rho'), and move past it at
+// Two points see the tool in directions that differ by at most 2 radius / (rho + rho'), and move past it at
 // velocities that differ by at most turn * radius. Where side and bottom of a tool may both count, the slope
-// is that of one of them or, on a corner, one of a mix whose shares add up to at least 1.
+// is the slope of one of them or, on a corner, a mix whose shares add up to at least 1.
 template <CutterKind kind>
 TRIBO_LANES SlopeBounds slopes_around(const Profile<F8>& p, const Views& v, F8 radius, F8 turn) {
     const F8 two = splat(2.0f), never = broadcast<F8>(kNever), tiny = broadcast<F8>(1e-30);
@@ -124,8 +123,8 @@ struct Part {
     float from = 0, to = 1;
 };
 
-// The part of the travel, from one of the eight instants to another, that holds the nearest instant of every
-// point within `radius` of `point`; all of it where the tool's flat top may count.
+// Returns the part of the travel, from one of the eight instants to another, that holds the nearest instant
+// of every point within `radius` of `point`. Returns the whole travel if the flat top of the tool may count.
 template <CutterKind kind>
 TRIBO_LANES Part nearest_part(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
                               const float (&point)[3], float radius) {
@@ -139,9 +138,9 @@ TRIBO_LANES Part nearest_part(const Profile<F8>& p, const CurvedInstants& c, con
     const F8 speed = bounds.speed + turn * around;
     // The distance is never less than -R.
     if (any(v.z + around + splat(0.5f / kLast) * speed > p.L - p.R)) return {};
-    // g' falls by at most bend per t: once it is below -bend t, g falls all the way from 0 to there, and more
-    // steeply than the bound of a search between two of these instants; likewise from 1. The margin is far
-    // above what rounding makes of any look of that search: it would find the same, to the last bit.
+    // g' falls by at most bend per t. Where g' is below -bend t, g falls all the way from 0 to there, and
+    // more steeply than the bound of a search between two of these instants; likewise from 1. The margin is
+    // far above the rounding in that search, so that the search finds the same result to the last bit.
     const F8 margin = splat(5e-3f) + splat(1e-3f) * speed;
     const SlopeBounds slope = slopes_around<kind>(p, v, around, turn);
     const auto falls = slope.most + bend * when < -margin;
@@ -167,7 +166,8 @@ TRIBO_LANES Instant<double> curved_instant(const Profile<double>& p, const Curve
                          dot(way, way) - along * along);
 }
 
-// A lower bound of the distance from the middle instant alone: cheap, and of use where the travel is short.
+// Returns a lower bound of the distance from the middle instant alone. It is cheap, and useful for short
+// travels.
 template <CutterKind kind>
 double curved_bound(const Profile<double>& p, const CurvedLine& c, Vec3 point) {
     const Instant<double> middle = curved_instant<kind>(p, c, point, 0.5);
@@ -175,7 +175,8 @@ double curved_bound(const Profile<double>& p, const CurvedLine& c, Vec3 point) {
     return middle.distance - 0.5 * std::abs(middle.slope) - 0.125 * bend;
 }
 
-// Where the tool comes nearest, its flat top apart, if that is below `bound`.
+// Returns the instant at which the tool comes nearest, without its flat top, if that distance is below
+// `bound`.
 template <CutterKind kind>
 Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, const Floors& floors, Vec3 point,
                              double bound) {
@@ -190,7 +191,7 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
         return i;
     };
     const auto is_open = [&](double floor) { return floor < least.distance - kSettled<double>; };
-    // Single precision tells well enough how the distance runs at an end that cannot be the nearest instant.
+    // Single precision is accurate enough for the distance at an end that cannot be the nearest instant.
     const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact)
                                   __attribute__((noinline)) {
                                       if (!is_open(floor_of<kEdge>(s, bounds))) return;
@@ -198,7 +199,7 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
                                       if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
                                       search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, kNever, least, at);
                                   };
-    unsigned open = (1u << kStretches) - 1;  // a bit per stretch that was not looked at yet
+    unsigned open = (1u << kStretches) - 1;  // one bit per stretch that was not searched yet
     while (true) {
         int k = -1;
         auto deepest = static_cast<float>(least.distance - kSettled<double>);
@@ -231,8 +232,8 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     }
 }
 
-// The coordinates of points in the tool's frame, x and y across the axis, at one instant: how they grow with
-// the point's, and what they are for the point (0, 0, 0).
+// The coordinates of points in the tool's frame at one instant, x and y across the axis: their gradient by
+// the point's coordinates, and their values for the point (0, 0, 0).
 struct SeenAxes {
     struct Row {
         Vec3 axis;
@@ -248,14 +249,13 @@ struct SeenAxes {
     }
 };
 
-// The same as polynomials of t in Newton's
-// form through Chebyshev's points. With w the turn of the axis, v the length of the tip path and d the
-// distance of a point, all over one piece, they are off by about 7e-7 w^5 (6 v + w d): 0.01 um at 30 degrees,
-// 40 mm from the tip, 20 mm of path.
+// The same as polynomials of t in Newton's form through the Chebyshev points. With w the turn of the axis, v
+// the length of the tip path and d the distance of a point, all over one piece, their error is about 7e-7 w^5
+// (6 v + w d): 0.01 um at 30 degrees, 40 mm from the tip, 20 mm of path.
 struct SeenFrame {
     static constexpr int kDegree = 5, kCoefficients = 3 * (kDegree + 1), kMostStretches = 8;
-    // The coefficients, then from kNodes on x, y, z and their derivatives at every node from the first to the
-    // last.
+    // First the coefficients. From kNodes on: x, y, z and their derivatives at every node from the first to
+    // the last.
     static constexpr int kNodes = 24, kEntries = 80;
     static_assert(kNodes >= kCoefficients && kEntries >= kNodes + 6 * (kMostStretches + 1));
     static_assert(kNodes % kLatticeEdge == 0 && kEntries % kLatticeEdge == 0);
@@ -264,11 +264,11 @@ struct SeenFrame {
                                                     0.3705904774487396,   0.6294095225512604,
                                                     0.8535533905932737,   0.9829629131445341};
 
-    // What each entry is for the point (0, 0, 0), and how it grows with the point's coordinates.
+    // Value of each entry for the point (0, 0, 0), and its gradient by the coordinates of the point.
     float constant[kEntries] = {}, by_x[kEntries] = {}, by_y[kEntries] = {}, by_z[kEntries] = {};
-    int stretches, first, last;  // nodes stand at n / stretches
-    // A bound of twice the speed at which the frame spins about the axis, radians per t: across it the frame
-    // stands still only at t = 0.
+    int stretches, first, last;  // nodes are at n / stretches
+    // Upper bound of twice the speed at which the frame spins about the axis, radians per t. The frame is
+    // free of spin only at t = 0.
     float spin;
 
     SeenFrame(const CurvedLine& line, const Part& part)
@@ -320,7 +320,7 @@ struct SeenFrame {
     int node(int n) const { return kNodes + 6 * (n - first); }
 };
 
-// One row of nodes: entries at y and z, still growing with x. Few rows need the coefficients.
+// One row of nodes: the entries at y and z, still linear in x. Few rows need the coefficients.
 struct SeenRow {
     const SeenFrame& frame;
     F8 x, y, z;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The distance formulas of sweeps, for T = double (one exact answer) and T = F8 (eight nodes of a lattice).
-// Included inside an unnamed namespace of each file that uses it, so that every file has code of its own
+// Each file that uses them includes this file inside an unnamed namespace, so that it has its own code
 // (base/simd.hpp says why).
 //
-// Legend: (x, y, z) the point relative to the tip at the start, x along the part of the travel across the
-// axis, z along the axis to the shank; (across, 0, rise) the travel of the tip; t in 0..1 the fraction of it;
-// rho the distance to the tool axis; R radius, r corner radius, L length.
+// Legend: (x, y, z) is the point relative to the tip at the start, x along the part of the travel across the
+// axis, z along the axis to the shank. (across, 0, rise) is the travel of the tip, t in 0..1 its fraction.
+// rho is the distance to the tool axis; R radius, r corner radius, L length.
 
 // Profile of the tool: distance in the half plane (rho, z). Flat: mitred at the edge.
 template <class T>
@@ -60,21 +60,22 @@ TRIBO_LANES T unit_clamp(T t) {
     return min(max(t, broadcast<T>(0)), broadcast<T>(1));
 }
 
-// Across the axis: the nearest instant is the same at all heights.
+// Travel across the axis: the nearest instant is the same at all heights.
 template <CutterKind kind, class T>
 TRIBO_LANES T level_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T dx = x - unit_clamp(x * l.per_across) * l.across;
     return max(profile_distance<kind>(p, dx * dx + y * y, z), z - p.L);
 }
 
-// Above the cap at its highest instant there is nothing.
+// Applies the cap: the solid ends at the cap at its highest instant.
 template <class T>
 TRIBO_LANES T capped(const Profile<T>& p, const Line<T>& l, T distance, T z) {
     return max(distance, z - max(l.rise, broadcast<T>(0)) - p.L);
 }
 
-// min over t of max(A, B), A = rho(t) - R convex, B = t rise - z linear. Either A is the larger at its own
-// minimum, or the minimum lies where B, falling, meets A: a t^2 - 2 b t + c = 0, rho^2 = (R + t rise - z)^2.
+// min over t of max(A, B), A = rho(t) - R convex, B = t rise - z linear. Either A is the larger one at its
+// own minimum, or the minimum lies where the falling B meets A: a t^2 - 2 b t + c = 0, rho^2 = (R + t rise -
+// z)^2.
 template <class T>
 TRIBO_LANES Least<T> ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
@@ -101,8 +102,8 @@ TRIBO_LANES Least<T> ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, 
     return least;
 }
 
-// The distance is smooth and convex in t: its minimum is that of the sphere below the centre's height, of the
-// cylinder above it, or where the point passes that height.
+// The distance is smooth and convex in t. Its minimum is the minimum of the sphere below the height of the
+// centre, the minimum of the cylinder above it, or the instant at which the point passes that height.
 template <class T>
 TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
@@ -120,8 +121,8 @@ TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, 
     return {sqrt(least.distance + y * y) - p.R, least.t};
 }
 
-// The tool at one instant as a point sees it, from rho^2, half its derivative by t, z and its derivative by
-// t, and the square of the point's speed across the axis.
+// The tool at one instant as seen from a point. Parameters: rho^2, half its derivative by t, z, its
+// derivative by t, and the square of the speed of the point across the axis.
 template <CutterKind kind, class T>
 TRIBO_LANES Instant<T> instant(const Profile<T>& p, T rho_squared, T half_rate, T z, T dz, T way_squared) {
     const T zero = broadcast<T>(0), tiny = broadcast<T>(1e-30);
@@ -160,8 +161,8 @@ TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, 
     return least_over<false, T>(1, 0, 1, PointBounds<T>{zero, zero, zero, p.R, zero}, near, node, at);
 }
 
-// Along and across the axis at once: where the tool comes nearest, its flat top apart; of a bull-nose cutter
-// exactly only within `near` of it.
+// Travel along and across the axis at once: returns the nearest instant, without the flat top. For a
+// bull-nose cutter it is exact only within `near` of the surface.
 template <CutterKind kind, class T>
 TRIBO_LANES Least<T> ramp_nearest(const Profile<T>& p, const Line<T>& l, T x, T y, T z, T near) {
     if constexpr (kind == CutterKind::flat) return ramp_flat(p, l, x, y, z);
@@ -173,8 +174,8 @@ TRIBO_LANES T ramp_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z
     return capped(p, l, ramp_nearest<kind>(p, l, x, y, z, near).distance, z);
 }
 
-// Distance to the swept path in the plane of an arc about the origin that starts on the x axis and turns to
-// the left by at most half a turn, end = (cos, sin) of the turn.
+// Distance to the swept path in the plane of an arc about the origin. The arc starts on the x axis and turns
+// to the left by at most half a turn; end = (cos, sin) of the turn.
 template <class T>
 struct Round {
     T radius, end_x, end_y;

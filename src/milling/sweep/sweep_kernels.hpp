@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Distances of a sweep at all nodes of a lattice, and what bounds a curved one at a point. The same source is
-// compiled for SSE2 and for x86-64-v3; sweep_kernels() chooses once, by the processor. Both give the same
-// bits.
+// Distances of a sweep at all nodes of a lattice, and the bounds of a curved sweep at a point. The same
+// source is compiled for SSE2 and for x86-64-v3; sweep_kernels() chooses once, by the processor. Both give
+// the same bits.
 #pragma once
 
 #include "field/shape/shape.hpp"
@@ -9,9 +9,10 @@
 
 namespace tribo::milling {
 
-// A curved travel as one point sees it. What a search must go below between neighbouring instants (the last
-// entry is of no use), and the distance at the instants themselves, both less what single precision may be
-// off; what else sweep_search.inl's Instant holds; the least height above the tip among them, mm.
+// A curved travel as seen from one point. `floor` is the value that a search must go below between
+// neighbouring instants (the last entry has no use); `distance` is the distance at the instants. Both are
+// reduced by the largest error of single precision. The other arrays are the fields of Instant in
+// sweep_search.inl. `lowest` is the least height above the tip, mm.
 struct Floors {
     float floor[CurvedInstants::kCount];
     float distance[CurvedInstants::kCount], slope[CurvedInstants::kCount];
@@ -20,24 +21,24 @@ struct Floors {
     float lowest;
 };
 
-// `reference` is what positions are taken relative to before they become floats: the tip at the start, an
-// arc's centre at the height of the tip.
+// Positions become floats after `reference` is subtracted. `reference` is the tip at the start or, for an
+// arc, its centre at the height of the tip.
 struct SweepKernels {
-    // Where a search is needed: exact within `near_mm` of the surface, else beyond it on the right side.
+    // If a search is needed: exact within `near_mm` of the surface, beyond that only on the right side of it.
     void (*straight)(const ToolProfile&, const StraightLine&, const Frame&, Vec3 reference,
                      const field::Lattice&, double near_mm, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
-    // Likewise.
+    // The same accuracy.
     void (*curved)(const ToolProfile&, const CurvedLine&, const CurvedInstants&, Vec3 reference,
                    const field::Lattice&, double near_mm, float* out);
-    // `point` relative to the tip at the start.
+    // `point` is relative to the tip at the start.
     void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
 };
 
 const SweepKernels& sweep_kernels();
 
-// The two builds by name, for the test that compares them; v3 is null where the processor or target lacks it.
+// The two builds by name, for the test that compares them. v3 is null if the processor or target lacks it.
 const SweepKernels* sweep_kernels_sse2();
 const SweepKernels* sweep_kernels_v3();
 

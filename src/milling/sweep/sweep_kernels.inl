@@ -9,14 +9,15 @@ namespace {
 using namespace simd;
 using field::kLatticeEdge;
 
-// Each builds on the one before.
+// Each of these files uses the one before it.
 // clang-format off
 #include "milling/sweep/sweep_search.inl"
 #include "milling/sweep/sweep_distance.inl"
 #include "milling/sweep/sweep_curved.inl"
 // clang-format on
 
-// Node coordinates relative to the reference, float only after the subtraction; node n along each axis.
+// Node coordinates relative to the reference; node n along each axis. They become floats only after the
+// subtraction.
 struct Offsets {
     F8 x;
     float y[kLatticeEdge], z[kLatticeEdge];
@@ -38,15 +39,15 @@ struct Offsets {
     }
 };
 
-// Rows all of whose nodes lie beyond `near` of the surface, as the slope of at most 1 tells from a row beside
-// them: what is above near bounds the distance from below, what is under -near from above.
+// Rows with all nodes farther than `near` from the surface. This follows from a neighbouring row, because the
+// slope is at most 1. Values above near bound the distance from below, values under -near from above.
 struct FarRows {
     F8 near, step;
 
     FarRows(double near_mm, double cell_mm)
         : near(broadcast<F8>(near_mm)), step(broadcast<F8>(cell_mm + 2 * kProven<F8>)) {}
 
-    // Whether row b of layer c is one, and is filled now. `out` has all rows before it.
+    // Returns true if row b of layer c is far, and fills it. `out` has all rows before it.
     TRIBO_LANES bool fills(int b, int c, float* out) const {
         return (b > 0 && fills(load(out - kLatticeEdge), out)) ||
                (c > 0 && fills(load(out - kLatticeEdge * kLatticeEdge), out));
@@ -61,12 +62,12 @@ struct FarRows {
     }
 };
 
-// No row is skipped where a distance costs less than to tell.
+// Skips no row, where a distance is cheaper than the test.
 struct NoFarRows {
     TRIBO_LANES bool fills(int /*b*/, int /*c*/, float* /*out*/) const { return false; }
 };
 
-// Calls distance(x, y, z) with the coordinates in the frame of each row of nodes that is not far.
+// Calls distance(x, y, z) with the coordinates in the frame, for each row of nodes that is not far.
 template <class Far, class F>
 TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, const Far& far, float* out,
                            const F& distance) {
@@ -137,7 +138,7 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
     }
 }
 
-// The tool where it stands at one instant; the same bits as SeenFrame's nodes.
+// The tool at one instant; the same bits as the nodes of SeenFrame.
 template <CutterKind kind>
 TRIBO_LANES void standing(const Profile<F8>& p, const CurvedLine& line, double t, const Offsets& at,
                           float* out) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The three kinds of elementary travel that sweeps are computed for, in their own frames.
+// The three kinds of elementary travel that have sweeps, in their own frames.
 #pragma once
 
 #include "base/vec3.hpp"
@@ -7,7 +7,7 @@
 
 namespace tribo::milling {
 
-// What the distance formulas know of a cutter: a cylinder with a rounded bottom edge.
+// The cutter in the distance formulas: a cylinder with a rounded bottom edge.
 struct ToolProfile {
     CutterKind kind = CutterKind::flat;
     double radius_mm = 0, corner_mm = 0, length_mm = 0;
@@ -25,7 +25,7 @@ struct Frame {
 
 // Travel (across, 0, rise) in a frame whose z is the tool axis.
 struct StraightLine {
-    double across = 0, rise = 0, per_across = 0, per_length_squared = 0;  // 0 where there is no way
+    double across = 0, rise = 0, per_across = 0, per_length_squared = 0;  // 0 if the travel has no length
 
     StraightLine() = default;
     StraightLine(double a, double r) : across(a), rise(r) {
@@ -34,34 +34,34 @@ struct StraightLine {
     }
 };
 
-// Travel about the frame's z (the tool axis or its opposite is parallel to it) from (radius, 0) to the left
-// by at most half a turn.
+// Travel about the frame's z (parallel or opposite to the tool axis), from (radius, 0) to the left by at most
+// half a turn.
 struct ArcLine {
     double radius = 0, end_x = 1, end_y = 0;
 };
 
-// Bounds over t in 0..1 of how the tool moves, from the control points of tip and axis: derivatives by t, mm
-// and radians. A point at the distance d from `middle` is never farther than d + spread from the tip.
+// Bounds of the motion of the tool over t in 0..1, from the control points of tip and axis. Derivatives by t,
+// mm and radians. A point at the distance d from `middle` is at most d + spread away from the tip.
 struct TravelBounds {
     Vec3 middle;  // of the tip path, relative to its start
     double spread = 0, speed = 0, tip_bend = 0, turn = 0, turn_rate = 0;
 };
 
-// Tip and axis as t^0, t^1, t^2 coefficients, in stock coordinates, the tip relative to its start; the axis
-// is made unit.
+// Tip and axis as coefficients of t^0, t^1, t^2 in stock coordinates. The tip is relative to its start; the
+// axis is normalised after evaluation.
 struct CurvedLine {
     Vec3 tip1, tip2, axis0, axis1, axis2;
-    int stretches = 4;  // of t, looked through one by one
+    int stretches = 4;  // number of parts of t that are searched one by one
     TravelBounds bounds{};
 
     CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 axis_2);
 };
 
-// The tool at even instants of a curved travel, and how it moves there: what single precision tells of where
-// along the travel a point may be nearest.
+// The tool and its motion at evenly spaced instants of a curved travel. With them, single precision finds
+// where along the travel a point may be nearest.
 struct CurvedInstants {
     static constexpr int kCount = 8;
-    float tip[3][kCount], axis[3][kCount];            // the axis is unit
+    float tip[3][kCount], axis[3][kCount];            // unit axis
     float tip_rate[3][kCount], axis_rate[3][kCount];  // derivatives by t
 
     explicit CurvedInstants(const CurvedLine& line);

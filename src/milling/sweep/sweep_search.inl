@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 // The least distance over the instants t in 0..1 of a travel, for T = double or F8 (sweep_distance.inl says
-// how this file is included). Every lane is searched as if it were alone: its result does not depend on its
-// neighbours.
+// how this file is included). Every lane is searched as if it were alone: its result does not depend on the
+// other lanes.
 //
-// The search is branch and bound, and its bound is true. As the tool sees it the point runs along a curve
-// q(t), and the distance F(q) to the tool is convex with slope at most 1 (the tool is a convex solid). So F
-// lies above its tangent planes, and with |q''| <= bend
+// The search is branch and bound with a true bound. As seen from the tool, the point runs along a curve q(t),
+// and the distance F(q) to the tool is convex with slope at most 1 (the tool is a convex solid). So F lies
+// above its tangent planes, and with |q''| <= bend
 //     g(s) >= g(t) + g'(t) (s - t) - bend (s - t)^2 / 2,   g(t) = F(q(t)).
-// Two such parabolas, from the ends of a stretch, bound what is between them. Beside a round side g is even
-// convex: g'' >= (way^2 - g'^2) / rho - bend, with way the speed of the point across the axis, and rho its
-// distance from the axis (of a ball: from its centre).
+// Two such parabolas, from the ends of a stretch, bound g between them. Beside a round side g is even convex:
+// g'' >= (way^2 - g'^2) / rho - bend. way is the speed of the point across the axis, rho its distance from
+// the axis (for a ball: from its centre).
 
-// The distance to the tool at one instant; `slope`, `drho` and `dz` are derivatives by t: of the distance, of
+// The distance to the tool at one instant. `slope`, `drho` and `dz` are derivatives by t: of the distance, of
 // the point's distance to the axis and of its height above the tip. `way_squared` is the square of its speed
-// across the axis. `gap` tells how far the point is beside the tool's side: more than 0 there. For a flat
-// cutter it is distance to the side less distance to the bottom, which meet in an edge.
+// across the axis. `gap` is more than 0 where the point is beside the side of the tool. For a flat cutter it
+// is distance to the side minus distance to the bottom; both meet in an edge.
 template <class T>
 struct Instant {
     T distance, slope, drho, dz, gap, way_squared;
@@ -29,15 +29,15 @@ TRIBO_LANES Instant<T> blend(Mask<T> m, const Instant<T>& a, const Instant<T>& b
             select(m, a.way_squared, b.way_squared)};
 }
 
-// What holds for one point over the whole travel: at most this |q''| and |q'|, at most this error of
-// way_squared by a frame that spins, the radius that makes a distance to the side a distance to the axis, and
-// the distance from the tip.
+// Bounds for one point over the whole travel: of |q''|, of |q'|, and of the error of way_squared by a frame
+// that spins. `radius` converts a distance to the side into a distance to the axis. `reach` is the distance
+// from the tip.
 template <class T>
 struct PointBounds {
     T bend, speed, way_error, radius, reach;
 };
 
-// Above every distance, mm.
+// Larger than every distance, mm.
 constexpr double kNever = 1e30;
 
 template <class T>
@@ -57,14 +57,14 @@ TRIBO_LANES Stretch<T> blend(Mask<T> m, const Stretch<T>& u, const Stretch<T>& v
             blend<kEdge>(m, u.b, v.b)};
 }
 
-// How far the least distance found in a valley may stand above its bottom, mm, and how far any distance may
-// lie below the least that was found, mm.
+// kSettled: largest height of the least distance found in a valley above its bottom, mm. kProven: any
+// distance is at most this much below the least that was found, mm.
 template <class T>
 constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
 template <class T>
 constexpr double kProven = std::is_same_v<T, double> ? 1e-5 : 4e-5;
 
-// How much g' may fall per t over the stretch: 0 where g is convex.
+// Returns the largest fall of g' per t over the stretch: 0 where g is convex.
 template <class T>
 TRIBO_LANES T bend_of(const Stretch<T>& s, T width, const PointBounds<T>& p) {
     const T bow = p.bend * width, steep = max(abs(s.a.slope), abs(s.b.slope)) + bow;
@@ -75,8 +75,9 @@ TRIBO_LANES T bend_of(const Stretch<T>& s, T width, const PointBounds<T>& p) {
     return select(convex, broadcast<T>(0), p.bend);
 }
 
-// What the search has to go below over the stretch before it may stop: of the true bound, that much more than
-// `kProven` allows for; and in a valley, the bottom that the slopes at its ends let expect.
+// Returns the value that the search must reach over the stretch before it may stop. It is the lower one of
+// two values: the true bound, raised by the tolerance of `kProven`, and in a valley the bottom that the
+// slopes at its ends predict.
 template <bool kEdge, class T>
 TRIBO_LANES T floor_of(const Stretch<T>& s, const PointBounds<T>& p) {
     const T zero = broadcast<T>(0), half = broadcast<T>(0.5), tiny = broadcast<T>(1e-30);
@@ -93,7 +94,7 @@ TRIBO_LANES T floor_of(const Stretch<T>& s, const PointBounds<T>& p) {
     return min(bound + broadcast<T>(kProven<T> - kSettled<T>), select(valley, bottom, ends));
 }
 
-// From lo to the least of the cubic with the distances and slopes of both ends.
+// Returns the step from lo to the minimum of the cubic with the distances and slopes of both ends.
 template <class T>
 TRIBO_LANES T to_bottom(const Stretch<T>& v, T width, T steepness) {
     const T chord = v.a.slope + v.b.slope + broadcast<T>(3) * (v.a.distance - v.b.distance) / width;
@@ -101,8 +102,8 @@ TRIBO_LANES T to_bottom(const Stretch<T>& v, T width, T steepness) {
     return width - width * (v.b.slope + root - chord) / (steepness + root + root);
 }
 
-// From lo to where the cubic with the gaps and gap rates of both ends is zero: two steps of Newton from the
-// chord's zero.
+// Returns the step from lo to the zero of the cubic with the gaps and gap rates of both ends: two Newton
+// steps from the zero of the chord.
 template <class T>
 TRIBO_LANES T to_edge(const Stretch<T>& v, T width, Mask<T> crosses) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), two = broadcast<T>(2), three = broadcast<T>(3);
@@ -117,9 +118,10 @@ TRIBO_LANES T to_edge(const Stretch<T>& v, T width, Mask<T> crosses) {
     return u * width;
 }
 
-// Where to look next. In a valley: at its bottom after the cubic, at the edge where it crosses one; a cubic
-// that follows the distance badly leaves one end where it is, so every third step halves. Elsewhere only the
-// bound is too low: close to the nearer end, so that both parts rise above it.
+// Returns the next instant to evaluate. In a valley: at the bottom of the cubic, or at the edge if the
+// stretch crosses one. A cubic that fits the distance badly moves only one end; therefore every third step
+// halves. Elsewhere only the bound is too low: close to the nearer end, so that the bounds of both parts rise
+// above it.
 template <bool kEdge, class T>
 TRIBO_LANES T next_look(const Stretch<T>& v, const PointBounds<T>& p, Mask<T> active, T looks) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), half = broadcast<T>(0.5);
@@ -145,15 +147,16 @@ TRIBO_LANES void take(Least<T>& least, T distance, T t) {
     least.t = select(better, t, least.t);
 }
 
-// What a floor must be below to be worth a look: beyond `near` on both sides of the surface the sign will do.
+// Returns the value below which a floor is worth an evaluation. Beyond `near` on both sides of the surface
+// only the sign is needed.
 template <class T>
 TRIBO_LANES T goal_of(const Least<T>& least, T near) {
     return select(least.distance > -near, min(least.distance - broadcast<T>(kSettled<T>), near),
                   broadcast<T>(-kNever));
 }
 
-// Looks through a stretch, its ends being known, until nothing in it can lie below the least: depth first,
-// each lane with a stack of its own for what it puts aside.
+// Searches a stretch with known ends until nothing in it can lie below the least: depth first, each lane with
+// its own stack of pending stretches.
 template <bool kEdge, class T, class F>
 TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, Least<T>& least,
                         const F& at) {
@@ -203,9 +206,9 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
     }
 }
 
-// The least over the travel from first / count to last / count, looked through in stretches of 1 / count, the
-// deepest first. node(k) is at(k / count), perhaps at less cost. Farther than `near` from the tool: a bound
-// of the distance on that side.
+// Returns the least over the travel from first / count to last / count. The stretches of 1 / count are
+// searched in turn, the deepest first. node(k) equals at(k / count), perhaps at less cost. Farther than
+// `near` from the tool the result is a bound of the distance on that side.
 template <bool kEdge, class T, class N, class F>
 TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBounds<T>& p, T near,
                                 const N& node, const F& at) {
@@ -213,7 +216,7 @@ TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBound
     const auto time = [&](int k) { return broadcast<T>(static_cast<double>(k) / count); };
     Least<T> least{never, time(first)};
     Stretch<T> s{}, deepest{};
-    T floor = never, second = never;  // of the deepest stretch, of the next
+    T floor = never, second = never;  // of the deepest stretch, of the next one
     const auto begin = [&] {
         s.lo = time(first);
         s.a = node(first);

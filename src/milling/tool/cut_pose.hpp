@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the tool stands, and how it travels there.
+// Pose and travel of the tool at one place of a cut.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace tribo::milling {
 
-// `travel` is that over a row, say: only the ratios count where material is looked for.
+// `travel` may be the travel of a row, for example: the search for material uses only the ratios of its
+// values.
 struct CutPose {
     Vec3 tip_mm;
     ToolFrame frame;
@@ -18,8 +19,8 @@ struct CutPose {
     Vec3 on_axis(double height_mm) const { return tip_mm + height_mm * frame.z; }
 };
 
-// The rotations at which a place of the envelope of a cutter `length_mm` long moves outward by more than
-// rounding.
+// Returns the rotations at which a point of the envelope moves outward by more than rounding. The cutter is
+// `length_mm` long.
 inline TurnWindow moving_outward(const CutPose& pose, const ProfilePoint& at, double length_mm) {
     constexpr double kOutward = 1e-7;
     const ToolTravel& t = pose.travel;

@@ -11,8 +11,8 @@ namespace tribo::milling {
 namespace {
 
 constexpr int kMaxFlutes = 64;
-constexpr double kMaxHelixDeg = 85;  // beyond it a flute is a thread, and the lag per mm loses its meaning
-constexpr double kPitchSlackDeg = 0.05;  // pitch angles as drawings print them must still close
+constexpr double kMaxHelixDeg = 85;      // beyond it a flute is a thread, and the lag per mm has no meaning
+constexpr double kPitchSlackDeg = 0.05;  // pitch angles as printed in drawings must still close
 
 bool positive(double x) {
     return std::isfinite(x) && x > 0;

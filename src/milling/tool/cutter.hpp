@@ -10,7 +10,7 @@ namespace tribo::milling {
 
 enum class CutterKind { flat, ball, bull };
 
-// One cylindrical step above the cutting length, from the bottom up.
+// One cylindrical step above the cutting length. Steps are listed from the bottom up.
 struct HolderStep {
     double diameter_mm = 0;
     double length_mm = 0;
@@ -19,14 +19,14 @@ struct HolderStep {
 // All three kinds are one profile: a cylinder of radius R whose bottom edge is rounded with
 // `corner_radius_mm()` (0 for flat, R for ball).
 struct Cutter {
-    int number = 0;  // T number; 0: answers to any
+    int number = 0;  // T number; 0: matches any
     CutterKind kind = CutterKind::flat;
     double diameter_mm = 10;
     double corner_mm = 0;   // bull only: 0 < corner < R
     int flutes = 2;         // 1..64
-    double helix_deg = 30;  // -85..85, right-hand; below 0 left-hand
-    double core_mm = 0;     // diameter of the middle of a flat bottom without edges; 0: cuts over centre
-    double length_mm = 40;  // cutting length, from the tip; above it is shank or holder
+    double helix_deg = 30;  // -85..85, right-hand; negative is left-hand
+    double core_mm = 0;     // diameter of the middle of a flat bottom without edges; 0: centre-cutting
+    double length_mm = 40;  // cutting length, from the tip; shank and holder follow above
     double runout_mm = 0;   // offset of the tool axis from the spindle axis, >= 0
     double runout_deg =
         0;  // direction of that offset at the tip, from flute 0, clockwise seen from the shank
@@ -37,15 +37,15 @@ struct Cutter {
     double corner_radius_mm() const {
         return kind == CutterKind::flat ? 0 : kind == CutterKind::ball ? radius_mm() : corner_mm;
     }
-    // Radius of the cutting envelope at height z above the tip, mm; 0 <= z.
+    // Returns the radius of the cutting envelope at height z above the tip, mm; 0 <= z.
     double radius_at(double z_mm) const;
-    // The lag of the edge at height z behind the tip, rad: constant lead z tan(helix) / R; < 0 for a
+    // Returns the lag of the edge at height z behind the tip, rad. Constant lead: z tan(helix) / R; < 0 for a
     // left-hand helix.
     double lag_rad(double z_mm) const;
 };
 
-// Refuses what cannot be a tool (non-finite, no diameter, corner too large, pitch that does not close),
-// naming the key.
+// Refuses values that cannot be a tool (non-finite, no diameter, corner too large, pitch that does not
+// close). The error names the key.
 Result<void> check(const Cutter& cutter);
 
 }  // namespace tribo::milling

@@ -12,7 +12,7 @@
 
 namespace tribo::milling {
 
-// Places are given by their way s along the meridian from the axis, mm.
+// A point of the meridian is given by its distance s along the meridian from the axis, mm.
 class CutterProfile {
   public:
     explicit CutterProfile(const Cutter& cutter)
@@ -31,7 +31,7 @@ class CutterProfile {
         math::sincos((s - core_) / corner_, sine, cosine);
         return {core_ + corner_ * sine, corner_ * (1 - cosine), sine, cosine};
     }
-    // Of the lateral edge at that height above the tip.
+    // Returns s of the lateral edge at this height above the tip.
     double at_height(double z_mm) const {
         if (z_mm >= corner_) return corner_end() + z_mm - corner_;
         return core_ + corner_ * math::acos(std::clamp(1 - z_mm / corner_, -1.0, 1.0));

@@ -9,7 +9,7 @@
 namespace tribo::milling {
 namespace {
 
-// Slits and slivers narrower than that are what rounding leaves where surfaces meet or are grazed.
+// Narrower slits and slivers are rounding, left where surfaces meet or touch.
 constexpr double kSliver = 5e-4;  // mm
 constexpr double kSliverRad = 2e-3;
 
@@ -33,7 +33,7 @@ class Scan {
     Scan(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
          std::vector<MaterialArc>& arcs)
         : stock_(stock), circle_(circle), from_(from), to_(to), arcs_(arcs), before_(arcs.size()) {
-        // On a small circle as few places as stand a cell apart.
+        // On a small circle only every stride-th place is tested: as many as stand about a cell apart.
         constexpr double kApartCells = 1;
         constexpr int kMostStride = 8;
         const double apart = kApartCells * stock.field().cell_mm();
@@ -55,7 +55,7 @@ class Scan {
     struct Place {
         int number;
         double rotation;
-        double way;  // clear of a border for sure, negative in material
+        double way;  // distance that is surely clear of a border, negative in material
     };
 
     double way(Vec3 p) const {
@@ -67,7 +67,7 @@ class Scan {
         return {number, n * kPlaceRad, way(circle_.at_place(n))};
     }
 
-    // The arc that began at entry_.
+    // Adds the arc that began at entry_.
     void add(double exit) {
         const double sliver = std::max(kSliverRad, kSliver / circle_.radius_mm);
         if (arcs_.size() > before_ && entry_ - arcs_.back().to_rad < sliver) {
@@ -95,10 +95,10 @@ class Scan {
         between(middle, b);
     }
 
-    // The border between two rotations of which only `inside` stands in material: first by halves, since the
-    // sides alone are the same however the stock is kept, then by regula falsi in the Illinois form. Far from
-    // the surface the clear way tells the side, where the exact distance of a brick may not; near it both
-    // are the same.
+    // Returns the border between two rotations of which only `inside` lies in material. It halves first,
+    // because the signs do not depend on the storage of the stock; then it uses regula falsi in the Illinois
+    // form. Far from the surface the clear way has the right sign, but the exact distance of a brick may not;
+    // near it both are the same.
     double border(const Place& outside, const Place& inside) const {
         constexpr int kHalvings = 3, kSteps = 30;
         constexpr double kAngle = 1e-7, kDepth = 1e-9;  // rad, mm
@@ -131,7 +131,7 @@ class Scan {
     std::vector<MaterialArc>& arcs_;
     std::size_t before_;
     int stride_ = 1;             // of places
-    int first_ = 0, count_ = 0;  // in strides, of the places between the ends
+    int first_ = 0, count_ = 0;  // of the places between the ends, in strides
     double entry_ = 0;
 };
 

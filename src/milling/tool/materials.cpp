@@ -12,13 +12,13 @@ namespace {
 constexpr char kNoAxial[] =
     "the source has no axial coefficients; 0 is assumed, so the axial force is missing";
 
-// Lowest and highest Ktc that the sources below give for one alloy, N/mm2.
+// Lowest and highest Ktc of one alloy in the sources below, N/mm2.
 struct Range {
     double low, high;
 };
 constexpr Range k7075{600.46, 1319.41}, k6061{243.77, 796};
 
-// Chip ratio and friction angle are confirmed in public code; shear stress and edge forces are not.
+// Public code confirms chip ratio and friction angle, but not shear stress and edge forces.
 constexpr OrthogonalData kTi6Al4V{.shear_stress_n_per_mm2 = 613,
                                   .ratio = 1.755,
                                   .ratio_per_deg = -0.028,
@@ -34,7 +34,7 @@ constexpr double kTi6Al4VRakeDeg = 12, kTi6Al4VHelixDeg = 30, kTi6Al4VChipMm = 0
 // The steel set is given as a resultant and its angle to the radial direction.
 constexpr double kSteelResultant = 2160, kSteelAngleDeg = 68;
 
-// A row of the review's table; its edge coefficients are printed as N mm and must be N/mm.
+// A row of the table of the review. It prints the edge coefficients in N mm; the unit must be N/mm.
 WorkpieceMaterial review(std::string name, std::string what, const char* reference,
                          const CuttingCoefficients& k, std::string note = {}) {
     return {

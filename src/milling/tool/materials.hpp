@@ -30,10 +30,10 @@ struct WorkpieceMaterial {
     double spread_low = 0.5, spread_high = 2;
 };
 
-// All of them, in the order of the documentation.
+// Returns all of them, in the order of the documentation.
 std::vector<WorkpieceMaterial> materials();
 
-// The material of this name. The error names the nearest known name.
+// Returns the material of this name. The error names the nearest known name.
 Result<WorkpieceMaterial> find_material(std::string_view name);
 
 std::string_view name_of(Confidence confidence);

@@ -5,7 +5,7 @@ namespace tribo::milling {
 
 ToolFrame tool_frame(Vec3 axis, Vec3 travel, Vec3 last_x) {
     const Vec3 across = travel - dot(travel, axis) * axis;
-    // Below this share the direction across the axis is rounding.
+    // Below this share of the travel the direction across the axis is rounding.
     constexpr double kPlunge = 1e-6;
     ToolFrame f;
     f.z = axis;
