@@ -9,15 +9,15 @@
 namespace tribo::field {
 namespace {
 
-// Surfaces whose normals are further apart than this cosine, seen from one node, are the two sides of a wall.
+// Surfaces at one node are the two sides of a wall if the cosine between their normals is below this.
 constexpr float kOpposite = -0.7f;
 
-// How full of material the cell around a node is, as in brick_kernels.inl.
+// Returns how full of material the cell around a node is, as in brick_kernels.inl.
 float filled(float distance_mm, float cell_mm) {
     return std::clamp(0.5f - distance_mm / cell_mm, 0.0f, 1.0f);
 }
 
-// How much of all the cells around a node belongs to the brick.
+// Returns the share of all the cells around a node that belongs to the brick.
 double share_of(int node) {
     double share = 1;
     for (const int at :
@@ -26,7 +26,7 @@ double share_of(int node) {
     return share;
 }
 
-// Direction in which values at nodes grow, in any length.
+// Returns the direction in which the values at nodes grow; its length has no meaning.
 std::array<float, 3> growth(const float* value, int node) {
     std::array<float, 3> g{};
     const int at[3] = {node % kLatticeEdge, node / kLatticeEdge % kLatticeEdge,
@@ -46,9 +46,9 @@ float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 
 }  // namespace
 
-// Between the two sides of a wall the material is what both leave: 1 - (1 - a) - (1 - b) of a cell, but no
-// more than was left before, so that the same cut again takes nothing. Elsewhere the larger distance decides,
-// as in the kernels.
+// Between the two sides of a wall the remaining material is what both sides leave: 1 - (1 - a) - (1 - b) of a
+// cell. It is at most what remained before, so that the same cut again removes nothing. Elsewhere the larger
+// distance decides, as in the kernels.
 void ThinWalls::find(const Brick& brick, const float* shape, float cell) {
     nodes_.clear();
     std::array<std::uint8_t, kLatticeNodes / 8> near_both;
@@ -96,10 +96,10 @@ double ThinWalls::update(Brick& brick, float cell) const {
     return removed;
 }
 
-// Without branches: which shape gives the distance where is hard to foretell.
+// Without branches, because the shape that gives the distance at a node is hard to predict.
 void prune_shapes(Brick& brick, float near_mm) {
     const std::size_t count = brick.shapes.size();
-    // Two more places: for what is unlisted, and for what nobody asks.
+    // Two more places: one for unlisted nodes, one for nodes far from the surface.
     std::vector<std::uint16_t> renamed(count + 2, Brick::kUnlisted);
     const auto listed = [&](std::uint16_t w) { return std::min<std::size_t>(w, count); };
     for (std::size_t n = 0; n < kLatticeNodes; ++n) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where each brick of a box stands: a dense table of chunks (8 x 8 x 8 bricks) that exist only once touched.
+// The position of each brick of a box: a dense table of chunks (8 x 8 x 8 bricks). A chunk exists only once
+// it is touched.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +12,9 @@
 
 namespace tribo::field {
 
-// What is known of a brick. Numbers from kFirstBrick on are slots of a pool.
+// State of a brick. Numbers from kFirstBrick on are slots of a pool.
 using BrickRef = std::uint32_t;
-inline constexpr BrickRef kUntouched = 0;  // the blank alone says what is there
+inline constexpr BrickRef kUntouched = 0;  // the blank alone defines it
 inline constexpr BrickRef kAir = 1;        // nothing left
 inline constexpr BrickRef kFirstBrick = 2;
 
@@ -24,7 +25,7 @@ struct BrickChunk {
     Version version = 0;
 };
 
-// Where the chunks of a box stand: a look at tables that somebody else owns.
+// View of the chunks of a box; another object owns the tables.
 struct BrickTable {
     BrickCoord size;  // bricks from (0, 0, 0) to size - 1
     std::size_t chunks_i = 0, chunks_j = 0;
@@ -72,12 +73,12 @@ class BrickIndex {
     }
     // b must be contained.
     BrickRef get(BrickCoord b) const { return table_.get(b); }
-    // Chunks of a version below `version` are left as they are and given back: a copy is changed. Null: none
-    // was.
+    // Chunks older than `version` stay unchanged and are returned; a copy is changed instead. Returns null if
+    // no chunk was replaced.
     std::unique_ptr<BrickChunk> set(BrickCoord b, BrickRef ref, Version version = 0);
-    // Stays true as long as the index lives.
+    // Valid as long as the index lives.
     const BrickTable& table() const { return table_; }
-    // The chunks, as the table's.
+    // The chunks, in the order of the table.
     const std::vector<BrickChunk*>& chunks() const { return chunks_; }
     std::size_t bytes() const { return chunks_.size() * sizeof(chunks_[0]) + touched_ * sizeof(BrickChunk); }
 
@@ -87,7 +88,7 @@ class BrickIndex {
     std::vector<BrickChunk*> chunks_;  // owned
 };
 
-// Bricks by slot, with stable addresses; freed slots are used again.
+// Bricks by slot, with stable addresses. Freed slots are reused.
 class BrickPool {
   public:
     BrickRef take(BrickCoord coord);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is done to all nodes of a brick at once. The same source is compiled for SSE2 and for x86-64-v3;
+// Operations on all nodes of a brick at once. The same source is compiled for SSE2 and for x86-64-v3;
 // brick_kernels() chooses once, by the processor. Both give the same bits.
 #pragma once
 
@@ -9,19 +9,19 @@
 
 namespace tribo::field {
 
-// Rises of less than this share of a cell are rounding: where two cuts leave the same surface, the first
+// A rise of less than this share of a cell is rounding: where two cuts leave the same surface, the first one
 // keeps it.
 inline constexpr float kTieCells = 1e-4f;
 
 struct BrickKernels {
-    // Lowers the material to the complement of a shape: distance = max(distance, -shape) where that is above
-    // -near_mm. `winner` becomes `index` at the nodes that moved and are now within near_mm of the surface,
-    // Brick::kUnlisted at those that moved further out.
+    // Removes a shape from the material: distance = max(distance, -shape) where that is above -near_mm. At
+    // the nodes that moved, `winner` becomes `index` if they are now within near_mm of the surface, else
+    // Brick::kUnlisted.
     CarveResult (*carve)(float* distance_mm, std::uint16_t* winner, const float* shape_mm,
                          std::uint16_t index, float near_mm, float cell_mm);
-    // To be asked before that: which nodes are less than half a cell from both the surface of the material
-    // and that of the shape, and these not one surface, in bits: node n is bit n % 8 of near_both[n / 8].
-    // Whether any is.
+    // Call this before carve. Finds the nodes that are less than half a cell from the surface of the material
+    // and from the surface of the shape, if both are not the same surface. Node n is bit n % 8 of near_both[n
+    // / 8]. Returns true if there are any.
     bool (*find_near_both)(const float* distance_mm, const float* shape_mm, float cell_mm,
                            std::uint8_t* near_both);
     // Volume of the material in cells.
@@ -30,7 +30,7 @@ struct BrickKernels {
 
 const BrickKernels& brick_kernels();
 
-// The two builds by name, for the test that compares them; v3 is null where the processor or target lacks it.
+// The two builds by name, for the test that compares them. v3 is null if the processor or target lacks it.
 const BrickKernels* brick_kernels_sse2();
 const BrickKernels* brick_kernels_v3();
 

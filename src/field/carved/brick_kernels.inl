@@ -8,12 +8,13 @@ namespace {
 
 using namespace simd;
 
-// Nodes on faces, edges and corners of a brick stand for a half, a quarter and an eighth of the cells around
-// them that the brick holds.
+// Nodes on faces, edges and corners of a brick count for a half, a quarter and an eighth: the share of the
+// cells around them that lies in the brick.
 constexpr F8 kShareOfRow{0.5f, 1, 1, 1, 1, 1, 1, 0.5f};
 constexpr float kShare[kLatticeEdge] = {0.5f, 1, 1, 1, 1, 1, 1, 0.5f};
 
-// How full of material the cell around a node is: exact for planes along the grid, without bias for others.
+// Returns how full of material the cell around a node is: exact for planes along the grid, without bias for
+// others.
 TRIBO_LANES F8 filled(F8 distance, F8 per_cell) {
     return min(max(splat(0.5f) - distance * per_cell, splat(0.0f)), splat(1.0f));
 }

@@ -11,17 +11,18 @@
 namespace tribo::field {
 namespace {
 
-// Work is handed to other threads from this many bricks on; below it the hand-over costs more than it saves.
+// Other threads are used from this many bricks or shapes on. Below it the hand-over costs more than it saves.
 constexpr std::size_t kParallelBricks = 64;
 constexpr std::size_t kParallelShapes = 8;
-// Of the brick's number in a cut; below it the shape's number and a bit.
+// Position of the brick's number in a cut; below it are the shape's number and a bit.
 constexpr int kBrickShift = 11;
 static_assert(CarvedField::kMostAtOnce == std::size_t{1} << (kBrickShift - 1));
-// A brick's list is pruned when it has grown by this many shapes. To prune takes about as long as to carve a
-// brick with a shape that is not searched for, and little beside one that is.
+// A brick's list is pruned when it has grown by this many shapes. Pruning takes about as long as carving a
+// brick with a shape without search; it takes little beside a shape with search.
 constexpr std::size_t kPruneEvery = 8, kPruneEverySearched = 1;
 
-// Along each axis, whole numbers: a cell may be asked for that is finer than any grid could be.
+// Number of bricks along each axis. Whole numbers as doubles, because the requested cell may be finer than
+// any possible grid.
 Vec3 bricks_along(const Box3& blank, double cell) {
     const double brick = kBrickCells * cell;
     const auto bricks = [&](double extent) {
@@ -107,7 +108,7 @@ void CarvedField::gather(const Shape& shape, std::size_t number, std::vector<Cut
     const BrickCoord lo = brick_at(reach.min), hi = brick_at(reach.max);
     const int i0 = std::max(lo.i, 0), j0 = std::max(lo.j, 0), k0 = std::max(lo.k, 0);
     const int i1 = std::min(hi.i, n.i - 1), j1 = std::min(hi.j, n.j - 1), k1 = std::min(hi.k, n.k - 1);
-    // Blocks of bricks first: most of a long sweep's box is either far from it or deep inside it.
+    // Blocks of bricks first: most of the box of a long sweep is far from the sweep or deep inside it.
     constexpr int kBlock = 4;
     const double block_radius = kBlock * brick_radius_;
     const double half = 0.5 * kBlock * kBrickCells * cell_;
@@ -128,7 +129,7 @@ void CarvedField::gather(const Shape& shape, std::size_t number, std::vector<Cut
     }
 }
 
-// Cuts of one brick become one update; bricks that will need nodes get a slot.
+// Merges the cuts of one brick into one update. Bricks that need nodes get a slot.
 void CarvedField::plan_updates(std::size_t shapes) {
     cuts_.clear();
     for (std::size_t n = 0; n < shapes; ++n)
@@ -147,7 +148,7 @@ void CarvedField::plan_updates(std::size_t shapes) {
             u.air = blank().distance_mm(centre(u.coord)) > brick_radius_;
             if (!u.air && (cuts_[u.first] & 1) == 0) {
                 u.ref = take_brick(u.coord);
-                u.drop = true;  // unless it turns out to be cut
+                u.drop = true;  // unless the brick is really cut
             }
         } else if (is_shown(u.ref) && (cuts_[u.first] & 1) == 0) {
             u.shown = u.ref;
@@ -272,9 +273,9 @@ void CarvedField::point_to(BrickCoord coord, BrickRef ref) {
 double CarvedField::estimated_bytes(const Box3& blank_mm, double cell_mm, double cut_bricks,
                                     double touched_bricks) {
     const Vec3 n = bricks_along(blank_mm, cell_mm);
-    constexpr double kLists = 96;  // of shapes in a brick, with what the heap adds
+    constexpr double kLists = 96;  // list of shapes in a brick, with the overhead of the heap
     constexpr double kChunk = kChunkEdge * kChunkEdge * kChunkEdge;
-    // Of a chunk some half is touched.
+    // About half of a chunk is touched.
     return cut_bricks * (sizeof(Brick) + kLists) + 2 * touched_bricks * sizeof(BrickRef) +
            n.x * n.y * n.z * (sizeof(void*) / kChunk);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A blank from which shapes are carved: the stock under the cutter. Two levels (README, "One field, two
-// levels"): a sparse grid of bricks finds which shapes make the surface, the maximum over those few measures
-// it exactly.
+// A blank from which shapes are carved: the stock under the cutter. It has two levels (README, "One field,
+// two levels"): a sparse grid of bricks finds the shapes that make the surface, and the maximum over those
+// few shapes measures the surface exactly.
 #pragma once
 
 #include <memory>
@@ -14,47 +14,47 @@
 
 namespace tribo::field {
 
-// Reading is safe from any number of threads while nobody carves; carving is for one thread, which may use
-// others through `parallel`. A thread that reads while another carves does so through a FieldReader.
+// Any number of threads may read while no thread carves. Only one thread may carve; it may use others through
+// `parallel`. To read while another thread carves, use a FieldReader.
 class CarvedField final : public contact::DistanceField {
   public:
-    // Nodes within this many cells of the surface decide which shapes a brick keeps.
+    // Nodes within this many cells of the surface decide the list of shapes of a brick.
     static constexpr double kNearCells = 1.8;
-    // The first node stands this many cells outside the blank: a fraction that keeps nodes off the round
-    // coordinates where programs put their planes, so that signs at nodes are seldom a matter of rounding.
+    // The first node is this many cells outside the blank. The fraction keeps nodes off the round coordinates
+    // where programs put their planes, so that signs at nodes seldom depend on rounding.
     static constexpr double kMarginCells = 2.37;
 
-    // cell_mm > 0: the spacing of the grid. It bounds what can be found (a shape whose share of the surface
-    // is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R), not
-    // how exactly the rest is measured.
+    // cell_mm > 0: the spacing of the grid. It limits which shapes can be found: a shape whose share of the
+    // surface is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R.
+    // It does not limit the accuracy of the rest.
     CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel = serial_for);
 
-    // Takes the volumes of the shapes out of the material, one after the other (at most kMostAtOnce);
-    // removed_mm3 gets what each of them removed. Cost: the bricks that each shape's border passes through,
-    // and one test for each brick of its bounding box.
+    // Removes the volumes of the shapes from the material, one after the other (at most kMostAtOnce).
+    // removed_mm3 receives the volume that each of them removed. Cost: the bricks on the border of each
+    // shape, and one test for each brick of its bounding box.
     void carve(std::span<std::unique_ptr<const Shape>> shapes, std::span<double> removed_mm3);
     static constexpr std::size_t kMostAtOnce = 1024;
-    // The same for one; gives the removed volume.
+    // The same for one shape; returns the removed volume.
     double carve(std::unique_ptr<const Shape> shape);
 
-    // Exact at the surface; clamped to about one cell away from it. Bounded time, no allocation.
+    // Exact at the surface, clamped to about one cell away from it. Bounded time, no allocation.
     double distance_mm(Vec3 p) const override { return tables_->query.distance_mm(p); }
     Vec3 normal(Vec3 p) const override { return tables_->query.sample(p).normal; }
     contact::SurfaceSample sample(Vec3 p) const override { return tables_->query.sample(p); }
     contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
         return tables_->query.sample_piece(piece, p);
     }
-    // Looks as far as three bricks (21 cells).
+    // Searches at most three bricks (21 cells) far.
     double clearance_mm(Vec3 p, double enough_mm) const override {
         return tables_->query.clearance_mm(p, enough_mm);
     }
     contact::SurfaceSample nearest(Vec3 p, double within_mm, contact::NearHint& hint) const override {
         return tables_->query.nearest(p, within_mm, hint);
     }
-    // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
-    // tells.
+    // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
+    // grid gives the answer.
     bool is_material(Vec3 p, double skin_mm = 0) const { return tables_->query.is_material(p, skin_mm); }
-    // Signed like a distance: no surface is nearer than its size (field_query.hpp).
+    // Signed like a distance; its size is a lower bound of the distance to any surface (field_query.hpp).
     double clear_way_mm(Vec3 p, double enough_mm) const { return tables_->query.clear_way_mm(p, enough_mm); }
     double cell_mm() const { return cell_; }
     double near_mm() const { return near_; }
@@ -64,11 +64,11 @@ class CarvedField final : public contact::DistanceField {
     Lattice lattice(BrickCoord b) const { return tables_->query.lattice(b); }
     BrickCoord size() const { return tables_->index.size(); }
     Vec3 centre(BrickCoord b) const;
-    // From a brick's centre to its corners.
+    // Distance from a brick's centre to its corners.
     double brick_radius_mm() const { return brick_radius_; }
     BrickRef ref(BrickCoord b) const { return tables_->index.get(b); }
     const Brick& brick(BrickRef ref) const { return tables_->pool[ref]; }
-    // Whether all bricks of the index's chunk that holds `b` are untouched; false where it is not known.
+    // Returns true if all bricks in the chunk of `b` are untouched, false if this is not known.
     bool is_untouched_chunk(BrickCoord b) const { return tables_->index.table().is_untouched_chunk(b); }
     std::size_t bricks_in_use() const { return tables_->pool.in_use(); }
     std::size_t shapes_carved() const { return tables_->shapes.size() - 1; }
@@ -76,25 +76,25 @@ class CarvedField final : public contact::DistanceField {
 
     using Exact = FieldQuery::Exact;
     Exact exact(BrickRef ref, Vec3 point_mm) const { return tables_->query.exact(ref, point_mm); }
-    // The brick that contains the point; out of the grid: one that contains() is false for.
+    // Returns the brick that contains the point. Outside the grid: a brick for which contains() is false.
     BrickCoord brick_at(Vec3 point_mm) const { return tables_->query.brick_at(point_mm); }
     bool contains(BrickCoord b) const { return tables_->index.contains(b); }
 
-    // Memory that a field over this blank takes, bytes: with so many bricks that hold a cut surface, and so
-    // many that are no longer as they were in the blank, these among them.
+    // Estimates the memory of a field over this blank, bytes. `cut_bricks` hold a cut surface;
+    // `touched_bricks` are all bricks that differ from the blank, the cut bricks included.
     static double estimated_bytes(const Box3& blank_mm, double cell_mm, double cut_bricks,
                                   double touched_bricks);
 
   private:
-    // One shape's part in one brick: brick number, shape number and whether the shape holds all of the brick,
-    // in one number that sorts by brick, then by shape.
+    // The cut of one shape in one brick: brick number, shape number, and a bit for a shape that contains the
+    // whole brick. All are in one number that sorts by brick, then by shape.
     using Cut = std::uint64_t;
-    // All cuts of one brick, and what becomes of it.
+    // All cuts of one brick, and their result.
     struct Update {
         std::size_t first = 0, last = 0;  // in cuts_
         BrickCoord coord;
         BrickRef ref = kUntouched;
-        BrickRef shown = kUntouched;  // what ref is a copy of, where a reader may see that
+        BrickRef shown = kUntouched;  // the brick that ref is a copy of, if a reader may see it
         bool drop = false, air = false;
     };
     void gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const;
@@ -104,11 +104,13 @@ class CarvedField final : public contact::DistanceField {
     void fill_from_blank(Brick& brick) const;
     double volume_mm3(const float* distance_mm) const;
     double blank_brick_volume(BrickCoord b) const;
-    // For FieldReader: shows the field as it is and from now on after each carve, or no more.
+    // For FieldReader: begin_show() shows the present state and, from now on, the state after each carve;
+    // end_show() stops this.
     friend class FieldReader;
     FieldShow& begin_show();
     void end_show();
-    // The version of what is made now, and whether a brick must be left as it is; 0 and false without reader.
+    // Version of the bricks that are made now (0 without a reader); is_shown: true if the brick must not be
+    // changed.
     Version version() const { return showing_ ? show_->shown() + 1 : 0; }
     bool is_shown(BrickRef ref) const { return showing_ && tables_->pool[ref].version <= show_->shown(); }
     BrickRef take_brick(BrickCoord coord);
@@ -121,7 +123,7 @@ class CarvedField final : public contact::DistanceField {
     std::unique_ptr<FieldShow> show_;
     bool showing_ = false;
     double removed_ = 0;
-    // Of the carve that is going on.
+    // State of the current carve.
     std::vector<std::vector<Cut>> cuts_of_;  // by shape
     std::vector<Cut> cuts_;                  // by brick
     std::vector<double> removed_by_cut_;

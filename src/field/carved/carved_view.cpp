@@ -27,7 +27,7 @@ double CarvedView::clear_way_mm(Vec3 p, double enough) const {
     for (std::size_t n = pending_.size(); n-- > 0 && way < 0;) {
         const PendingShape& pending = pending_[n];
         if (!pending.bounds_mm.inflated(-way).contains(p)) continue;
-        // Material ends where the shape begins; within the shape there is none.
+        // Material ends where the shape begins; there is none within the shape.
         way = std::max(way, -pending.shape->distance_below(p, -way));
     }
     return way;

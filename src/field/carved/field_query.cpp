@@ -8,24 +8,25 @@
 namespace tribo::field {
 namespace {
 
-// Distances at nodes are floats: off by less than this share of a cell.
+// Distances at nodes are floats; their error is less than this share of a cell.
 constexpr double kRounding = 1e-3;
-// Nearer by less than this is not nearer, mm.
+// A place counts as nearer only if it is nearer by more than this, mm.
 constexpr double kOnSurface = 2e-5;
-// Bricks on each side that a look for clear air goes through, and one for the nearest surface.
+// Largest number of bricks on each side in a search for clear air, and in a search for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
-// Sides of the surface whose normals' product is less are two. Distances that rise by this much of the way
-// are of one side.
+// kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
+// distances come from one side if they rise by at least this share of the full slope.
 constexpr double kOneWay = 0.5, kOneSlope = 0.97;
-// Nearest places this far apart are two, mm; and how much farther than the nearest others are looked for.
+// Nearest places that are this far apart are two places, mm; how much farther than the nearest one others are
+// searched.
 constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
-// What a node stands for: surface so far around it, which bulges by no more than this; in cells.
+// The surface that a node represents: radius around it, and largest bulge, in cells.
 constexpr double kAround = 0.87, kBulge = 0.1;
-// Steps of a search along the surface, in cells.
+// Longest step of a search along the surface, in cells.
 constexpr double kLongestCells = 2;
 
-// How the distances rise at a node, by their differences, in mm a cell.
+// Returns the gradient of the distances at a node by their differences, in mm per cell.
 Vec3 slope_at(const Brick& brick, int a, int b, int c) {
     const auto at = [&](int i, int j, int k) {
         return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
@@ -42,8 +43,8 @@ Vec3 clamped(const Box3& box, Vec3 p) {
             std::clamp(p.z, box.min.z, box.max.z)};
 }
 
-// The material as the brick around a point makes it, and as one certain brick does where that one is air or
-// there is none: what is far from the surface still has a distance then.
+// The material according to the brick around a point. If that brick is air or does not exist, one given brick
+// is used instead, so that a point far from the surface still has a distance.
 class NearBrick final : public contact::DistanceField {
   public:
     NearBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
@@ -89,8 +90,8 @@ FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
         const double d = id == 0 ? blank().distance_mm(p) : -shape(id).distance_below(p, -best.distance_mm);
         if (d > best.distance_mm) best = {d, id};
     };
-    // The shape that gives the distance at the nearest node most likely gives it here; the others need only
-    // show that they do not.
+    // The shape that gives the distance at the nearest node most likely gives it here. The others only need
+    // to be shown not to give it.
     const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
     if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
     for (std::size_t n = 0; n < brick.shapes.size() && !(any_air && best.distance_mm > 0); ++n) {
@@ -119,8 +120,8 @@ double FieldQuery::clear_of_nodes(const Brick& brick, Vec3 p) const {
            cell_mm * (length(near.off_cells) + kRounding);
 }
 
-// In a brick that is all `alike` (air or untouched): how far all bricks around are, at least `clear_mm`.
-// Beyond the grid they count as alike.
+// In a brick that is completely `alike` (air or untouched): returns how far all bricks around are alike too,
+// at least `clear_mm`. Bricks outside the grid count as alike.
 double FieldQuery::clear_among(BrickRef alike, BrickCoord b, Vec3 p, double clear_mm,
                                double enough_mm) const {
     const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
@@ -142,8 +143,8 @@ double FieldQuery::clear_among(BrickRef alike, BrickCoord b, Vec3 p, double clea
     return clear;
 }
 
-// In a brick of air: how far it is to the nearest brick that may hold material, or to the nearest node's
-// ball.
+// In a brick of air: returns the distance to the nearest brick that may contain material, or to the surface
+// of the empty ball around the nearest node.
 double FieldQuery::clear_in_air(BrickCoord b, Vec3 p, double enough_mm) const {
     const double node = cell_mm * (kClearCells - length(nearest_node(b, p).off_cells));
     return clear_among(kAir, b, p, node, enough_mm);
@@ -164,7 +165,7 @@ double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
     const NearNode near = nearest_node(brick.coord, p);
     const auto at_node = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]);
     const double off = cell_mm * (length(near.off_cells) + kRounding);
-    // Nearer to the surface than this the measure is worth its cost.
+    // Nearer to the surface than this, the exact distance is worth its cost.
     constexpr double kSureCells = 0.3;
     if (at_node - off > kSureCells * cell_mm) return at_node - off;
     if (at_node + off < -kSureCells * cell_mm) return at_node + off;
@@ -182,7 +183,8 @@ double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {
     return std::max(nodes, exact(ref, p).distance_mm);
 }
 
-// Whether one shape of the brick alone shows that nothing of its material is within the radius.
+// Returns true if a single shape of the brick proves that there is no material of the brick within the
+// radius.
 bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     if (ref == kUntouched) return blank().distance_mm(p) >= radius_mm;
     const Brick& brick = (*pool)[ref];
@@ -198,7 +200,7 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     return false;
 }
 
-// The nearest surface point that was found, and how far the next other one is.
+// The nearest surface point found so far, and the distance of the next one.
 class NearestPlace {
   public:
     explicit NearestPlace(double within_mm) : best_{within_mm, {0, 0, 1}, 0}, others_mm_(within_mm) {}
@@ -220,7 +222,8 @@ class NearestPlace {
     double others_mm_;
 };
 
-// The bricks within `bound_mm` of a point that may hold material, and how far all of them were seen.
+// The bricks within `bound_mm` of a point that may contain material, and the distance up to which all of them
+// are listed.
 class FieldQuery::Candidates {
   public:
     Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
@@ -254,7 +257,7 @@ class FieldQuery::Candidates {
             }
         }
     }
-    // The nearest that was not taken yet, if there is one within `bound_mm`.
+    // Takes the nearest brick that was not taken yet, if there is one within `bound_mm`.
     bool take(double bound_mm, BrickCoord& b, double& distance_mm) {
         std::size_t least = count_;
         double square = bound_mm * bound_mm;
@@ -270,7 +273,7 @@ class FieldQuery::Candidates {
         all_[least] = all_[--count_];
         return true;
     }
-    // Up to here nothing is unseen.
+    // All bricks up to this distance are listed.
     double seen_mm() const { return seen_mm_; }
 
   private:
@@ -293,7 +296,7 @@ class FieldQuery::Candidates {
     double seen_mm_ = 0;
 };
 
-// The surface near a node, and which way it faces there: by the grid, and near corners by the shape that
+// Returns the surface near a node and its normal there: from the grid or, near corners, from the shape that
 // gives the distance.
 FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c, Vec3 node) const {
     const auto index = static_cast<std::size_t>(node_index(a, b, c));
@@ -309,7 +312,7 @@ FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c,
     return {node - d * rise, rise};
 }
 
-// Whether the surface about a place, as far as the place stands for it, stays further from a point than that.
+// Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
 bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
     const Vec3 way = p - place.at;
     const double over = dot(way, place.normal), aside = length(way - over * place.normal);
@@ -317,12 +320,12 @@ bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
     return side * side + up * up >= than_mm * than_mm;
 }
 
-// The node of a brick at which the surface is close that is nearest to a point: so near that a point of the
-// surface less than `within_mm` away may be there, and further than two cells from each of `but`. Whether
-// there is one.
+// Finds the node at the surface in a brick that is nearest to a point. The node must be so near that a point
+// of the surface less than `within_mm` away may be there, and farther than two cells from each of `but`.
+// Returns false if there is none.
 bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
                               Seen& place) const {
-    // What faces another way is the other side of a corner.
+    // Surface that faces another way is the other side of a corner.
     const auto is_seen = [&](const Seen& s) {
         return std::any_of(but.begin(), but.end(), [&](const Seen& other) {
             return squared_length(other.at - s.at) < 4 * cell_mm * cell_mm &&
@@ -338,7 +341,7 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
     const Brick& brick = (*pool)[ref];
     const Lattice nodes = lattice(where);
     const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
-    // Nothing of the surface is further from every node.
+    // No point of the surface is farther than this from every node.
     const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
     double least = reach * reach;
     const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
@@ -369,8 +372,8 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
 }
 
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
-    // A shape that was carved holds no material: its depth is a bound that a surface point can meet, and on
-    // a smooth piece does.
+    // There is no material inside a shape that was carved. The depth of the point in it is therefore a lower
+    // bound of the distance, which a surface point can reach; on a smooth piece one does.
     const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
     contact::SurfaceSample lower{0, {0, 0, 1}, 0};
     for (const BrickCoord b : {here, there}) {
@@ -386,10 +389,10 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
-    // At a cusp: the nearest surface point of each brick that may hold one.
+    // At a cusp: the nearest surface point of each brick that may contain one.
     NearestPlace found(within_mm);
     const contact::SurfaceSample& best = found.best();
-    Vec3 refuted{1e300, 0, 0};  // the last foot that was none
+    Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
     const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
         for (int tries = 0; tries < 2; ++tries) {
             const NearBrick brick(*this, ref);
@@ -400,7 +403,8 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
                 found.put(s, foot);
                 return foot;
             }
-            // What one brick's shapes leave may be air by another's: on from the surface that there is.
+            // The shapes of one brick may leave material where another brick has air. Continue from the true
+            // surface.
             if (squared_length(foot - refuted) < kOnSurface * kOnSurface) break;
             refuted = foot;
             from = foot - at_foot.distance_mm * at_foot.normal;
@@ -417,14 +421,15 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     const auto shown_beyond = [&](double mm) { return best.distance_mm - mm <= kOnSurface; };
     search_at(hint.at_mm);
     if (shown_beyond(lower.distance_mm)) return best;
-    // Where material only goes, what was farther away not long ago still is.
+    // Material only ever disappears: surface that was farther away a short time ago still is.
     if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
     if (shown_beyond(lower.distance_mm)) return best;
     hint.others_mm = 0;
     bool doubt = false;
-    // Bricks from the nearest on, which are the likeliest. Up to `proven` there is no nearer one.
+    // Search the bricks from the nearest one on, which are the most likely. Up to `proven` no other brick can
+    // be nearer.
     const auto reach = [&] { return std::min(best.distance_mm + kMarginCells * cell_mm, within_mm); };
     Candidates bricks_near(*this, here, p, reach());
     const double proven = bricks_near.seen_mm();
@@ -432,7 +437,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     double way = 0;
     int searches = 0;
     bool all_looked = true;
-    Seen seen[2 * kMostSearches + 2];  // places from where and to where the searches went
+    Seen seen[2 * kMostSearches + 2];  // start and end points of the searches
     std::size_t count = 0;
     if (best.distance_mm < within_mm) seen[count++] = {p - best.distance_mm * best.normal, best.normal};
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
@@ -445,7 +450,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         if (is_clear(ref, p, reach())) continue;
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
-        // From where the grid says that the surface is, once for each cusp: two in one brick are two places.
+        // Start where the grid shows the surface, once for each cusp: two cusps in one brick are two places.
         Seen start;
         for (int n = 0; near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
             if (n == kMostStarts) {
@@ -456,7 +461,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
             const std::optional<Vec3> foot = search(ref, start.at);
             if (!foot) {
                 doubt = true;
-                break;  // as would be the others of this brick
+                break;  // the other cusps of this brick would fail too
             }
             seen[count++] = start;
             seen[count++] = {*foot, normalized(p - *foot, {0, 0, 1})};
@@ -466,7 +471,8 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
             break;
         }
     }
-    // A search without result where something was found may be of what other bricks' shapes took away.
+    // A search may have failed on surface that the shapes of other bricks removed. This is accepted if
+    // another search succeeded.
     if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) {
         if (all_looked && !doubt && best.distance_mm < within_mm) {
             hint.proved_at_mm = p;
@@ -474,7 +480,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         }
         return best;
     }
-    // Not shown to be the nearest: what is known of the distance.
+    // Not proven to be the nearest: return what is known of the distance.
     if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
     if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)
         lower = {proven, lower.normal, lower.piece};
@@ -493,7 +499,7 @@ bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
     const NearNode near = nearest_node(b, p);
     const auto node = static_cast<std::size_t>(near.index);
     const double way = cell_mm * length(near.off_cells);
-    // What the node says holds as far around it as its distance, less rounding.
+    // The sign at the node holds around it as far as its distance, less rounding.
     const double d = static_cast<double>(brick.distance_mm[node]);
     if (d > way + kRounding * cell_mm) return false;
     if (d < -way - kRounding * cell_mm - skin_mm) return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is asked of a carved field, on tables that somebody else owns: the field's own, or those of a moment
-// that a reader holds on to while carving goes on.
+// Queries of a carved field. Another object owns the tables: the field itself, or a state that a reader holds
+// while carving continues.
 #pragma once
 
 #include <cmath>
@@ -14,11 +14,11 @@ namespace tribo::field {
 
 using ShapeStore = SteadyArray<std::unique_ptr<const Shape>, 1024>;  // [0] is the blank
 
-// Refers to its tables. Everything is const, allocates nothing, and takes a time that is bounded by the
-// number of shapes in a brick (and, for clearance and nearest, the number of bricks within reach).
+// Refers to its tables. All functions are const and allocate nothing. Their time is bounded by the number of
+// shapes in a brick (for clearance and nearest also by the number of bricks within reach).
 struct FieldQuery {
-    // A brick whose nodes are all further than this from material (in cells) holds none between them either:
-    // half the diagonal of a cell.
+    // If all nodes of a brick are farther than this from material (in cells), there is no material between
+    // them either: half the diagonal of a cell.
     static constexpr double kClearCells = 0.8661;
 
     Vec3 origin_mm;
@@ -36,30 +36,29 @@ struct FieldQuery {
         const Lattice l = lattice(b);
         return {l.node(0, 0, 0), l.node(kBrickCells, kBrickCells, kBrickCells)};
     }
-    // The brick that contains the point; out of the grid: one that the table does not contain.
+    // Returns the brick that contains the point. Outside the grid: a brick that the table does not contain.
     BrickCoord brick_at(Vec3 point_mm) const {
         const Vec3 q = (point_mm - origin_mm) * (per_cell / kBrickCells);
-        // Far points are clamped before the conversion, which would overflow.
+        // Far points are clamped first, because their conversion would overflow.
         const auto whole = [](double v) { return static_cast<int>(std::floor(std::clamp(v, -1e9, 1e9))); };
         return {whole(q.x), whole(q.y), whole(q.z)};
     }
-    // The node of a brick that is nearest to a point, and where the point lies from it.
+    // The node of a brick that is nearest to a point, and the offset of the point from it.
     struct NearNode {
         int index;
         Vec3 off_cells;
     };
     NearNode nearest_node(BrickCoord b, Vec3 point_mm) const;
 
-    // Where the exact surface stands, when `point_mm` is in brick `ref`: the distance and the shape that
-    // gives it. With `any_air` the first shape that leaves no material there is enough: its distance is then
-    // a lower bound.
+    // The exact distance at `point_mm` in brick `ref`, and the shape that gives it. With `any_air` the search
+    // stops at the first shape that leaves no material there; then its distance is a lower bound.
     struct Exact {
         double distance_mm;
         ShapeId shape;
     };
     Exact exact(BrickRef ref, Vec3 point_mm, bool any_air = false) const;
 
-    // As of contact::DistanceField.
+    // As in contact::DistanceField.
     double distance_mm(Vec3 point_mm) const;
     contact::SurfaceSample sample(Vec3 point_mm) const;
     contact::SurfaceSample sample_piece(ShapeId id, Vec3 point_mm) const {
@@ -68,11 +67,11 @@ struct FieldQuery {
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
-    // Whether distance_mm < -skin_mm (0 <= skin_mm << cell), without the measure where the grid already
-    // tells.
+    // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
+    // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;
-    // Signed like a distance: no surface is nearer than its size, which is no more than about `enough_mm` and
-    // falls short of the true distance where the grid already tells the side.
+    // Signed like a distance; its size is a lower bound of the distance to any surface. It is at most about
+    // `enough_mm`. It is smaller than the true distance where the grid alone gives the side.
     double clear_way_mm(Vec3 point_mm, double enough_mm) const;
 
   private:
@@ -84,7 +83,7 @@ struct FieldQuery {
     double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
-    // A place on the surface, and which way it faces.
+    // A point on the surface, and its normal.
     struct Seen {
         Vec3 at, normal;
     };
@@ -94,7 +93,7 @@ struct FieldQuery {
                       Seen& place) const;
 };
 
-// All that a field holds, at an address that does not change.
+// All contents of a field, at an address that does not change.
 struct FieldTables {
     ShapeStore shapes;
     BrickIndex index;

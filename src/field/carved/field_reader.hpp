@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
-// A carved field as another thread sees it while carving goes on: a servo, which must not wait.
+// A carved field as seen from another thread while carving continues, for example from a servo, which must
+// not wait.
 #pragma once
 
 #include "field/carved/carved_field.hpp"
 
 namespace tribo::field {
 
-// After each carve the field shows itself to its reader: the tables of that moment, whose bricks are then
-// left as they are (the next carve changes copies of those that it cuts). The reader takes the newest when it
-// wants; what it holds stays true until it takes the next.
+// After each carve the field shows its state to its reader: the tables of that moment. The bricks of these
+// tables are not changed any more (the next carve changes copies of the bricks that it cuts). The reader
+// takes the newest state when it wants. The state that it holds stays valid until it takes the next one.
 //
-// Made and destroyed by the carving thread while the other is not in it, and within the field's life; at most
-// one at a time for a field. The other thread calls the rest: real-time safe, neither side ever waits for the
-// other. Cost for the carver: a copy of each brick (3 kB) that a batch cuts, and of the table of chunks.
+// The carving thread makes and destroys the reader while the other thread does not use it, and within the
+// life of the field. A field has at most one reader at a time. The other thread calls the rest: real-time
+// safe, no side ever waits for the other. Cost for the carver: a copy of each brick (3 kB) that a batch cuts,
+// and of the table of chunks.
 class FieldReader final : public contact::DistanceField {
   public:
     explicit FieldReader(CarvedField& field);
@@ -20,10 +22,10 @@ class FieldReader final : public contact::DistanceField {
     FieldReader& operator=(const FieldReader&) = delete;
     ~FieldReader() override;
 
-    // Goes on to the newest state, if there is one; whether there was. What carve() finished before the call
-    // is in it.
+    // Takes the newest state. Returns false if there is no new one. The newest state contains every carve()
+    // that finished before the call.
     bool refresh();
-    // States shown so far, up to the one that is read now.
+    // Number of states shown up to the one that is read now.
     Version version() const { return reading_->version; }
 
     double distance_mm(Vec3 p) const override { return reading_->query.distance_mm(p); }

@@ -12,7 +12,8 @@ void FieldShow::show(const FieldQuery& query, const std::vector<BrickChunk*>& ch
     state->chunks.assign(chunks.begin(), chunks.end());
     state->query.bricks.chunks = state->chunks.data();
     const ShownField* missed = way_.post(state.get());
-    // The reader has moved on from all before the one that it reads; one that it missed nobody will read.
+    // The reader no longer uses any state before the one that it reads. It will never read a state that it
+    // missed.
     const Version reading = way_.progress();
     std::erase_if(states_, [&](const std::unique_ptr<ShownField>& s) {
         return s.get() == missed || s->version < reading;

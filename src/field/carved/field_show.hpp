@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hand-over of a carved field's states from the thread that carves to one that reads, and what is kept
-// for the reader until it has moved on.
+// Hands the states of a carved field from the carving thread to a reading thread, and keeps the old data
+// until the reader no longer uses it.
 #pragma once
 
 #include <memory>
@@ -11,36 +11,36 @@
 
 namespace tribo::field {
 
-// One state: tables of which nothing changes.
+// One state: its tables never change.
 struct ShownField {
     Version version = 0;
     FieldQuery query;
-    std::vector<const BrickChunk*> chunks;  // what query.bricks looks at
+    std::vector<const BrickChunk*> chunks;  // the chunks of query.bricks
 };
 
-// The carver shows, the reader takes; both at any time, without waiting (one exchange of a pointer each). All
-// but take() is the carver's.
+// The carver shows states, the reader takes them; both at any time, without waiting (one exchange of a
+// pointer each). Only take() is for the reader; all other functions are for the carver.
 class FieldShow {
   public:
-    // Bricks and chunks of versions up to this are shown: changed only as copies.
+    // Bricks and chunks of versions up to this one are shown: change only copies of them.
     Version shown() const { return shown_; }
-    // Shows the field as it is now. `pool` gets back the bricks that nobody can see any more.
+    // Shows the present state of the field. Returns to `pool` the bricks that no reader can see any more.
     void show(const FieldQuery& query, const std::vector<BrickChunk*>& chunks, BrickPool& pool);
-    // What the field no longer uses, but a reader may.
+    // Stores data that the field no longer uses but a reader may use.
     void retire(BrickRef ref) { bricks_.push_back({ref, shown_ + 1}); }
     void retire(std::unique_ptr<BrickChunk> chunk) {
         if (chunk) chunks_.push_back({std::move(chunk), shown_ + 1});
     }
-    // Gives everything back; the reader has left.
+    // Returns everything to the pool; call it after the reader has left.
     void close(BrickPool& pool);
 
-    // The newest state that was not taken yet, or null. By taking, the reader lets go of the one before.
+    // Returns the newest state that was not taken yet, or null. The reader then gives up the state before it.
     const ShownField* take();
 
   private:
     struct OldBrick {
         BrickRef ref;
-        Version gone;  // the first version that it is not in
+        Version gone;  // the first version without this brick
     };
     struct OldChunk {
         std::unique_ptr<BrickChunk> chunk;
@@ -51,7 +51,7 @@ class FieldShow {
 
     HandOver<const ShownField> way_;  // the reader counts by version
     Version shown_ = 0;
-    std::vector<std::unique_ptr<ShownField>> states_;  // that the reader holds or may take, oldest first
+    std::vector<std::unique_ptr<ShownField>> states_;  // those that the reader holds or may take, by age
     std::vector<OldBrick> bricks_;
     std::vector<OldChunk> chunks_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An array that grows at its end without moving what is in it: other threads may read elements that were
-// there when they were told of them, while one thread appends.
+// An array that grows at its end without moving its elements. While one thread appends, other threads may
+// read the elements that they were told of.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace tribo::field {
 
-// Pages of kPage elements; a book of 1024 pages at a time. Elements are default-initialised: plain data holds
-// no defined value until it is written.
+// Pages of kPage elements; a book has 1024 pages. Elements are default-initialised: plain data has no defined
+// value before it is written.
 template <class T, std::size_t kPage>
 class SteadyArray {
   public:
@@ -21,7 +21,7 @@ class SteadyArray {
     const T& operator[](std::size_t n) const {
         return (*books_[n / (kPage * kBook)])[n / kPage % kBook][n % kPage];
     }
-    // The number of the first of `count` new elements.
+    // Appends `count` elements; returns the number of the first one.
     std::size_t grow(std::size_t count) {
         const std::size_t first = size_;
         size_ += count;

@@ -16,7 +16,7 @@
 namespace tribo::field {
 namespace {
 
-// Bricks in hand at once, about: enough for all threads, few enough that what is known of them stays small.
+// Approximate number of bricks in a batch: enough for all threads, few enough to keep their data small.
 constexpr std::size_t kBatch = 4096;
 
 struct BrickTriangles {
@@ -48,7 +48,7 @@ class BrickPolygons {
         const int a = node % kLatticeEdge, b = node / kLatticeEdge % kLatticeEdge,
                   c = node / (kLatticeEdge * kLatticeEdge);
         if (a == kBrickCells || b == kBrickCells || c == kBrickCells) return;
-        // Inside a flat brick all polygons shrink to a point: only edges on its lower faces matter.
+        // Inside a flat brick all polygons shrink to a point. Only edges on its lower faces matter.
         if (s_.flat && a > 0 && b > 0 && c > 0) return;
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         const auto cell = [&](int along_u, int along_v) {
@@ -58,8 +58,8 @@ class BrickPolygons {
             return Cell::from(at[0], at[1], at[2]);
         };
         const std::array<Cell, 4> cells{cell(0, 0), cell(1, 0), cell(1, 1), cell(0, 1)};
-        // The faces between a cell and the next: lower face of which cell, along which axis, and which of its
-        // edges this is.
+        // For each face between a cell and the next one: the cell whose lower face it is, its axis, and the
+        // number of this edge in the face.
         constexpr std::size_t kAbove[4] = {0, 1, 3, 0};
         const int normals[4] = {u, v, u, v};
         constexpr int kEdges[4] = {3, 2, 1, 0};
@@ -77,7 +77,7 @@ class BrickPolygons {
         }
         if (ring_.size() > 1 && ring_.front() == ring_.back()) ring_.pop_back();
         if (ring_.size() < 3) return;
-        // Counter-clockwise about the axis: the outside is ahead where the edge starts inside.
+        // Counter-clockwise about the axis: if the edge starts inside, the outside is ahead.
         const bool flip = e.inside == (e.ordinal == 1);
         if (on_faces || !alone || !few(e, flip)) fan(e, flip);
     }
@@ -86,7 +86,7 @@ class BrickPolygons {
         out_.triangles.push_back(flip ? Triangle{a, c, b} : Triangle{a, b, c});
     }
 
-    // One or two triangles, where these meet no others.
+    // One or two triangles, if these meet no others. Returns false otherwise.
     bool few(const EdgePoint& e, bool flip) {
         const int axis = e.edge / kLatticeNodes, u = (axis + 1) % 3, v = (axis + 2) % 3;
         const Vec3 from = node_mm(lattice_, e.edge % kLatticeNodes);
@@ -126,7 +126,7 @@ class BrickPolygons {
 // Makes a mesh batch by batch.
 class Contour {
   public:
-    // Only the bricks from `first` on get triangles; those from `back` on are looked at.
+    // Only the bricks from `first` on get triangles; the bricks from `back` on are read.
     Contour(const CarvedField& field, BrickCoord back, BrickCoord first, BrickCoord last,
             const ParallelFor& parallel, const ContourOptions& options)
         : field_(field),
@@ -185,7 +185,7 @@ class Contour {
         }
     }
 
-    // Vertices of cells first, then those on faces, then those of the bricks' own triangles.
+    // Joins the vertices: first those of cells, then those on faces, then those of the bricks' own triangles.
     TriangleMesh join() {
         TriangleMesh mesh;
         mesh.positions = std::move(table_.in_cells());
@@ -244,7 +244,7 @@ TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord
                           const ContourOptions& options) {
     const BrickCoord size = field.size();
     last = {std::min(last.i, size.i), std::min(last.j, size.j), std::min(last.k, size.k)};
-    // A brick's triangles reach for vertices one brick back.
+    // The triangles of a brick use vertices one brick back.
     const BrickCoord back{std::max(first.i - 1, 0), std::max(first.j - 1, 0), std::max(first.k - 1, 0)};
     const ParallelFor serial = serial_for;
     TriangleMesh mesh = Contour(field, back, first, last, serial, options).mesh();

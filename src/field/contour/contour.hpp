@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From the field to triangles: dual contouring (Ju, Losasso, Schaefer & Warren 2002) on the exact level, so
-// that cusps and corners are as sharp as the sweeps that made them.
+// Computes triangles from the field: dual contouring (Ju, Losasso, Schaefer & Warren 2002) on the exact
+// level. Cusps and corners are therefore as sharp as the sweeps that made them.
 #pragma once
 
 #include "base/mesh.hpp"
@@ -10,21 +10,21 @@
 namespace tribo::field {
 
 struct ContourOptions {
-    // Bricks whose surface is one plane to this angle (rad) and distance (in cells) become a single vertex:
-    // large flats cost few triangles, without cracks towards their finer neighbours.
+    // A brick becomes a single vertex if its surface is one plane within this angle (rad) and distance (in
+    // cells). Large flats then need few triangles, without cracks towards their finer neighbours.
     double flat_angle_rad = 1e-5;
     double flat_cells = 1e-4;
 };
 
-// The closed surface of the material that is left, vertices within rounding of the exact surface except where
-// a cusp is thinner than a cell. Every directed edge is matched by an opposite one. The same mesh whatever
-// `parallel` does.
+// Returns the closed surface of the remaining material. Its vertices are within rounding of the exact
+// surface, except where a cusp is thinner than a cell. Every directed edge has a matching opposite edge. The
+// mesh does not depend on `parallel`.
 TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel = serial_for,
                      const ContourOptions& options = {});
 
-// The part of that surface that belongs to the bricks from `first` on up to `last`, which is left out, in
-// each coordinate: parts that share no brick and leave out none are the whole, with the vertices on their
-// borders in both. For a picture that follows the cut, part by part.
+// Returns the part of that surface that belongs to the bricks from `first` up to `last` (excluded) in each
+// coordinate. Parts that cover all bricks once form the whole surface; the vertices on their borders are in
+// both parts. For a picture that is updated part by part during the cut.
 TriangleMesh contour_part(const CarvedField& field, BrickCoord first, BrickCoord last,
                           const ContourOptions& options = {});
 

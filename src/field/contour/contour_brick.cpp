@@ -12,10 +12,10 @@
 namespace tribo::field {
 namespace {
 
-// Crossings on the lower faces of a flat brick as a rule: a plane along two axes.
+// Usual number of crossings on the lower faces of a flat brick: a plane along two axes.
 constexpr std::size_t kFlatEdges = 2 * kLatticeEdge - 1;
 
-// Of a row.
+// All cells of a row.
 constexpr unsigned kAllCells = (1U << kBrickCells) - 1;
 
 constexpr bool is_on_lower_face(int node) {
@@ -46,7 +46,7 @@ class BrickContour {
         s.cell.assign(kCells, BrickSurface::kNone);
         for (int c = 0; c < kBrickCells; ++c) {
             for (int b = 0; b < kBrickCells; ++b) {
-                // Only where an edge is crossed twice, a cell with all corners on one side has a surface.
+                // A cell with all corners on one side has a surface only if an edge is crossed twice.
                 unsigned left = nodes_.has_thin() ? kAllCells : nodes_.mixed_cells(b, c);
                 for (; left != 0; left &= left - 1) place_vertices(s, std::countr_zero(left), b, c);
             }
@@ -62,7 +62,7 @@ class BrickContour {
         for (std::size_t n = 0; n < list.size(); ++n) {
             const std::uint16_t edge = list[n].edge;
             const int node = edge % kLatticeNodes;
-            // Inside a flat brick nobody asks for them.
+            // Inside a flat brick they are not needed.
             if (s.flat && !is_on_lower_face(node)) continue;
             const auto keep = [&](std::uint8_t ordinal, double along) {
                 s.edges.push_back({edge, ordinal, nodes_.inside(node), static_cast<float>(along)});
@@ -81,7 +81,7 @@ class BrickContour {
         return p;
     }
 
-    // Distance to the surface of one shape and the direction out of the material that it bounds.
+    // Distance to the surface of one shape, and the direction out of the material that the shape bounds.
     double distance(ShapeId shape, Vec3 p) const {
         const double d = field_.shape(shape).distance_mm(p);
         return shape == 0 ? d : -d;
@@ -91,8 +91,8 @@ class BrickContour {
         return shape == 0 ? g : -g;
     }
 
-    // The plane that touches the face of a crossing beside `p`: a share `back` of the way to the crossing, so
-    // that it is still this face of its shape that answers and not the one that it meets at p.
+    // The plane that touches the face of a crossing near `p`. It is evaluated a share `back` of the way from
+    // p to the crossing, so that this face of the shape answers, not the face that it meets at p.
     struct Tangent {
         Vec3 point, normal;
     };
@@ -139,8 +139,8 @@ class BrickContour {
         for (int axis = 0; axis < 3; ++axis) keep_if_crowded(s, n, 3 * cell + axis);
     }
 
-    // Takes the vertices of two pieces back to the middle of their crossings where no plane parts the pieces
-    // with the vertices that are wanted.
+    // Moves the vertices of two pieces back to the middle of their crossings if no plane separates the pieces
+    // with their wanted vertices.
     void part_pieces(const CellPieces& p, int node, std::array<Vec3, kMostCrossings>& placed) const {
         std::array<bool, kMostCrossings> back{};
         const double gap = margin_ * field_.cell_mm();
@@ -175,7 +175,7 @@ class BrickContour {
                 const int along = seg.from.edge % 2 == 0 ? u : v, into = seg.from.edge % 2 == 0 ? v : u;
                 const double sense = seg.from.edge == 0 || seg.from.edge == 3 ? 1 : -1;
                 double depth = 0.25 * tribo::distance(from, to);
-                // No further than half the way to the segments around it.
+                // At most half of the distance to the segments around it.
                 for (int other = 0; other < f.count; ++other) {
                     const FaceSegment& o = f.all[static_cast<std::size_t>(other)];
                     if (o.from.edge == o.to.edge) continue;
@@ -194,8 +194,9 @@ class BrickContour {
         s.crowded.push_back(crowded);
     }
 
-    // Where a wall or slit that is thinner than a cell ends in this one: its crossings lie on two planes that
-    // do not say how far it goes on. As far as the way from the middle of them into the cell stays in it.
+    // For a wall or slit that is thinner than a cell and ends in this cell. Its crossings lie on two planes
+    // that do not show how far it continues. Returns the farthest point on the way from their middle into the
+    // cell that is still in the wall or slit.
     std::optional<Vec3> end_of_wall(const CellPieces& pieces, int piece, Vec3 middle, Vec3 low) const {
         Vec3 across;
         for (std::size_t id = 0; id < kMostCrossings; id += 2) {
@@ -237,10 +238,10 @@ class BrickContour {
         const auto into_cell = [&](Vec3 p) { return into(lo, 1, p); };
         if (const std::optional<Vec3> end = end_of_wall(pieces, piece, quadric.mean(), lo))
             return into_cell(*end);
-        // Several pieces stay apart where each is in the hull of its own crossings.
+        // Several pieces stay apart if each is in the hull of its own crossings.
         if (pieces.count > 1 && pieces.simple) return into_cell(quadric.mean());
-        // Planes through the crossings miss a curved surface by their sagitta; Newton steps take that away:
-        // onto the one surface where it is smooth, onto the meeting of its faces where it is not.
+        // Planes through the crossings miss a curved surface by their sagitta. Newton steps remove this
+        // error: onto the surface where it is smooth, onto the intersection of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
         Vec3 p;
         if (quadric.is_flat(kSmooth)) {
@@ -275,7 +276,7 @@ double contour_margin(const CarvedField& field) {
     double most = 0;
     for (int axis = 0; axis < 3; ++axis)
         most = std::max({most, std::abs(box.min[axis]), std::abs(box.max[axis])});
-    constexpr double kUlp = 0x1p-23;  // of numbers up to two
+    constexpr double kUlp = 0x1p-23;  // float spacing of numbers up to two
     return std::min(0.25, std::max(kLeast, kUlps * kUlp * most / field.cell_mm()));
 }
 

@@ -7,7 +7,7 @@
 namespace tribo::field {
 namespace {
 
-// Whether `visit` says yes to a brick and to those `step` bricks around it, as far as there are any.
+// Returns true if `visit` returns true for a brick and for the existing bricks `step` bricks around it.
 template <class Visit>
 bool all_around(const CarvedField& field, BrickCoord b, int step, const Visit& visit) {
     for (int k = b.k - step; k <= b.k + step; k += step) {
@@ -38,7 +38,7 @@ void CandidateBricks::look_at_chunks(int k) {
     chunk_layer_ = k / kChunkEdge;
     const int chunks_j = (field_.size().j + kChunkEdge - 1) / kChunkEdge;
     chunks_.assign(static_cast<std::size_t>(chunks_i_) * static_cast<std::size_t>(chunks_j), {});
-    // From the middle of a chunk to those of its bricks, with some room for rounding.
+    // From the middle of a chunk to the middles of its bricks, with a margin for rounding.
     const double far = radius_mm_ + kChunkEdge * field_.brick_radius_mm();
     for (int j = first_.j / kChunkEdge; j * kChunkEdge < last_.j; ++j) {
         for (int i = first_.i / kChunkEdge; i * kChunkEdge < last_.i; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bricks that a contour looks at.
+// The bricks that a contour examines.
 #pragma once
 
 #include <vector>
@@ -8,29 +8,30 @@
 
 namespace tribo::field {
 
-// Finds, layer by layer upwards, the bricks that the surface may pass through. The field must outlive it and
-// stay as it is. Chunks of the field's index far from the blank's surface that no cut has come near are
-// passed over whole.
+// Finds, layer by layer upwards, the bricks that the surface may pass through. The field must outlive this
+// object and must not change. Whole chunks of the index are skipped if they are far from the surface of the
+// blank and from all cuts.
 class CandidateBricks {
   public:
-    // Of the bricks from `first` on up to `last`, which is left out, in each coordinate.
+    // The bricks from `first` up to `last` (excluded) in each coordinate.
     CandidateBricks(const CarvedField& field, BrickCoord first, BrickCoord last);
 
-    // Appends those of layer `k`, which is not below that of the call before, by j, then by i.
+    // Appends the bricks of layer `k`, sorted by j, then by i. `k` must not be below the layer of the last
+    // call.
     void append_layer(int k, std::vector<BrickCoord>& found);
 
   private:
-    // What is known of all bricks of a chunk.
+    // Properties of all bricks of a chunk.
     struct Chunk {
-        bool calm = false;   // neither in it nor around it anything is carved
-        bool clear = false;  // and the surface of the blank is far
+        bool calm = false;   // nothing is carved in it or next to it
+        bool clear = false;  // calm, and far from the surface of the blank
     };
     void look_at_chunks(int k);
     bool untouched_around(BrickCoord b) const;
 
     const CarvedField& field_;
     BrickCoord first_, last_;
-    double radius_mm_;  // from a brick's middle, what its nodes and their neighbours reach
+    double radius_mm_;  // reach of the nodes of a brick and of their neighbours, from its middle
     std::vector<Chunk> chunks_;
     int chunks_i_, chunk_layer_ = -1;
 };

@@ -19,7 +19,7 @@ class FaceVertices {
         for (int c = 0; c < kBrickCells; ++c) {
             for (int b = 0; b < kBrickCells; ++b) {
                 for (int a = 0; a < kBrickCells; ++a) {
-                    // Inside a flat brick nothing is needed.
+                    // Inside a flat brick no vertices are needed.
                     if (s_.flat && a > 0 && b > 0 && c > 0) continue;
                     if (!s_.flat &&
                         s_.cell[static_cast<std::size_t>(cell_index(a, b, c))] == BrickSurface::kNone)
@@ -37,7 +37,7 @@ class FaceVertices {
     }
 
   private:
-    // Whether the bricks below along each axis are flat too or have no surface.
+    // Returns true if the bricks below along each axis are flat too or have no surface.
     bool flat_below() const {
         return behind_.of[1].is_flat() && behind_.of[2].is_flat() && behind_.of[4].is_flat();
     }
@@ -71,7 +71,8 @@ class FaceVertices {
                             s_.on_face(lattice_, node, axis, segment.to))));
     }
 
-    // The one segment of a face that is crossed at two of its edges.
+    // Finds the one segment of a face that is crossed at two of its edges. Returns false if there is another
+    // number of crossed edges.
     bool only_segment(int node, int axis, FaceSegment& segment) const {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         int count = 0;
@@ -90,7 +91,7 @@ class FaceVertices {
         return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
     }
 
-    // Whether the way from one vertex to the other passes through the face.
+    // Returns true if the line from one vertex to the other passes through the face.
     bool passes(int node, int axis, std::uint32_t p, std::uint32_t q) const {
         const Vec3 corner = node_mm(lattice_, node);
         const Vec3 a = table_.position(p) - corner, b = table_.position(q) - corner;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Vertices on the faces between cells: where the way from one cell's vertex to the next one's does not pass
-// through their face, and where the surface passes a face, or one of the cells beside it, more than once.
+// Vertices on the faces between cells. They are needed where the line from a cell's vertex to the next one
+// does not pass through their common face, and where the surface passes more than once through a face or
+// through one of the cells beside it.
 #pragma once
 
 #include "field/contour/contour_table.hpp"
 
 namespace tribo::field {
 
-// Of the lower faces of the cells of one brick.
+// Returns the vertices on the lower faces of the cells of one brick.
 std::vector<SurfaceTable::FaceVertex> find_face_vertices(const SurfaceTable& table,
                                                          const BrickSurface& surface);
 

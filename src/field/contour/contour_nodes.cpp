@@ -9,9 +9,9 @@
 namespace tribo::field {
 namespace {
 
-// What air is given where no node says how far it is, in cells: more than half a cell's diagonal.
+// Value of air if no node gives its distance, in cells: more than half the diagonal of a cell.
 constexpr float kAirCells = static_cast<float>(FieldQuery::kClearCells);
-// A wall or slit of less than this share of a cell is left out of the mesh: single precision would not keep
+// A wall or slit thinner than this share of a cell is left out of the mesh: single precision would not keep
 // its two sides apart.
 constexpr double kThinnest = 1e-3;
 
@@ -21,8 +21,8 @@ constexpr int coordinate(int node, int axis) {
                        : node / (kLatticeEdge * kLatticeEdge);
 }
 
-// A node on the border of a brick and the same node in the bricks that share it, which are counted as in
-// BrickNodes::around.
+// A node on the border of a brick, and the same node in the bricks that share it. The bricks are numbered as
+// in BrickNodes::around.
 struct BorderNode {
     std::uint16_t node = 0;
     std::uint16_t count = 0;
@@ -56,15 +56,16 @@ constexpr std::array<BorderNode, kBorderNodes> kBorder = [] {
     return all;
 }();
 
-// One end of a way, on one side of the surface.
+// One end of a line, on one side of the surface.
 struct End {
-    double at, distance_mm;  // along the way, mm; from the surface, > 0
-    ShapeId shape;           // that gives the distance
+    double at, distance_mm;  // along the line, mm; from the surface, > 0
+    ShapeId shape;           // the shape that gives the distance
 };
 
-// Where on the way from p along `unit` the other side of the surface is: that where `sign` times the distance
-// is negative. Nothing where that is further from both ends than they are apart, slopes being at most one;
-// nor between two places in air that one carved shape makes, as carved shapes do not bend around walls.
+// Searches the line from p along `unit` for a point on the other side of the surface: `sign` times the
+// distance is negative there. Returns nothing if the other side cannot lie between the ends, because the
+// slope is at most one. Also returns nothing between two points in air of one carved shape, because carved
+// shapes do not bend around walls.
 std::optional<double> find_beyond(const CarvedField& field, BrickRef ref, Vec3 p, Vec3 unit, End low,
                                   End high, double sign) {
     constexpr int kMost = 10;
@@ -75,7 +76,8 @@ std::optional<double> find_beyond(const CarvedField& field, BrickRef ref, Vec3 p
         const CarvedField::Exact e = field.exact(ref, p + at * unit);
         const double d = sign * e.distance_mm;
         if (d < 0) return at;
-        // On which side of it the rest may be: where the end has another shape, else where more room is.
+        // The side on which the search continues: the one whose end has another shape, otherwise the one with
+        // more room.
         const bool to_high = low.shape != high.shape && (e.shape == low.shape || e.shape == high.shape)
                                  ? e.shape == low.shape
                                  : high.at - at - high.distance_mm >= at - low.at - low.distance_mm;
@@ -113,7 +115,7 @@ void BrickNodes::find_around() {
     }
 }
 
-// Air wins, then the first brick with nodes of its own.
+// Makes the values on the border agree: air wins, then the first brick with its own nodes.
 void BrickNodes::agree_on_border() {
     if (untouched_around_) return;
     const float clear = kAirCells * static_cast<float>(field_.cell_mm());
@@ -150,7 +152,7 @@ void BrickNodes::look_at_rows() {
 }
 
 bool BrickNodes::has_surface() const {
-    // Between nodes that are half a cell from the surface and further no wall or slit is hidden.
+    // Between nodes that are at least half a cell from the surface no wall or slit can be hidden.
     unsigned in = 0xff, out = 0xff;
     for (std::size_t row = 0; row < kRows; ++row) {
         in &= inside_[row] & ~unsigned{very_near_[row]};
@@ -159,7 +161,7 @@ bool BrickNodes::has_surface() const {
     return in != 0xff && out != 0xff;
 }
 
-// The first of the bricks that share all the nodes of the box between two corners that has nodes of its own.
+// Returns the first brick with its own nodes among those that share all nodes of the box between two corners.
 BrickRef BrickNodes::ref_between(int from, int to) const {
     if (untouched_around_) return kUntouched;
     int low[3], high[3];
@@ -182,7 +184,7 @@ void BrickNodes::find_crossings() {
     constexpr unsigned kLower = (1U << kBrickCells) - 1;
     for (int axis = 0; axis < 3; ++axis) {
         edges_[static_cast<std::size_t>(axis)].fill({});
-        // The row with the upper ends of a row's edges.
+        // The row with the upper ends of the edges of a row.
         const auto up = static_cast<std::size_t>(kStep[axis] / kLatticeEdge);
         for (std::size_t row = 0; row < kRows; ++row) {
             const int first = static_cast<int>(row) * kLatticeEdge;
@@ -210,8 +212,8 @@ void BrickNodes::look_at_edge(int axis, int node) {
                                   static_cast<double>(d0), static_cast<double>(d1)));
 }
 
-// Regula falsi (Illinois) along an edge whose ends lie on either side; starts from the values there, which
-// are themselves distances, so one or two looks at the exact level are the rule.
+// Regula falsi (Illinois) along an edge whose ends lie on different sides. It starts from the values there,
+// which are distances, so that one or two evaluations of the exact level are usual.
 Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, double t1, double d0,
                                    double d1) const {
     constexpr double kDone = 1e-7;  // mm
@@ -245,7 +247,7 @@ Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, 
     return x;
 }
 
-// The shape that gives the distance at a node of this brick, as the brick `ref` knows it.
+// Returns the shape that gives the distance at a node of this brick, according to the brick `ref`.
 ShapeId BrickNodes::shape_at(BrickRef ref, int node) const {
     if (ref < kFirstBrick) return 0;
     const Brick& brick = field_.brick(ref);
@@ -292,9 +294,9 @@ FaceSegments BrickNodes::segments(int node, int axis) const {
         for (int k = 0; k < n; ++k)
             ends[static_cast<std::size_t>(count++)] = {e, static_cast<std::uint8_t>(e < 2 ? k : n - 1 - k)};
     }
-    // Between two crossings that follow each other the border of the face is all inside or all outside.
-    // Around which of the two the segments run is only a question where there are four crossings and more:
-    // as a rule around the inside, so that material that meets in a corner alone does not hang together.
+    // Between two consecutive crossings the border of the face is completely inside or completely outside.
+    // Only with four or more crossings there is a choice of which one the segments run around: usually the
+    // inside, so that material that meets only in a corner is not connected.
     bool around_inside = true;
     if (count > 2 && found.has_thin) around_inside = !is_joined(node, axis, ends, count);
     const int first = inside(node) != around_inside ? 0 : 1;
@@ -311,7 +313,7 @@ const Crossing& BrickNodes::at(int node, int axis, FaceSegment::End end) const {
     return list_[static_cast<std::size_t>(crossings(end.edge % 2 == 0 ? u : v, from).first + end.ordinal)];
 }
 
-// Whether there is material between two points in air, or air between two in material.
+// Returns true if there is material between two points in air, or air between two points in material.
 bool BrickNodes::is_parted(BrickRef ref, Vec3 p, Vec3 q, bool by_material) const {
     const double sign = by_material ? 1 : -1;
     const CarvedField::Exact from = field_.exact(ref, p), to = field_.exact(ref, q);
@@ -322,12 +324,12 @@ bool BrickNodes::is_parted(BrickRef ref, Vec3 p, Vec3 q, bool by_material) const
         .has_value();
 }
 
-// Whether the material along the border of a face hangs together across it.
+// Returns true if the material along the border of a face is connected across it.
 bool BrickNodes::is_joined(int node, int axis, const std::array<FaceSegment::End, 8>& ends, int count) const {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const Vec3 corner = node_mm(node);
     const BrickRef ref = ref_between(node, node + kStep[u] + kStep[v]);
-    // Way around the border, in cells.
+    // Position along the border, in cells.
     const auto way = [&](int n) {
         const FaceSegment::End end = ends[static_cast<std::size_t>(n % count)];
         const double along = at(node, axis, end).along;
@@ -342,7 +344,7 @@ bool BrickNodes::is_joined(int node, int axis, const std::array<FaceSegment::End
         p[v] += b * field_.cell_mm();
         return p;
     };
-    // Pieces of the border in air that a wall parts; where the thin thing is a slit, pieces in material.
+    // Pieces of the border in air that a wall separates; for a slit, pieces in material.
     bool wall = false;
     const int edge_axis[4] = {u, v, u, v};
     const int edge_node[4] = {node, node + kStep[u], node + kStep[v], node};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The nodes of one brick with the values on which all bricks that share them agree, and the crossings of the
-// surface with the edges between them.
+// The nodes of one brick and the crossings of the surface with the edges between them. All bricks that share
+// a node agree on its value.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace tribo::field {
 
-// Nodes along x, y, z from a node to the other end of the edge that it owns.
+// Step of the node index along x, y, z: from a node to the other end of the edge that it owns.
 inline constexpr int kStep[3] = {1, kLatticeEdge, kLatticeEdge* kLatticeEdge};
 
 inline Vec3 node_mm(const Lattice& lattice, int node) {
@@ -18,7 +18,7 @@ inline Vec3 node_mm(const Lattice& lattice, int node) {
                         node / (kLatticeEdge * kLatticeEdge));
 }
 
-// Where the surface crosses an edge of the grid.
+// A point where the surface crosses an edge of the grid.
 struct Crossing {
     Vec3 point, normal;  // mm; unit, out of the material
     ShapeId shape = 0;
@@ -26,16 +26,16 @@ struct Crossing {
     double along = 0;        // from the lower node of the edge, in cells
 };
 
-// The crossings of one edge, as a part of a list. An edge whose ends lie on the same side has two where a
-// wall or a slot that is thinner than a cell passes between them.
+// The crossings of one edge, as a part of a list. An edge with both ends on the same side has two crossings
+// if a wall or slot that is thinner than a cell passes between them.
 struct EdgeCrossings {
     std::uint16_t first = 0;
     std::uint16_t count = 0;
 };
 
-// One segment of the curve in which the surface meets a face between two cells: the edges of the face that it
-// connects and the crossing of each that it starts from. Edges are counted around the face, whose normal is
-// axis n: 0 along n + 1 from the lower corner, 1 along n + 2, 2 and 3 opposite to these.
+// One segment of the curve in which the surface meets a face between two cells. It connects two edges of the
+// face; `ordinal` is the number of the crossing on each edge. Edges are counted around the face, whose normal
+// is axis n: 0 along n + 1 from the lower corner, 1 along n + 2, 2 and 3 opposite to these.
 struct FaceSegment {
     struct End {
         std::uint8_t edge, ordinal;
@@ -53,7 +53,8 @@ class BrickNodes {
     BrickNodes(const CarvedField& field, BrickCoord coord);
 
     bool inside(int node) const { return value_[static_cast<std::size_t>(node)] < 0; }
-    // Cells of a row along x, bit a for the cell at (a, b, c), whose corners lie on both sides.
+    // Returns the cells of a row along x whose corners lie on both sides of the surface: bit a for the cell
+    // at (a, b, c).
     unsigned mixed_cells(int b, int c) const {
         const auto row = static_cast<std::size_t>(b + kLatticeEdge * c);
         const unsigned r0 = inside_[row], r1 = inside_[row + 1], r2 = inside_[row + kLatticeEdge],
@@ -61,23 +62,23 @@ class BrickNodes {
         const unsigned any = r0 | r1 | r2 | r3, all = r0 & r1 & r2 & r3;
         return (any | any >> 1) & ~(all & all >> 1) & ((1U << kBrickCells) - 1);
     }
-    // Whether anything of the surface may be in the brick or on its border.
+    // Returns true if the brick or its border may contain a part of the surface.
     bool has_surface() const;
 
-    // All crossings of the edges of this brick, those on its border included, by edge. A pure function of the
-    // field: bricks that share an edge find the same. To be called once, before what follows.
+    // Finds all crossings of the edges of this brick, its border included, sorted by edge. A pure function of
+    // the field: bricks that share an edge find the same crossings. Call it once, before the functions below.
     void find_crossings();
     EdgeCrossings crossings(int axis, int node) const {
         return edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)];
     }
     const Crossing& crossing(std::size_t n) const { return list_[n]; }
     const std::vector<Crossing>& list() const { return list_; }
-    // Whether an edge is crossed twice.
+    // Returns true if an edge is crossed twice.
     bool has_thin() const { return has_thin_; }
 
-    // How the crossings of the face with the lower corner `node` and the normal `axis` hang together.
+    // Returns how the crossings of the face with the lower corner `node` and the normal `axis` are connected.
     FaceSegments segments(int node, int axis) const;
-    // The crossing at the end of a segment of that face.
+    // Returns the crossing at the end of a segment of that face.
     const Crossing& at(int node, int axis, FaceSegment::End end) const;
 
     Vec3 node_mm(int node) const { return field::node_mm(lattice_, node); }
@@ -106,8 +107,8 @@ class BrickNodes {
     bool untouched_around_ = true, has_thin_ = false;
     std::array<BrickRef, 27> around_;
     std::array<float, kLatticeNodes> value_;
-    // Of the nodes of each row along x, bit a for the one at a: inside, and less than a cell and less than
-    // half a cell from the surface.
+    // For each row of nodes along x, bit a for the node at a: inside; less than a cell from the surface; less
+    // than half a cell from it.
     static constexpr std::size_t kRows = kLatticeEdge * kLatticeEdge;
     std::array<std::uint8_t, kRows> inside_, near_, very_near_;
     std::array<std::array<EdgeCrossings, kLatticeNodes>, 3> edges_;

@@ -6,8 +6,8 @@
 namespace tribo::field {
 namespace {
 
-// The face of a cell with normal `axis` at its lower (0) or upper (1) side: its edges as FaceSegment counts
-// them.
+// Returns the number of an edge of the face of a cell with normal `axis` at its lower (0) or upper (1) side.
+// `edge` is counted as in FaceSegment.
 constexpr int face_edge(int axis, int side, int edge) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     return edge == 0   ? 4 * u + 2 * side
@@ -16,8 +16,9 @@ constexpr int face_edge(int axis, int side, int edge) {
                        : 4 * v + side;
 }
 
-// Whether the surface is in one piece in a cell with these corners inside (bit a + 2 b + 4 c), none of its
-// edges crossed twice: material that meets across the diagonal of a face does not hang together, air does.
+// Returns true if the surface is in one piece in a cell with these corners inside (bit a + 2 b + 4 c) and
+// without an edge that is crossed twice. Material that meets across the diagonal of a face is not connected,
+// air is.
 constexpr bool is_one_piece(unsigned corners) {
     const auto pieces = [](unsigned set, bool diagonals) {
         int count = 0;
@@ -122,7 +123,7 @@ bool CellPieces::are_parted(int i, Vec3 vertex_i, int j, Vec3 vertex_j, double g
             double& most = piece[id] == i ? most_i : most_j;
             double& least = piece[id] == i ? least_i : least_j;
             const double where = dot(across, at[id]->point);
-            // Vertices on faces stand a little off an edge to which the surface comes back.
+            // Vertices on faces are a little away from an edge to which the surface comes back.
             const double off =
                 comes_back(id) ? tribo::distance(at[id]->point, at[id ^ 1]->point) * length(across) : 0;
             most = std::max(most, where + off);

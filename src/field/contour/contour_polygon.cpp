@@ -11,7 +11,7 @@ double cross2(Vec3 a, Vec3 b) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Where a triangle that goes around the edge counter-clockwise meets it.
+// Returns where a triangle that goes around the edge counter-clockwise meets the edge.
 std::optional<double> meets(Vec3 a, Vec3 b, Vec3 c) {
     const double wa = cross2(b, c), wb = cross2(c, a), wc = cross2(a, b), sum = wa + wb + wc;
     const double rounding = -1e-12 * std::abs(sum);
@@ -19,11 +19,12 @@ std::optional<double> meets(Vec3 a, Vec3 b, Vec3 c) {
     return (wa * a.z + wb * b.z + wc * c.z) / sum;
 }
 
-// The diagonal from a to c passes the edge on the side of b, d is the corner opposite to b.
+// The diagonal from a to c passes the edge on the side of b; d is the corner opposite to b. Returns where the
+// triangles meet the edge if they stay in the tetrahedra.
 std::optional<double> stays(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double margin) {
     const double pa = cross2(a, b), pc = cross2(b, c);
     if (!(pa > 0 && pc > 0)) return std::nullopt;
-    // Where the diagonal passes through the plane of the edge and b: in their triangle.
+    // Where the diagonal passes through the plane of the edge and b, it must be in their triangle.
     const Vec3 y = lerp(a, c, pa / (pa + pc));
     const double share = (y.x * b.x + y.y * b.y) / (b.x * b.x + b.y * b.y);
     if (!(share > -1e-9 && share < 1 - margin)) return std::nullopt;

@@ -6,7 +6,7 @@
 namespace tribo::field {
 namespace {
 
-// Slots of the table, unless two layers need more, and the layers that it has at most.
+// Number of slots of the table (more only if two layers need more), and largest number of its layers.
 constexpr int kSlots = 1 << 18, kMostLayers = 17;
 
 int layers_of(int size_i, int size_j) {
@@ -28,7 +28,7 @@ SurfaceTable::SurfaceTable(const CarvedField& field, BrickCoord first, BrickCoor
                   static_cast<std::size_t>(layers_));
 }
 
-// Empties the layers up to `k`, which take the place of older ones.
+// Empties the layers up to `k`, which replace older ones.
 void SurfaceTable::rise_to(int k) {
     const auto area = static_cast<std::ptrdiff_t>(size_i_) * size_j_;
     for (top_ = std::max(top_, k - layers_); top_ < k;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertices of a contour by cell and by face, of as many bricks as those that come next need.
+// The vertices of a contour by cell and by face, for as many bricks as the following bricks need.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace tribo::field {
 
 inline constexpr std::uint32_t kNoVertex = 0xffffffff;
 
-// While a mesh grows its vertices are counted by kind: those of cells, those on faces, and those of a
+// While a mesh grows, its vertices are numbered by kind: those of cells, those on faces, and those of a
 // brick's own triangles.
 inline constexpr std::uint32_t kOnFace = 0x40000000, kOwn = 0x80000000;
 
-// What is known of a brick.
+// The stored data of a brick.
 struct KnownSurface {
     std::uint32_t first_vertex = kNoVertex;  // kNoVertex: it has no surface
     const BrickSurface* details = nullptr;   // null: flat, without vertices on its faces
@@ -31,12 +31,12 @@ struct KnownSurface {
     }
 };
 
-// A cell of a brick or of one back from it.
+// A cell of a brick or of a neighbour one brick back.
 struct Cell {
-    int back;     // in which coordinates its brick is one back: bits of i, j and k
+    int back;     // bits of i, j and k: the coordinates in which its brick is one back
     int a, b, c;  // in its brick
 
-    // By its coordinates in the brick itself, -1..6.
+    // Makes a cell from its coordinates in the brick itself, -1..6.
     static Cell from(int a, int b, int c) {
         const int back = (a < 0 ? 1 : 0) + (b < 0 ? 2 : 0) + (c < 0 ? 4 : 0);
         return {back, a < 0 ? a + kBrickCells : a, b < 0 ? b + kBrickCells : b, c < 0 ? c + kBrickCells : c};
@@ -44,12 +44,13 @@ struct Cell {
     int index() const { return cell_index(a, b, c); }
 };
 
-// A brick and those one back from it.
+// A brick and its neighbours one brick back.
 struct SurfacesBehind {
-    std::array<KnownSurface, 8> of;  // as Cell::back
+    std::array<KnownSurface, 8> of;  // index: Cell::back
 
     const KnownSurface& surface(const Cell& at) const { return of[static_cast<std::size_t>(at.back)]; }
-    // The vertex of a cell at a crossing of one of its edges; kNoVertex where the surface does not pass.
+    // Returns the vertex of a cell at a crossing of one of its edges, or kNoVertex if the surface does not
+    // pass.
     std::uint32_t vertex(const Cell& at, int edge, int ordinal) const {
         const KnownSurface& s = surface(at);
         if (s.is_flat()) return s.first_vertex;
@@ -61,7 +62,7 @@ struct SurfacesBehind {
         }
         return v == BrickSurface::kNone ? kNoVertex : s.first_vertex + v;
     }
-    // The vertex on the lower face of a cell along an axis, or kNoVertex.
+    // Returns the vertex on the lower face of a cell along an axis, or kNoVertex.
     std::uint32_t on_face(const Cell& at, int axis, int edge, int ordinal) const {
         const BrickSurface* s = surface(at).details;
         if (!s || s->on_faces.empty()) return kNoVertex;
@@ -80,18 +81,18 @@ struct SurfacesBehind {
     }
 };
 
-// Bricks come in batches, in order of their coordinates: along i, then j, then k. Triangles and vertices of
-// a brick reach for bricks one back in each coordinate, so only those since then are kept, and of flat
-// bricks only the number of their vertex.
+// Bricks come in batches, in order of their coordinates: along i, then j, then k. Triangles and vertices of a
+// brick use bricks one back in each coordinate. Therefore only the bricks since then are kept, and only the
+// vertex number of flat bricks.
 class SurfaceTable {
   public:
-    // Of surfaces in bricks from `first` on up to `last`.
+    // For surfaces in bricks from `first` up to `last` (excluded).
     SurfaceTable(const CarvedField& field, BrickCoord first, BrickCoord last);
 
-    // Layers that a batch may have.
+    // Largest number of layers in a batch.
     int most_layers() const { return layers_ - 1; }
 
-    // The bricks that come next; those without vertices are left out. Vertices of cells get their numbers.
+    // Adds the next bricks, without those that have no vertices. Numbers the vertices of their cells.
     void begin(std::vector<BrickSurface> batch);
     std::span<const BrickSurface> batch() const { return batch_; }
     // Vertices on faces of a brick of the batch, in order; one per segment.
@@ -100,13 +101,13 @@ class SurfaceTable {
         std::uint16_t key0, key1;  // the crossings at both ends of the segment, BrickSurface::key
     };
     void add_on_faces(std::size_t n, const std::vector<FaceVertex>& found);
-    // Nothing more is asked for the batch but by those that come after it.
+    // Ends the batch. After this only the following bricks may use it.
     void end();
 
     double margin() const { return margin_; }
     const CarvedField& field() const { return field_; }
 
-    // Of a brick of the batch.
+    // Returns a brick of the batch with its neighbours one back.
     SurfacesBehind behind(BrickCoord b) const {
         SurfacesBehind found;
         for (int n = 0; n < 8; ++n)
@@ -118,7 +119,7 @@ class SurfaceTable {
         return to_double(vertex < kOnFace ? in_cells_[vertex] : on_faces_[vertex - kOnFace]);
     }
 
-    // All vertices so far; taken when the last batch is done.
+    // All vertices so far; they are taken after the last batch.
     std::vector<Point3f>& in_cells() { return in_cells_; }
     std::vector<Point3f>& on_faces() { return on_faces_; }
 
@@ -134,7 +135,7 @@ class SurfaceTable {
     static constexpr std::uint32_t kInBatch = 0x80000000, kNoDetails = kNoVertex;
     struct Slot {
         std::uint32_t first_vertex = kNoVertex;
-        std::uint32_t details = kNoDetails;  // number in the batch above kInBatch, or of all that were kept
+        std::uint32_t details = kNoDetails;  // kInBatch + index in the batch, or number among all kept
     };
 
     std::size_t place(BrickCoord b) const {
@@ -149,10 +150,10 @@ class SurfaceTable {
     BrickCoord first_;
     int size_i_, size_j_, layers_, top_;
     double margin_;
-    std::vector<Slot> slots_;  // of the last layers_ layers, in turn
+    std::vector<Slot> slots_;  // of the last layers_ layers, used cyclically
     std::vector<BrickSurface> batch_;
     std::deque<BrickSurface> kept_;
-    std::uint32_t forgotten_ = 0;  // of all that were kept
+    std::uint32_t forgotten_ = 0;  // number of kept bricks that were dropped again
     std::vector<Point3f> in_cells_, on_faces_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Distance to a triangle mesh, with the side.
+// Signed distance to a triangle mesh.
 #pragma once
 
 #include "field/mesh/mesh_normals.hpp"
@@ -9,32 +9,32 @@ namespace tribo::field {
 struct MeshPoint {
     Vec3 point_mm;           // on the mesh
     Vec3 normal;             // pseudo-normal there, unit
-    double distance_mm = 0;  // exact; negative behind the surface: inside, where the mesh is closed
+    double distance_mm = 0;  // exact; negative behind the surface (inside, if the mesh is closed)
     std::uint32_t triangle = 0;
-    bool on_border = false;  // at the edge of an open mesh, beyond which sides mean nothing
+    bool on_border = false;  // at the edge of an open mesh: the sign has no meaning beyond it
 };
 
-// Built once (about 1.5 us and 120 bytes for each triangle), then asked from any number of threads without
-// allocation. The same bits on every machine, whatever was asked before.
+// Built once (about 1.5 us and 120 bytes for each triangle), then used by any number of threads without
+// allocation. The results have the same bits on every machine and do not depend on earlier queries.
 class MeshDistance {
   public:
-    // At least one triangle. Edges are found by vertex numbers: equal positions must be one vertex
-    // (weld_exactly) where the mesh is to hang together.
+    // The mesh needs at least one triangle. Edges are found by vertex numbers: use weld_exactly to make equal
+    // positions one vertex if the mesh must be connected.
     explicit MeshDistance(TriangleMesh mesh);
 
     MeshPoint closest(Vec3 point_mm) const { return describe(point_mm, tree_.nearest(point_mm)); }
-    // The same, faster where `guess` is the triangle of an answer near by.
+    // The same result, faster if `guess` is the triangle of a result near by.
     MeshPoint closest(Vec3 point_mm, std::uint32_t guess) const {
         return describe(point_mm, tree_.nearest(point_mm, guess));
     }
-    // The same where it is nearer than reach_mm, else none.
+    // The same result if it is nearer than reach_mm, else nothing.
     std::optional<MeshPoint> closest_within(Vec3 point_mm, double reach_mm, std::uint32_t guess) const {
         const auto nearest = tree_.nearest_within(point_mm, reach_mm, guess);
         if (!nearest) return std::nullopt;
         return describe(point_mm, *nearest);
     }
 
-    // As of MeshTree.
+    // As in MeshTree.
     int winding(Vec3 point_mm) const { return tree_.winding(point_mm); }
 
     const TriangleMesh& mesh() const { return mesh_; }

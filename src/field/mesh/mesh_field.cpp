@@ -8,7 +8,7 @@
 namespace tribo::field {
 namespace {
 
-// Closer than this to the mesh the direction to it is rounding noise, mm.
+// Nearer to the mesh than this, the direction to it is rounding noise, mm.
 constexpr double kOnSurface = 1e-6;
 
 contact::SurfaceSample towards(Vec3 way, Vec3 otherwise) {
@@ -69,7 +69,7 @@ contact::SurfaceSample MeshField::sample(Vec3 p) const {
         return skin;
     }
     if (at.on_border && is_sheet()) {
-        // Beyond the border: its wall, from the front's edge to the back's.
+        // Beyond the border: the wall there, from the edge of the front to the edge of the back.
         const double up = dot(way, at.normal);
         if (up > 0) return towards(way, at.normal);
         const Vec3 off = border_.off[border_tree_->nearest(p).triangle], aside = way - up * at.normal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A surface that was only read, for a probe to touch: a closed mesh is a solid, an open one a sheet, one
-// whose triangles do not agree on a side a skin.
+// A surface that was only read from a file, for a probe to touch. A closed mesh is a solid, an open mesh is a
+// sheet. A mesh whose triangles do not agree on a side is a skin.
 #pragma once
 
 #include <memory>
@@ -13,21 +13,23 @@
 
 namespace tribo::field {
 
-// A sheet's front is where its normals point (corners counter-clockwise). It is given a thickness behind, so
-// that it has a back too and its border is a wall: material is what lies at most that far behind the sheet.
-// Its front is exact; where the sheet bends more than the thickness allows, its back is what is left.
+// The front of a sheet is the side to which its normals point (corners counter-clockwise). The sheet gets a
+// thickness behind its front, so that it also has a back, and its border is a wall: material is everything at
+// most that far behind the sheet. The front is exact. Where the sheet bends more than the thickness allows,
+// the back is what remains.
 //
-// A skin has the surface in its middle: material is what lies within half its thickness, on either side.
+// A skin has the surface in its middle: material is everything within half its thickness on either side.
 //
-// Distances in air are exact, by a search of a tree of boxes (about a microsecond). Any number of threads; no
+// Distances in air are exact, by a search in a tree of boxes (about a microsecond). Any number of threads; no
 // allocation.
 class MeshField final : public contact::DistanceField {
   public:
     static constexpr double kThicknessMm = 1;
-    // Of a skin, by the model's diagonal, and no more than a sheet's: rooms of a small model stay rooms.
+    // Thickness of a skin as a share of the model's diagonal, at most that of a sheet. It is small, so that
+    // the rooms of a small model stay open.
     static constexpr double kSkinOfDiagonal = 0.002;
 
-    // Refused: no triangle with an area. A closed mesh that is inside out is turned.
+    // Refuses a mesh without a triangle with an area. Turns a closed mesh that is inside out.
     static Result<std::unique_ptr<MeshField>> make(TriangleMesh mesh, double thickness_mm = kThicknessMm);
 
     double distance_mm(Vec3 p) const override { return sample(p).distance_mm; }
@@ -39,11 +41,11 @@ class MeshField final : public contact::DistanceField {
 
     Box3 bounds_mm() const { return distance_.bounds_mm(); }
     bool is_sheet() const { return thickness_ > 0; }
-    // 0: it is none.
+    // 0: not a skin.
     double skin_mm() const { return skin_; }
 
   private:
-    // The edges that a sheet ends at, each with the way off it, in the plane of its triangle.
+    // The edges at which a sheet ends, each with its outward direction in the plane of its triangle.
     struct Border {
         TriangleMesh edges;  // triangles without area
         std::vector<Vec3> off;

@@ -97,7 +97,8 @@ void MeshNormals::bridge_flat_triangles(const TriangleMesh& mesh) {
             neighbours_[across / 4][across % 4] = other;
         }
     }
-    // A flat triangle may take from a flat one: as many rounds as such chains are long, up to a few.
+    // A flat triangle may take its normal from another flat one: as many rounds as the length of such chains,
+    // at most eight.
     for (int round = 0; round < 8; ++round) {
         for (std::size_t f = 0; f < flat_.size(); ++f) {
             if (takes_from[f] != kNone && faces_[flat_[f]] == Vec3{})

@@ -10,7 +10,7 @@
 namespace tribo::field {
 namespace {
 
-// Closer than this to the mesh the direction to it is rounding noise, and the normal of the mesh is used, mm.
+// Nearer to the mesh than this, the direction to it is rounding noise and the normal of the mesh is used, mm.
 constexpr double kOnSurface = 1e-6;
 
 std::string place(Vec3 p) {

@@ -13,8 +13,8 @@ namespace tribo::field {
 // distance_mm is the exact distance to the mesh.
 class MeshShape final : public Shape {
   public:
-    // Refused: a mesh that is not closed (after equal positions were made one vertex, where that helps), that
-    // has turned-over triangles or encloses nothing. One that is inside out is turned.
+    // Refuses a mesh that is not closed, that has turned-over triangles or that encloses nothing. If it is
+    // not closed, equal positions are first made one vertex. Turns a mesh that is inside out.
     static Result<std::unique_ptr<MeshShape>> make(TriangleMesh mesh);
 
     Box3 bounds_mm() const override { return distance_->bounds_mm(); }

@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
 constexpr int kBins = 16;
-// Below this depth halves are equal in number, so that no mesh makes the tree deeper than the search's list.
+// Below this depth both halves have equal numbers, so that no mesh makes the tree deeper than the list of the
+// search.
 constexpr int kMaxUnevenDepth = 32;
 constexpr int kMaxDepth = 64;
-// A box is left out only when it is farther than the best by more than any rounding: a triangle that ties is
-// never missed, whatever the order of the search.
+// A box is skipped only if it is farther than the best by more than any rounding. So a triangle at the same
+// distance is never missed, whatever the order of the search.
 constexpr double kTie = 1 + 1e-12;
 
 Vec3 wide(const Point3f& p) {
@@ -32,9 +33,9 @@ double half_area(const Box3& box) {
     return s.x * s.y + s.y * s.z + s.z * s.x;
 }
 
-// Seen along z: 1 where the edge from `a` to `b` passes the point upwards (in y) on its right (larger x), -1
-// downwards, else 0. Of the two ends the lower one belongs to the edge; the arithmetic is the same for the
-// edge from `b` to `a`.
+// Seen along z: returns 1 if the edge from `a` to `b` passes the point upwards (in y) on its right (larger
+// x), -1 if downwards, else 0. The lower end belongs to the edge, the upper one does not. The arithmetic is
+// the same for the edge from `b` to `a`.
 int passes(Vec3 p, Vec3 a, Vec3 b) {
     if ((a.y <= p.y) == (b.y <= p.y)) return 0;
     const bool up = a.y <= p.y;
@@ -43,14 +44,14 @@ int passes(Vec3 p, Vec3 a, Vec3 b) {
     return left > 0 ? (up ? 1 : -1) : 0;
 }
 
-// 1 or -1 where the triangle lies above the point and shows it its back or its front.
+// Returns 1 or -1 if the triangle lies above the point and shows its back or its front to it, else 0.
 int winding_above(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const int side = passes(p, a, b) + passes(p, b, c) + passes(p, c, a);
     if (side == 0) return 0;
     const double low = std::min({a.z, b.z, c.z}), high = std::max({a.z, b.z, c.z});
     if (p.z < low) return side;
     const Vec3 n = cross(b - a, c - a);
-    // Steep triangles tell their height badly, but it is between their corners'.
+    // The computed height of a steep triangle is inaccurate, but it lies between the heights of its corners.
     const double z = n.z != 0 ? a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z : low;
     return p.z < std::clamp(z, low, high) ? side : 0;
 }
@@ -68,7 +69,7 @@ TrianglePoint closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     const double d3 = dot(ab, bp), d4 = dot(ac, bp);
     if (d3 >= 0 && d4 <= d3) return answer(b, TrianglePlace::corner1);
     const double vc = d1 * d4 - d3 * d2;
-    // d1 - d3 is the edge's length squared: without one it is no edge to divide by.
+    // d1 - d3 is the squared length of the edge. If it is zero, there is no edge.
     if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3)
         return answer(a + d1 / (d1 - d3) * ab, TrianglePlace::edge0);
     const Vec3 cp = p - c;
@@ -127,7 +128,7 @@ struct MeshTree::Builder {
         tree.corners_.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]], triangle});
     }
 
-    // Orders the items so that the first part goes left; gives how many those are.
+    // Orders the items so that the first part goes left; returns the size of this part.
     std::uint32_t split(std::uint32_t first, std::uint32_t count, const Box3& centres, int depth) {
         const Vec3 size = centres.size();
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;

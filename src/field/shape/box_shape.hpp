@@ -5,8 +5,8 @@
 
 namespace tribo::field {
 
-// An axis-aligned box: the usual blank. The distance is the largest of those to its six planes, so edges are
-// sharp.
+// An axis-aligned box: the usual blank. Its distance is the largest distance to its six planes, so that edges
+// are sharp.
 class BoxShape final : public Shape {
   public:
     explicit BoxShape(const Box3& box_mm) : box_(box_mm) {}

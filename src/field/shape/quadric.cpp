@@ -6,8 +6,8 @@
 namespace tribo::field {
 namespace {
 
-// Eigenvalues on the diagonal of m and eigenvectors in the columns of v, by cyclic Jacobi rotations; six
-// sweeps reach rounding for 3 x 3.
+// Computes the eigenvalues on the diagonal of m and the eigenvectors in the columns of v, by cyclic Jacobi
+// rotations. Six sweeps are accurate to rounding for 3 x 3.
 void diagonalise(double m[3][3], double v[3][3]) {
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) v[i][j] = i == j;

@@ -7,16 +7,16 @@
 namespace tribo::field {
 
 // Sum of squared distances to planes through points (Garland & Heckbert 1997), solved as in Ju, Losasso,
-// Schaefer & Warren 2002: along the directions that the planes do not fix, the answer stays at the mean of
+// Schaefer & Warren 2002: in the directions that the planes do not determine, the result stays at the mean of
 // the points.
 class Quadric {
   public:
     void add(Vec3 point, Vec3 unit_normal);
     int count() const { return count_; }
     Vec3 mean() const { return count_ > 0 ? sum_ / count_ : Vec3{}; }
-    // Directions whose share of the planes' spread is below `cutoff` (0..1) count as free.
+    // A direction is undetermined if its share of the spread of the planes is below `cutoff` (0..1).
     Vec3 solve(double cutoff = 0.02) const;
-    // All normals within about `tolerance` rad of one direction: the surface is smooth here.
+    // True if all normals are within about `tolerance` rad of one direction: the surface is smooth here.
     bool is_flat(double tolerance) const;
 
   private:

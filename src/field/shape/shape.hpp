@@ -6,12 +6,12 @@
 
 namespace tribo::field {
 
-// Nodes per edge of the lattice that is sampled at once, and in all.
+// Number of nodes along an edge of the lattice that is sampled at once, and in total.
 inline constexpr int kLatticeEdge = 8;
 inline constexpr int kLatticeNodes = kLatticeEdge * kLatticeEdge * kLatticeEdge;
 
-// Eight by eight by eight nodes of an infinite grid: node (a, b, c) stands at origin + cell * (i0 + a, j0 +
-// b, k0 + c). Two lattices of one grid agree to the last bit on the position of a node that they share.
+// Eight by eight by eight nodes of an infinite grid: node (a, b, c) is at origin + cell * (i0 + a, j0 + b, k0
+// + c). Two lattices of one grid agree to the last bit on the position of a shared node.
 struct Lattice {
     Vec3 grid_origin_mm;
     double cell_mm = 1;
@@ -23,25 +23,27 @@ struct Lattice {
     }
 };
 
-// Distances are in mm, negative inside the solid, zero exactly on its surface, with slope at most 1: near a
-// smooth piece of surface the value is the distance, at an edge it may be the largest of the distances to the
-// pieces that meet there. Every function is const, allocates nothing and may run on any thread.
+// Distances are in mm, negative inside the solid, zero exactly on its surface, with slope at most 1. Near a
+// smooth piece of surface the value is the distance; at an edge it may be the largest of the distances to the
+// pieces that meet there. All functions are const, allocate nothing and may run on any thread.
 class Shape {
   public:
     virtual ~Shape() = default;
     // Contains every point of the solid.
     virtual Box3 bounds_mm() const = 0;
     virtual double distance_mm(Vec3 point_mm) const = 0;
-    // distance_mm where that is below `bound_mm`, else something from the bound up: cheaper where the
-    // distance takes a search that the bound cuts short.
+    // Returns distance_mm if it is below `bound_mm`, else any value from the bound up. This is cheaper if the
+    // distance needs a search, because the bound ends the search early.
     virtual double distance_below(Vec3 point_mm, double /*bound_mm*/) const { return distance_mm(point_mm); }
-    // Whether a distance takes a search: rather microseconds than tens of nanoseconds.
+    // True if a distance needs a search: microseconds rather than tens of nanoseconds.
     virtual bool is_searched() const { return false; }
     // Unit direction in which distance_mm grows fastest.
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
-    // distance_mm at all nodes in single precision, out[a + 8 b + 64 c], the same bits whatever the machine.
+    // Computes distance_mm at all nodes in single precision, out[a + 8 b + 64 c]: the same bits on every
+    // machine.
     virtual void sample(const Lattice& lattice, float* out) const = 0;
-    // sample() where the distance is within `near_mm` of zero, else something beyond that on the same side.
+    // Like sample() where the distance is within `near_mm` of zero, else any value beyond that on the same
+    // side.
     virtual void sample_near(const Lattice& lattice, double /*near_mm*/, float* out) const {
         sample(lattice, out);
     }

@@ -7,16 +7,16 @@
 namespace tribo::field {
 namespace {
 
-// Boxes that wait at once: each halving leaves one, and no box is halved more often than this until it is
-// finer than kFinestOverlapMm (2^40 of them to a side).
+// Largest number of waiting boxes. Each halving leaves one, and no box needs more halvings than this to
+// become finer than kFinestOverlapMm (2^40 of them to a side).
 constexpr std::size_t kMostWaiting = 128;
 
-// So far into a solid is inside it, mm.
+// A point this far in a solid counts as inside, mm.
 constexpr double kInto = 1e-7;
 
 struct Part {
     Box3 box;
-    double moving_mm = 0, fixed_mm = 0;  // at its middle, less the depth
+    double moving_mm = 0, fixed_mm = 0;  // at its middle, minus the depth
     double value() const { return std::max(moving_mm, fixed_mm); }
 };
 
@@ -30,16 +30,16 @@ std::optional<Vec3> shared_place(const Shape& moving, const Shape& fixed, double
         both.max[axis] = std::min(a.max[axis], b.max[axis]);
         if (!(both.min[axis] < both.max[axis])) return std::nullopt;
     }
-    // How far the middle of a box is from being in both; what is more than its radius is too far for all of
-    // it. The second solid is asked only where the first leaves doubt.
+    // Distance of the middle of a box from being in both solids. If it is more than the radius of the box,
+    // the whole box is outside. The second solid is evaluated only if the first gives no decision.
     const auto measured = [&](const Box3& box) {
         const Vec3 middle = box.centre();
         const double radius = 0.5 * length(box.size());
         const double m = moving.distance_below(middle, radius - depth_mm) + depth_mm;
         return Part{box, m, m >= radius ? m : fixed.distance_below(middle, radius)};
     };
-    // The middle, or where it stands deeper in `moving` than it is away from `fixed`, the point of that below
-    // it: so no foil slips between the middles.
+    // Returns the middle, if it is in both. If the middle is deeper in `moving` than it is away from `fixed`,
+    // returns the foot point of `fixed` below it. So no thin foil is missed between the middles.
     const auto place_in = [&](const Part& part) -> std::optional<Vec3> {
         const Vec3 middle = part.box.centre();
         if (part.value() < 0) return middle;
@@ -62,7 +62,7 @@ std::optional<Vec3> shared_place(const Shape& moving, const Shape& fixed, double
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         Box3 low = part.box, high = part.box;
         low.max[axis] = high.min[axis] = part.box.centre()[axis];
-        // The nearer half first: where there is an overlap it is found at once.
+        // The nearer half first: then an overlap is found early.
         const Part first = measured(low), second = measured(high);
         wait(first.value() < second.value() ? second : first);
         wait(first.value() < second.value() ? first : second);

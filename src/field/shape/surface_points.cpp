@@ -11,8 +11,8 @@ constexpr double kNearCells = 0.5;
 constexpr double kOnSurface = 1e-6;  // mm
 constexpr int kMostSteps = 6;
 
-// Calls take(node) for each node of a brick that stands for a piece of the surface. Nodes on the upper faces
-// are the neighbours'.
+// Calls take(node) for each node of a brick that represents a piece of the surface. Nodes on the upper faces
+// belong to the neighbours.
 template <class Take>
 void for_nodes(const CarvedField& field, BrickCoord coord, const Take& take) {
     const BrickRef ref = field.ref(coord);
@@ -48,7 +48,7 @@ std::optional<Vec3> onto_surface(const contact::DistanceField& field, Vec3 p) {
 }
 
 std::vector<Vec3> surface_points(const CarvedField& field, std::size_t most, const ParallelFor& parallel) {
-    // Bricks of one height are looked at together.
+    // Bricks of one height are processed together.
     const BrickCoord size = field.size();
     const auto for_layer = [&](std::size_t k, const auto& take) {
         for (int j = 0; j < size.j; ++j) {

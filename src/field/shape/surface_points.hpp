@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Points on the surface of what is left of a blank.
+// Points on the surface of the remaining material.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,15 @@
 
 namespace tribo::field {
 
-// Points of the exact surface, spread over all of it: those below the nodes of the grid that are within half
-// a cell of it, or every n-th of them where there are more than `most`. In an order that depends on the field
-// alone. Cost: a look at each brick of the surface, and three queries for each point.
+// Returns points of the exact surface, spread over all of it. They are the foot points of the nodes of the
+// grid that are within half a cell of the surface, or of every n-th of these nodes if there are more than
+// `most`. Their order depends on the field alone. Cost: one visit to each brick of the surface, and three
+// queries for each point.
 std::vector<Vec3> surface_points(const CarvedField& field, std::size_t most,
                                  const ParallelFor& parallel = serial_for);
 
-// The surface point that steps along the normal lead to from a point close to it; none where they do not end
-// on it.
+// Returns the surface point that is reached by steps along the normal from a point close to it. Nothing if
+// the steps do not end on the surface.
 std::optional<Vec3> onto_surface(const contact::DistanceField& field, Vec3 point_mm);
 
 }  // namespace tribo::field
