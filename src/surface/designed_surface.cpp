@@ -8,11 +8,12 @@
 namespace tribo::surface {
 namespace {
 
-// Longest edge of the triangle that a sample stands for, in spacings: a right angle's two halves then have
-// their samples a spacing apart.
+// Longest edge of the triangle of a sample, in spacings. With it, the two halves of a right angle have their
+// samples one spacing apart.
 constexpr double kReach = 1.5;
 
-// Halves the triangle across its longest edge until it is small, and samples the middle of what is left.
+// Halves the triangle across its longest edge until it is small, and takes one sample in the middle of each
+// part.
 void sample_triangle(Vec3 a, Vec3 b, Vec3 c, const SurfaceSample& whole, double longest,
                      std::vector<SurfaceSample>& out) {
     const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);

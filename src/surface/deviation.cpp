@@ -13,11 +13,11 @@ namespace tribo::surface {
 namespace {
 
 constexpr std::size_t kChunk = 256;     // samples that one task measures
-constexpr std::size_t kSharpened = 16;  // samples from which each extreme is sharpened
-constexpr double kOffBlank = 1e-3;      // no deeper in the blank than this is on its surface, mm
+constexpr std::size_t kSharpened = 16;  // number of samples from which each extreme is refined
+constexpr double kOffBlank = 1e-3;      // a point less deep in the blank is on its surface, mm
 constexpr double kFlatScallop = 1e-4;   // lower rest is noise of the field, not a scallop, mm
-constexpr double kCrestFall = 0.75;     // most height half way to a pass, over the crest's
-constexpr int kMostMoves = 200;         // rounds of a climb; twenty do
+constexpr double kCrestFall = 0.75;     // largest height half way to a pass, as a share of the crest's height
+constexpr int kMostMoves = 200;         // limit of the rounds of a climb; twenty are enough
 constexpr int kHistogramBins = 48;
 
 class Comparison {
@@ -114,7 +114,7 @@ class Comparison {
         }
     }
 
-    // The samples from which an extreme may be sharpened: the highest (side 1) or the deepest (-1).
+    // Returns the samples from which an extreme is refined: the highest (side 1) or the deepest (-1).
     std::vector<std::size_t> by_height(double side) const {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < report_.samples.size(); ++i) {
@@ -130,7 +130,7 @@ class Comparison {
         return found;
     }
 
-    // The highest samples on crests between passes.
+    // Returns the highest samples on crests between passes.
     std::vector<std::size_t> scallops() const {
         const TouchedSamples touched(report_.samples, report_.heights_mm, options_.touch_mm,
                                      options_.pass_width_mm);
@@ -149,7 +149,7 @@ class Comparison {
         return found;
     }
 
-    // True where the surface falls away on both sides. On a flank with a wall above it, one side rises.
+    // True if the surface falls on both sides. On a flank with a wall above it, one side rises.
     bool is_crest(std::size_t i, const Crossing& crossing) const {
         const SurfaceSample& s = report_.samples[i];
         const double half_way = 0.5 * std::min(crossing.first_mm, crossing.second_mm);
@@ -161,7 +161,7 @@ class Comparison {
         return true;
     }
 
-    // True where the machined surface is still the blank's: no cutter was there.
+    // True if the machined surface is still the surface of the blank: no cutter was there.
     bool is_blank(std::size_t i) const {
         if (!options_.blank) return false;
         const SurfaceSample& s = report_.samples[i];
@@ -169,7 +169,7 @@ class Comparison {
         return !top || options_.blank->distance_mm(s.point_mm + *top * s.normal) > -kOffBlank;
     }
 
-    // Climbs from each sample, staying within the spacing of it, and gives the best top.
+    // Climbs from each sample, within the spacing around it, and returns the best top.
     DeviationExtreme sharpest(const std::vector<std::size_t>& from, double side) const {
         DeviationExtreme best;
         for (const std::size_t i : from) {
@@ -179,7 +179,8 @@ class Comparison {
         return best;
     }
 
-    // Pattern search along the designed surface in eight directions, the step halved where none leads up.
+    // Pattern search along the designed surface in eight directions. The step is halved if no direction leads
+    // up.
     DeviationExtreme climb(const SurfaceSample& start, double side) const {
         const Vec3 u = any_perpendicular(start.normal), v = cross(start.normal, u);
         const double diagonal = std::sqrt(0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a machined part differs from the surface it was meant to have: + material left, - gouge.
+// Deviations of a machined part from the designed surface: + material left, - gouge.
 #pragma once
 
 #include <limits>
@@ -16,36 +16,36 @@
 namespace tribo::surface {
 
 struct DeviationOptions {
-    // Distance between samples, mm; 0: as fine as kMaxSamples allows. Extremes are sharpened from the
-    // samples, so the spacing decides which cusps are seen, not how exactly they are measured.
+    // Distance between samples, mm; 0: as fine as kMaxSamples allows. Extremes are refined from the samples.
+    // The spacing therefore decides which cusps are found, not how accurately they are measured.
     double spacing_mm = 0;
     // A sample at most this high was touched by a pass, mm: the tolerance of the program.
     double touch_mm = 0.01;
-    // Passes farther apart than this leave no scallop between them but material never reached, mm: the
-    // diameter of the largest cutter.
+    // Passes farther apart than this, mm, leave no scallop between them but unreached material: the diameter
+    // of the largest cutter.
     double pass_width_mm = 10;
     // Deviations beyond this are not searched for, mm.
     double limit_mm = 50;
-    // What the part was cut from. With it, nothing outside it counts as gouged, and where its own surface
-    // still stands there is no scallop; without it, samples under which no material is found are left out.
+    // The blank of the part. With it, nothing outside it counts as gouged, and its remaining surface counts
+    // as no scallop. Without it, samples without material below them are left out.
     const field::Shape* blank = nullptr;
-    // Points of the machined surface (field/surface_points.hpp). With them the extremes of rest and gouge are
-    // looked for from the machined side too.
+    // Points of the machined surface (field/surface_points.hpp). With them, the extremes of rest and gouge
+    // are also searched from the machined side.
     std::span<const Vec3> machined_mm = {};
 };
 
-// Shares of the measured area by deviation: bin i holds those from first_mm + i bin_mm.
+// Shares of the measured area by deviation: bin i begins at first_mm + i bin_mm.
 struct DeviationHistogram {
     double first_mm = 0, bin_mm = 0;
     std::vector<double> shares;  // sum 1
 };
 
 struct DeviationReport {
-    // Rest: material outside the design, gouge: design that is missing; how far from the nearest point of the
-    // design. Scallop: a crest of rest with a pass on both
-    // sides: samples that were touched and are less than half as high stand opposite each other around it
-    // (scallop.hpp), no more than pass_width_mm apart; half way to the nearer one the surface has fallen by a
-    // quarter on both sides; and its top is not the blank's own surface.
+    // Rest: material outside the design. Gouge: missing material of the design. Both are distances to the
+    // nearest point of the design. Scallop: a crest of rest with a pass on both sides. Its conditions:
+    // touched samples less than half as high are opposite each other around it (scallop.hpp), at most
+    // pass_width_mm apart; half way to the nearer one the surface has fallen by a quarter on both sides; and
+    // its top is not the surface of the blank.
     DeviationExtreme gouge, rest, scallop;
     double mean_mm = 0, rms_mm = 0;               // by area, signed
     double p1_mm = 0, p50_mm = 0, p99_mm = 0;     // percentiles by area, signed
@@ -58,18 +58,18 @@ struct DeviationReport {
     std::vector<float> heights_mm;       // one per sample, signed
 };
 
-// Samples of one comparison, about: 10 us each, 80 bytes; and so many points of the machined surface, 2 us
-// and 24 bytes.
+// Approximate number of samples of one comparison (10 us and 80 bytes each), and of points of the machined
+// surface (2 us and 24 bytes each).
 inline constexpr std::size_t kMaxSamples = 400'000;
 
-// Measures how far the machined part stands off the design, counted to the nearest point of the design: from
-// samples of the designed surface (nearest_height.hpp), and rest and gouge from the machined side too. The
-// machined field must stay as it is meanwhile. Same bits whatever `parallel` does.
+// Measures the distance of the machined part from the design, to the nearest point of the design: from
+// samples of the designed surface (nearest_height.hpp), and for rest and gouge also from the machined side.
+// The machined field must not change meanwhile. The bits do not depend on `parallel`.
 DeviationReport compare(const contact::DistanceField& machined, const DesignedSurface& designed,
                         const DeviationOptions& options = {}, const ParallelFor& parallel = serial_for);
 
-// Signed distance of each position to the designed surface, mm: the colours of a picture. NaN from reach_mm
-// on.
+// Returns the signed distance of each position to the designed surface, mm, for the colours of a picture. NaN
+// from reach_mm on.
 std::vector<float> deviations_of(const TriangleMesh& machined, const DesignedSurface& designed,
                                  const ParallelFor& parallel = serial_for,
                                  double reach_mm = std::numeric_limits<double>::infinity());

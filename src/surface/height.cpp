@@ -8,9 +8,9 @@ namespace tribo::surface {
 namespace {
 
 constexpr double kClose = 1e-7;  // a field value that counts as the surface itself, mm
-constexpr double kStep = 1e-4;  // least step, mm: passes a border seen edge-on, and the search then goes back
+constexpr double kStep = 1e-4;   // least step, mm: it may pass a border seen edge-on; the search goes back
 
-// Where the field changes sign between `from` and `to`, of which `to` is beyond the border. False position
+// Returns where the field changes sign between `from` and `to`; `to` is beyond the border. False position
 // with halving (Illinois): fast where the field is smooth, safe at cusps.
 double refine(const contact::DistanceField& field, Vec3 foot, Vec3 up, double from, double value_from,
               double to, double value_to) {

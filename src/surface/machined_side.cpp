@@ -11,9 +11,9 @@ namespace tribo::surface {
 namespace {
 
 constexpr std::size_t kChunk = 256;  // points that one task measures
-constexpr std::size_t kClimbs = 16;  // points from which each extreme is climbed to
-constexpr double kOnBlank = 1e-3;    // no deeper in the blank than this is on its surface, mm
-constexpr int kMostMoves = 200;      // rounds of a climb; twenty do
+constexpr std::size_t kClimbs = 16;  // number of points from which each extreme is climbed
+constexpr double kOnBlank = 1e-3;    // a point less deep in the blank is on its surface, mm
+constexpr int kMostMoves = 200;      // limit of the rounds of a climb; twenty are enough
 
 class MachinedSide {
   public:
@@ -21,7 +21,7 @@ class MachinedSide {
                  const field::Shape* blank)
         : machined_(machined), designed_(designed), blank_(blank) {}
 
-    // Signed distance to the design; 0 where that says nothing.
+    // Returns the signed distance to the design; 0 if it has no meaning there.
     double measure(Vec3 point, std::uint32_t& triangle, Vec3& foot) const {
         const field::MeshPoint near = designed_.closest(point, triangle);
         triangle = near.triangle;
@@ -31,7 +31,8 @@ class MachinedSide {
         return near.distance_mm;
     }
 
-    // Pattern search along the machined surface in eight directions, the step halved where none leads up.
+    // Pattern search along the machined surface in eight directions. The step is halved if no direction leads
+    // up.
     DeviationExtreme climb(Vec3 start, double side, double spacing) const {
         std::uint32_t triangle = 0;
         DeviationExtreme best;

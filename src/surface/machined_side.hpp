@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the machined surface is farthest from the design, looked at from the machined side.
+// The points of the machined surface that are farthest from the design, searched from the machined side.
 #pragma once
 
 #include <span>
@@ -20,11 +20,12 @@ struct MachinedExtremes {
     DeviationExtreme gouge, rest;
 };
 
-// The largest distances of the machined surface to the nearest point of the design, outside it (rest) and
-// inside it (gouge), climbed to from the farthest of `points_mm`, which lie on the machined surface. Sees
-// what no normal of the design points to: the corner of a blank that was left, material beyond an edge. Left
-// out: points beyond the border of an open design, where sides mean nothing; the blank's own faces as gouges;
-// everything where triangles of an open design are turned over. Same bits whatever `parallel` does.
+// Finds the largest distances of the machined surface to the nearest point of the design, outside it (rest)
+// and inside it (gouge). It climbs from the farthest of `points_mm`, which lie on the machined surface. It
+// finds places to which no normal of the design points: a corner of the blank that was left, material beyond
+// an edge. It leaves out points beyond the border of an open design, where sides have no meaning; the faces
+// of the blank as gouges; and everything if triangles of an open design are turned over. The bits do not
+// depend on `parallel`.
 MachinedExtremes farthest_machined(const contact::DistanceField& machined, const DesignedSurface& designed,
                                    const field::Shape* blank, std::span<const Vec3> points_mm,
                                    double spacing_mm, const ParallelFor& parallel);

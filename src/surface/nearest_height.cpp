@@ -9,12 +9,12 @@
 namespace tribo::surface {
 namespace {
 
-constexpr double kOffBlank = 1e-3;  // this far outside the blank's surface is outside, mm
-constexpr double kNoDoubt = 1e-4;   // lower heights are taken as they are, mm
-constexpr int kMostBalls = 16;      // balls tried; three to five are the rule
+constexpr double kOffBlank = 1e-3;  // a point farther outside the blank than this is outside, mm
+constexpr double kNoDoubt = 1e-4;   // lower heights are not refined, mm
+constexpr int kMostBalls = 16;      // largest number of balls; three to five are usual
 constexpr double kLeastShrink = 0.99;
-// A ball is the point's own where the design comes no nearer to its centre than this share of its radius.
-// Facets of a curved design meet at angles up to 25 degrees without hiding each other.
+// A ball belongs to the point if the design comes no nearer to its centre than this share of its radius. With
+// it, facets of a curved design that meet at angles up to 25 degrees do not hide each other.
 constexpr double kOwn = 0.9;
 
 }  // namespace
@@ -26,7 +26,7 @@ std::optional<NearestHeight::Way> NearestHeight::way(Vec3 point, Vec3 normal) co
     const Way down{found.value_or(-limit_), !found};
     if (!blank_) return down;
     if (blank_->distance_mm(point) > kOffBlank) return std::nullopt;
-    // Down to where the blank ended, if that comes first: what was not there was not gouged.
+    // Ends at the border of the blank if that comes first: material that never existed was not gouged.
     for (double t = 0; t > down.mm;) {
         const double depth = blank_->distance_mm(point + t * normal);
         if (depth > kOffBlank) return Way{t, false};
@@ -50,7 +50,7 @@ std::optional<double> NearestHeight::at(Vec3 point, Vec3 normal, std::uint32_t t
             return side * std::max(off, farthest);
         }
         if (!near.on_border) farthest = std::max(farthest, off);
-        // The ball through the point that was found, which is in this one.
+        // The ball through the point that was found. It lies inside the present ball.
         const Vec3 chord = near.point_mm - point;
         const double along = 2 * side * dot(chord, normal);
         if (!(along > 0)) break;

@@ -23,7 +23,7 @@ std::optional<std::vector<double>> height_profile(const contact::DistanceField& 
 
 Roughness roughness(std::span<const double> heights_mm) {
     assert(heights_mm.size() >= 5);
-    // Least-squares line over x = -1 ... 1, where sums of x vanish.
+    // Least-squares line over x = -1 ... 1, where the sum of x is zero.
     const auto n = static_cast<double>(heights_mm.size());
     const auto x_of = [&](std::size_t i) { return (2 * static_cast<double>(i) + 1) / n - 1; };
     double mean = 0, slope = 0, squares = 0;

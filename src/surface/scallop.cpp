@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kSectors = 32;
 constexpr double kCellsPerWidth = 16;
-// Opposite is half a turn, give or take two sectors (22 degrees).
+// Opposite means half a turn, plus or minus two sectors (22 degrees).
 constexpr int kSlack = 2;
 constexpr double kSameFace = 0.5;         // least cosine between normals
-constexpr double kSteepest = 0.5;         // most height over the tangent plane for each mm of distance
+constexpr double kSteepest = 0.5;         // largest height over the tangent plane, per mm of distance
 constexpr std::uint64_t kBlockBits = 21;  // blocks along an axis: two million pass widths
 
 std::uint64_t packed(std::uint64_t x, std::uint64_t y, std::uint64_t z) {

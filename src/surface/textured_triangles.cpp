@@ -13,15 +13,15 @@ namespace tribo::surface {
 namespace {
 
 constexpr int kProfilePoints = 256;
-// A shift at which the profile is like itself to this degree is a pitch.
+// A shift is a pitch if the autocorrelation of the profile there is at least this.
 constexpr double kAlike = 0.5;
 // Grooves lower than this are rounding of the field, mm.
 constexpr double kLeastHeight = 1e-6;
-// Patches of surfaces without grooves still need an extent, mm.
+// Patches of surfaces without grooves also need a size, mm.
 constexpr double kPlainPatch = 0.5;
 constexpr double kHeightLimit = 5;
 
-// Takes a least-squares parabola out of the profile: form, not texture.
+// Subtracts a least-squares parabola from the profile: it is form, not texture.
 void remove_form(std::vector<double>& h) {
     const auto n = static_cast<double>(h.size());
     double s0 = 0, s1 = 0, s2 = 0, x2 = 0, x4 = 0;
@@ -42,8 +42,8 @@ void remove_form(std::vector<double>& h) {
     }
 }
 
-// The shift of the first peak of the autocorrelation after it has first fallen below zero, in samples with
-// fraction; 0: none that counts.
+// Returns the shift of the first peak of the autocorrelation after its first fall below zero, in samples with
+// fraction; 0: no sufficient peak.
 double pitch_in_samples(const std::vector<double>& h) {
     const std::size_t most = h.size() / 2;
     std::vector<double> alike(most + 1);
@@ -68,7 +68,7 @@ double pitch_in_samples(const std::vector<double>& h) {
     return 0;
 }
 
-// Highest to lowest in each whole pitch, the mean of them.
+// Returns the mean over whole pitches of highest to lowest.
 double height_in_pitches(const std::vector<double>& h, double pitch) {
     const auto whole = static_cast<std::size_t>(static_cast<double>(h.size()) / pitch);
     if (whole == 0) return 0;
@@ -88,7 +88,7 @@ struct Wave {
 
 Wave measure(const contact::DistanceField& field, Vec3 place, Vec3 up, Vec3 way, double given_mm,
              double reach_mm) {
-    // A pitch that is known is looked at over a few of its lengths, so that it is well sampled.
+    // A known pitch is measured over a few of its lengths, so that it is well sampled.
     const double reach = given_mm > 0 ? std::min(reach_mm, 4 * given_mm) : reach_mm;
     const auto profile = height_profile(field, place - reach * way, place + reach * way, up, kProfilePoints);
     if (!profile) return {given_mm, 0};
@@ -106,7 +106,7 @@ struct SurfaceFrame {
     Vec3 place, up, along, across;
 };
 
-// Null where there is no surface.
+// Empty if there is no surface.
 std::optional<SurfaceFrame> frame_at(const contact::DistanceField& field, const CutterPlace& p) {
     SurfaceFrame f;
     f.up = normalized(p.normal);
@@ -148,7 +148,7 @@ std::optional<contact::TextureRecord> textured_triangles(const contact::Distance
     const auto half = [](double pitch) { return 0.5 * (pitch > 0 ? pitch : kPlainPatch); };
     record.half_along_mm = half(record.grooves.pitch_along_mm);
     record.half_across_mm = half(record.grooves.pitch_across_mm);
-    // The mean plane of the patch: what stays of it is form.
+    // The mean plane of the patch is subtracted: it is form.
     double mean = 0, slope_along = 0, slope_across = 0;
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 3; ++i) {
