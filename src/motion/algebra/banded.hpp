@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Linear systems whose matrix is zero away from its diagonal, as splines have them. Any thread.
+// Linear systems whose matrix is zero away from its diagonal, as for splines. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ class BandedMatrix {
     }
 
     // Replaces the right-hand side, of any vector space T, by the solution, and the matrix by its factors.
-    // Elimination without row exchanges: stable for the matrices of splines, which are totally positive
-    // (de Boor & Pinkus 1977) or positive definite. False where a pivot vanishes beside the largest.
+    // Elimination without row exchanges: stable for the matrices of splines, which are totally positive (de
+    // Boor & Pinkus 1977) or positive definite. Returns false if a pivot is negligible beside the largest.
     template <class T>
     bool solve(std::vector<T>& right) {
         assert(right.size() == size_);

@@ -13,10 +13,11 @@
 namespace tribo::motion {
 
 // natural: no second derivative at the ends, the least bending of all interpolants. not_a_knot: the first two
-// pieces are one cubic, and the last two; fourth order up to the ends, but livelier on uneven spacing.
+// pieces are one cubic, and so are the last two; fourth order up to the ends, but more overshoot with uneven
+// spacing.
 enum class EndCondition { natural, not_a_knot };
 
-// The cubic basis functions that are not zero at u, in span k: N(k - 3 .. k).
+// Returns the cubic basis functions that are not zero at u, in span k: N(k - 3 .. k).
 inline std::array<double, 4> cubic_basis(std::span<const double> knots, std::size_t k, double u) {
     std::array<double, 4> basis{1, 0, 0, 0};
     for (std::size_t d = 1; d <= 3; ++d)
@@ -31,7 +32,8 @@ inline std::array<double, 4> cubic_basis(std::span<const double> knots, std::siz
     return basis;
 }
 
-// Weights of n values spread over the control points of their interpolant: one each, the outer ones repeated.
+// Spreads the weights of n values over the control points of their interpolant: one each, the outer ones
+// repeated.
 inline std::vector<double> control_weights(std::span<const double> weights, std::size_t count) {
     const std::size_t lead = (count - weights.size()) / 2;
     std::vector<double> spread(count);
@@ -40,10 +42,10 @@ inline std::vector<double> control_weights(std::span<const double> weights, std:
     return spread;
 }
 
-// u: strictly ascending, as many as values, at least 2. Fewer than four values: natural ends.
-// With weights > 0, one per value (none: all 1), the control points d_i are those of the rational spline
-// sum w_i d_i N_i / sum w_i N_i with w = control_weights. It too keeps equal values equal and collinear ones
-// collinear; the end condition is put on the d_i as if unweighted.
+// u: strictly ascending, one per value, at least 2. Fewer than four values: natural ends. With weights > 0,
+// one per value (none: all 1), the control points d_i are those of the rational spline sum w_i d_i N_i / sum
+// w_i N_i with w = control_weights. It also keeps equal values equal and collinear values collinear. The end
+// condition is applied to the d_i as if unweighted.
 template <class T>
 BSpline<T> interpolate_cubic(std::span<const double> u, std::span<const T> values, EndCondition ends,
                              std::span<const double> weights = {}) {
@@ -69,7 +71,7 @@ BSpline<T> interpolate_cubic(std::span<const double> u, std::span<const T> value
             if (basis[j] != 0) matrix.at(row, k - 3 + j) = spread[k - 3 + j] * basis[j] / sum;
         s.control[row] = values[i];
     };
-    // A zero second derivative makes the first (last) three control points' divided differences equal.
+    // A zero second derivative makes the divided differences of the first (last) three control points equal.
     const auto set_natural_row = [&](std::size_t row) {
         const double before = s.knots[row + 3] - s.knots[row], after = s.knots[row + 4] - s.knots[row + 1];
         matrix.at(row, row - 1) = -after / (before + after);

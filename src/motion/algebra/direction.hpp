@@ -7,15 +7,15 @@
 
 namespace tribo::motion {
 
-// The angle between two vectors of any length, 0..pi rad, to full accuracy near 0 and pi too. 0 where one is
-// zero.
+// Returns the angle between two vectors of any length, 0..pi rad, with full accuracy also near 0 and pi. 0 if
+// one is zero.
 double angle_rad(Vec3 a, Vec3 b);
 
-// v turned about the unit vector `about` by `turn_rad`, right-handed (Rodrigues).
+// Returns v turned about the unit vector `about` by `turn_rad`, right-handed (Rodrigues).
 Vec3 turned(Vec3 v, Vec3 about, double turn_rad);
 
-// The unit vector at the fraction t of the great circle from the unit vector a to the unit vector b, at
-// constant angular speed. Opposite directions go round by any_perpendicular(a).
+// Returns the unit vector at the fraction t of the great circle from the unit vector a to the unit vector b,
+// at constant angular speed. Between opposite directions the path goes through any_perpendicular(a).
 Vec3 slerp(Vec3 a, Vec3 b, double t);
 
 }  // namespace tribo::motion

@@ -10,7 +10,7 @@ namespace tribo::motion {
 
 namespace {
 
-// Below this half angle (rad) sines are replaced by their series, whose next term is under 1e-17.
+// Below this half angle (rad) sines are replaced by their series; its next term is below 1e-17.
 constexpr double kSmallHalfAngle = 1e-4;
 
 // sin(h) / h and its derivative divided by h: (h cos h - sin h) / h^3.
@@ -58,7 +58,7 @@ std::vector<DualQuaternion> minimal_twist_displacements(std::span<const ToolPose
     all.reserve(poses.size());
     Quaternion frame = kIdentityQuaternion;
     for (const ToolPose& pose : poses) {
-        // From where the frame's axis really is, so that rounding does not pile up along the way.
+        // Starts from the actual axis of the frame, so that rounding does not accumulate along the way.
         const Vec3 axis_before = normalized(rotate(frame, {0, 0, 1}));
         frame = normalized(minimal_rotation(axis_before, pose.axis) * frame);
         all.push_back(displacement(frame, pose.tip_mm));
@@ -77,8 +77,8 @@ Screw screw_of(const DualQuaternion& unit) {
     const Vec3 t = translation_mm(q);
     if (sine == 0) return {{}, normalized(t), 0, length(t)};
     const Vec3 direction = v / sine;
-    // The part of t across the line is (1 - cos a) c - sin a (l x c) for the line's foot c; solved for c:
-    // c = (t + cot(a/2) l x t) / 2 for t across.
+    // The part of t across the line is (1 - cos a) c - sin a (l x c), where c is the foot point of the line.
+    // Solved for c: c = (t + cot(a/2) l x t) / 2 for t across.
     const double shift = dot(t, direction);
     const Vec3 across = t - shift * direction;
     const Vec3 foot = 0.5 * (across + (q.real.w / sine) * cross(direction, across));
@@ -98,7 +98,7 @@ DualQuaternion log(const DualQuaternion& unit) {
     const double sine = length(v);
     const double h = math::atan2(sine, unit.real.w);
     if (sine == 0) {
-        // Q = 1 + e b, or Q = -1 + e d, a turn of 2 pi about an axis that only d can tell.
+        // Q = 1 + e b, or Q = -1 + e d, a turn of 2 pi about an axis that only d defines.
         if (unit.real.w > 0) return {{}, Quaternion(0, unit.dual.vector())};
         const Vec3 axis = normalized(unit.dual.vector());
         return {Quaternion(0, h * axis), Quaternion(0, -unit.dual.vector())};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Dual quaternions q + e d, e^2 = 0: rigid displacements as points of a space of eight numbers, and what
-// freeform motions are built from. A unit dual quaternion (|q| = 1, q.d = 0) turns by q and then moves by
-// t = 2 d q*, in mm. Any dual quaternion with q != 0 stands for a displacement too, in which only t's vector
-// part counts: Q and s Q are the same displacement for a real s != 0, which is what makes weighted curves
-// rational motions. No allocation; any thread.
-// Sources: Bottema & Roth 1990, Theoretical Kinematics, ch. XIII; Ge & Ravani 1991, J. Mech. Des. 113
-// (dual quaternion curves); Kavan et al. 2006 (screw interpolation of unit dual quaternions).
+// Dual quaternions q + e d, e^2 = 0: rigid displacements as points of a space of eight numbers. Freeform
+// motions are built from them. A unit dual quaternion (|q| = 1, q.d = 0) turns by q and then moves by t = 2 d
+// q*, in mm. Any dual quaternion with q != 0 also represents a displacement; only the vector part of t
+// counts. Q and s Q are the same displacement for a real s != 0; therefore weighted curves are rational
+// motions. No allocation; any thread. Sources: Bottema & Roth 1990, Theoretical Kinematics, ch. XIII; Ge &
+// Ravani 1991, J. Mech. Des. 113 (dual quaternion curves); Kavan et al. 2006 (screw interpolation of unit
+// dual quaternions).
 #pragma once
 
 #include <span>
@@ -41,7 +41,7 @@ constexpr DualQuaternion operator-(const DualQuaternion& a) {
 constexpr DualQuaternion operator*(double s, const DualQuaternion& a) {
     return {s * a.real, s * a.dual};
 }
-// The displacement b followed by a.
+// The product is the displacement b followed by a.
 constexpr DualQuaternion operator*(const DualQuaternion& a, const DualQuaternion& b) {
     return {a.real * b.real, a.real * b.dual + a.dual * b.real};
 }
@@ -62,15 +62,15 @@ DualNumber norm(const DualQuaternion& a);
 // Q / |Q|: the unit dual quaternion of the same displacement. Needs q != 0.
 DualQuaternion normalized(const DualQuaternion& a);
 
-// First the turn, then the translation. `rotation` is unit.
+// Returns the displacement that first turns, then translates. `rotation` is unit.
 constexpr DualQuaternion displacement(Quaternion rotation, Vec3 translation_mm) {
     return {rotation, 0.5 * (Quaternion(0, translation_mm) * rotation)};
 }
-// t of the displacement, for any Q with q != 0.
+// Returns t of the displacement, for any Q with q != 0.
 constexpr Vec3 translation_mm(const DualQuaternion& a) {
     return 2.0 / dot(a.real, a.real) * (a.dual * conjugate(a.real)).vector();
 }
-// The image of a point, and of a direction; for any Q with q != 0.
+// Return the image of a point and of a direction, for any Q with q != 0.
 constexpr Vec3 transform_point(const DualQuaternion& a, Vec3 p) {
     return rotate(a.real, p) + translation_mm(a);
 }
@@ -78,36 +78,36 @@ constexpr Vec3 transform_direction(const DualQuaternion& a, Vec3 v) {
     return rotate(a.real, v);
 }
 
-// The pose of a tool whose tip lies at the origin and whose axis is +z in its own frame.
+// Returns the pose of a tool with its tip at the origin and its axis along +z in its own frame.
 ToolPose tool_pose(const DualQuaternion& a);
 
-// A pose leaves the turn about the tool axis open, which a cutter of revolution does not feel. Here the frame
-// takes the smallest turn from +z to the axis...
+// A pose does not define the turn about the tool axis; it has no effect on a cutter of revolution. Here the
+// frame takes the smallest turn from +z to the axis.
 DualQuaternion displacement(const ToolPose& pose);
-// ... and here the smallest turn from the frame before (parallel transport along the axis path, so that the
-// frame never twists about the axis and neighbours lie in one hemisphere: q_i . q_i+1 >= 0). All unit.
+// Here each frame takes the smallest turn from the frame before (parallel transport along the axis path): the
+// frame never twists about the axis and neighbours lie in one hemisphere: q_i . q_i+1 >= 0. All unit.
 std::vector<DualQuaternion> minimal_twist_displacements(std::span<const ToolPose> poses);
 
-// A displacement as Chasles has it: a turn about a line and a shift along it.
+// A displacement in the form of Chasles: a turn about a line and a shift along it.
 struct Screw {
-    Vec3 point_mm;     // of the line, the nearest one to the origin; the origin for a pure shift
+    Vec3 point_mm;     // point of the line nearest to the origin; the origin for a pure shift
     Vec3 direction;    // unit
     double angle_rad;  // 0..pi with a positive sense about direction
     double shift_mm;   // along direction
     // Advance per radian, mm; infinite for a pure shift.
     double pitch_mm_per_rad() const;
 };
-// Of a unit dual quaternion; Q and -Q give the same screw, that of the turn <= pi.
+// Returns the screw of a unit dual quaternion. Q and -Q give the same screw, with the turn <= pi.
 Screw screw_of(const DualQuaternion& unit);
 DualQuaternion displacement(const Screw& screw);
 
-// Logarithm of a unit dual quaternion: a dual vector (scalars zero), half angle times line direction in real,
-// and exp of such a dual vector. exp(log Q) = Q for every unit Q.
+// Logarithm of a unit dual quaternion: a dual vector (scalars zero), half angle times line direction in real.
+// exp takes such a dual vector. exp(log Q) = Q for every unit Q.
 DualQuaternion log(const DualQuaternion& unit);
 DualQuaternion exp(const DualQuaternion& dual_vector);
 
-// Screw interpolation: the screw from a to b run at constant speed, a at t = 0 and the displacement b at
-// t = 1; of b and -b the one nearer to a, so the turn is at most pi. Both unit.
+// Screw interpolation: the screw from a to b at constant speed, a at t = 0 and the displacement b at t = 1.
+// It uses the nearer one of b and -b, so that the turn is at most pi. Both unit.
 DualQuaternion screw_interpolate(const DualQuaternion& a, const DualQuaternion& b, double t);
 
 }  // namespace tribo::motion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Curves of poses to quadratic pieces within a tolerance. Private to motion/.
+// Approximates curves of poses by quadratic pieces within a tolerance. Private to motion/.
 #pragma once
 
 #include <algorithm>
@@ -12,37 +12,38 @@
 
 namespace tribo::motion {
 
-// Part of the tolerance that a piece may use at the parameters where it is checked, the rest being for those
-// between.
+// Share of the tolerance that a piece may use at the checked parameters. The rest is for the parameters
+// between them.
 inline constexpr double kCheckedShare = 0.9;
-// Halvings after which a piece is taken as it is: a cusp, where no quadratic ever fits.
+// Largest number of halvings. After it a piece is accepted as it is: a cusp, where no quadratic ever fits.
 inline constexpr int kCutDepth = 24;
-// A pose closer than this to the end of the move before is that end, mm and rad.
+// A pose nearer than this to the end of the move before counts as that end, mm and rad.
 inline constexpr double kJoin = 1e-9;
-// Where the error of a quadratic that meets a cubic at 0, 1/2 and 1 is largest (0.211, 0.789), and around.
+// Parameters where the error of a quadratic that meets a cubic at 0, 1/2 and 1 is largest (0.211, 0.789), and
+// others around them.
 inline constexpr std::array<double, 6> kChecked{0.1, 0.2113, 0.35, 0.65, 0.7887, 0.9};
 
 inline bool is_same_pose(const ToolPose& a, const ToolPose& b) {
     return distance(a.tip_mm, b.tip_mm) < kJoin && distance(a.axis, b.axis) < kJoin;
 }
 
-// The middle control point that leads the axis from a to b through `middle` at constant speed, to the fifth
-// order where they are on one great circle.
+// Returns the middle control point with which the axis goes from a to b through `middle` at constant speed,
+// to the fifth order if they are on one great circle.
 inline Vec3 axis_control(Vec3 a, Vec3 middle, Vec3 b) {
     const double half = 0.5 * angle_rad(a, b);
     const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
     return (2 * size) * middle - 0.5 * (a + b);
 }
 
-// Calls sink(piece, a, b) for pieces with the words of `like`, in order, that stand for pose_of(u), u from a
-// to b, for as long as it returns true.
+// Calls sink(piece, a, b), in order, for the pieces that represent pose_of(u), u from a to b, until it
+// returns false. The pieces have the words of `like`.
 template <class PoseOf, class Sink>
 class QuadraticCut {
   public:
     QuadraticCut(const PoseOf& pose_of, const Move& like, const PieceTolerance& tolerance, const Sink& sink)
         : pose_of_(pose_of), like_(like), tolerance_(tolerance), sink_(sink) {}
 
-    // Whether all pieces were taken.
+    // Returns true if all pieces were accepted.
     bool cut(double a, const ToolPose& start, double b, const ToolPose& end, int depth = 0) const {
         const double m = 0.5 * (a + b);
         const ToolPose middle = pose_of_(m);

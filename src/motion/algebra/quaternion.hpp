@@ -47,26 +47,26 @@ constexpr double dot(Quaternion a, Quaternion b) {
 inline double norm(Quaternion a) {
     return std::sqrt(dot(a, a));
 }
-// a / |a|; the identity for zero.
+// a / |a|; zero gives the identity.
 inline Quaternion normalized(Quaternion a) {
     const double n = norm(a);
     return n > 0 ? (1 / n) * a : kIdentityQuaternion;
 }
 
-// v turned by q of any norm > 0: q v q* / |q|^2.
+// Returns v turned by q of any norm > 0: q v q* / |q|^2.
 constexpr Vec3 rotate(Quaternion q, Vec3 v) {
     return (q * Quaternion(0, v) * conjugate(q)).vector() / dot(q, q);
 }
 
-// The unit quaternion of the smallest turn that takes the unit vector `from` to the unit vector `to`, with
+// Returns the unit quaternion of the smallest turn from the unit vector `from` to the unit vector `to`, with
 // w >= 0. Opposite vectors turn about any_perpendicular(from).
 inline Quaternion minimal_rotation(Vec3 from, Vec3 to) {
     // Half-angle form: |from + to| = 2 cos(a / 2), |from - to| = 2 sin(a / 2), |from x to| = sin a.
     const Vec3 sum = from + to;
     const double twice_cosine = length(sum);
     if (twice_cosine > 0.1) return normalized(Quaternion(0.5 * twice_cosine, cross(from, to) / twice_cosine));
-    // Near opposite the cross product is mostly rounding; made perpendicular to the difference it still gives
-    // a turn that ends at `to` to rounding.
+    // Near opposite, the cross product is mostly rounding. Made perpendicular to the difference, it still
+    // gives a turn that ends at `to` to rounding.
     const Vec3 difference = from - to;
     const Vec3 along = normalized(difference);
     const Vec3 rough = normalized(cross(from, to), any_perpendicular(along));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The moving frame of an arc or helix: what the arc paths of this room are computed from.
+// The moving frame of an arc or helix: the basis of all arc paths of this room.
 #pragma once
 
 #include "base/math.hpp"
@@ -11,11 +11,11 @@ struct ArcFrame {
     Vec3 normal;     // unit
     Vec3 radial;     // mm, from the foot to the start
     Vec3 sideways;   // normal x radial: the direction of a positive turn
-    Vec3 foot_mm;    // of the start on the arc's line
+    Vec3 foot_mm;    // foot of the start on the line of the arc
     double rise_mm;  // along normal, over the whole move
     double radius_mm;
 
-    // Of a move that has an arc.
+    // For a move that has an arc.
     explicit ArcFrame(const Move& move) : normal(normalized(move.arc->normal)) {
         const Vec3 from_centre = move.start.tip_mm - move.arc->centre_mm;
         radial = from_centre - dot(from_centre, normal) * normal;
@@ -25,7 +25,7 @@ struct ArcFrame {
         radius_mm = length(radial);
     }
 
-    // Turned by `angle_rad`, at the fraction t of the rise.
+    // Returns the point turned by `angle_rad`, at the fraction t of the rise.
     Vec3 at(double angle_rad, double t) const {
         double s = 0, c = 1;
         math::sincos(angle_rad, s, c);

@@ -14,7 +14,7 @@
 
 namespace tribo::motion {
 
-// Degree of any curve of this room: a motion of degree 6 has point paths of degree 12.
+// Largest degree of a curve of this room: a motion of degree 6 has point paths of degree 12.
 inline constexpr std::size_t kMaxDegree = 24;
 
 // n over k, exact for n <= 2 kMaxDegree.
@@ -29,10 +29,10 @@ T mix(const T& a, const T& b, double t) {
     return (1 - t) * a + t * b;
 }
 
-// Buffers of up to this many points are the common case, and cheaper to set up than those for kMaxDegree.
+// Usual largest number of points. Buffers of this size are cheaper to set up than those for kMaxDegree.
 inline constexpr std::size_t kFewPoints = 8;
 
-// The curve's value at t (de Casteljau). No allocation.
+// Returns the value of the curve at t (de Casteljau). No allocation.
 template <class T, std::size_t Room = kFewPoints>
 T de_casteljau(std::span<const T> control, double t) {
     assert(!control.empty() && control.size() <= kMaxDegree + 1);
@@ -49,7 +49,7 @@ T de_casteljau(const std::vector<T>& control, double t) {
     return de_casteljau(std::span<const T>(control), t);
 }
 
-// The same curve in two: its part up to t and the part after t, each over 0..1.
+// Divides the curve into the part up to t and the part after t, each over 0..1.
 template <class T>
 std::pair<std::vector<T>, std::vector<T>> subdivide(std::span<const T> control, double t) {
     std::vector<T> left(control.size()), right(control.begin(), control.end());
@@ -65,7 +65,7 @@ std::pair<std::vector<T>, std::vector<T>> subdivide(const std::vector<T>& contro
     return subdivide(std::span<const T>(control), t);
 }
 
-// The same curve with one control point more.
+// Returns the same curve with one more control point.
 template <class T>
 std::vector<T> elevated(std::span<const T> control) {
     const std::size_t n = control.size();
@@ -81,7 +81,7 @@ std::vector<T> elevated(const std::vector<T>& control) {
     return elevated(std::span<const T>(control));
 }
 
-// The derivative by the parameter, of one degree less (degree 0 for a point).
+// Returns the derivative by the parameter, one degree lower (degree 0 for a point).
 template <class T>
 std::vector<T> derivative(std::span<const T> control) {
     const std::size_t n = control.size() - 1;
@@ -96,7 +96,7 @@ std::vector<T> derivative(const std::vector<T>& control) {
     return derivative(std::span<const T>(control));
 }
 
-// multiply(a(t), b(t)) as a curve of the summed degree, for any bilinear `multiply`.
+// Returns multiply(a(t), b(t)) as a curve of the summed degree, for any bilinear `multiply`.
 template <class A, class B, class Multiply>
 auto bezier_product(std::span<const A> a, std::span<const B> b, Multiply multiply) {
     using T = decltype(multiply(a[0], b[0]));

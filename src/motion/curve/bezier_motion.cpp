@@ -8,7 +8,8 @@ namespace tribo::motion {
 
 namespace {
 
-// Halvings after which a piece whose norm still cannot be told from zero is taken to have a pole.
+// Largest number of halvings. After it, a piece whose norm is still too near to zero is assumed to have a
+// pole.
 constexpr int kPoleDepth = 24;
 constexpr double kPoleMargin = 1e-9;
 
@@ -27,7 +28,8 @@ PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate) {
     const Vec3 tip = 2.0 / n * (q.dual * conjugate(q.real)).vector();
     const Vec3 moved = 2.0 * (rate.dual * conjugate(q.real) + q.dual * conjugate(rate.real)).vector();
     const Vec3 axis = (q.real * along_axis * conjugate(q.real)).vector() / n;
-    // The two halves of (q k q*)' are each other's conjugate but for sign: equal vector parts.
+    // The two halves of (q k q*)' are conjugate to each other except for the sign: their vector parts are
+    // equal.
     const Vec3 turned = 2.0 * (rate.real * along_axis * conjugate(q.real)).vector();
     return {{tip, normalized(axis)}, (moved - n_rate * tip) / n, (turned - n_rate * axis) / n};
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rational Bezier motions: Bezier curves in the space of dual quaternions, read as moving displacements. The
+// Rational Bezier motions: Bezier curves in the space of dual quaternions, used as moving displacements. The
 // size of a control dual quaternion is its weight. Under a motion of degree n every point of the tool moves
-// on a rational Bezier curve of degree 2 n, whose control points are given here exactly, and so does every
-// direction. Any thread. Sources: Ge & Ravani 1991, J. Mech. Des. 113, and 1994, J. Mech. Des. 116 (Bezier
-// motions); Juttler & Wagner 1996, J. Mech. Des. 118 (rational motions of degree 2 n).
+// on a rational Bezier curve of degree 2 n. This file gives its exact control points, and those of the curve
+// of every direction. Any thread. Sources: Ge & Ravani 1991, J. Mech. Des. 113, and 1994, J. Mech. Des. 116
+// (Bezier motions); Juttler & Wagner 1996, J. Mech. Des. 118 (rational motions of degree 2 n).
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@
 
 namespace tribo::motion {
 
-// A point (xyz / w, mm) of a rational curve, or a direction of any length (w counts only as its scale).
+// A point (xyz / w, mm) of a rational curve, or a direction of any length (w is only its scale).
 struct HomogeneousPoint {
     Vec3 xyz;
     double w = 0;
@@ -29,16 +29,16 @@ constexpr HomogeneousPoint operator*(double s, HomogeneousPoint a) {
     return {s * a.xyz, s * a.w};
 }
 
-// The tool and how fast it moves per unit of the motion's parameter (mm, and rad as a change of the axis).
+// Pose of the tool and its rate per unit of the motion's parameter (mm, and the change of the axis in rad).
 struct PoseRates {
     ToolPose pose;
     Vec3 tip_rate_mm, axis_rate;
 };
-// Of the displacement Q whose parameter derivative is `rate`; Q of any norm > 0.
+// For the displacement Q with the parameter derivative `rate`; Q of any norm > 0.
 PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate);
 
 struct BezierMotion {
-    std::vector<DualQuaternion> control;  // degree + 1, over 0..1; the curve's real part is nowhere zero
+    std::vector<DualQuaternion> control;  // degree + 1, over 0..1; the real part of the curve is nowhere zero
 
     std::size_t degree() const { return control.size() - 1; }
     DualQuaternion at(double t) const { return de_casteljau(control, t); }
@@ -46,27 +46,29 @@ struct BezierMotion {
     PoseRates rates(double t) const;
 };
 
-// Of unit dual quaternions and as many weights > 0. Q and -Q are one displacement but not one control point:
-// each is taken with the sign that brings it nearer to the one before.
+// Makes a motion from unit dual quaternions and one weight > 0 each. Q and -Q are one displacement but two
+// control points: each gets the sign that brings it nearer to the one before.
 BezierMotion weighted_motion(std::span<const DualQuaternion> units, std::span<const double> weights);
 
 BezierMotion elevated(const BezierMotion& motion);
 std::pair<BezierMotion, BezierMotion> subdivide(const BezierMotion& motion, double t);
 
-// The bilinear form behind the exact paths: at a = b = Q the image of the homogeneous point under Q, with
-// weight |Q|^2 w.
+// The bilinear form behind the exact paths: for a = b = Q it is the image of the homogeneous point under Q,
+// with weight |Q|^2 w.
 HomogeneousPoint image(const DualQuaternion& a, const DualQuaternion& b, HomogeneousPoint p);
 
-// Control points, 2 n + 1, of the path of the homogeneous point p of the tool: a rational Bezier curve over
-// 0..1, exact.
+// Returns the 2 n + 1 control points of the path of the homogeneous point p of the tool: a rational Bezier
+// curve over 0..1, exact.
 std::vector<HomogeneousPoint> point_path(const BezierMotion& motion, HomogeneousPoint p);
 std::vector<HomogeneousPoint> point_path(const BezierMotion& motion, Vec3 point_in_tool_mm);
-// Likewise of a direction of the tool: xyz / w is its image, of the same length.
+// The same for a direction of the tool: xyz / w is its image, of the same length.
 std::vector<HomogeneousPoint> direction_path(const BezierMotion& motion, Vec3 direction_in_tool);
 
-// The smallest Bernstein coefficient of |q|^2 over the largest: > 0 proves that the motion has no pole.
+// Returns the smallest Bernstein coefficient of |q|^2 over the largest. A value > 0 proves that the motion
+// has no pole.
 double norm_margin(const BezierMotion& motion);
-// Whether |q|^2 comes so near to zero (1e-9 of the largest) that the motion runs to infinity; by subdivision.
+// Returns true if |q|^2 comes so near to zero (1e-9 of the largest) that the motion runs to infinity; by
+// subdivision.
 bool has_pole(const BezierMotion& motion);
 
 }  // namespace tribo::motion

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// B-spline curves over any vector space T, as bezier.hpp. Everything but evaluation rests on the blossom: the
-// symmetric multi-affine form of a polynomial piece, whose values at consecutive knots are the control
+// B-spline curves over any vector space T, as in bezier.hpp. Everything except evaluation uses the blossom:
+// the symmetric multi-affine form of a polynomial piece, whose values at consecutive knots are the control
 // points. Any thread. Sources: Ramshaw 1989, CAGD 6 (blossoms); de Boor 1978; Boehm 1980 (knot insertion).
 #pragma once
 
@@ -40,7 +40,8 @@ bool is_valid(const BSpline<T>& s) {
     return true;
 }
 
-// The k with knots[k] <= u < knots[k + 1], the last piece for u = end; u outside is taken at the nearer end.
+// Returns the k with knots[k] <= u < knots[k + 1], the last piece for u = end. A u outside is moved to the
+// nearer end.
 template <class T>
 std::size_t find_span(const BSpline<T>& s, double u) {
     const auto first = s.knots.begin() + static_cast<std::ptrdiff_t>(s.degree);
@@ -55,7 +56,7 @@ std::size_t find_span(const BSpline<T>& s, double u) {
     return static_cast<std::size_t>(std::max(above, first + 1) - s.knots.begin()) - 1;
 }
 
-// The blossom of the piece over span k at `degree` arguments in any order. No allocation.
+// Returns the blossom of the piece over span k at `degree` arguments in any order. No allocation.
 template <class T, std::size_t Room = kFewPoints>
 T blossom(const BSpline<T>& s, std::size_t k, std::span<const double> arguments) {
     const std::size_t n = s.degree;
@@ -72,7 +73,7 @@ T blossom(const BSpline<T>& s, std::size_t k, std::span<const double> arguments)
     return d[n];
 }
 
-// The curve at u (de Boor). No allocation.
+// Returns the curve at u (de Boor). No allocation.
 template <class T>
 T evaluate(const BSpline<T>& s, double u) {
     std::array<double, kMaxDegree> same;
@@ -80,7 +81,7 @@ T evaluate(const BSpline<T>& s, double u) {
     return blossom(s, find_span(s, u), std::span<const double>(same.data(), s.degree));
 }
 
-// The same curve with u as one more knot (Boehm). u strictly inside, of multiplicity < degree.
+// Returns the same curve with one more knot u (Boehm). u strictly inside, of multiplicity < degree.
 template <class T>
 BSpline<T> with_knot(const BSpline<T>& s, double u) {
     assert(u > s.start() && u < s.end());
@@ -119,16 +120,16 @@ std::vector<BezierPiece<T>> bezier_pieces(const BSpline<T>& s) {
     return pieces;
 }
 
-// The spline of degree n over `knots` whose pieces have the blossom form(k, n arguments), k a span of
-// `knots`. The pieces must join as smoothly as the knots say.
+// Returns the spline of degree n over `knots` whose pieces have the blossom form(k, n arguments), k a span of
+// `knots`. The pieces must join as smoothly as the knots require.
 template <class T, class Form>
 BSpline<T> spline_of_blossom(std::size_t degree, std::vector<double> knots, Form form) {
     BSpline<T> r{degree, std::move(knots), {}};
     const std::size_t count = r.knots.size() - degree - 1;
     r.control.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        // Any piece that the control point acts on would do. The longest one between its own knots (or beside
-        // them, where they are all one) extrapolates least.
+        // Any piece that depends on the control point gives it. The longest one between its own knots (or
+        // beside them, if they are all equal) extrapolates least.
         const bool one_knot = r.knots[i + 1] == r.knots[i + degree];
         const std::size_t first = one_knot ? i : i + 1, last = one_knot ? i + degree : i + degree - 1;
         std::size_t k = first;
@@ -139,7 +140,7 @@ BSpline<T> spline_of_blossom(std::size_t degree, std::vector<double> knots, Form
     return r;
 }
 
-// Each distinct knot `more` times more often.
+// Raises the multiplicity of each distinct knot by `more`.
 inline std::vector<double> with_multiplicity_raised(std::span<const double> knots, std::size_t more) {
     std::vector<double> raised;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -149,7 +150,7 @@ inline std::vector<double> with_multiplicity_raised(std::span<const double> knot
     return raised;
 }
 
-// The same curve one degree higher, no less smooth.
+// Returns the same curve one degree higher, equally smooth.
 template <class T>
 BSpline<T> elevated(const BSpline<T>& s) {
     const std::size_t n = s.degree;
@@ -167,9 +168,9 @@ BSpline<T> elevated(const BSpline<T>& s) {
     });
 }
 
-// multiply(a(u), b(u)) for a bilinear `multiply` and two splines of one degree n over the same knots: a
-// spline of degree 2 n, as smooth as its factors. Its blossom is the mean over all ways to deal the arguments
-// out to them (Morken 1991, Constr. Approx. 7).
+// Returns multiply(a(u), b(u)) for a bilinear `multiply` and two splines of one degree n over the same knots:
+// a spline of degree 2 n, as smooth as its factors. Its blossom is the mean over all ways to distribute the
+// arguments to the factors (Morken 1991, Constr. Approx. 7).
 template <class A, class B, class Multiply>
 auto spline_product(const BSpline<A>& a, const BSpline<B>& b, Multiply multiply) {
     using T = decltype(multiply(a.control[0], b.control[0]));
@@ -192,7 +193,7 @@ auto spline_product(const BSpline<A>& a, const BSpline<B>& b, Multiply multiply)
     });
 }
 
-// The derivative by u, of one degree less.
+// Returns the derivative by u, one degree lower.
 template <class T>
 BSpline<T> derivative(const BSpline<T>& s) {
     BSpline<T> r{s.degree - 1, {s.knots.begin() + 1, s.knots.end() - 1}, {}};

@@ -12,7 +12,7 @@
 namespace tribo::motion {
 
 struct BSplineMotion {
-    BSpline<DualQuaternion> spline;  // is_valid(spline); its real part is nowhere zero
+    BSpline<DualQuaternion> spline;  // is_valid(spline); the real part is nowhere zero
 
     std::size_t degree() const { return spline.degree; }
     double start() const { return spline.start(); }
@@ -22,7 +22,7 @@ struct BSplineMotion {
     PoseRates rates(double u) const;
 };
 
-// The same motion with one knot more, or one degree higher.
+// Return the same motion with one more knot, or one degree higher.
 BSplineMotion with_knot(const BSplineMotion& motion, double u);
 BSplineMotion elevated(const BSplineMotion& motion);
 
@@ -33,14 +33,16 @@ struct MotionPiece {
 };
 std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion);
 
-// The path of a point of the tool as rational B-spline of degree 2 n over the knots of the motion: exact.
+// Returns the path of a point of the tool as a rational B-spline of degree 2 n over the knots of the motion:
+// exact.
 BSpline<HomogeneousPoint> point_path(const BSplineMotion& motion, Vec3 point_in_tool_mm);
 
-// The motion whose tip runs along `tip` while it turns by `rotation`: two splines of one degree n over the
-// same knots, w > 0 and rotation nowhere zero. Of degree 2 n and as smooth as they are; exact.
+// Returns the motion whose tip runs along `tip` while it turns by `rotation`. Both are splines of one degree
+// n over the same knots, with w > 0 and a rotation that is nowhere zero. The result has degree 2 n and their
+// smoothness; exact.
 BSplineMotion motion_along(const BSpline<HomogeneousPoint>& tip, const BSpline<Quaternion>& rotation);
 
-// The smallest norm_margin of its pieces.
+// Returns the smallest norm_margin of its pieces.
 double norm_margin(const BSplineMotion& motion);
 
 }  // namespace tribo::motion

@@ -14,11 +14,11 @@ namespace {
 
 // Height above the tip of the point whose path shows corners of the axis, mm.
 constexpr double kLever = 50;
-// Poses closer than this in mm and rad are one.
+// Poses closer than this in mm and rad count as one.
 constexpr double kSamePose = 1e-6;
 
-// What is fitted: the dual quaternion itself, or (Curve::tip) the rotation as real part and the tip as vector
-// of the dual part, which only shares the eight numbers.
+// The fitted quantity: the dual quaternion itself, or (Curve::tip) the rotation as real part and the tip as
+// vector of the dual part. The latter uses the type only to store eight numbers.
 using Sample = DualQuaternion;
 
 struct Run {
@@ -44,8 +44,8 @@ bool same_pose(const ToolPose& a, const ToolPose& b) {
     return distance(a.tip_mm, b.tip_mm) < kSamePose && distance(a.axis, b.axis) < kSamePose;
 }
 
-// Whether the polyline a, b, c turns at b by more than the limit; standing still before or after a travel is
-// a corner too.
+// Returns true if the polyline a, b, c turns at b by more than the limit. A standstill before or after a
+// travel is a corner too.
 bool turns(Vec3 a, Vec3 b, Vec3 c, double limit_rad) {
     const bool before = distance(a, b) > kSamePose, after = distance(b, c) > kSamePose;
     if (!before || !after) return before != after;
@@ -70,7 +70,7 @@ Run run_of(std::span<const ToolPose> poses, Curve curve) {
     return run;
 }
 
-// Least squares over all samples with the first and the last met exactly. False where the knots leave a
+// Least squares over all samples; the first and the last are met exactly. Returns false if the knots leave a
 // control point without samples.
 bool fit_controls(const Run& run, BSpline<Sample>& s) {
     const std::size_t count = s.knots.size() - 4;
@@ -102,7 +102,7 @@ bool fit_controls(const Run& run, BSpline<Sample>& s) {
     return true;
 }
 
-// Knots from interior ones, ascending.
+// Returns the clamped knots with these interior ones, ascending.
 std::vector<double> clamped(const std::vector<double>& interior, double end) {
     std::vector<double> knots(4, 0.0);
     knots.insert(knots.end(), interior.begin(), interior.end());
@@ -110,8 +110,8 @@ std::vector<double> clamped(const std::vector<double>& interior, double end) {
     return knots;
 }
 
-// Adds a knot in the middle (by count of samples) of every span in which a sample is off. False where a span
-// that needs one has fewer than two samples a side.
+// Adds a knot in the middle (by number of samples) of every span with a sample out of tolerance. Returns
+// false if a span that needs a knot has fewer than two samples on a side.
 bool refine(const Run& run, const BSpline<Sample>& s, const Limits& limits, std::vector<double>& interior,
             bool& off) {
     std::vector<double> edges{0.0};
@@ -203,7 +203,7 @@ Result<void> check(std::span<const ToolPose> poses, const FitOptions& o) {
 
 Result<MotionFit> fit_motion(std::span<const ToolPose> poses, const FitOptions& options) {
     if (const Result<void> good = check(poses, options); !good) return std::unexpected(good.error());
-    // The distinct poses, and which of them each pose of the stream is.
+    // The distinct poses, and for each pose of the stream the index of its distinct pose.
     std::vector<ToolPose> distinct;
     std::vector<std::size_t> first_of, which;
     for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -38,10 +38,10 @@ ToolPose with_unit_axis(ToolPose pose) {
     return pose;
 }
 
-// Poses closer than this in mm (or rad) are one.
+// Poses closer than this in mm (or rad) count as one.
 constexpr double kSamePose = 1e-9;
 
-// The keyframes that differ from the one before, and the parameters of all.
+// The keyframes that differ from the one before, and the parameters of all keyframes.
 struct Stations {
     std::vector<ToolPose> poses;
     std::vector<double> weights, distinct, all;
@@ -98,7 +98,7 @@ Move move_to(const Keyframe& k, double feed_mm_per_min) {
     return m;
 }
 
-// Refuses a motion that runs to infinity, at the keyframe after the pole.
+// Refuses a motion that runs to infinity. The error names the keyframe after the pole.
 Result<void> check_poles(const BSplineMotion& motion, std::span<const double> parameters,
                          std::span<const Keyframe> keyframes) {
     for (const MotionPiece& piece : bezier_pieces(motion)) {

@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::string_view kWords = "XYZABC";
 constexpr Vec3 kSpindle{0, 0, 1};
-// A tool nearer than this to a rotary axis lies along it, rad; and how far off a reachable axis may be.
+// A tool nearer than this to a rotary axis lies along it, rad. Also the tolerance of a reachable axis.
 constexpr double kSingular = 1e-6;
-// By how much a joint may pass its limit: rounding, mm or rad.
+// Tolerance of a joint limit, for rounding, mm or rad.
 constexpr double kLimitSlack = 1e-9;
 
-// The angle about `about` from a to b, both projected on the plane normal to it, -pi..pi.
+// Returns the angle about `about` from a to b, both projected on the plane normal to it, -pi..pi.
 double angle_about(Vec3 about, Vec3 a, Vec3 b) {
     const Vec3 u = a - dot(a, about) * about, v = b - dot(b, about) * about;
     return math::atan2(dot(about, cross(u, v)), dot(u, v));
@@ -102,7 +102,8 @@ Joints Kinematics::with_tip(Vec3 tip_in_stock_mm, Vec3 rotary_rad) const {
     return joints;
 }
 
-// The angles of the rotary factors, from their zeros, that give the axis; how many solutions there are.
+// Computes the angles of the rotary factors, relative to their zeros, that give the axis. Returns the number
+// of solutions.
 int Kinematics::solve_turns(Vec3 axis, std::array<Turn, 2>& turns) const {
     if (rotary_count_ == 0) return distance(axis, kSpindle) <= kSingular ? 1 : 0;
     const Vec3 inner =
@@ -114,7 +115,7 @@ int Kinematics::solve_turns(Vec3 axis, std::array<Turn, 2>& turns) const {
         return 1;
     }
     const Vec3 outer = factors_[static_cast<std::size_t>(rotary_[0])].direction;
-    // v, the axis between the two turns, has dot(v, outer) = dot(axis, outer) and dot(v, inner) = reach.
+    // v is the axis between the two turns: dot(v, outer) = dot(axis, outer) and dot(v, inner) = reach.
     const double along = dot(outer, inner), height = dot(axis, outer), rest = 1 - along * along;
     const double a = (height - along * reach) / rest, b = (reach - along * height) / rest;
     double square = (1 - a * a - b * b - 2 * a * b * along) / rest;
@@ -122,7 +123,7 @@ int Kinematics::solve_turns(Vec3 axis, std::array<Turn, 2>& turns) const {
     square = std::max(square, 0.0);
     const bool free = from_line(axis, outer) <= kSingular;
     const int count = square > 0 && !free ? 2 : 1;
-    // Along the outer axis one inner angle does; of the two that rounding leaves, either.
+    // Along the outer axis one inner angle is enough; if rounding leaves two, any of them.
     for (int i = 0; i < count; ++i) {
         const double side = i == 0 ? std::sqrt(square) : -std::sqrt(square);
         const Vec3 v = free ? axis : a * outer + b * inner + side * cross(outer, inner);
@@ -132,12 +133,13 @@ int Kinematics::solve_turns(Vec3 axis, std::array<Turn, 2>& turns) const {
     return count;
 }
 
-// The value of the axis at the angle plus whole turns: within the limits if any is, then nearest to `near`.
+// Returns the value of the axis at the angle plus whole turns: within the limits if possible, then nearest to
+// `near`.
 double Kinematics::nearest_turn(const Factor& f, double angle_rad, double near, bool& within) const {
     const double value = f.zero + angle_rad;
     double best = value + math::kTwoPi * std::floor((near - value) / math::kTwoPi + 0.5);
     if (overshoot(best, f.min, f.max) > kLimitSlack) {
-        // The nearest one is outside: from the limit that it passed back inwards.
+        // The nearest one is outside: search inwards from the limit that it passed.
         const double inside =
             best > f.max ? value + math::kTwoPi * std::floor((f.max + kLimitSlack - value) / math::kTwoPi)
                          : value + math::kTwoPi * std::ceil((f.min - kLimitSlack - value) / math::kTwoPi);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Joint values to the tool's pose in the stock, and back. The machine is read as one chain from the part to
-// the tool, a product of displacements (product of exponentials, Brockett 1984); the two rotary angles of an
-// orientation come from the second of Paden's subproblems (Paden 1986), in closed form. Any thread;
-// allocates when it is made only.
+// Converts joint values to the tool's pose in the stock, and back. The machine is one chain from the part to
+// the tool, a product of displacements (product of exponentials, Brockett 1984). The two rotary angles of an
+// orientation come from the second of Paden's subproblems (Paden 1986), in closed form. Any thread; only the
+// constructor allocates.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ namespace tribo::motion {
 // The joints that reach a pose.
 struct Reached {
     Joints joints;
-    // The tool lies along the rotary axis nearest to the part, whose angle then means nothing: it stays.
+    // The tool lies along the rotary axis nearest to the part. The angle of this axis has no meaning then; it
+    // keeps its value.
     bool singular = false;
     bool within_limits = true;  // of the rotary axes
 };
@@ -30,33 +31,34 @@ struct Overtravel {
 
 class Kinematics {
   public:
-    // Of a machine that check() accepts; the length from the spindle nose to the tip, mm.
+    // For a machine that check() accepts; the length is from the spindle nose to the tip, mm.
     explicit Kinematics(const Machine& machine, double tool_length_mm = 0);
 
     ToolPose pose(const Joints& joints) const;
-    // The tool's axis alone; X, Y and Z do not matter.
+    // Returns the tool's axis alone; X, Y and Z do not matter.
     Vec3 axis(Vec3 rotary_rad) const;
-    // The joints that bring the tip there with these rotary values.
+    // Returns the joints that bring the tip to this point with these rotary values.
     Joints with_tip(Vec3 tip_in_stock_mm, Vec3 rotary_rad) const;
 
-    // The joints for a pose: of the (at most two) solutions and their whole turns, one within the limits
-    // before one beyond, then the one that turns the axes least from `near`. None where no angle gives the
-    // axis, to 1e-6.
+    // Returns the joints for a pose. Among the (at most two) solutions and their whole turns it prefers those
+    // within the limits, then the one that turns the axes least from `near`. Returns nothing if no angle
+    // gives the axis, to 1e-6.
     std::optional<Reached> joints(const ToolPose& pose_in_stock, const Joints& near) const;
 
-    // The axes beyond their travel, in the order from the part to the tool; how many they are.
+    // Lists the axes beyond their travel, in the order from the part to the tool. Returns their number.
     int overtravel(const Joints& joints, std::array<Overtravel, 6>& found) const;
 
     bool has_axis(char word) const;
-    // Whether rotary axes move the tip without tool tip control by a lever that depends on the tool's length.
+    // True if, without tool tip control, rotary axes move the tip by a lever that depends on the tool's
+    // length.
     bool turns_head() const { return turns_head_; }
-    // Where the tip stands in the stock's frame at X0 Y0 Z0 with the rotary axes at zero: what a program's
-    // coordinates without tool tip control are counted from.
+    // Returns the position of the tip in the stock's frame at X0 Y0 Z0 with the rotary axes at zero.
+    // Coordinates of a program without tool tip control start from this point.
     Vec3 stock_mm() const { return stock_mm_; }
 
   private:
-    // One displacement of the chain: the tool moves against the part, for a growing word, along `direction`
-    // or right-handed about it.
+    // One displacement of the chain: the motion of the tool against the part, for a growing word, along
+    // `direction` or right-handed about it.
     struct Factor {
         int word = 0;  // 0 to 5: X Y Z A B C
         Vec3 direction, pivot_mm;
@@ -74,7 +76,7 @@ class Kinematics {
 
     std::array<Factor, 6> factors_;  // from the part to the tool
     int count_ = 0;
-    std::array<int, 2> rotary_{};  // of factors_, the one nearer to the part first
+    std::array<int, 2> rotary_{};  // index into factors_, the one nearer to the part first
     int rotary_count_ = 0;
     Vec3 stock_mm_;
     bool turns_head_ = false;

@@ -11,7 +11,7 @@
 namespace tribo::motion {
 namespace {
 
-// Directions nearer than this to one line or plane are taken to lie in it.
+// Directions nearer than this to one line or plane count as lying in it.
 constexpr double kDegenerate = 1e-6;
 
 struct NamedAxis {

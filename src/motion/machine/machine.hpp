@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a machine is made of: a chain of axes from its frame to the part and one to the tool. Plain data; the
+// Description of a machine: a chain of axes from its frame to the part and one to the tool. Plain data; the
 // mathematics is in kinematics.hpp. Any thread.
 #pragma once
 
@@ -22,45 +22,46 @@ struct Joints {
     bool operator==(const Joints&) const = default;
 };
 
-// One axis. Its direction is physical: the way in which a growing word shifts what the axis carries, or turns
-// it right-handed. A table whose word X moves the tool towards +x of the part itself runs towards -x.
+// One axis. Its direction is physical: a growing word shifts the carried parts along it, or turns them
+// right-handed about it. A table whose word X moves the tool towards +x of the part itself runs towards -x.
 struct MachineAxis {
     char word = 'X';          // X Y Z A B C; the last three turn
     Vec3 direction{1, 0, 0};  // unit, machine frame with all axes at zero
-    // Rotary axes: a point on the axis, mm, with all axes at zero. On the part's side in the machine frame;
-    // on the tool's side counted from the spindle nose, whose distance from the tip is the tool's length.
+    // Rotary axes: a point on the axis, mm, with all axes at zero. On the part's side it is in the machine
+    // frame. On the tool's side it is relative to the spindle nose; the distance of the spindle nose from the
+    // tip is the tool's length.
     Vec3 pivot_mm{};
-    double zero = 0;  // what the word says where the chain stands as described here: mm or rad
+    double zero = 0;  // value of the word in the position described here: mm or rad
     double min = -std::numeric_limits<double>::infinity();  // travel, in values of the word: mm or rad
     double max = std::numeric_limits<double>::infinity();
 
     bool turns() const { return word >= 'A' && word <= 'C'; }
 };
 
-// The machine frame is where the tool's tip stands at X0 Y0 Z0 with all rotary axes at zero, the spindle
-// pointing along +z.
+// The origin of the machine frame is the position of the tool's tip at X0 Y0 Z0 with all rotary axes at zero,
+// with the spindle pointing along +z.
 struct Machine {
     std::string name;
     std::vector<MachineAxis> part_side;  // from the frame to the part
     std::vector<MachineAxis> tool_side;  // from the frame to the tool
-    Vec3 stock_mm;                       // where the stock's zero lies, machine frame with all axes at zero
+    Vec3 stock_mm;                       // zero point of the stock, machine frame with all axes at zero
     // From the spindle nose to the tip. Only a machine that turns its head needs it, and only without tool
     // tip control or for its travel limits.
     std::optional<double> tool_length_mm;
 
     bool turns_head() const;
-    // The axis of a word; null where the machine has none.
+    // Returns the axis of a word, or null if the machine has none.
     const MachineAxis* axis(char word) const;
 };
 
-// Gives the machine those of X, Y and Z that it has not: straight axes at the frame that move the tool.
+// Adds the missing ones of X, Y and Z to the machine: straight axes at the frame that move the tool.
 void add_linear_axes(Machine& machine);
 
-// Refuses a chain that cannot be: an axis twice, a direction without length, linear axes in one plane, more
-// than two rotary axes, rotary axes that turn nothing, limits the wrong way round.
+// Refuses an impossible chain: an axis twice, a direction without length, linear axes in one plane, more than
+// two rotary axes, rotary axes that turn nothing, limits in the wrong order.
 Result<void> check(const Machine& machine);
 
-// The machines known by name, with unlimited travel and all axes through the machine's zero:
+// Returns a machine known by name, with unlimited travel and all axes through the machine's zero:
 //   xyzac-trt  A tilts the table about +x and carries C about +z: the table turns the way the words grow, as
 //              LinuxCNC's kinematics of this name has it
 //   xyzbc-trt  B about +y carries C about +z, likewise
@@ -69,7 +70,7 @@ Result<void> check(const Machine& machine);
 //   head-table B about +y in the head, a table C about -z (ISO 841)
 //   xyza       A about -x carries the part: a rotary indexer (ISO 841)
 Result<Machine> named_machine(std::string_view name);
-// Their names, for messages: "xyzac-trt, xyzbc-trt, ...".
+// Returns their names, for messages: "xyzac-trt, xyzbc-trt, ...".
 std::string machine_names();
 
 }  // namespace tribo::motion

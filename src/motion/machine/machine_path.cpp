@@ -10,10 +10,10 @@
 namespace tribo::motion {
 namespace {
 
-// Part of the tolerance within which a block that turns its axes still counts as one straight move.
+// Share of the tolerance within which a block that turns its axes still counts as one straight move.
 constexpr double kStraightShare = 0.01;
 
-// Where the program's coordinates are at t: along the line or the arc.
+// Returns the program's coordinates at t: along the line or the arc.
 Vec3 coordinates_at(const MachineBlock& block, double t) {
     Move move;
     move.start.tip_mm = block.start_mm;
@@ -27,7 +27,7 @@ Vec3 rotary_at(const MachineBlock& block, double t) {
     return t >= 1 ? block.end_rad : lerp(block.start_rad, block.end_rad, t);
 }
 
-// The block with its rotary axes at rest: what they do to its coordinates is one displacement.
+// Returns the block with its rotary axes at rest: their effect on its coordinates is one displacement.
 Move rigid_move(const Kinematics& machine, const MachineBlock& block, const Move& like) {
     Move move = like;
     move.start = pose_at(machine, block, 0);
@@ -48,7 +48,8 @@ Move rigid_move(const Kinematics& machine, const MachineBlock& block, const Move
     return move;
 }
 
-// Whether one straight move along a great circle is the block, at the parameters where pieces are checked.
+// Returns true if one straight move along a great circle equals the block at the parameters where pieces are
+// checked.
 bool is_straight(const Kinematics& machine, const MachineBlock& block, const Move& straight,
                  const PieceTolerance& tolerance) {
     if (block.arc || block.quadratic || dot(straight.start.axis, straight.end.axis) < 0) return false;
@@ -103,7 +104,7 @@ bool append_moves(const Kinematics& machine, const MachineBlock& block, const Mo
         return true;
     };
     const QuadraticCut cut(pose_of, like, tolerance, sink);
-    // Spans that no sample can mistake for their like a whole turn away.
+    // The spans are so short that a sample cannot be confused with the same pose a whole turn away.
     const double arc_turn = block.arc ? std::abs(block.arc->turn_rad) : 0;
     const int spans = static_cast<int>(std::ceil(std::max(largest, arc_turn) / kMaxPieceTurnRad));
     ToolPose start = pose_of(0);

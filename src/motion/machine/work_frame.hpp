@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame that a program counts its coordinates in, shifted and turned in the stock.
+// The frame of a program's coordinates, shifted and turned in the stock.
 #pragma once
 
 #include "base/vec3.hpp"
@@ -17,9 +17,9 @@ struct WorkFrame {
     Vec3 from_stock(Vec3 p) const { return direction_from_stock(p - origin_mm); }
     bool is_tilted() const { return z != Vec3{0, 0, 1}; }
 
-    // This frame, shifted by `by` of its own coordinates.
+    // Returns this frame shifted by `by` in its own coordinates.
     WorkFrame shifted(Vec3 by) const { return {in_stock(by), x, y, z}; }
-    // This frame, turned right-handed about a direction of its own.
+    // Returns this frame turned right-handed about a direction given in its own coordinates.
     WorkFrame turned(Vec3 about, double turn_rad) const {
         const Vec3 axis = direction_in_stock(about);
         return {origin_mm, motion::turned(x, axis, turn_rad), motion::turned(y, axis, turn_rad),

@@ -17,9 +17,9 @@ namespace {
 constexpr int kPlaces = 2000;
 constexpr double kMostSteps = 400'000;
 constexpr double kParallel = 0.9;        // least cosine between the directions of neighbours
-constexpr double kSameTrack = 0.02;      // of the distance asked for: nearer than this it is the same line
-constexpr double kLeastSideways = 0.25;  // of the distance: less is another depth, not another track
-// Along the path, in distances asked for: what is nearer belongs to the place's own stretch.
+constexpr double kSameTrack = 0.02;      // of the requested distance; nearer is the same line
+constexpr double kLeastSideways = 0.25;  // of the distance; less is another depth, not another track
+// Length along the path, in requested distances, that belongs to the place's own stretch.
 constexpr double kOwnStretch = 4;
 
 using Key = std::array<std::int64_t, 3>;
@@ -27,7 +27,7 @@ using Key = std::array<std::int64_t, 3>;
 struct Place {
     Vec3 tip_mm, along, axis;
     double at_mm = 0;       // along the feed path
-    double nearest_mm = 0;  // of the passes beside it
+    double nearest_mm = 0;  // distance of the nearest pass beside it
     Vec3 aside;             // unit, to the nearest
 };
 
@@ -116,7 +116,7 @@ class Search {
         std::sort(entries_.begin(), entries_.end());
     }
 
-    // A short stretch of path, as good as straight, whose middle is `at` along the path.
+    // Takes a short, almost straight stretch of path with its middle at `at` along the path.
     void pass(Vec3 from, Vec3 to, double at) {
         const Key key = key_of(0.5 * (from + to));
         for (auto e = std::lower_bound(entries_.begin(), entries_.end(), Entry{key, 0});
@@ -126,7 +126,8 @@ class Search {
             const Vec3 way = to - from;
             const double length = tribo::length(way), along = dot(way, place.along);
             if (!(std::abs(along) > kParallel * length)) continue;
-            // Where the stretch crosses the plane through the place that is normal to its direction.
+            // The point where the stretch crosses the plane through the place that is normal to the direction
+            // of the place.
             const double t = dot(place.tip_mm - from, place.along) / along;
             if (t < 0 || t > 1) continue;
             const Vec3 off = from + t * way - place.tip_mm;

@@ -15,7 +15,8 @@ namespace tribo::motion {
 
 namespace {
 
-// Part of the tolerance within which a piece counts as straight: merging neighbours adds up a few of them.
+// Share of the tolerance within which a piece counts as straight. Merging neighbours adds up a few of these
+// errors.
 constexpr double kStraightShare = 0.01;
 
 Move with_ends(const Move& like, const ToolPose& start, const ToolPose& end) {
@@ -50,7 +51,7 @@ class Cutting {
     }
 
   private:
-    // The curve lies in the hull of its control points and does not turn back where they do not.
+    // The curve lies in the hull of its control points. If they do not turn back, the curve does not either.
     bool is_straight(const BezierMotion& motion) const {
         const double tip_tolerance = kStraightShare * tolerance_.tip_mm;
         const double axis_tolerance = kStraightShare * tolerance_.axis_rad;
@@ -103,7 +104,7 @@ class Cutting {
     std::size_t first_;
 };
 
-// The part of a Bezier motion from a to b, 0 <= a < b <= 1.
+// Returns the part of a Bezier motion from a to b, 0 <= a < b <= 1.
 BezierMotion part_of(const BezierMotion& motion, double a, double b) {
     BezierMotion part = motion;
     if (b < 1) part = subdivide(part, b).first;
@@ -112,7 +113,7 @@ BezierMotion part_of(const BezierMotion& motion, double a, double b) {
 }
 
 std::vector<Move> quarter_arcs(const Move& move) {
-    // A hair over a multiple of a quarter, as rounding makes it, starts no new piece.
+    // An excess over a multiple of a quarter turn that is only rounding does not start a new piece.
     const double quarters = std::abs(move.arc->turn_rad) / math::kHalfPi;
     const int count = std::max(1, static_cast<int>(std::ceil(quarters - 1e-9)));
     std::vector<Move> pieces;
@@ -127,10 +128,10 @@ std::vector<Move> quarter_arcs(const Move& move) {
     return pieces;
 }
 
-// How many quadratics of equal parameter stand for the move. With a = half the turn of a piece:
-// control points where the tangents of an arc meet leave it by R a^4 / 8 and run ahead of it by up to
-// 0.065 a^3 rad, which a rise turns into height; control points that match the middle leave a circle by
-// 0.065 R a^3; an axis on a great circle is off by 0.0041 a^5 rad.
+// Returns the number of quadratics of equal parameter that represent the move. With a = half the turn of a
+// piece: control points where the tangents of an arc meet deviate from it by R a^4 / 8 and run ahead of it by
+// up to 0.065 a^3 rad; a rise turns the latter into height. Control points that match the middle deviate from
+// a circle by 0.065 R a^3. An axis on a great circle deviates by 0.0041 a^5 rad.
 int quadratics_needed(const Move& move, const PieceTolerance& tolerance, double axis_turn) {
     double count = axis_turn / kMaxPieceTurnRad;
     const auto need = [&](double n) { count = std::max(count, n); };
@@ -161,7 +162,7 @@ std::vector<Move> equal_quadratics(const Move& move, const PieceTolerance& toler
         const ToolPose middle = pose_at(move, 0.5 * (a + b));
         Vec3 control = 2.0 * middle.tip_mm - 0.5 * (piece.start.tip_mm + piece.end.tip_mm);
         if (move.arc && axis_turn == 0) {
-            // Where the tangents meet: radius R / cos(a) above the middle.
+            // The point where the tangents meet: radius R / cos(a) above the middle.
             const ArcFrame frame(move);
             const Vec3 from_start = middle.tip_mm - frame.foot_mm;
             const Vec3 radial = from_start - dot(from_start, frame.normal) * frame.normal;

@@ -25,8 +25,8 @@ struct LinearHodograph {
     Vec3 at(double t) const { return u + t * v; }
 };
 
-// Integral of |u + t v| over 0..t by Gauss-Legendre, 8 nodes. For |v| <= |u| / 4 the integrand's nearest
-// singularity is at |t| >= 4, so the error is below 1e-15 of the result.
+// Integral of |u + t v| over 0..t by Gauss-Legendre, 8 nodes. For |v| <= |u| / 4 the nearest singularity of
+// the integrand is at |t| >= 4, so that the error is below 1e-15 of the result.
 double length_by_quadrature(const LinearHodograph& h, double t) {
     static constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                                 0.9602898564975363};
@@ -92,7 +92,7 @@ double parameter_at_length(const Move& move, double length_mm) {
     if (!(whole > 0) || !(length_mm > 0)) return 0;
     if (length_mm >= whole) return 1;
     if (!move.quadratic) return length_mm / whole;
-    // Newton, kept inside a bracket that halves where the speed vanishes (a cusp).
+    // Newton's method inside a bracket that is halved where the speed vanishes (a cusp).
     double low = 0, high = 1, t = length_mm / whole;
     for (int i = 0; i < 100; ++i) {
         const double off = quadratic_length(move, t) - length_mm;
@@ -122,7 +122,7 @@ double max_curvature_per_mm(const Move& move) {
     const double t = std::clamp(-dot(h.u, h.v) / vv, 0.0, 1.0);
     const double speed = length(h.at(t));
     const double bend = length(cross(h.u, h.v));
-    // A straight path that turns back on itself: the bend is rounding, the speed passes through zero.
+    // A straight path that turns back on itself: the bend is rounding, and the speed passes through zero.
     if (speed <= 1e-9 * (length(h.u) + length(h.v))) return std::numeric_limits<double>::infinity();
     return bend / (speed * speed * speed);
 }
@@ -144,8 +144,8 @@ Move first_part(const Move& move, double t) {
     if (part.quadratic) {
         part.quadratic->tip_control_mm = lerp(move.start.tip_mm, move.quadratic->tip_control_mm, t);
         part.quadratic->axis_control = lerp(move.start.axis, move.quadratic->axis_control, t);
-        // The end of the axis curve is made unit; its middle point scales with the root of that, which keeps
-        // the cone that the axis runs on.
+        // The end of the axis curve is normalised. Its middle point is divided by the root of its length, so
+        // that the axis stays on the same cone.
         const Vec3 end =
             lerp(part.quadratic->axis_control, lerp(move.quadratic->axis_control, move.end.axis, t), t);
         part.quadratic->axis_control = part.quadratic->axis_control / std::sqrt(tribo::length(end));

@@ -9,8 +9,8 @@ namespace tribo::motion {
 
 namespace {
 
-// A program's end point rarely lies on its circle to the last digit: what is missing there is added
-// linearly, so that moves join.
+// The end point of a program rarely lies on its circle to the last digit. The difference is added linearly,
+// so that moves join.
 Vec3 arc_point(const Move& move, const ArcFrame& frame, double t) {
     const double turn = move.arc->turn_rad;
     return frame.at(t * turn, t) + t * (move.end.tip_mm - frame.at(turn, 1));
@@ -21,8 +21,8 @@ Vec3 quadratic_point(Vec3 a, Vec3 control, Vec3 b, double t) {
 }
 
 // Includes the extremes of coordinate k: angles p in 0..turn with
-// d/dp [radial cos p + sideways sin p + rise p / turn] = 0. With many turns and a rise only the first and the
-// last of each kind can be extreme.
+// d/dp [radial cos p + sideways sin p + rise p / turn] = 0.
+// With many turns and a rise only the first and the last of each kind can be extreme.
 void include_extremes(Box3& box, const Move& move, const ArcFrame& frame, int k) {
     const double turn = move.arc->turn_rad;
     const double c = frame.radial[k], s = frame.sideways[k];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every reader of a tool path gives and every user of one takes: a list of moves of the tool tip and
-// axis.
+// The output of every reader of a tool path and the input of all its users: a list of moves of the tool tip
+// and axis.
 #pragma once
 
 #include <optional>
@@ -22,69 +22,69 @@ struct ToolPose {
 
 enum class MoveKind { rapid, feed, dwell };
 
-// A circular or helical tip path: from the start, turning by `turn_rad` about the line through `centre_mm`
-// along `normal` (right-handed; more than a full turn is allowed), rising linearly along `normal` to the end.
-// The axis stays as it is.
+// A circular or helical tip path from the start: it turns by `turn_rad` about the line through `centre_mm`
+// along `normal` (right-handed; more than a full turn is allowed) and rises linearly along `normal` to the
+// end. The axis does not change.
 struct Arc {
     Vec3 centre_mm;
     Vec3 normal{0, 0, 1};
     double turn_rad = 0;
 };
 
-// A curved piece: tip and axis are quadratic Bezier curves with these middle control points, the axis made
-// unit afterwards. Spline motions are cut into such pieces within a stated tolerance.
+// A curved piece: tip and axis are quadratic Bezier curves with these middle control points; the axis is
+// normalised afterwards. Spline motions are cut into such pieces within a stated tolerance.
 struct Quadratic {
     Vec3 tip_control_mm;
     Vec3 axis_control;
 };
 
-// One move: the tip goes straight from start to end (or along `arc` or `quadratic`, at most one of them)
-// while the axis, unless `quadratic` says otherwise, turns along the great circle.
+// One move. The tip goes straight from start to end, or along `arc` or `quadratic` (at most one of them). The
+// axis turns along the great circle, or along `quadratic`.
 struct Move {
     MoveKind kind = MoveKind::feed;
     ToolPose start, end;
     std::optional<Arc> arc;
     std::optional<Quadratic> quadratic;
     double feed_mm_per_min = 0;  // of the tip; for a feed move > 0
-    double duration_s = 0;       // > 0 where the program gives the time itself (inverse time, dwell), else 0
-    double spindle_rpm = 0;      // 0: the program says nothing
-    int tool = 0;                // tool number; 0: the program says nothing
+    double duration_s = 0;       // > 0 if the program gives the time itself (inverse time, dwell), else 0
+    double spindle_rpm = 0;      // 0: not given by the program
+    int tool = 0;                // tool number; 0: not given by the program
     int line = 0;                // of the source, from 1
 };
 
-// The tool that a program declares about itself (CUTTER/, a tool comment) or that a tool table holds.
+// A tool that a program declares itself (CUTTER/, a tool comment) or that a tool table contains.
 struct DeclaredTool {
     int number = 0;
     double diameter_mm = 0;
     double corner_mm = 0;
     int line = 0;
-    int flutes = 0;                     // 0: not said
+    int flutes = 0;                     // 0: not given
     std::optional<double> length_mm{};  // from the spindle nose to the tip
     std::string table{};                // name of the table; empty: the program's own
 };
 
-// The stock that a program declares about itself (BLK FORM).
+// The stock that a program declares itself (BLK FORM).
 struct DeclaredStock {
     Box3 box_mm;
     int line = 0;
 };
 
 struct Program {
-    std::string source;   // name of the file it came from
-    std::string dialect;  // of the control it was read for; empty: none
+    std::string source;   // name of its file
+    std::string dialect;  // of the control that it was read for; empty: none
     std::vector<Move> moves;
     std::vector<DeclaredTool> tools;
     std::optional<DeclaredStock> stock;
-    bool has_rotary_words = false;  // axis words A B C: meaningless without a machine
-    std::string machine;            // that its rotary words were read with; empty: none
+    bool has_rotary_words = false;  // axis words A B C: they need a machine
+    std::string machine;            // machine used to read its rotary words; empty: none
     int first_rotary_line = 0;
     Warnings warnings;
 };
 
-// Pose at the fraction t in 0..1 of a move, and the true length of its tip path, mm.
+// Return the pose at the fraction t in 0..1 of a move, and the true length of its tip path, mm.
 ToolPose pose_at(const Move& move, double t);
 double path_length_mm(const Move& move);
-// True box of the tip path, arcs included.
+// Returns the true box of the tip path, arcs included.
 Box3 tip_bounds(const Move& move);
 
 }  // namespace tribo::motion

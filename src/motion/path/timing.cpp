@@ -14,7 +14,7 @@ namespace tribo::motion {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-// A tip path shorter than this is a turn on the spot, mm.
+// A tip path shorter than this counts as a turn on the spot, mm.
 constexpr double kNoPath = 1e-9;
 
 Result<void> check(const Move& m) {
@@ -29,7 +29,7 @@ Result<void> check(const Move& m) {
     return {};
 }
 
-// The time that the move takes at constant speed.
+// Returns the time of the move at constant speed.
 double even_duration(const Move& m, double length, const TimingOptions& o) {
     if (m.kind == MoveKind::dwell || m.duration_s > 0) return m.duration_s;
     const double mm_per_s = (m.kind == MoveKind::rapid ? o.rapid_mm_per_min : m.feed_mm_per_min) / 60;
@@ -38,11 +38,11 @@ double even_duration(const Move& m, double length, const TimingOptions& o) {
 
 Vec3 tangent(const Move& m, double t) {
     const Vec3 d = tip_derivative_mm(m, t);
-    // A quadratic whose control point is an end point leaves that end with no speed.
+    // A quadratic whose control point is an end point has no speed at that end.
     return squared_length(d) > 0 ? d : tip_derivative_mm(m, t + (t < 0.5 ? 1e-6 : -1e-6));
 }
 
-// Highest speed at which one move may pass into the next, for their shape alone.
+// Returns the highest speed at the joint of two moves that their shape allows.
 double corner_speed(const Move& a, const Move& b, const TimingOptions& o) {
     if (a.kind != b.kind) return 0;
     const double corner = angle_rad(tangent(a, 1), tangent(b, 0));
@@ -57,7 +57,7 @@ double curve_speed(const Move& m, const TimingOptions& o) {
     return curvature > 0 ? std::sqrt(o.acceleration_mm_per_s2 / curvature) : kUnlimited;
 }
 
-// The trapezoid over `length` between two speeds that it can join, not above `limit`.
+// Computes the trapezoid over `length` between two possible speeds, not above `limit`.
 void shape(MoveTiming& m, double limit, double acceleration) {
     const double v0 = m.entry_mm_per_s, v1 = m.exit_mm_per_s, a = acceleration;
     const double reachable = std::sqrt(0.5 * (v0 * v0 + v1 * v1) + a * m.length_mm);
@@ -117,8 +117,9 @@ double MoveTiming::path_fraction(double time_s) const {
 double MoveTiming::time_at_s(double fraction) const {
     const double f = std::clamp(fraction, 0.0, 1.0), whole = end_s - start_s;
     if (!(length_mm > 0)) return start_s + f * whole;
-    // Time from rest of a stretch that starts at `speed` and changes by `change` in `seconds`: the root of
-    // change / (2 seconds) t^2 + speed t = run that stays finite when change or speed vanish.
+    // Returns the time since the start of a stretch that starts at `speed` and changes by `change` in
+    // `seconds`: the root of change / (2 seconds) t^2 + speed t = run that stays finite if change or speed
+    // vanish.
     const auto ramp = [](double run, double speed, double change, double seconds) {
         if (!(run > 0) || !(seconds > 0)) return 0.0;
         const double root = std::sqrt(std::max(0.0, speed * speed + 2 * change / seconds * run));

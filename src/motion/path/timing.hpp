@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// When a machine is where: the time law of a list of moves. Linear in their number; any thread.
+// The time law of a list of moves: position of the machine at each time. Linear in the number of moves; any
+// thread.
 //
-// A feed move runs its tip at its feed, or takes the duration that the program gives (inverse time); a rapid
-// runs at the machine's rate; a dwell lasts. Where the axis would have to turn faster than its limit the move
-// takes the time of the turn, so a turn on the spot has a time too. With an acceleration limit the speed
-// along the tip path is a chain of trapezoids, looked ahead over the whole list:
-// - at a corner of angle c between two moves, v^2 <= a R with R = d cos(c/2) / (1 - cos(c/2)), the circle
-// that
-//   touches both moves and passes the corner at the distance d (junction deviation);
+// A feed move runs its tip at its feed, or takes the duration that the program gives (inverse time). A rapid
+// runs at the machine's rate. A dwell has its duration. If the axis would turn faster than its limit, the
+// move takes the time of the turn; so a turn on the spot has a time too. With an acceleration limit the speed
+// along the tip path is a chain of trapezoids, with look-ahead over the whole list:
+// - at a corner of angle c between two moves, v^2 <= a R with R = d cos(c/2) / (1 - cos(c/2)): the circle of
+//   radius R touches both moves and passes the corner at the distance d (junction deviation);
 // - exact stop at corners beyond `stop_rad`, between rapid and feed, and at dwells and turns on the spot;
-// - v^2 <= a / curvature on arcs and quadratics, a cusp counting as curvature 1/d.
-// The turning of the axis is not accelerated by itself.
+// - v^2 <= a / curvature on arcs and quadratics; a cusp counts as curvature 1/d.
+// The turning of the axis has no acceleration limit of its own.
 #pragma once
 
 #include <cstddef>
@@ -29,35 +29,35 @@ struct TimingOptions {
     double stop_rad = 1.0471975511965976;  // 60 degrees
 };
 
-// One move in time: speed rises from entry to peak, stays, falls to exit. Speeds in mm/s along the tip path;
-// a move without path (dwell, turn on the spot) has speed 0 and runs evenly.
+// One move in time: the speed rises from entry to peak, stays, falls to exit. Speeds in mm/s along the tip
+// path. A move without path (dwell, turn on the spot) has speed 0 and runs evenly.
 struct MoveTiming {
     double start_s = 0, end_s = 0;
     double length_mm = 0;
     double entry_mm_per_s = 0, peak_mm_per_s = 0, exit_mm_per_s = 0;
     double rise_s = 0, fall_s = 0;  // parts of end_s - start_s
 
-    // The fraction of the tip path that has been run at the time, 0..1, clamped to the move.
+    // Returns the fraction of the tip path that is finished at the time, 0..1, clamped to the move.
     double path_fraction(double time_s) const;
-    // The time at which that fraction of the tip path has been run: the inverse of path_fraction.
+    // Returns the time at which that fraction of the tip path is finished: the inverse of path_fraction.
     double time_at_s(double path_fraction) const;
     double speed_mm_per_s(double time_s) const;
 };
 
 struct Schedule {
-    std::vector<MoveTiming> moves;  // one per move, each starting when the one before ends
+    std::vector<MoveTiming> moves;  // one per move; each starts when the one before ends
     double duration_s = 0;
-    double feed_s = 0;  // of duration_s, spent in feed moves
+    double feed_s = 0;  // part of duration_s in feed moves
 
-    // The move under way at the time (the later one at a joint), clamped. Needs at least one move.
+    // Returns the current move at the time (the later one at a joint), clamped. Needs at least one move.
     std::size_t move_at(double time_s) const;
 };
 
-// Refuses a feed move with neither feed nor duration, numbers that are not finite and options <= 0, with the
-// line.
+// Refuses a feed move without feed and duration, numbers that are not finite and options <= 0. The error
+// names the line.
 Result<Schedule> schedule(std::span<const Move> moves, const TimingOptions& options = {});
 
-// The pose at a time of the schedule of these moves.
+// Returns the pose at a time of the schedule of these moves.
 ToolPose pose_at_time(std::span<const Move> moves, const Schedule& schedule, double time_s);
 
 }  // namespace tribo::motion
