@@ -45,7 +45,7 @@ struct ContactSample {
     int edges = 0;  // of the cutter; 0: unknown
 };
 
-// Whether all values are finite; senses refuse other samples. Real-time safe.
+// Returns true if all values are finite; senses refuse other samples. Real-time safe.
 inline bool is_finite(const ContactSample& s) {
     if (!(std::isfinite(s.t_s) && tribo::is_finite(s.position_mm) && tribo::is_finite(s.normal) &&
           tribo::is_finite(s.force_n) && tribo::is_finite(s.slip_mm_per_s) && std::isfinite(s.area_mm2) &&

@@ -10,14 +10,15 @@ namespace tribo::contact {
 namespace {
 
 constexpr int kMostRounds = 16;
-// A point this close to the surface is on it, mm.
+// A point this near to the surface counts as on it, mm.
 constexpr double kOnSurface = 1e-6;
-// ... and has come to rest where the next step changes the distance by less than this, mm: by half the step's
-// square over the distance. Normals of swept edges are known to a thousandth only.
+// The search has ended at a point if the next step changes the distance by less than this, mm: half the
+// square of the step over the distance. Normals of swept edges are accurate to a thousandth only.
 constexpr double kStill = 5e-6;
-// Normals of one smooth piece, from one step of the search to the next, agree at least this well.
+// Normals of one smooth piece agree at least this well (product) from one step of the search to the next.
 constexpr double kAlike = 0.5;
-// Bends are measured over this share of the distance, and are too great from this share of a sphere's on.
+// Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
+// sphere on.
 constexpr double kBendStep = 1e-3, kTooBent = 1.01;
 
 struct Foot {
@@ -26,11 +27,11 @@ struct Foot {
     bool found = false, smooth = false;
 };
 
-// Where the planes do not agree (normals of swept edges jump): along the surface as long as that leads
-// nearer.
+// For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
+// distance falls.
 Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
     constexpr int kMostSteps = 24, kMostLandings = 6;
-    constexpr double kShortest = 1e-3;  // share of a step
+    constexpr double kShortest = 1e-3;  // least share of the full step
     const auto land = [&](Vec3 q, SurfaceSample& s) -> std::optional<Vec3> {
         for (int n = 0; n < kMostLandings; ++n) {
             s = field.sample(q);
@@ -64,7 +65,7 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     HalfSpaces sides;
     Vec3 q = start_mm;
-    bool there = false;  // the nearest point of all sides, not one on the way to it
+    bool there = false;  // q is the nearest point of all sides, not a point on the way to it
     for (int n = 0; n < kMostRounds; ++n) {
         const SurfaceSample s = field.sample(q);
         for (int i = 0; i < sides.count; ++i) {
@@ -75,7 +76,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         }
         sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
         const Vec3 next = sides.nearest(point_mm);
-        // On the surface, and nowhere nearer as all sides stand there.
+        // On the surface, and no nearer point exists with the present sides.
         if (there && std::abs(s.distance_mm) <= kOnSurface &&
             squared_length(next - q) <= 2 * kStill * distance(point_mm, q) + kOnSurface * kOnSurface) {
             const double way = length(point_mm - q);
@@ -93,8 +94,8 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
     return descend(field, point_mm, q);
 }
 
-// Where the surface at a foot bends towards the point more than a sphere about the point does: the direction
-// in which it does so most, as long as the bend's radius. Else zero.
+// If the surface at a foot point bends towards the point more than a sphere about the point does: returns the
+// direction of the greatest bend, with the bend's radius as its length. Otherwise returns zero.
 Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
     const Vec3 n = foot.sample.normal;
     const double way = foot.sample.distance_mm, h = kBendStep * way;
@@ -126,8 +127,8 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& 
 SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     const Foot foot = foot_from(field, point_mm, start_mm, longest_mm);
     if (!foot.found || !foot.smooth) return foot.sample;
-    // A point over a hollow that is narrower than its distance has its foot at the bottom, which of all
-    // places there is the furthest: the nearest are up the sides.
+    // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
+    // farthest place there. The nearest places are up its sides.
     const Vec3 aside = steepest_bend(field, foot);
     if (squared_length(aside) == 0) return foot.sample;
     SurfaceSample best = foot.sample;

@@ -11,11 +11,11 @@ namespace tribo::contact {
 namespace {
 
 constexpr std::size_t kMean = 3, kPerHarmonic = 6;
-constexpr double kFullShare = 0.35, kNoShare = 0.45;  // of the servo's rate
-// Longer pauses than this between two stretches are pauses, s.
+constexpr double kFullShare = 0.35, kNoShare = 0.45;  // share of the servo's rate
+// A longer gap between two stretches is a pause, s.
 constexpr double kTouchingS = 1e-9;
 
-// A channel triple of the tool's frame in the stock's.
+// Converts three channels from the tool's frame to the stock's.
 void put(const ForceStretch& s, double x, double y, double z, double* out) {
     const Vec3 v = x * s.x + y * s.y + z * s.z;
     out[0] = v.x;
@@ -41,7 +41,7 @@ double amplitude(std::span<const double> harmonic) {
     return 2 * std::sqrt(sum);
 }
 
-// The highest harmonic that some servo carries and some hand feels, at most kMostHarmonics.
+// Returns the highest harmonic that a servo can carry and a hand can feel, at most kMostHarmonics.
 std::size_t harmonics_worth_keeping(std::span<const ForceStretch> stretches, const ForceTableOptions& o) {
     std::size_t keep = 0;
     for (const ForceStretch& s : stretches) {

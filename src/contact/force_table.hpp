@@ -78,7 +78,7 @@ struct ForceTableOptions {
 };
 ForceFunction force_function(std::span<const ForceStretch> stretches, const ForceTableOptions& options);
 
-// The largest of: size and direction of the mean force, amplitude of each harmonic.
+// The largest of three errors: size and direction of the mean force, amplitude of each harmonic.
 ErrorInJnd force_error(const ForceTableOptions& options);
 
 ForceTable build_force_table(const ForceFunction& function, const ForceTableOptions& options);

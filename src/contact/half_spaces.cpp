@@ -6,9 +6,9 @@
 namespace tribo::contact {
 namespace {
 
-// Less than this over a border is rounding, mm.
+// A smaller distance over a border is rounding, mm.
 constexpr double kOnBorder = 1e-8;
-// Two normals closer than this (sine squared) have no line in common that means anything.
+// Two normals closer than this (sine squared) have no reliable common line.
 constexpr double kParallel = 1e-10;
 
 }  // namespace
@@ -47,7 +47,8 @@ Vec3 HalfSpaces::nearest(Vec3 y) const {
         const HalfSpace& s = side[static_cast<std::size_t>(n)];
         offer(y - s.above(y) * s.normal);
     }
-    // A point that is nearest on one border and allowed is nearest of all, and so on.
+    // A point that is nearest on one border and allowed is the nearest of all; then the same for two borders
+    // and for three.
     if (least < std::numeric_limits<double>::infinity()) return best;
     const auto at = [&](int n) -> const HalfSpace& { return side[static_cast<std::size_t>(n)]; };
     for (int i = 0; i < count; ++i) {

@@ -18,7 +18,7 @@ double as_stored(double value) {
     return static_cast<double>(static_cast<float>(value));
 }
 
-// Straight from row a to row b, as the table keeps them, at the share t.
+// Straight line from row a to row b at the share t, with the stored (float) values.
 void blend(std::span<const double> a, std::span<const double> b, double t, std::span<double> out) {
     for (std::size_t c = 0; c < out.size(); ++c)
         out[c] = as_stored(a[c]) + t * (as_stored(b[c]) - as_stored(a[c]));
@@ -35,16 +35,16 @@ void truth_at(const DenseFunction& f, std::size_t n, double at, std::span<double
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = a[c] + t * (b[c] - a[c]);
 }
 
-// Places within an interval of samples at which a table is held to its error.
+// Number of places in an interval of samples at which the error of a table is checked.
 constexpr int kPlaces = 8;
 
-// The error between two samples taken as knots.
+// The error between two samples used as knots.
 class Span {
   public:
     Span(const DenseFunction& f, const ErrorInJnd& error, double most)
         : f_(f), error_(error), most_(most), truth_(f.channels), shown_(f.channels) {}
 
-    // Looks between the samples too: a force that passes near zero there turns about.
+    // Also checks between the samples: a force that passes near zero there changes its direction.
     bool fits(std::size_t from, std::size_t to) {
         const double width = f_.at[to] - f_.at[from];
         for (std::size_t n = from; n < to; ++n) {
@@ -65,7 +65,7 @@ class Span {
     std::vector<double> truth_, shown_;
 };
 
-// Knots of one spacing over a piece; their number, and whether they stay within the error.
+// Knots of constant spacing over a piece: their number, and a test if they stay within the error.
 class UniformPiece {
   public:
     UniformPiece(const DenseFunction& f, const ErrorInJnd& error, std::size_t begin, std::size_t end)
@@ -199,8 +199,8 @@ PerceptualTable build_perceptual_table(const DenseFunction& f, const ErrorInJnd&
         storage->pieces.push_back({f.at[begin], f.at[last], storage->at.size()});
         add_knot(begin);
         for (std::size_t from = begin; from < last;) {
-            // Doubles the span while it fits, then bisects: spans a little longer than one that does not fit
-            // hardly ever do.
+            // Doubles the span while it fits, then bisects. A span a little longer than one that does not fit
+            // hardly ever fits.
             std::size_t good = from + 1, bad = last + 1, reach = 2;
             while (good < last) {
                 const std::size_t to = std::min(from + reach, last);
@@ -249,7 +249,7 @@ double worst_error_jnd(const PerceptualTable& table, const DenseFunction& f, con
 }
 
 std::size_t uniform_knots(const DenseFunction& f, const ErrorInJnd& error, double most_jnd) {
-    double low = HUGE_VAL, high = 0;  // spacings: fits surely, longest piece
+    double low = HUGE_VAL, high = 0;  // spacings: one that surely fits, the longest piece
     std::vector<UniformPiece> pieces;
     for (std::size_t piece = 0; f.size() > 0 && piece < f.pieces(); ++piece) {
         const std::size_t begin = f.piece_begin(piece), end = f.piece_end(piece);
@@ -261,7 +261,7 @@ std::size_t uniform_knots(const DenseFunction& f, const ErrorInJnd& error, doubl
         return std::ranges::all_of(pieces, [&](UniformPiece& p) { return p.fits(spacing, most_jnd); });
     };
     if (high > 0 && !fits(high)) {
-        // Relative: a per mille of the spacing is a per mille of the knots.
+        // Relative: an error of 0.1 % in the spacing is 0.1 % in the number of knots.
         constexpr double kClose = 1.001;
         while (high > low * kClose) {
             const double middle = std::sqrt(low * high);

@@ -36,7 +36,7 @@ struct DenseFunction {
 // Error of the shown value, in just noticeable differences of the user.
 using ErrorInJnd = std::function<double(std::span<const double> truth, std::span<const double> shown)>;
 
-// An error, in JND, that nobody notices.
+// An error, in JND, below what anybody can notice.
 inline constexpr double kInaudibleJnd = 0.5;
 
 // Immutable; copies share the knots, which may lie in a mapped file. Any number of threads.
@@ -84,11 +84,11 @@ class PerceptualTable {
     Parts parts_;
 };
 
-// Whether the parts are a valid table: consistent counts, finite values, rising knots.
+// Returns true if the parts are a valid table: consistent counts, finite values, rising knots.
 bool parts_are_sound(const PerceptualTable::Parts& parts);
 
-// Chooses knots among the samples. Each knot is as far from the last as possible, with an error of the stored
-// table within `most_jnd` at all skipped samples and at eight places between each two.
+// Chooses knots among the samples. Each knot is as far from the last one as possible, with an error of the
+// stored table within `most_jnd` at all skipped samples and at eight places between each two of them.
 PerceptualTable build_perceptual_table(const DenseFunction& function, const ErrorInJnd& error,
                                        double most_jnd = kInaudibleJnd);
 

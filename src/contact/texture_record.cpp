@@ -8,7 +8,7 @@ namespace {
 
 using Heights = std::array<std::array<double, TextureRecord::kEdge>, TextureRecord::kEdge>;
 
-// In the patch's coordinates (along, across), each from -1 to 1.
+// Middle of a triangle in the patch's coordinates (along, across), each from -1 to 1.
 struct Middle {
     double u, v;
 };
@@ -19,7 +19,7 @@ struct Facet {
     double height, by_along, by_across;
 };
 
-// Triangle 0 or 1 of the square whose corner of least u and v is (i, j).
+// Returns triangle 0 or 1 of the square with the lower corner (i, j) in u and v.
 Facet facet(const Heights& h, int i, int j, int which, double half_along, double half_across) {
     const auto at = [&](int di, int dj) {
         return h[static_cast<std::size_t>(j + dj)][static_cast<std::size_t>(i + di)];
@@ -37,7 +37,8 @@ Facet facet(const Heights& h, int i, int j, int which, double half_along, double
             (at(0, 1) - at(0, 0)) / half_across};
 }
 
-// What varies along, what varies across, and what does only with both, each with its own share.
+// Scales the part that varies along, the part that varies across and the part that varies with both, each
+// with its own gain.
 Heights limited(const Heights& h, const TextureBand& band) {
     if (band.along >= 1 && band.across >= 1) return h;
     std::array<double, 3> column{}, row{};
@@ -54,7 +55,7 @@ Heights limited(const Heights& h, const TextureBand& band) {
     for (std::size_t j = 0; j < 3; ++j) {
         for (std::size_t i = 0; i < 3; ++i) {
             const double along = column[i] - mean, across = row[j] - mean;
-            // The level of the patch follows the slower of the two.
+            // The level of the patch has the larger of the two gains.
             out[j][i] = mean * std::max(band.along, band.across) + band.along * along + band.across * across +
                         both * (h[j][i] - mean - along - across);
         }

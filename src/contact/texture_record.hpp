@@ -44,10 +44,11 @@ struct TextureBand {
     double along = 1, across = 1;
 };
 
-// The texture normal N_tex at a place near the record, in mm. Stiffness times N_tex is the texture force. The
-// value of a triangle is (press + height) n_triangle - press n: the difference to the smooth surface for a
-// spring with the penetration `press_mm`. The eight values are averaged with weights that decrease with the
-// distance within half a patch; their sum is 1. Beyond the patch its edge continues. Real-time safe.
+// Returns the texture normal N_tex at a place near the record, in mm. Stiffness times N_tex is the texture
+// force. The value of a triangle is (press + height) n_triangle - press n: the difference to the smooth
+// surface for a spring with the penetration `press_mm`. The eight values are averaged with weights that
+// decrease with the distance within half a patch; their sum is 1. Beyond the patch its edge continues.
+// Real-time safe.
 Vec3 texture_normal(const TextureRecord& record, Vec3 place_mm, double press_mm,
                     const TextureBand& band = {});
 
