@@ -11,7 +11,8 @@
 namespace tribo::elastic {
 namespace {
 
-// Where to read between four nodes; beyond the border as on it. x and y in nodes from the first one.
+// Interpolation between four nodes; beyond the border it uses the border. x and y in nodes from the first
+// one.
 struct Between {
     int x0, x1, y0, y1;
     float fx, fy;
@@ -48,7 +49,7 @@ class Painter {
         sky_reach_ = view.sky_reach * longer;
     }
 
-    // As it is drawn.
+    // The height as drawn.
     float height_mm(float x, float y) const {
         const Between at(x, y, sheet_.size().width, sheet_.size().height);
         const float *upper = sheet_.heights(at.y0), *lower = sheet_.heights(at.y1);
@@ -56,7 +57,7 @@ class Painter {
         return view_.relief * e / (1 + std::abs(e) / view_.half_mm);
     }
 
-    // The node that the eye sees through node (x, y) of the flat image.
+    // Returns the node that the eye sees through node (x, y) of the flat image.
     std::array<float, 2> seen(float x, float y) const {
         float sx = x, sy = y;
         for (int i = 0; i < kParallaxSteps; ++i) {
@@ -67,11 +68,11 @@ class Painter {
         return {sx, sy};
     }
 
-    // What the sheet lets through to one of its points.
+    // The light that reaches one point of the sheet.
     struct Light {
-        float height_mm = 0, slope_x = 0, slope_y = 0;  // as drawn; slopes as SmallRelief has them
+        float height_mm = 0, slope_x = 0, slope_y = 0;  // as drawn; slopes as in SmallRelief
         float walls = 0;                                // slope of the walls around, 0 or more
-        float sun = 0;                                  // share of the disc that is seen, 0..1
+        float sun = 0;                                  // visible share of the disc, 0..1
     };
     Light light(float x, float y) const {
         Light light;
@@ -95,7 +96,7 @@ class Painter {
         return light;
     }
 
-    // Light of the sky between walls, and of the sun on a slope, which is 1 where it is flat.
+    // Light of the sky between walls, and light of the sun on a slope (1 where it is flat).
     float sky(float walls) const { return view_.ambient / (1 + walls * walls); }
     float diffuse(float nx, float ny) const {
         const float towards =
@@ -103,7 +104,7 @@ class Painter {
         return std::max(towards, 0.0F) / view_.light_z;
     }
 
-    // How bright the smooth sheet is there, linear; 1 where it is flat.
+    // Returns the linear brightness of the smooth sheet at this point; 1 where it is flat.
     float brightness(float x, float y) const {
         const Light l = light(x, y);
         return sky(l.walls) + (1 - view_.ambient) * diffuse(l.slope_x, l.slope_y) * l.sun;
@@ -115,7 +116,7 @@ class Painter {
     float spacing_mm_, eye_x_, eye_y_, per_eye_height_, to_light_x_, to_light_y_, shadow_reach_, sky_reach_;
 };
 
-// Light goes by the power 2.2 of a colour's number.
+// The light is the power 2.2 of the value of a colour.
 constexpr double kGamma = 2.2;
 constexpr float kBrightest = 2;
 constexpr int kGammaKnots = 2048;
@@ -142,8 +143,8 @@ float colour_factor(float light) {
     return between(gamma_table(), std::clamp(light, 0.0F, kBrightest) * (kGammaKnots / kBrightest));
 }
 
-// Light of a colour's number, 0..255, and back. The way back is tabled over the root of the light, over which
-// it is nearly straight.
+// Light of a colour value, 0..255, and back. The way back is a table over the root of the light, because it
+// is nearly straight over it.
 constexpr int kRootKnots = 1024;
 struct Lights {
     std::array<float, 257> of_number{};
@@ -164,7 +165,7 @@ const Lights& lights() {
     return tables;
 }
 
-// What a finish makes of the light: a factor of the image's own, and what is mirrored on top of it.
+// Effect of a finish on the light: a factor on the image's own light, and the mirrored light that is added.
 struct Shade {
     float factor = 1, mirrored = 0;
 };
@@ -173,7 +174,7 @@ class Finisher {
   public:
     Finisher(const Painter& painter, const PictureView& view, const Finish& finish)
         : painter_(painter), view_(view), finish_(finish) {
-        // Eye and light stand far away, over the image's middle.
+        // Eye and light are far away, over the middle of the image.
         const float eye = 1 / std::sqrt(view.eye_below * view.eye_below + view.eye_height * view.eye_height);
         half_x_ = view.light_x;
         half_y_ = view.light_y + eye * view.eye_below;
@@ -196,14 +197,14 @@ class Finisher {
         const float nx = bend * ex + kept * rx, ny = bend * ey + kept * ry;
         const float sun = (1 - view_.ambient) * painter_.diffuse(nx, ny) * light.sun;
         const float sun_at_rest = (1 - view_.ambient) * painter_.diffuse(rx, ry);
-        // What comes on top of the mirrored light at rest, without an edge where it sets in.
+        // The mirrored light beyond the mirrored light at rest, without an edge where it begins.
         const float mirrored = sun * lobe(nx, ny);
         const float more = std::max(mirrored - sun_at_rest * lobe(rx, ry), 0.0F);
         return {(painter_.sky(finish_.steeper * light.walls) + sun) / (view_.ambient + sun_at_rest),
                 more > 0 ? more * more / mirrored : 0};
     }
 
-    // Of `colour` from 0 to 255.
+    // Returns the shaded value of `colour`, 0 to 255.
     float shaded(float colour, Shade shade) const {
         const float own = between(lights().of_number, colour);
         float light = own * shade.factor + shade.mirrored;

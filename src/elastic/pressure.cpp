@@ -6,10 +6,10 @@
 namespace tribo::elastic {
 namespace {
 
-// e^-5: what eq. 1 leaves at the centre of the contact.
+// e^-5: the remainder of eq. 1 at the centre of the contact.
 constexpr double kCentre = 0x1.b993fe00d5376p-8;
 
-// Length of the decay around the contact, in half axes, that continues the slope at the contact's edge.
+// Decay length around the contact, in half axes. With it the slope is continuous at the edge of the contact.
 constexpr double kDecay = (1 - kEdgeDrop) * (1 - kCentre) / (5 * kEdgeDrop);
 
 constexpr double kLog2E = 0x1.71547652b82fep+0;

@@ -10,12 +10,12 @@
 namespace tribo::elastic {
 namespace {
 
-// A pressed tile whose nodes are all this near to where they go is not computed any further.
+// A pressed tile is not computed any further when all its nodes are this near to their target.
 constexpr float kStillMm = 1e-6F;
-// A free tile whose nodes are all this near to rest is put there.
+// A free tile is set to exact rest when all its nodes are this near to rest.
 constexpr float kRestMm = 1e-6F;
 
-// A row of nodes through an ellipse: node x at (u0 + x du, v0 + x dv) in half axes.
+// A row of nodes through an ellipse: node x is at (u0 + x du, v0 + x dv) in half axes.
 class Chord {
   public:
     Chord(double u0, double du, double v0, double dv)
@@ -25,13 +25,13 @@ class Chord {
 
     double step() const { return step_; }
     double miss2() const { return miss_ * miss_; }
-    // The column where it passes the centre, or the nearest of those that count exactly in float.
+    // The column where the row passes the centre, limited to columns that are exact in float.
     int middle() const { return static_cast<int>(std::clamp(-start_ / step_, -1e6, 1e6)); }
-    // Along it, from where it passes the centre.
+    // Position along the row, from the place where it passes the centre.
     double at(int column) const { return start_ + column * step_; }
 
-    // Columns of 0 .. columns - 1 that hold all nodes nearer than `radius`, in eights, and some more; {0, 0}:
-    // none.
+    // Returns columns of 0 .. columns - 1 that contain all nodes nearer than `radius`, in multiples of eight,
+    // with some more; {0, 0} if there are none.
     ColumnRange within(double radius, int columns) const {
         const double inside = radius * radius - miss2();
         if (!(radius > 0) || !(inside > 0)) return {};
@@ -47,7 +47,7 @@ class Chord {
     double step_, start_, miss_;
 };
 
-// The share of the way to P / K that one step covers.
+// Returns the share of the way to P / K that one step covers.
 double share_of(const SheetMaterial& m, double duration_s, TimeScheme scheme) {
     const double k = m.stiffness_n_per_mm, nu = m.viscosity_n_s_per_mm;
     if (nu <= 0) return 1;
@@ -113,7 +113,7 @@ void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const 
         const auto row = levels.subspan(static_cast<std::size_t>(y) * width, width);
         std::uint8_t* at = levels_.data() + kGuard + y * stride_;
         std::copy(row.begin(), row.end(), at);
-        // Nodes beyond the image do as its last column does.
+        // Nodes beyond the image repeat its last column.
         std::fill(at + size_.width, at + padded_, row.back());
     }
     for (std::size_t i = 0; i < palette.size(); ++i) {
@@ -124,7 +124,7 @@ void Sheet::set_materials(std::span<const std::uint8_t> levels, std::span<const 
     wake_all();
 }
 
-// All of it but what the first contact is going to write over.
+// Clears all pressures except those that the first contact will overwrite.
 void Sheet::clear_pressure() {
     const bool over = !options_.as_published && !contacts_.empty();
     const NodeRect kept = over ? tiles_under(contacts_.front(), kReach) : NodeRect{};
@@ -142,7 +142,7 @@ void Sheet::clear_pressure() {
     }
 }
 
-// The tiles that `reach` half axes of the contact's box meet, in tiles.
+// Returns the tiles that the box of `reach` half axes of the contact meets, in tiles.
 NodeRect Sheet::tiles_under(const ContactEllipse& c, double reach) const {
     double sine = 0, cosine = 0;
     math::sincos(c.angle_rad, sine, cosine);
@@ -195,7 +195,7 @@ void Sheet::press_default(const ContactEllipse& c, bool over) {
             flags(tiles.x + tx, ty) |= kPressed | kMoving;
         }
     }
-    // Nodes beyond the image do as its last column does.
+    // Nodes beyond the image repeat its last column.
     if (tiles.x + tiles.width < tiles_x_ || padded_ == size_.width) return;
     for (int y = tiles.y * kTileHeight; y < std::min(size_.height, (tiles.y + tiles.height) * kTileHeight);
          ++y) {
@@ -223,7 +223,7 @@ void Sheet::press(std::span<const ContactEllipse> contacts, const PressOptions& 
     touching_.clear();
     for (const ContactEllipse& c : contacts) {
         if (touches(c)) touching_.push_back(c);
-        // By default only the force counts, not how long it has lasted.
+        // By default only the force counts, not its duration.
         if (touches(c) && !options.as_published) touching_.back().held_s = 0;
     }
     if (touching_ == contacts_ && options == options_) return;
@@ -317,7 +317,7 @@ NormalRows Sheet::normal_rows(int row, int rows, int columns) const {
 void Sheet::relight_run(int tile_x, int tiles, int tile_y) {
     const SheetKernels& kernels = sheet_kernels();
     const int first = tile_y * kTileHeight, rows = rows_of(tile_y);
-    // The columns beside the run look into it, too.
+    // The columns beside the run also depend on it.
     const int x0 = std::max(0, tile_x * kTileWidth - 8);
     const int x1 = std::min(padded_, (tile_x + tiles) * kTileWidth + 8);
     kernels.normals(plane(heights_, first) + x0, plane(normals_x_, first) + x0, plane(normals_y_, first) + x0,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The viscoelastic sheet: an image as a grid of one node per pixel, each a spring and a damper side by side
-// that yields along z alone (touch paper, section 2.2, eq. 3): P = K E + nu dE/dt.
+// The viscoelastic sheet: an image as a grid of one node per pixel. Each node is a spring and a damper in
+// parallel and moves along z only (touch paper, section 2.2, eq. 3): P = K E + nu dE/dt.
 //
-// Node (i, j) stands at ((i + 0.5), (j + 0.5)) spacings from the image's top left corner. Displacements are
-// in mm, negative into the image, float32, in rows from the top. Only tiles of 16 x 16 nodes that move are
-// computed; a sheet at rest is exactly 0 everywhere and costs nothing. Whatever comes in, every number stays
-// finite. One thread at a time; memory is taken by the constructor, set_levels() and the first normals().
+// Node (i, j) is at ((i + 0.5), (j + 0.5)) spacings from the image's top left corner. Displacements are in
+// mm, negative into the image, float32, in rows from the top. Only tiles of 16 x 16 nodes that move are
+// computed. A sheet at rest is exactly 0 everywhere and costs nothing. Every number stays finite for any
+// input. One thread at a time; only the constructor, set_materials() and the first update_normals() allocate
+// memory.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ struct SheetSize {
 
 struct SheetMaterial {
     double stiffness_n_per_mm = 4;      // K: force over displacement, 1e-3..1e6
-    double viscosity_n_s_per_mm = 0.3;  // nu: 0..1e6; nu / K is the time to 63 % of the way
+    double viscosity_n_s_per_mm = 0.3;  // nu: 0..1e6; nu / K is the time to 63 % of the displacement
 };
 // Refuses numbers outside of the ranges above.
 Result<void> check(const SheetMaterial& material);
@@ -55,46 +56,48 @@ struct NodeRect {
 
 class Sheet {
   public:
-    // The size is in range (asserted).
+    // The size must be in range (asserted).
     explicit Sheet(SheetSize size);
 
-    // One material everywhere. It is in range (asserted).
+    // One material everywhere. It must be in range (asserted).
     void set_material(const SheetMaterial& material);
-    // One that differs: levels of width x height nodes, row by row, and what each level means.
+    // A material that varies: levels of width x height nodes, row by row, and the material of each level.
     void set_materials(std::span<const std::uint8_t> levels, std::span<const SheetMaterial, 256> palette);
 
-    // What presses from now on; pressures of several contacts add up. Contacts that do not touch()
-    // count as none. Costs nothing when nothing changed.
+    // Sets the contacts from now on; pressures of several contacts add up. Contacts that do not touch() are
+    // ignored. Costs nothing if nothing changed.
     void press(std::span<const ContactEllipse> contacts, const PressOptions& options = {});
-    // Lets `duration_s` pass; not above 0 or not finite: nothing happens. False: nothing moves any more.
+    // Advances the time by `duration_s`. A value that is not above 0 or not finite changes nothing. Returns
+    // false if nothing moves any more.
     bool step(double duration_s, TimeScheme scheme = TimeScheme::exact);
-    // Back to exact rest, pressed by nothing.
+    // Returns the sheet to exact rest without contacts.
     void reset();
 
     bool moving() const;
     const SheetSize& size() const { return size_; }
-    // Floats from row to row, of all planes.
+    // Floats from row to row, in all planes.
     std::ptrdiff_t stride() const { return stride_; }
     const float* heights(int row) const { return plane(heights_, row); }
     const float* pressures(int row) const { return plane(pressures_, row); }
 
-    // Brings the normals of what moved up to date. They are (x, y, sqrt(1 - x^2 - y^2)), out of the image.
+    // Updates the normals of the nodes that moved. They are (x, y, sqrt(1 - x^2 - y^2)), out of the image.
     void update_normals();
     const float* normals_x(int row) const { return plane(normals_x_, row); }
     const float* normals_y(int row) const { return plane(normals_y_, row); }
 
-    // The rectangle that holds all nodes moved since the last call.
+    // Returns the rectangle that contains all nodes moved since the last call.
     NodeRect take_changes();
 
   private:
     enum Flag : std::uint8_t { kPressed = 1, kMoving = 2, kRedraw = 4, kRelight = 8 };
 
-    // Rows start kGuard floats into the plane, and as many stand free between them.
+    // Rows start kGuard floats into the plane, with as many free floats between them.
     static constexpr std::ptrdiff_t kGuard = 8;
 
-    // A number for each node. Processors hold a store back behind loads whose addresses agree in the lowest
-    // twelve bits; so that node i of one plane is not at such an address of another, planes begin `skew`
-    // floats into their memory: normals in WebAssembly took more than twice as long without.
+    // One number for each node. Processors delay a store behind loads whose addresses agree in the lowest
+    // twelve bits. Therefore planes begin `skew` floats into their memory, so that node i of one plane has
+    // another such address than node i of the others. Without it, normals in WebAssembly took more than twice
+    // as long.
     struct Plane {
         std::ptrdiff_t skew;
         std::vector<float> values{};

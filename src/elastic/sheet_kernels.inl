@@ -27,7 +27,7 @@ TRIBO_LANES float largest(F v) {
     return most;
 }
 
-// Eight nodes by eq. 3: towards P / K by the share of the way that one step covers.
+// Advances eight nodes by eq. 3: towards P / K by the share of the way that one step covers.
 TRIBO_LANES void advance(float* e, const float* p, F compliance, F share, TileLanes& tile) {
     const F before = load<F>(e);
     const F way = load<F>(p) * compliance - before, reached = before + way * share;
@@ -59,7 +59,7 @@ void step(float* e, const float* p, std::ptrdiff_t stride, int tiles, int rows, 
     report(lanes, tiles, motion);
 }
 
-// table[level] of each lane; by single loads, which are no slower than a gather instruction.
+// table[level] of each lane, by single loads: they are as fast as a gather instruction.
 TRIBO_LANES F looked_up(const float* table, const std::uint8_t* level) {
     F v;
     for (int n = 0; n < kLanes; ++n) v[n] = table[level[n]];
@@ -105,8 +105,8 @@ TRIBO_LANES F counted() {
     return v;
 }
 
-// The nodes of `range`; `mixed`: some may lie within the contact's edge, else none does; `over`: replaced,
-// not added to.
+// Computes the nodes of `range`. `mixed`: some may lie within the contact's edge, else none does. `over`:
+// replaces the old values, else adds to them.
 template <bool mixed, bool over>
 TRIBO_LANES void press_range(float* p, ColumnRange range, const PressRow& row) {
     const ShareLaw& law = row.law;
@@ -125,7 +125,7 @@ TRIBO_LANES void press_range(float* p, ColumnRange range, const PressRow& row) {
         const F rho = sqrt(rho2), window = reach2 - rho2;
         F share;
         if constexpr (mixed) {
-            // The lesser exponent is that of the side where rho is.
+            // The smaller exponent is the one of the side where rho is.
             const F beyond = rho - origin;
             const I inside = rho < edge;
             const F power = exp2(min(inner_rate * beyond, outer_rate * beyond));

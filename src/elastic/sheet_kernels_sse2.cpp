@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For every processor: SSE2 on x86, whatever the target's baseline is elsewhere.
+// For every processor: SSE2 on x86, the baseline of the target elsewhere.
 #include "elastic/sheet_kernels.inl"
 
 namespace tribo::elastic {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For x86-64-v3 (AVX2): this file alone is compiled for it, so nothing of it may run before the processor was
-// asked.
+// For x86-64-v3 (AVX2). Only this file is compiled for it; none of its code may run before the processor was
+// checked.
 #include "base/processor.hpp"
 #include "elastic/sheet_kernels.inl"
 

@@ -8,14 +8,15 @@
 namespace tribo::elastic {
 namespace {
 
-// Sigmas, in the longer side.
+// Sigmas, relative to the longer side.
 constexpr double kFinest = 1.0 / 400, kCoarsest = 1.0 / 32;
-// Slope of noise, in brightness (0..1) over the longer side: what 8 bits and a JPEG leave of a plain surface.
+// Slope of noise, in brightness (0..1) over the longer side: the remainder of 8 bits and a JPEG on a plain
+// surface.
 constexpr double kNoise = 1;
 constexpr int kPasses = 3;
 
-// A box of 2 radius + 1 pixels, and of `ends` of a pixel more on both sides: kPasses of them make nearly a
-// Gaussian (Gwosdek, Grewenig, Bruhn, Weickert 2011).
+// A box of 2 radius + 1 pixels, and a share `ends` of one more pixel on both sides. kPasses of them are
+// nearly a Gaussian (Gwosdek, Grewenig, Bruhn, Weickert 2011).
 struct Box {
     int radius;
     double ends, inverse_sum;
@@ -45,7 +46,7 @@ void blur_once(const std::vector<float>& from, std::vector<float>& to, const Box
     }
 }
 
-// The plane with its rows blurred, columns as rows.
+// Returns the plane with its rows blurred and then transposed.
 std::vector<float> rows_blurred_and_turned(const std::vector<float>& plane, std::size_t width,
                                            const Box& box) {
     const std::size_t height = plane.size() / width;
@@ -84,7 +85,7 @@ SmallRelief small_relief(std::span<const std::uint8_t> rgba, int width, int heig
     std::vector<float> band = blurred(bright, columns, kFinest * longer);
     for (std::size_t i = 0; i < band.size(); ++i) band[i] -= coarse[i];
 
-    // Each twice as steep as it is.
+    // All slopes are twice the true ones.
     std::vector<float> slopes(2 * band.size());
     double sum = 0;
     for (std::size_t y = 0; y < rows; ++y) {
