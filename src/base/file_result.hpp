@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The result of a call that reads or writes a file: a value, or an error that says whether the caller named
-// something wrong or the system refused. The two end the program with different exit codes.
+// The result of a call that reads or writes a file: a value, or an error with its origin: a wrong input of
+// the caller or a refusal of the system. The two end the program with different exit codes.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@
 namespace tribo {
 
 enum class FileFault {
-    input,   // what was asked for is wrong: no such file, a folder, too long, not ours to replace
+    input,   // the request is wrong: no such file, a folder, too long, a file that we must not replace
     system,  // the file system refused: no right, no room, a broken disk
 };
 

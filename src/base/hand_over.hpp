@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From one thread to one other: the newest of something, or the use of something. A taker never waits.
+// Hands things from one thread to one other: the newest state of something, or the use of something. A taker
+// never waits.
 #pragma once
 
 #include <array>
@@ -8,20 +9,21 @@
 
 namespace tribo {
 
-// The giver owns what it posts, until the taker has it and again once the taker has let go: the taker counts
-// how far it has come. Both sides are lock-free with one atomic operation a call and may call at any time,
-// each from its one thread.
+// The giver owns the items that it posts, except while the taker holds them; the taker reports its progress.
+// Both sides are lock-free with one atomic operation per call. Each side calls at any time, from its own
+// single thread.
 template <class T>
 class HandOver {
   public:
-    // Giver: puts `item` there in place of what was not taken yet, which comes back (null: it was taken).
+    // Giver: posts `item` and returns the item that was not taken yet (null: it was taken).
     T* post(T* item) { return fresh_.exchange(item, std::memory_order_acq_rel); }
-    // Giver: how far the taker has come; what it let go of before is visible.
+    // Giver: returns the progress of the taker. Everything that the taker did with released items before is
+    // visible.
     std::uint64_t progress() const { return progress_.load(std::memory_order_acquire); }
 
-    // Taker: the newest that was posted since it last took something, or null.
+    // Taker: returns the newest item since the last call, or null.
     T* take() { return fresh_.exchange(nullptr, std::memory_order_acq_rel); }
-    // Taker: everything that the giver numbered below is no longer looked at.
+    // Taker: reports that it no longer uses anything with a number below this.
     void reached(std::uint64_t number) { progress_.store(number, std::memory_order_release); }
 
   private:
@@ -29,16 +31,16 @@ class HandOver {
     std::atomic<std::uint64_t> progress_{0};
 };
 
-// The newest state, copied: nobody sees half of anything. Three copies of T: one is the writer's, one the
-// reader's, one changes hands. What T owns is freed by the writer alone, when it fills a copy anew: a servo
-// may read tables that a slower thread rebuilds.
+// The newest state, copied, so that no reader sees a half-written one. There are three copies of T: one for
+// the writer, one for the reader, one in transit. Only the writer frees what T owns, when it fills a copy
+// again: a servo may read tables that a slower thread rebuilds.
 template <class T>
 class Snapshot {
   public:
     Snapshot() = default;
     explicit Snapshot(const T& first) : copies_{first, first, first} {}
 
-    // The writer's copy, to be filled; publish() hands it over.
+    // The writer's copy, to be filled. publish() hands it over.
     T& back() noexcept { return copies_[back_]; }
     void publish() noexcept {
         back_ =
@@ -49,7 +51,7 @@ class Snapshot {
         publish();
     }
 
-    // The reader's copy, the newest there is. Real-time safe.
+    // Returns the reader's copy, the newest state. Real-time safe.
     const T& read() noexcept {
         if (middle_.load(std::memory_order_relaxed) & kFresh)
             front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
@@ -63,19 +65,19 @@ class Snapshot {
     std::atomic<std::uint8_t> middle_{1};
 };
 
-// Something that its owner may take away again while another thread uses it now and then, for a short time.
+// An object that its owner may take away while another thread uses it from time to time, each time briefly.
 template <class T>
 class Loan {
   public:
-    // Owner: from now on this is lent (null: nothing). Comes back once the other thread has left what was
-    // lent before: waits as long as one use takes.
+    // Owner: lends this from now on (null: nothing). Returns once the other thread has left the item that was
+    // lent before: waits at most for one use.
     void lend(T* item) noexcept {
         item_.store(item);
         while (in_use_.load()) {
         }
     }
 
-    // The other thread: holds the item, if there is one, as long as this lives. Real-time safe.
+    // The other thread: holds the item, if there is one, as long as this object lives. Real-time safe.
     class Use {
       public:
         explicit Use(Loan& loan) noexcept : loan_(loan) {

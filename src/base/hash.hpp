@@ -14,12 +14,12 @@ namespace tribo {
 
 class Hash {
   public:
-    // Integers count as 64 bits, whatever their type: size_t hashes alike where it has 32.
+    // Integers count as 64 bits, whatever their type, so that a size_t of 32 bits gives the same hash.
     template <std::integral Integer>
     constexpr void add(Integer value) {
         add_bits(static_cast<std::uint64_t>(value), 8);
     }
-    // By their bits: -0 differs from 0; every NaN counts as the same one.
+    // Floating-point numbers count by their bits: -0 differs from 0; all NaNs count as the same one.
     constexpr void add(double value) {
         add_bits(value == value ? std::bit_cast<std::uint64_t>(value) : 0x7ff8000000000000, 8);
     }

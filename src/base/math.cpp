@@ -16,7 +16,7 @@ using namespace tables;
 constexpr double kExpOverflow = 0x1.62e42fefa39efp9;
 constexpr double kExpUnderflow = -0x1.74910d52d3051p9;
 
-// y 2^k for 1/2 < y < 2, rounded once where the result is subnormal.
+// y 2^k for 1/2 < y < 2, rounded once if the result is subnormal.
 double scaled(double y, int k) {
     if (k > 1023) return y * 2 * power_of_two(k - 1);
     if (k > -1022) return y * power_of_two(k);
@@ -66,7 +66,7 @@ Pair log_pair(double x) {
     return fast_two_sum(b.hi, (a.lo + b.lo) + (small + (k * kLn2Lo + row.minus_log_lo)));
 }
 
-// What a logarithm gives for x that is not positive and finite.
+// Returns the logarithm for an x that is not positive and finite.
 double log_special(double x) {
     return x == 0 ? -kInfinity : x > 0 ? x : kNan;
 }
@@ -145,8 +145,8 @@ double cbrt(double x) {
     const double a = std::bit_cast<double>((bits & 0x000fffffffffffff) | 0x3ff0000000000000) *
                      power_of_two(exponent - 3 * third);
 
-    // The parabola through (1, 1), (27/8, 3/2), (8, 2) is good to 3 %, two Halley steps to 1e-14; the last
-    // step starts from 26 bits, whose square is exact.
+    // The parabola through (1, 1), (27/8, 3/2), (8, 2) is accurate to 3 %, two Halley steps to 1e-14. The
+    // last step starts from 26 bits, whose square is exact.
     double t = 1 + (a - 1) * (4.0 / 19.0) - (a - 1) * (a - 3.375) * (4.0 / 19.0 - 4.0 / 37.0) / 7;
     for (int i = 0; i < 2; ++i) {
         const double cube = t * t * t;

@@ -13,7 +13,8 @@ namespace tribo::math::parts {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Adding and subtracting it rounds a double below 2^51 to an integer, whose lowest bits stand in the sum's.
+// Adding and subtracting this rounds a double below 2^51 to an integer. The lowest bits of the sum are the
+// lowest bits of this integer.
 inline constexpr double kRoundShift = 0x1.8p52;
 
 struct Pair {
@@ -26,7 +27,7 @@ inline Pair two_sum(double a, double b) {
     return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-// The exact sum where |a| >= |b| or a is 0 (Dekker 1971).
+// The exact sum if |a| >= |b| or a is 0 (Dekker 1971).
 inline Pair fast_two_sum(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
@@ -38,7 +39,7 @@ inline Pair split(double x) {
     return {hi, x - hi};
 }
 
-// The exact product (Dekker 1971); no part may overflow or fall below the normal range.
+// The exact product (Dekker 1971). No part may overflow or fall below the normal range.
 inline Pair two_product(double a, double b) {
     const double product = a * b;
     const Pair x = split(a), y = split(b);
@@ -50,7 +51,7 @@ inline double power_of_two(int k) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(k + 1023) << 52);
 }
 
-// Coefficients from the constant up.
+// Coefficients in ascending order, from the constant on.
 template <int N>
 inline double horner(const double (&coefficients)[N], double x) {
     double value = coefficients[N - 1];

@@ -19,17 +19,17 @@ struct Angle {
     unsigned quadrant;  // x = rest + quadrant pi/2, modulo 2 pi
 };
 
-// Above it n times a 33-bit part of pi/2 would no longer be exact (n < 2^20).
+// Above this, n times a 33-bit part of pi/2 would no longer be exact (n < 2^20).
 constexpr double kLargestForParts = 1e5;
 
-// Payne and Hanek 1983: the bits of 2/pi that matter times the 53-bit integer m of x = m 2^e, modulo 4.
+// Payne and Hanek 1983: the relevant bits of 2/pi times the 53-bit integer m of x = m 2^e, modulo 4.
 Angle reduce_large(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const std::uint64_t m = (bits & 0x000fffffffffffff) | 0x0010000000000000;
     const int e = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
 
-    // Three words of 2/pi from the bit of weight 2^(1 - e) on; what stands before is a multiple of 4 after
-    // all. Weights above 2^-1 (e < 2) are zero bits.
+    // Three words of 2/pi from the bit of weight 2^(1 - e) on. The bits before them only add multiples of 4.
+    // Weights above 2^-1 (e < 2) are zero bits.
     const int first = e - 2 + 64;
     const auto word = [](int i) { return i == 0 ? std::uint64_t{0} : kTwoOverPiBits[i - 1]; };
     const int index = first / 64, shift = first % 64;
@@ -44,7 +44,7 @@ Angle reduce_large(double x) {
     const Wide middle = Wide{m} * window[1] + (low >> 64);
     const std::uint64_t high = m * window[0] + static_cast<std::uint64_t>(middle >> 64);
 
-    // high : middle : low in units of 2^-190 turns of a quadrant; 128 bits of fraction are enough, since no
+    // high : middle : low in units of 2^-190 turns of a quadrant. 128 bits of fraction are enough, because no
     // double comes nearer than 2^-62 to a multiple of pi/2.
     unsigned quadrant = static_cast<unsigned>(high >> 62);
     Wide fraction = (Wide{high} << 66) | (Wide{static_cast<std::uint64_t>(middle)} << 2) |
@@ -76,7 +76,7 @@ Angle reduce(double x) {
         if (!(size < kInfinity)) return {{kNan, kNan}, 0};
         return reduce_large(x);
     }
-    // Cody and Waite 1980 with three exact parts of pi/2 and a tail: good to 2^-138 for |x| <= 1e5.
+    // Cody and Waite 1980 with three exact parts of pi/2 and a tail: accurate to 2^-138 for |x| <= 1e5.
     const double shifted = x * kTwoOverPi + kRoundShift;
     const double n = shifted - kRoundShift;
     const Pair a = two_sum(x - n * kHalfPiPart1, -(n * kHalfPiPart2));
@@ -85,7 +85,7 @@ Angle reduce(double x) {
     return {rest, static_cast<unsigned>(std::bit_cast<std::uint64_t>(shifted) & 3)};
 }
 
-// What sin r lacks to r.hi, |r| <= pi/4.
+// Returns sin r - r.hi, |r| <= pi/4.
 inline double sin_correction(Pair r) {
     const double z = r.hi * r.hi;
     return r.hi * z * horner(kSin, z) + (r.lo - 0.5 * z * r.lo);

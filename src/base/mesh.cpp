@@ -21,7 +21,7 @@ std::uint32_t bits_of(float value) {
 
 using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-// Sorted; the other way round where `turned`.
+// Returns the edges sorted; reversed if `turned`.
 std::vector<DirectedEdge> directed_edges(const TriangleMesh& mesh, bool turned) {
     std::vector<DirectedEdge> edges;
     edges.reserve(3 * mesh.triangles.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A triangle mesh: what readers give, meshing makes and writers take. Positions in mm unless a name says
-// otherwise.
+// A triangle mesh: the output of readers and meshing, the input of writers. Positions in mm unless a name
+// says otherwise.
 #pragma once
 
 #include <array>
@@ -26,18 +26,18 @@ Box3 bounds(const TriangleMesh& mesh);
 double area_mm2(const TriangleMesh& mesh);
 // Signed volume by the divergence theorem; meaningful for a closed mesh only.
 double volume_mm3(const TriangleMesh& mesh);
-// True when every edge is shared by exactly two triangles that run through it in opposite directions.
+// True if every edge is shared by exactly two triangles that traverse it in opposite directions.
 bool is_closed(const TriangleMesh& mesh);
-// True when every edge is run through as often in one direction as in the other, by however many triangles:
+// True if every edge is traversed equally often in both directions, by any number of triangles. This is
 // enough for a winding number.
 bool is_watertight(const TriangleMesh& mesh);
-// A triangle that uses a vertex twice.
+// True for a triangle that uses a vertex twice.
 constexpr bool is_degenerate(const Triangle& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
-// Lets triangles use the first of all positions of equal value (-0 equals 0); normals are dropped, positions
-// stay, also those no longer used, and so do triangles that come to use a vertex twice. By sorting, so
-// neither the result nor the time (n log n) depends on how the values lie.
+// Makes triangles use the first one of all positions with equal value (-0 equals 0). Drops the normals. Keeps
+// all positions, also unused ones, and all triangles, also those that then use a vertex twice. It sorts;
+// therefore neither the result nor the time (n log n) depends on the order of the values.
 void weld_exactly(TriangleMesh& mesh);
 
 }  // namespace tribo

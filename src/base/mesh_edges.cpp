@@ -7,7 +7,7 @@
 namespace tribo {
 namespace {
 
-// An edge and which way a triangle runs through it.
+// An edge and the direction in which a triangle traverses it.
 struct Side {
     std::uint32_t low, high;
     bool upward;
@@ -15,7 +15,7 @@ struct Side {
     bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
 };
 
-// Sets of vertices that hang together (Tarjan 1975, by halving paths).
+// Sets of connected vertices (Tarjan 1975, by path halving).
 class Groups {
   public:
     explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -29,7 +29,7 @@ class Groups {
         b = of(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
-    // Sets that hold one of the marked vertices.
+    // Returns the number of sets that contain a marked vertex.
     std::uint64_t count(const std::vector<bool>& marked) {
         std::vector<bool> met(parent_.size());
         std::uint64_t sets = 0;

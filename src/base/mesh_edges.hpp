@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the triangles of a mesh hang together.
+// How the triangles of a mesh are connected.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace tribo {
 struct MeshEdges {
     std::uint64_t open = 0;     // edges of one triangle
     std::uint64_t crowded = 0;  // edges of more than two
-    std::uint64_t turned = 0;   // edges of two triangles that run through it the same way: one is inside out
+    std::uint64_t turned = 0;   // edges of two triangles that traverse them the same way: one is inside out
     std::uint64_t holes = 0;    // connected runs of open edges
-    std::uint64_t pieces = 0;   // triangles that hang together by corners
+    std::uint64_t pieces = 0;   // groups of triangles that are connected by corners
 };
 
-// By indices: weld meshes whose corners are written more than once. By sorting, n log n; takes 36 bytes a
-// triangle meanwhile.
+// Works by indices: weld meshes whose corners are stored more than once. By sorting, n log n; uses 36 bytes
+// per triangle meanwhile.
 MeshEdges describe_edges(const TriangleMesh& mesh);
 
 }  // namespace tribo

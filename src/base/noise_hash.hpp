@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// White noise without state: sample n of a stream is a hash of its seed and n, so that any place of it can be
-// played first, and twice, with the same bits. Streams of different seeds are independent. Any thread; no
+// White noise without state: sample n of a stream is a hash of its seed and n. So any part of it can be
+// played first, or twice, with the same bits. Streams of different seeds are independent. Any thread; no
 // allocation.
 #pragma once
 
@@ -16,11 +16,11 @@ class CounterNoise {
     constexpr std::uint64_t bits(std::uint64_t counter) const {
         return mix(key_ + counter * 0x9e3779b97f4a7c15);
     }
-    // Even over [0, 1), multiples of 2^-53.
+    // Uniform over [0, 1), multiples of 2^-53.
     constexpr double uniform(std::uint64_t counter) const {
         return static_cast<double>(bits(counter) >> 11) * 0x1p-53;
     }
-    // Mean 0, variance 1, kurtosis 3, close to Gaussian: the sum of four 16-bit numbers, bent by the cubic
+    // Mean 0, variance 1, kurtosis 3, close to Gaussian: the sum of four 16-bit numbers, shaped by the cubic
     // term of Cornish and Fisher 1938. Never beyond 4.07.
     constexpr double gaussian(std::uint64_t counter) const {
         const std::uint64_t b = bits(counter);
@@ -30,8 +30,8 @@ class CounterNoise {
     }
 
   private:
-    // Of z with moments 1, 2.7, 153/14, 55.8, ... (the sum, scaled), a z^3 + (1 - 3 a) z has kurtosis 3 at
-    // this a, and one over the root of its variance is the scale.
+    // z is the scaled sum, with the moments 1, 2.7, 153/14, 55.8, ... For this a, a z^3 + (1 - 3 a) z has
+    // kurtosis 3. The scale is one over the root of its variance.
     static constexpr double kA = 0.01854949972279291;
     static constexpr double kScale = 1.0049600395825102;
     static constexpr double kCubic = kA * kScale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Threads come in from outside: whoever owns a thread pool hands its loop to the rooms as a ParallelFor.
+// Rooms create no threads: the owner of a thread pool passes its loop to the rooms as a ParallelFor.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace tribo {
 
-// Calls body(0) ... body(count - 1), each once, in any order, possibly at the same time; returns when all are
+// Calls body(0) ... body(count - 1), each once, in any order, possibly at the same time. Returns when all are
 // done. A room may only pass bodies whose results do not depend on that order.
 using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the processor that this runs on can do. Any thread.
+// Abilities of the processor that runs the program. Any thread.
 #pragma once
 
 namespace tribo {
 
-// AVX2 and what else x86-64-v3 stands for; false on every other kind of processor, so that kernels built for
-// it are left out of the program there.
+// True if the processor has AVX2 and the rest of x86-64-v3. Constant false on other kinds of processor, so
+// that the program does not contain the kernels built for it.
 #ifdef __x86_64__
 bool has_x86_64_v3();
 #else

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Where a number of a file may lie. Plain data.
+// The allowed range of a number in a file. Plain data.
 #pragma once
 
 #include <limits>
 
 namespace tribo {
 
-// Both ends belong to it unless `above` says that the lower one does not.
+// Both ends belong to the range; if `above` is true, the lower end does not.
 struct Range {
     double min = -std::numeric_limits<double>::max();
     double max = std::numeric_limits<double>::max();
     bool above = false;
 
-    // False for what is not a number.
+    // False for NaN.
     constexpr bool contains(double value) const {
         return value <= max && (above ? value > min : value >= min);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a function gives that can fail on its input: a value, or an Error that a person can act on.
+// The result of a function that can fail on its input: a value, or an Error with a remedy for the user.
 // Program errors are asserts, never Errors.
 #pragma once
 
@@ -11,13 +11,13 @@
 namespace tribo {
 
 struct Error {
-    std::string file;    // as the user named it; empty when no file is involved
-    int line = 0;        // from 1; 0: not about one line
-    int column = 0;      // from 1; 0: not about one column
-    std::string cause;   // what is wrong, as a clause without a full stop
-    std::string remedy;  // what to do about it, as an imperative clause; may be empty
+    std::string file;    // as given by the user; empty if no file is involved
+    int line = 0;        // from 1; 0: no specific line
+    int column = 0;      // from 1; 0: no specific column
+    std::string cause;   // the fault, as a clause without a full stop
+    std::string remedy;  // the remedy, as an imperative clause; may be empty
 
-    // `file:line:column: error: cause; remedy`, leaving out what is not known.
+    // `file:line:column: error: cause; remedy`, without the unknown parts.
     std::string text() const;
 };
 
@@ -32,10 +32,10 @@ inline std::unexpected<Error> fail_at(std::string file, int line, int column, st
     return std::unexpected(Error{std::move(file), line, column, std::move(cause), std::move(remedy)});
 }
 
-// Something read and understood with an assumption that the user should know of.
+// Input that was read with an assumption that the user should know.
 struct Warning {
     std::string file;
-    int line = 0;  // from 1; 0: not about one line
+    int line = 0;  // from 1; 0: no specific line
     std::string text;
 
     // `file:line: warning: text`

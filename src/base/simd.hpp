@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Lanes: the same formula for one double and for eight floats at once, with GCC/Clang vector extensions, so
-// that one source serves SSE2, AVX2, NEON and WebAssembly with the same bits. Functions are always inlined
-// and of internal linkage: a file compiled for a newer processor must not lend its code to one that is not.
+// Lanes: the same formula for one double and for eight floats at once, with GCC/Clang vector extensions. One
+// source serves SSE2, AVX2, NEON and WebAssembly with the same bits. Functions are always inlined and have
+// internal linkage: otherwise the linker could use the code of a file compiled for a newer processor on an
+// older one.
 #pragma once
 
 #include <cmath>
@@ -24,12 +25,12 @@ using F8 = float __attribute__((vector_size(32)));
 using I8 = int __attribute__((vector_size(32)));
 using S8 = short __attribute__((vector_size(16)));
 #if defined(__wasm_simd128__)
-// Half as many: what WebAssembly has registers for. Loops that keep many values do better with these there.
+// Four lanes: the size of WebAssembly registers. Loops that keep many values are faster with these there.
 using F4 = float __attribute__((vector_size(16)));
 using I4 = int __attribute__((vector_size(16)));
 #endif
 
-// What a comparison of two T gives.
+// The type of a comparison of two T.
 template <class T>
 struct MaskOf {
     using type = bool;
@@ -65,7 +66,7 @@ TRIBO_LANES F8 select(I8 m, F8 a, F8 b) {
 }
 
 #if !defined(__AVX__) && (defined(__SSE2__) || defined(__wasm_simd128__))
-// An operation that the processor has for four lanes, on both halves of eight.
+// Applies an operation that the processor has for four lanes to both halves of eight.
 template <class Operation>
 TRIBO_LANES F8 by_halves(F8 a, F8 b, Operation operation) {
 #if defined(__SSE2__)
@@ -83,7 +84,7 @@ TRIBO_LANES F8 by_halves(F8 a, F8 b, Operation operation) {
 }
 #endif
 
-// b < a ? b : a, and a < b ? b : a: what the instructions do, whatever is equal or no number.
+// b < a ? b : a, and a < b ? b : a: the behaviour of the instructions, also for equal values and NaN.
 template <class T>
 TRIBO_LANES T min(T a, T b) {
 #if defined(__AVX__)
@@ -161,7 +162,7 @@ TRIBO_LANES bool either(bool a, bool b) {
 TRIBO_LANES I8 either(I8 a, I8 b) {
     return a | b;
 }
-// Whether it holds in any lane.
+// True if it holds in any lane.
 TRIBO_LANES bool any(bool m) {
     return m;
 }
@@ -183,12 +184,12 @@ TRIBO_LANES bool any(I8 m) {
 #endif
 }
 
-// Each lane's right neighbour; the last lane stays.
+// Returns the right neighbour of each lane; the last lane keeps its value.
 TRIBO_LANES F8 next(F8 v) {
     return __builtin_shufflevector(v, v, 1, 2, 3, 4, 5, 6, 7, 7);
 }
 
-// The integers beside the floats F.
+// The integer vector of the same size as the float vector F.
 template <class F>
 using BitsOf = decltype(F{} < F{});
 
@@ -202,19 +203,20 @@ template <class F>
 TRIBO_LANES F keep(BitsOf<F> m, F a) {
     return reinterpret_cast<F>(m & reinterpret_cast<BitsOf<F>>(a));
 }
-// |a|, of a zero always the positive one.
+// |a|; the zero is always positive.
 template <class F>
 TRIBO_LANES F magnitude(F a) {
     return reinterpret_cast<F>(reinterpret_cast<BitsOf<F>>(a) & 0x7fffffff);
 }
 
-// 2^x for x in -126..126, within 4e-7 of it.
+// 2^x for x in -126..126, with an error within 4e-7 of it.
 template <class F>
 TRIBO_LANES F exp2(F x) {
-    // Adding it leaves the nearest whole number in the lowest bits.
+    // Adding this leaves the nearest integer in the lowest bits.
     const F shift = all<F>(0x1.8p23f);
     const F shifted = x + shift, part = x - (shifted - shift);
-    // Chebyshev, degree 5; nested, which is fewest operations: a loop over many x has others to do meanwhile.
+    // Chebyshev, degree 5, in nested form with the fewest operations: a loop over many x has other operations
+    // to run meanwhile.
     F power = all<F>(1.340043217e-3f) * part + all<F>(9.676037098e-3f);
     power = power * part + all<F>(5.550327214e-2f);
     power = power * part + all<F>(0.2402210736f);
@@ -243,7 +245,7 @@ TRIBO_LANES void store(float* p, F4 v) {
 }
 #endif
 
-// A mask for lanes of 16 bits.
+// A mask for 16-bit lanes.
 TRIBO_LANES S8 narrow(I8 m) {
     return __builtin_convertvector(m, S8);
 }

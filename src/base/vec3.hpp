@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points and vectors of three doubles, and axis-aligned boxes. Header only; every operation is + - * / sqrt,
-// so it gives the same bits on every compiler.
+// Points and vectors of three doubles, and axis-aligned boxes. Header only. All operations are + - * / sqrt,
+// so that they give the same bits on every compiler.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,7 @@ inline bool is_finite(Vec3 a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-// The unit vector along a, or `fallback` where a has no direction (zero or non-finite length).
+// The unit vector along a, or `fallback` if a has no direction (zero or non-finite length).
 inline Vec3 normalized(Vec3 a, Vec3 fallback = {0, 0, 1}) {
     const double l = length(a);
     return l > 0 && std::isfinite(l) ? a / l : fallback;

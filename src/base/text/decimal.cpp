@@ -18,22 +18,23 @@ bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-// Where a double's rounding turns on a digit, it is one of the first 767: beyond it, only whether anything
-// follows matters (Clinger 1990; the longest halfway case is that of the smallest normal double).
+// If the rounding of a double depends on a digit, it is one of the first 767. Beyond it, only the presence of
+// a further non-zero digit matters (Clinger 1990; the longest halfway case is that of the smallest normal
+// double).
 constexpr int kDecisiveDigits = 768;
-constexpr int kWordDigits = 19;  // fit 64 bits
+constexpr int kWordDigits = 19;  // fits 64 bits
 
 // A number as read: 0.d1 d2 d3 ... times 10^point, with d1 not 0.
 struct Decimal {
-    std::string_view text;      // the digits, with the decimal point among them somewhere
+    std::string_view text;      // the digits, possibly with the decimal point among them
     std::int64_t point = 0;     // decimal exponent
-    std::uint64_t leading = 0;  // the first kWordDigits digits at most
+    std::uint64_t leading = 0;  // at most the first kWordDigits digits
     int leading_count = 0;
     bool more = false;  // digits other than 0 follow the leading ones
 };
 
-// mantissa 2^exponent, with mantissa's top bit set and `sticky` saying that something smaller follows,
-// rounded to nearest, ties to even.
+// mantissa 2^exponent, rounded to nearest, ties to even. The top bit of the mantissa is set; `sticky` means
+// that smaller non-zero bits follow.
 double rounded(std::uint64_t mantissa, int exponent, bool sticky) {
     const int top = exponent + 63;  // value in [2^top, 2^(top + 1))
     if (top > 1023) return std::numeric_limits<double>::infinity();
@@ -43,7 +44,7 @@ double rounded(std::uint64_t mantissa, int exponent, bool sticky) {
     const std::uint64_t half = std::uint64_t{1} << (dropped - 1);
     const std::uint64_t rest = mantissa & ((half << 1) - 1);
     const bool up = rest > half || (rest == half && (sticky || (kept & 1)));
-    // A carry out of the mantissa is the next exponent's bits, up to infinity's.
+    // A carry out of the mantissa increases the exponent, up to that of infinity.
     const std::uint64_t biased = top >= -1022 ? static_cast<std::uint64_t>(top + 1022) << 52 : 0;
     return std::bit_cast<double>(biased + kept + (up ? 1 : 0));
 }
@@ -100,7 +101,7 @@ class Large {
         while (top > 0 && words_[at(top)] == 0) --top;
         return 32 * top + 32 - std::countl_zero(words_[at(top)]);
     }
-    // Subtracts `other` where that is not below 0; says whether it did.
+    // Subtracts `other` if the result is not below 0. Returns true if it did.
     bool try_subtract(const Large& other) {
         for (int i = std::max(size_, other.size_) - 1; i >= 0; --i) {
             const std::uint32_t a = word(i), b = other.word(i);
@@ -129,7 +130,7 @@ class Large {
     int size_;
 };
 
-// The exact way: the quotient of two large integers, to 64 bits and whether anything remains.
+// The exact method: the quotient of two large integers, to 64 bits, and whether there is a remainder.
 double from_all_digits(const Decimal& decimal) {
     Large numerator{0};
     std::int64_t count = 0;

@@ -6,7 +6,7 @@
 namespace tribo {
 namespace {
 
-// Bytes of the UTF-8 character that `text` starts with; 0: it is none (RFC 3629).
+// Returns the number of bytes of the UTF-8 character at the start of `text`; 0 if there is none (RFC 3629).
 std::size_t character_bytes(std::string_view text) {
     const auto byte = [&](std::size_t n) {
         return n < text.size() ? static_cast<unsigned char>(text[n]) : 0U;
@@ -16,7 +16,7 @@ std::size_t character_bytes(std::string_view text) {
     if (first < 0x80) return 1;
     if (first < 0xc2 || first > 0xf4 || !goes_on(1)) return 0;
     if (first < 0xe0) return 2;
-    // Overlong forms, surrogates, and what is beyond the last character.
+    // Refuses overlong forms, surrogates, and codes beyond the last character.
     if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
         (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90) || !goes_on(2)) {
         return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strings in JSON (RFC 8259), for what a page's module writes, which has no JSON library. Any thread.
+// Strings in JSON (RFC 8259), for the modules of the pages, which have no JSON library. Any thread.
 #pragma once
 
 #include <string>

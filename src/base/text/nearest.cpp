@@ -7,7 +7,7 @@
 namespace tribo {
 namespace {
 
-// From this share of wrong letters on a word is more likely strange than mistyped.
+// From this share of wrong letters on, a word is more likely unknown than mistyped.
 constexpr double kCloseShare = 0.5;
 
 char lower(char c) {
@@ -41,7 +41,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
     for (const std::string_view candidate : candidates) {
         int distance = edit_distance(word, candidate);
         if (!word.empty() && candidate.starts_with(word))
-            distance = std::min(distance, 1);  // cut short, not mistyped
+            distance = std::min(distance, 1);  // abbreviated, not mistyped
         if (least < 0 || distance < least) {
             least = distance;
             best = candidate;
