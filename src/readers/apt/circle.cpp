@@ -11,12 +11,12 @@
 namespace tribo::readers::apt {
 namespace {
 
-// By how far points may be off their circle, mm: the rounding of coordinates and radius in inches with three
-// decimals.
+// Largest distance of a point from its circle, mm: the rounding of coordinates and radius in inches with
+// three decimals.
 constexpr double kOnCircleMm = 0.02;
-// Ends nearer than this are one point, mm.
+// Ends closer than this count as one point, mm.
 constexpr double kSamePointMm = 1e-6;
-// By how much a stated turn may differ from that of the points.
+// Largest difference between a stated turn and the turn of the points.
 constexpr double kTurnToleranceRad = 0.02;
 constexpr double kMostTurns = 10'000;
 
@@ -31,7 +31,7 @@ std::string mm_text(double value) {
     return short_decimal(value) + " mm";
 }
 
-// The place of an item that spells the word; the count of items where there is none.
+// Returns the index of the first item equal to the word; the number of items if there is none.
 std::size_t find_word(const Statement& statement, std::string_view word) {
     std::size_t i = 0;
     while (i < statement.items.size() && !matches(statement.items[i].text, word)) ++i;
@@ -141,7 +141,7 @@ Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward, 
         return report.refuse(statement.word, "a circle of CATIA in a form that is not known",
                              "write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)");
     };
-    // The numbers of both, their words and brackets taken away.
+    // Numbers of CIRCLE and LINE, without words and brackets.
     Statement plain;
     plain.word = statement.word;
     std::array<std::string_view, 2> opens{"(CIRCLE/", "(LINE/"};
@@ -173,7 +173,7 @@ Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward, 
     if (out.circle.radius_mm <= kOnCircleMm)
         return report.refuse(plain.items[3], "a circle without a radius", kCorrect);
     out.end_mm = frame.point(*end);
-    // It leaves the start along `forward`, about the tool axis one way or the other.
+    // The arc leaves the start along `forward` and turns about the tool axis in either direction.
     const Vec3 from = path.place()->tip_mm - out.circle.centre_mm;
     const Vec3 about = cross(from, frame.turn(forward));
     const Vec3 axis = path.place()->axis;

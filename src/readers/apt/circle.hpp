@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Circular moves of APT: the circle comes first, the end with the next GOTO.
+// Circular moves of APT. A statement gives the circle, the next GOTO its end.
 #pragma once
 
 #include <optional>
@@ -8,31 +8,31 @@
 
 namespace tribo::readers::apt {
 
-// In the program's frame.
+// In the frame of the program.
 struct Circle {
-    Vec3 centre_mm, normal;  // turned about counter-clockwise seen from where the normal points
+    Vec3 centre_mm, normal;  // the arc turns counter-clockwise, seen from the tip of the normal
     double radius_mm = 0;
-    std::optional<double> turn_rad;  // where the program states it
+    std::optional<double> turn_rad;  // absent: the program does not state it
     double more_turns = 0;           // TIMES
     Item at;
 };
 
 // Spellings:
-//   CIRCLE/x,y,z,i,j,k,r            ISO 4343, Creo; NX with tolerances behind
-//   MOVARC/x,y,z,i,j,k,r,ANGLE,a    exporters of Autodesk, TIMES,n as well
+//   CIRCLE/x,y,z,i,j,k,r            ISO 4343, Creo; NX adds tolerances
+//   MOVARC/x,y,z,i,j,k,r,ANGLE,a    exporters of Autodesk; may have TIMES,n
 //   MOVARC/CENTER,x,y,z,AXIS,i,j,k,RADIUS,r
 Result<Circle> read_circle(const Statement& statement, Path& path, Report& report);
 
-// Whether the tip may lie on the circle, or on a helix about its axis.
+// True when the tip lies on the circle, or on a helix about its axis.
 bool is_on(const Circle& circle, Vec3 tip_mm);
 
-// The arc from where the tool is to `end`; a full turn where that is the same point. A turn that the program
-// states decides on the direction where it is the other way round about the normal.
+// Returns the arc from `start_mm` to `end_mm`, a full turn if both are the same point. If the turn that the
+// program states agrees only with the opposite direction about the normal, the arc takes that direction.
 Result<motion::Arc> arc_to(const Circle& circle, Vec3 start_mm, Vec3 end_mm, const Item& at,
                            const Report& report);
 
-// CATIA: TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,xe,ye,ze), `forward` being the direction of INDIRV. The
-// second point of the line is the end.
+// Reads TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,xe,ye,ze) of CATIA. `forward` is the direction of INDIRV.
+// The second point of the line is the end.
 struct CatiaCircle {
     Circle circle;
     Vec3 end_mm;

@@ -8,8 +8,8 @@
 namespace tribo::readers::apt {
 namespace {
 
-// Pecks come back to this above the depth they reached, and chips are broken by going back this far, mm:
-// LinuxCNC's figure; controls have theirs in a parameter that no program states.
+// After a peck the tool returns to this distance above the reached depth; a chip is broken by a retract of
+// this length, mm. Value of LinuxCNC; other controls have a parameter that no program states.
 constexpr double kPeckGapMm = 0.254;
 constexpr double kMostPecks = 10'000;
 constexpr double kLongestDwellS = 86'400;
@@ -77,7 +77,7 @@ class CycleReader {
     }
 
   private:
-    // DRILL; NX adds how: DRILL,DEEP or DRILL,BRKCHP or BORE,NODRAG.
+    // DRILL; NX adds the kind: DRILL,DEEP or DRILL,BRKCHP or BORE,NODRAG.
     Result<void> read_kind() {
         if (items_.empty()) return report_.refuse(cycle_.at, "CYCLE without a kind", "write CYCLE/DRILL");
         for (; at_ < items_.size(); ++at_) {
@@ -129,7 +129,7 @@ class CycleReader {
         const double mm = *value * unit_mm_;
         switch (key) {
             case Key::depth:
-                cycle_.depth_mm = std::abs(mm);  // NX writes the way up, so a minus
+                cycle_.depth_mm = std::abs(mm);  // NX writes the upward distance, which is negative
                 break;
             case Key::clearance:
                 cycle_.clearance_mm = mm;
@@ -172,7 +172,7 @@ class CycleReader {
         return {};
     }
 
-    // depth, feed (with its unit before or behind), clearance.
+    // depth, feed (with its unit before or after it), clearance.
     Result<void> read_places() {
         std::array<double, 3> value{};
         std::size_t count = 0;

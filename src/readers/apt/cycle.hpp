@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Canned cycles of APT: what is done at each GOTO until CYCLE/OFF.
+// Canned cycles of APT: the moves at each GOTO until CYCLE/OFF.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,27 @@ struct Cycle {
     enum class Way {
         through,  // down at feed, out at rapid
         peck,     // out of the hole after each peck
-        chip,     // back a little after each peck
+        chip,     // back by a short distance after each peck
         bore,     // down and out at feed
     };
     Way way = Way::through;
-    // Along the tool axis from the point of the GOTO, which lies where the hole begins, mm.
+    // Lengths along the tool axis from the point of the GOTO (the top of the hole), mm.
     double depth_mm = 0;      // FEDTO, DEPTH: below it
     double clearance_mm = 0;  // RAPTO, CLEAR: above it; the feed begins here
-    double retract_mm =
-        0;  // RTRCTO, RETURN: above it; where the tool ends; the clearance where none is given
-    double first_peck_mm = 0, peck_mm = 0;  // 0: in one go
+    double retract_mm = 0;    // RTRCTO, RETURN: above it; the tool ends here; default: the clearance
+    double first_peck_mm = 0, peck_mm = 0;  // 0: no pecks
     double dwell_s = 0;                     // at the bottom
-    std::optional<Feed> feed;               // else the one in force
+    std::optional<Feed> feed;               // absent: the feed in force
     Item at;
 };
 
-// CYCLE/ with a kind and either words (FEDTO, DEPTH, RAPTO, CLEAR, RTRCTO, RETURN, STEP, 1STPECK, SUBPECK,
-// DWELL, MMPM, ...) or, as CATIA and old processors write it, depth, feed and clearance in this order.
+// Reads CYCLE/ with a kind and its values. The values are words (FEDTO, DEPTH, RAPTO, CLEAR, RTRCTO, RETURN,
+// STEP, 1STPECK, SUBPECK, DWELL, MMPM, ...) or, in CATIA and old processors, depth, feed and clearance in
+// this order.
 Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report);
 
-// The hole at `point`: rapid to the retract height over it, rapid to the clearance, down, out.
+// Makes the moves of the hole at `point`: rapid to the retract height above it, rapid to the clearance, down,
+// out.
 Result<void> drill(const Cycle& cycle, const motion::ToolPose& point, const Item& at, Path& path,
                    Report& report);
 

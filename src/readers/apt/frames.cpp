@@ -9,10 +9,10 @@
 namespace tribo::readers::apt {
 namespace {
 
-// Directions are written with six digits or so; more than this off square is no rotation.
+// Directions are written with about six digits. A larger deviation from a right angle is not a rotation.
 constexpr double kSquareTolerance = 1e-3;
 
-// All items as numbers, exactly `count` of them.
+// Reads all items as numbers. There must be exactly `count`.
 Result<std::vector<double>> numbers(const Statement& statement, std::size_t count, Report& report) {
     if (statement.items.size() != count) {
         return report.refuse(
@@ -29,7 +29,7 @@ Result<std::vector<double>> numbers(const Statement& statement, std::size_t coun
     return out;
 }
 
-// Of two directions that should be square to each other.
+// For two directions that should be perpendicular.
 Result<Frame> frame_of(Vec3 x, Vec3 y, Vec3 origin_mm, const Statement& statement, Report& report) {
     if (std::abs(length(x) - 1) > kSquareTolerance || std::abs(length(y) - 1) > kSquareTolerance ||
         std::abs(dot(x, y)) > kSquareTolerance) {

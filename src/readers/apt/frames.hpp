@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coordinate systems of APT: which points a program writes, and where they lie in its own frame.
+// Coordinate systems of APT: transform the points of a statement to the frame of the program.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace tribo::readers::apt {
 
-// Right-handed and unit.
+// Right-handed, orthonormal.
 struct Frame {
     Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin_mm;
 
@@ -22,10 +22,10 @@ struct Frame {
     }
 };
 
-// The program's frame is that of its first MSYS, or the only one there is. Points of a later MSYS are led to
-// it. CSYS names a turned plane: with TRNTYP/WORLD points are written in the program's frame all the same,
-// with TRNTYP/LOCAL in that of CSYS. TRANS is added last. ORIGIN says where the part lies in the machine,
-// which moves nothing in the part.
+// The frame of the program is that of its first MSYS. Points of a later MSYS are transformed to it. CSYS
+// defines a rotated plane: with TRNTYP/WORLD the points are still given in the frame of the program, with
+// TRNTYP/LOCAL in the frame of CSYS. TRANS is added last. ORIGIN gives the position of the part in the
+// machine and has no effect on the points.
 class Frames {
   public:
     Result<void> set_machine_frame(const Statement& statement, double unit_mm, bool any_points,

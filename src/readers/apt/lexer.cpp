@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kTextWords{"PARTNO", "PPRINT", "REMARK", "INSERT",
                                                      "TPRINT", "TITLES", "LETTER"};
 
-// The text word that the line starts with; such words may touch their text.
+// Returns the text word at the start of the line. No blank is needed between the word and its text.
 std::string_view text_word(std::string_view line) {
     for (const std::string_view word : kTextWords) {
         if (matches(line.substr(0, word.size()), word)) return line.substr(0, word.size());
@@ -33,7 +33,8 @@ std::unexpected<Error> Lexer::refuse(std::size_t at, std::string cause, std::str
                    std::move(remedy));
 }
 
-// Fetches a line and cuts off what '$' and '$$' say. False at the end of the text.
+// Fetches a line and removes the comment ('$$') and the continuation ('$'). Returns false at the end of the
+// text.
 bool Lexer::begin_line() {
     const auto line = lines_.next();
     at_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // APT CLDATA text to statements (ISO 4343, ANSI X3.37): a word, a slash, items between commas. '$$' starts a
-// comment, '$' continues the statement on the next line. What the words mean is not known here.
+// comment, '$' continues the statement on the next line. The lexer does not know the meaning of words.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace tribo::readers::apt {
 
-// A piece of text, without blanks around it, and where it stands.
+// A piece of text without blanks around it, with its place.
 struct Item {
     std::string_view text;
     int line = 0, column = 0;
@@ -21,15 +21,15 @@ struct Item {
 struct Statement {
     Item word;                // GOTO; never empty
     std::vector<Item> items;  // after the slash; an item may be empty
-    bool is_text = false;     // PARTNO, PPRINT, REMARK, INSERT, ...: free text follows, which is not split
+    bool is_text = false;     // PARTNO, PPRINT, REMARK, INSERT, ...: free text follows and is not split
 };
 
-// Statements of one text, in order; blank lines and comments are left out. next() reuses its statement.
+// The statements of one text, in order. Blank lines and comments are left out. next() reuses its statement.
 class Lexer {
   public:
     Lexer(std::string_view bytes, std::string source_name);
 
-    // False at the end of the text.
+    // Returns false at the end of the text.
     Result<bool> next(Statement& statement);
     std::string_view rest() const { return lines_.rest(); }
 
@@ -45,7 +45,7 @@ class Lexer {
     bool continues_ = false;
 };
 
-// ASCII only, in either case.
+// Compares ASCII letters without regard to case.
 bool matches(std::string_view text, std::string_view word);
 
 }  // namespace tribo::readers::apt

@@ -9,7 +9,7 @@
 namespace tribo::readers::apt {
 namespace {
 
-constexpr std::size_t kMostCutters = 1000;  // each new one is compared with all
+constexpr std::size_t kMostCutters = 1000;  // each new one is compared with all others
 constexpr double kShortestAxis = 1e-6, kLongestAxis = 1e6;
 
 }  // namespace
@@ -138,7 +138,7 @@ Result<void> Path::dwell(double seconds, const Item& at) {
     return append(std::move(move));
 }
 
-// Of the tool that holds the cutter now, once.
+// Declares the cutter for the current tool, once.
 Result<void> Path::declare_cutter() {
     if (!settings.cutter) return {};
     motion::DeclaredTool cutter = *std::exchange(settings.cutter, std::nullopt);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The moves of an APT program as they grow: where the tool is, and how it goes on from there.
+// The moves of an APT program, and the current position of the tool.
 #pragma once
 
 #include <optional>
@@ -20,23 +20,23 @@ class Path {
 
     Settings settings;
     Frames frames;
-    Vec3 axis{0, 0, 1};  // of the next point that gives none, as written
+    Vec3 axis{0, 0, 1};  // axis of the next point without an axis, as written
 
-    // The point of `count` items from `first` on, 3 or 6, in the program's frame; without an axis of its own
-    // it has the one in force, which an axis of its own becomes.
+    // Reads the point of `count` items (3 or 6) from `first` on, in the frame of the program. An axis in the
+    // items becomes the axis in force; a point without an axis gets the axis in force.
     Result<motion::ToolPose> read_pose(const Statement& statement, std::size_t first, std::size_t count);
-    // Three numbers from `first` on, in mm, as written.
+    // Reads three numbers from `first` on, in mm, as written.
     Result<Vec3> read_point(const Statement& statement, std::size_t first);
-    // Three numbers from `first` on as a unit direction, as written.
+    // Reads three numbers from `first` on as a unit direction, as written.
     Result<Vec3> read_direction(const Statement& statement, std::size_t first);
 
     const std::optional<motion::ToolPose>& place() const { return place_; }
     bool any_points() const { return any_points_; }
-    // The tool is there, however it came; none: nobody knows.
+    // Sets the position of the tool without a move; absent: the position is unknown.
     void set_place(const std::optional<motion::ToolPose>& pose);
 
-    // From the place where the tool is; where that is not known, or where it is there already, no move. Along
-    // the arc if there is one. `feed` in the place of the one in force.
+    // Moves the tool from its position to `end`, along the arc if there is one. Adds no move if the position
+    // is unknown or equal to `end`. `feed` replaces the feed in force.
     Result<void> go(const motion::ToolPose& end, motion::MoveKind kind, const Item& at,
                     const std::optional<motion::Arc>& arc = {}, const std::optional<Feed>& feed = {});
     Result<void> dwell(double seconds, const Item& at);

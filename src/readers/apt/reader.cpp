@@ -178,7 +178,7 @@ class AptReader {
         return path_.go(end, take_kind(), statement.word);
     }
 
-    // Home lies where the machine has it, unless the statement says.
+    // The machine defines the home position, unless the statement gives it.
     Result<void> go_home(const Statement& statement) {
         next_is_rapid_ = false;
         if (!statement.items.empty() && number_of(statement.items[0].text)) {
@@ -208,7 +208,7 @@ class AptReader {
     Result<void> go_round(const motion::ToolPose& end, const Statement& statement) {
         const Vec3 start = path_.place()->tip_mm;
         if (circle_held_) {
-            // The start was written once more before points along the circle.
+            // The start was repeated before points along the circle.
             if (end.tip_mm == start || !is_on(*circle_, end.tip_mm)) {
                 if (auto ok = leave_circle(); !ok) return ok;
                 return path_.go(end, take_kind(), statement.word);
@@ -231,7 +231,8 @@ class AptReader {
         return path_.go(end, take_kind(), statement.word, *arc);
     }
 
-    // Another statement than GOTO: a circle that was gone round is done, one whose end is its start is whole.
+    // Called at a statement other than GOTO: ends a finished circle; a circle whose end is its start becomes
+    // a full turn.
     Result<void> leave_circle() {
         if (std::exchange(circle_held_, false)) {
             const motion::ToolPose end = *path_.place();
@@ -340,7 +341,7 @@ class AptReader {
         return {};
     }
 
-    // Along the tool axis up to the clearance plane; nothing where the tool is beyond it.
+    // Moves along the tool axis up to the clearance plane; no move if the tool is already beyond it.
     Result<void> retract(const Statement& statement) {
         if (!statement.items.empty() && !matches(statement.items[0].text, "ON")) {
             return report_.refuse(statement.items[0], "RETRCT with conditions is not read", kPlainGoto);
@@ -363,7 +364,7 @@ class AptReader {
         return path_.go(end, motion::MoveKind::rapid, statement.word);
     }
 
-    // Its own speed, RAPID/MMPM,8000, is the machine's affair.
+    // The speed in RAPID/MMPM,8000 is ignored: the machine defines the rapid speed.
     Result<void> rapid(const Statement& statement) {
         for (const Item& item : statement.items) {
             const bool is_speed = matches(item.text, "IPM") || matches(item.text, "MMPM") ||
@@ -417,7 +418,7 @@ class AptReader {
     }
 
     Result<void> compensation(const Statement& statement) {
-        // Of lengths: the tip is where it is.
+        // Compensation of lengths: the tip does not move.
         for (const Item& item : statement.items) {
             if (matches(item.text, "OFF") || matches(item.text, "LENGTH") || matches(item.text, "ADJUST"))
                 return {};
@@ -436,7 +437,7 @@ class AptReader {
         report_.warn(statement.word.line, word + " hands text to the machine, which is not read");
     }
 
-    // In the program's frame: normal . p = distance.
+    // In the frame of the program: normal . p = distance.
     struct Plane {
         Vec3 normal{0, 0, 1};
         double distance_mm = 0;
@@ -447,9 +448,9 @@ class AptReader {
     Report report_;
     Path path_;
     bool next_is_rapid_ = false;
-    std::optional<Circle> circle_;  // that the next GOTO ends, or, once used, may go on along
+    std::optional<Circle> circle_;  // ends at the next GOTO; later GOTOs may continue along it
     bool circle_used_ = false;
-    bool circle_held_ = false;  // its end was its start: a full turn, unless points along it follow
+    bool circle_held_ = false;  // its end is its start: a full turn, unless points along it follow
     Item circle_end_;
     std::optional<Vec3> forward_;  // of INDIRV
     std::optional<Cycle> cycle_, last_cycle_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the parts of the APT reader speak to the user, and read the numbers of a statement.
+// Errors and warnings of the APT reader, and the numbers of a statement.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace tribo::readers::apt {
 
-// An assumption that is worth one warning per program, however often it is made.
+// Assumptions with one warning per program, however often they are made.
 enum class Note {
     unit,
     feed,
@@ -34,9 +34,9 @@ class Report {
     explicit Report(std::string source_name) : source_name_(std::move(source_name)) {}
 
     std::unexpected<Error> refuse(const Item& at, std::string cause, std::string remedy) const;
-    // The number that the item spells, between least and most.
+    // Reads the item as a number from `least` to `most`.
     Result<double> number(const Item& item, double least, double most) const;
-    // True the first time it is asked of a note.
+    // Returns true at the first call for a note.
     bool first(Note note);
     void warn(int line, std::string text);
 
@@ -47,7 +47,7 @@ class Report {
     std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
 };
 
-// An item as a message may show it.
+// Returns an item in quotes, for messages.
 std::string quoted(std::string_view text);
 
 }  // namespace tribo::readers::apt

@@ -14,7 +14,7 @@ namespace {
 constexpr double kLargestToolNumber = 999'999'999;
 constexpr double kLargestSpindleRpm = 1e6;
 constexpr double kLargestFeed = 1e6;  // in the unit of the statement
-// By how much CUTTER/ may differ from the tool that its diameter and corner describe, mm or degrees.
+// Largest difference between CUTTER/ and the tool described by its diameter and corner, mm or degrees.
 constexpr double kCutterTolerance = 1e-3;
 
 }  // namespace
@@ -72,14 +72,14 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
 
 Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report) {
     constexpr double mm_per_foot = 304.8, mm_per_metre = 1000;
-    double surface_mm = 0;  // one unit of the surface speed; 0: the speed is in turns
+    double surface_mm = 0;  // mm in one unit of the surface speed; 0: the speed is in rpm
     bool any = false;
     for (std::size_t i = 0; i < statement.items.size(); ++i) {
         const Item& item = statement.items[i];
         if (matches(item.text, "OFF")) {
             settings.spindle_stopped = true;
         } else if (matches(item.text, "RANGE") || matches(item.text, "MAXRPM")) {
-            ++i;  // a gear or a limit: its value
+            ++i;  // skips the value of a gear or a limit
         } else if (matches(item.text, "SFM")) {
             surface_mm = mm_per_foot;
         } else if (matches(item.text, "SMM")) {

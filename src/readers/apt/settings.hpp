@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an APT program sets before it moves: units, feed, spindle, tool and cutter.
+// Settings of an APT program: units, feed, spindle, tool and cutter.
 #pragma once
 
 #include <optional>
@@ -20,27 +20,28 @@ struct Settings {
     double unit_mm = 1;
     bool unit_stated = false;
     std::optional<Feed> feed;
-    double spindle_rpm = 0;        // 0: nothing said
+    double spindle_rpm = 0;        // 0: not stated
     bool spindle_stopped = false;  // by SPINDL/OFF
     int tool = 0;
-    std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without its number
-    double diameter_mm = 0;                      // of the last CUTTER; 0: none yet
+    std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without the tool number
+    double diameter_mm = 0;                      // of the last CUTTER; 0: none so far
 };
 
 // UNITS/MM, UNITS/INCHES.
 Result<void> set_units(const Statement& statement, Settings& settings, Report& report);
-// FEDRAT/ with a number and IPM, MMPM, IPR, MMPR, PERMIN or PERREV in any order. INVERS asks the post for
-// inverse time, which is the same feed.
+// FEDRAT/ with a number and IPM, MMPM, IPR, MMPR, PERMIN or PERREV in any order. INVERS asks the
+// postprocessor for inverse time and does not change the feed.
 Result<void> set_feed(const Statement& statement, Settings& settings, Report& report);
-// SPINDL/ with a speed, RPM, CLW, CCLW, ON or OFF in any order; SFM and SMM are speeds at the cutter's
-// diameter.
+// SPINDL/ with a speed, RPM, CLW, CCLW, ON or OFF in any order. SFM and SMM are surface speeds at the
+// diameter of the cutter.
 Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report);
-// LOADTL/n or LOAD/TOOL,n; what follows sets lengths, which do not move the tip.
+// LOADTL/n or LOAD/TOOL,n. The values after them set lengths, which do not move the tip.
 Result<void> load_tool(const Statement& statement, Settings& settings, Report& report);
-// CUTTER/d,r,e,f,a,b,h: diameter, corner radius, place of the corner's centre (from the axis, above the tip),
-// angles of bottom and flank, height.
+// CUTTER/d,r,e,f,a,b,h: diameter, corner radius, position of the corner centre (from the axis, above the
+// tip), angles of bottom and flank, height.
 Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report);
-// TLDATA/MILL,d,r,... of NX: diameter, corner radius, length, taper, tip; other kinds by their diameter.
+// TLDATA/MILL,d,r,... of NX: diameter, corner radius, length, taper, tip. Other kinds give their diameter
+// only.
 Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report);
 
 }  // namespace tribo::readers::apt

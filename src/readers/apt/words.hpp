@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which APT statements this reader knows, and what it says of those that it knows by name only.
+// The APT statements known to this reader, and messages for those it knows but does not read.
 #pragma once
 
 #include <string_view>
@@ -35,17 +35,16 @@ enum class Action {
     compensation,   // CUTCOM
     machine_code,   // PREFUN, AUXFUN
     end,            // FINI
-    nothing,        // moves no tool: MACHIN, COOLNT, ...
+    nothing,        // no effect on the tool path: MACHIN, COOLNT, ...
     unread,
 };
 
 struct Meaning {
     Action action = Action::unread;
-    std::string_view
-        what;  // of an unread statement: what it asks for; empty for one that is not known at all
+    std::string_view what;  // of an unread statement: its purpose; empty: unknown statement
 };
 
-// In either case.
+// Case is ignored.
 Meaning meaning_of(std::string_view word);
 
 }  // namespace tribo::readers::apt

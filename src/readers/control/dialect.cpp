@@ -11,13 +11,13 @@
 namespace tribo::readers {
 namespace {
 
-constexpr std::size_t kLookedAt = 1 << 16;  // characters from the start
+constexpr std::size_t kLookedAt = 1 << 16;  // only this many characters from the start are read
 
 struct Sign {
     std::string_view text;
     Dialect dialect;
 };
-// Plain anywhere in a block; the text is in upper case and without blanks.
+// Clear signs anywhere in a block. The text is in upper case and without blanks.
 constexpr std::array kSigns{
     Sign{"BEGINPGM", Dialect::heidenhain}, Sign{"TOOLCALL", Dialect::heidenhain},
     Sign{"TRAORI", Dialect::siemens},      Sign{"TRAFOOF", Dialect::siemens},
@@ -33,7 +33,7 @@ constexpr std::array kSigns{
     Sign{"G54.1P", Dialect::fanuc},
 };
 
-// Upper case, without blanks and comments.
+// To upper case, without blanks and comments.
 std::string plain(std::string_view line) {
     std::string text;
     bool comment = false;

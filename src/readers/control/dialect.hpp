@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which control a program is written for, told from its text.
+// Detects from the text of a program for which control it is written.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ enum class Dialect { linuxcnc, fanuc, siemens, heidenhain };
 // "LinuxCNC", "Fanuc", "Siemens", "Heidenhain".
 std::string_view name_of(Dialect dialect);
 
-// What the first lines say plainly: BEGIN PGM is Heidenhain's; TRAORI, CYCLE800, MSG(, words with '=' are
-// Siemens'; an O word alone at the start, GOTO, G43.4 and G68.2 are Fanuc's; o<name>, M428 and named
-// parameters LinuxCNC's. None where nothing of the kind stands there: then LinuxCNC's meaning is taken.
+// Detects the control from clear signs in the first lines. Heidenhain: BEGIN PGM. Siemens: TRAORI, CYCLE800,
+// MSG(, words with '='. Fanuc: an O word alone at the start, GOTO, G43.4, G68.2. LinuxCNC: o<name>, M428,
+// named parameters. Returns none without a sign; callers then assume LinuxCNC.
 std::optional<Dialect> detect_dialect(std::string_view bytes);
 
 }  // namespace tribo::readers

@@ -13,15 +13,15 @@ namespace tribo::readers {
 namespace {
 
 constexpr std::string_view kWords = "XYZABC";
-// Steps of a block at which travel is looked at: no joint runs far between two of them.
+// Travel is checked at steps of this turn of a block: no joint moves far between two of them.
 constexpr double kTravelStepRad = 5 * math::kRadPerDeg;
 constexpr int kMostTravelSteps = 1000;
-// A block turns near a singular position where its rotary axes turn by this much and this many times as far
-// as the tool.
+// A block turns near a singular position if its rotary axes turn at least by kSingularTurnRad, and
+// kSingularRatio times as far as the tool axis.
 constexpr double kSingularTurnRad = 10 * math::kRadPerDeg;
 constexpr double kSingularRatio = 10;
 
-// A tip that a millimetre of tool moves by less than this does not depend on its length, mm.
+// If a millimetre of tool length moves the tip by less than this, the tip does not depend on the length, mm.
 constexpr double kNoLever = 1e-9;
 
 double largest_turn(const motion::MachineBlock& block) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which G and M codes this reader knows, in which modal group each stands, and what it says of those that it
-// knows by name only. The dialect is LinuxCNC's where two controls differ.
+// The G and M codes known to this reader, their modal groups, and messages for codes that it knows but does
+// not read. The meaning is that of LinuxCNC where two controls differ.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace tribo::readers::gcode {
 
-// At most one code of a group may stand in a block.
+// A block may have at most one code of a group.
 enum class GGroup {
     non_modal,     // G4 G10 G28 G30 G53 G92 G92.1 G92.2 G92.3
     motion,        // G0 G1 G2 G3 G5 to G5.3 G6.2 G73 G74 G76 G80 to G89
@@ -45,12 +45,12 @@ enum class MGroup {
 std::optional<GGroup> group_of_g(int tenths);
 std::optional<MGroup> group_of_m(int tenths);
 
-// What a code that is not read asks for, and what to do about it.
+// Purpose of a code that is not read, and a remedy.
 struct Unread {
     std::string_view what;
     std::string_view remedy;
 };
-// Of a code without a group. `what` is empty for a code that is not known at all.
+// For a code without a group. `what` is empty for an unknown code.
 Unread unread_g(int tenths);
 Unread unread_m(int tenths);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLargestCode = 9999;
 
-// The number of a code in tenths; none for a number that no code has.
+// Returns the code in tenths; none for a number that cannot be a code.
 std::optional<int> tenths_of(double value) {
     if (value < 0 || value > kLargestCode) return std::nullopt;
     const double tenths = std::floor(10 * value + 0.5);
@@ -61,7 +61,7 @@ Result<void> Command::add_m(const Word& word) {
     const auto group = tenths ? group_of_m(*tenths) : std::nullopt;
     if (!group) return refuse_code(line_, word, tenths, unread_m(tenths.value_or(-1)));
     auto& place = m_[static_cast<std::size_t>(*group)];
-    // Mist and flood may run together.
+    // Mist and flood coolant may be on together.
     if (place && place->tenths != *tenths && *group != MGroup::coolant) {
         return refuse_pair(line_, word, place->tenths, *tenths);
     }

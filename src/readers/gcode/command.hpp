@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One block of words, sorted by what they are for: its codes by modal group, its other words by letter.
+// One block of words, sorted: codes by modal group, other words by letter.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@
 
 namespace tribo::readers::gcode {
 
-// A G or M code in tenths, and where it stands.
+// A G or M code in tenths, with its column.
 struct Code {
     int tenths = 0;
     int column = 0;
 };
 
-// Points into the block that it was made of.
+// Holds pointers into its block, which must outlive it.
 class Command {
   public:
-    // Refuses codes that are not read, two codes of one group, and a letter given twice; the error has line
-    // and column but no file.
+    // Refuses codes that are not read, two codes of one group, and a repeated letter. The error has line and
+    // column but no file.
     static Result<Command> of(const Block& block);
 
     int line() const { return line_; }
@@ -30,17 +30,17 @@ class Command {
     std::optional<Code> m(MGroup group) const { return m_[static_cast<std::size_t>(group)]; }
     bool has_g(GGroup group, int tenths) const { return g(group) && g(group)->tenths == tenths; }
 
-    // Whether the block has the word; says nothing about its use.
+    // True when the block has the word; does not count as use of the word.
     bool has(char letter) const { return words_[index(letter)] != nullptr; }
     bool has_any(std::string_view letters) const;
-    // The word, which from now on counts as used; null where the block has none.
+    // Returns the word and marks it as used; null if the block has none.
     const Word* use(char letter);
-    // Leaves the word out of the block from now on.
+    // Removes the word from the command.
     void hide(char letter) { words_[index(letter)] = nullptr; }
     void hide_axes() {
         for (const char letter : {'X', 'Y', 'Z'}) hide(letter);
     }
-    // The first word in the block that nothing has used; null where none is left.
+    // Returns the first word of the block that is not used; null if there is none.
     const Word* first_unused() const;
 
   private:
@@ -56,7 +56,7 @@ class Command {
     std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m_;
 };
 
-// G90.1 for 901.
+// For 901: "G90.1".
 std::string code_text(char letter, int tenths);
 
 }  // namespace tribo::readers::gcode

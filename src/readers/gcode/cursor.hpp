@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A place in a line of G-code, shared by those that read words, expressions and O-words.
+// A position in a line of G-code, shared by the readers of words, expressions and O-words.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace tribo::readers::gcode {
 struct Cursor {
     std::string_view line;
     std::size_t at = 0;
-    int number = 0;  // of the line, from 1
+    int number = 0;  // line number, from 1
     const std::string* source_name = nullptr;
 
-    // The character here; 0 at the end of the line.
+    // Returns the character at the position; 0 at the end of the line.
     char peek() const { return at < line.size() ? line[at] : '\0'; }
     void skip_blanks() {
         while (at < line.size() && is_blank(line[at])) ++at;
@@ -25,7 +25,7 @@ struct Cursor {
         skip_blanks();
         return peek();
     }
-    // Whether nothing but a ';' comment is left.
+    // True when only a ';' comment is left.
     bool at_end() {
         const char c = peek_after_blanks();
         return c == '\0' ? at >= line.size() : c == ';';

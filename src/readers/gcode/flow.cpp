@@ -7,7 +7,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// LinuxCNC stops at 10, other controls at 4 to 20.
+// The limit is 10 in LinuxCNC and 4 to 20 in other controls.
 constexpr std::size_t kDeepestCall = 100;
 constexpr double kMostRepeats = 1e9;
 
@@ -41,7 +41,7 @@ std::unexpected<Error> Flow::refuse_unclosed(int index) const {
 }
 
 Result<void> Flow::count_step(int line) {
-    // A program without loops and calls runs each of its lines once, so it never meets the limit.
+    // A program without loops and calls runs each of its lines once and never reaches the limit.
     if (++steps_ <= options_.max_steps || steps_ <= bytes_.size()) return {};
     return refuse(line, 1,
                   "more than " + std::to_string(options_.max_steps) +
@@ -120,7 +120,7 @@ Result<bool> Flow::run(Block& block) {
     return false;
 }
 
-// if, and each elseif on the way to the branch that is taken.
+// Runs if, and each elseif before the taken branch.
 Result<void> Flow::branch(int index, Block& block) {
     if ((*labels_)[index].closer < 0) return refuse_unclosed(index);
     for (;;) {
@@ -140,7 +140,7 @@ Result<void> Flow::branch(int index, Block& block) {
     }
 }
 
-// What follows a branch that was taken.
+// Skips the branches after a taken branch.
 Result<void> Flow::leave_branches(int index) {
     const Landmark& mark = (*labels_)[index];
     if (mark.opener < 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The flow of control: O-word subroutines, branches and loops of LinuxCNC, M98 and M99 of Fanuc's kind. It
+// Control flow: O-word subroutines, branches and loops of LinuxCNC, M98 and M99 of the Fanuc family. It
 // decides which line the lexer reads next.
 #pragma once
 
@@ -17,34 +17,34 @@ namespace tribo::readers::gcode {
 
 class Flow {
   public:
-    // All arguments must outlive it.
+    // All arguments must outlive the object.
     Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters);
 
-    // Runs an o_word block that the lexer has just given. True where it is a program number in the way of
-    // the program that runs, at the outermost level.
+    // Runs an o_word block that the lexer has just read. Returns true if the block is a program number at the
+    // outermost level.
     Result<bool> run(Block& block);
 
     // M98: runs the program of that number, `times` times.
     Result<void> call_program(const Word& number, long times, int line);
-    // M99; false where no program has called this one.
+    // M99. Returns false if no program has called this one.
     Result<bool> return_from_program(int line, int column);
-    // The text has ended: refused within a subroutine or loop.
+    // At the end of the text. Refuses an open subroutine or loop.
     Result<void> end_text(int line) const;
     bool is_outermost() const { return calls_.empty(); }
 
-    // Counts a block. Refused where the program seems to run for ever.
+    // Counts a block. Refuses a program that seems to run forever.
     Result<void> count_step(int line);
 
   private:
-    // A call that has not returned.
+    // A call without its return so far.
     struct Call {
         TextLines back;           // the line after the call
-        int callee = -1;          // its landmark
-        long times_left = 0;      // after this one
-        std::size_t loops = 0;    // that were running when it was called
+        int callee = -1;          // landmark of the called program
+        long times_left = 0;      // after this run
+        std::size_t loops = 0;    // number of running loops at the call
         bool is_program = false;  // M98
     };
-    // A repeat loop that runs.
+    // A running repeat loop.
     struct Repeat {
         int opener = -1;
         long left = 0;
@@ -67,7 +67,7 @@ class Flow {
     const GcodeOptions& options_;
     Lexer& lexer_;
     Parameters& parameters_;
-    std::optional<Labels> labels_;  // of the whole text, once something asks for them
+    std::optional<Labels> labels_;  // of the whole text, made at the first use
     std::vector<Call> calls_;
     std::vector<Repeat> repeats_;
     std::size_t steps_ = 0;

@@ -26,7 +26,7 @@ Result<void> set_feed(Command& command, State& state, const Output& output) {
         const FeedMode mode = code->tenths == 930   ? FeedMode::inverse_time
                               : code->tenths == 940 ? FeedMode::per_minute
                                                     : FeedMode::per_turn;
-        // A number of one mode means nothing in another.
+        // The value of F has no meaning in another feed mode.
         if (mode != state.feed_mode) state.feed.reset();
         state.feed_mode = mode;
     }
@@ -128,7 +128,7 @@ void set_motion_mode(Command& command, State& state, const Output& output) {
     if (!code) return;
     if (output.options.dialect == GcodeDialect::fanuc && (code->tenths == 50 || code->tenths == 51)) {
         for (const char letter : {'P', 'Q', 'R', 'X', 'Y', 'Z'}) command.use(letter);
-        command.hide_axes();  // look-ahead and smoothing, as exact as the control likes
+        command.hide_axes();  // look-ahead and smoothing are ignored
         return;
     }
     if (code->tenths != 50) state.spline_end_mm.reset();
@@ -181,7 +181,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     set_work_system(command, state, output);
     if (auto done = begin_compensation(command, state, output); !done) return done;
     if (const auto code = command.g(GGroup::path_control); code && code->tenths == 640) {
-        command.use('P');  // how far the control may round corners: it is not followed
+        command.use('P');  // tolerance for rounded corners; it is ignored
         command.use('Q');
     }
     if (command.m(MGroup::outputs) || command.m(MGroup::overrides) || command.m(MGroup::orientation)) {

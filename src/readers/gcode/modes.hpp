@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words of a block that set modes: units, plane, feed, spindle, tool, distances and offsets in force.
+// The words of a block that set modes: units, plane, feed, spindle, tool, distances and active offsets.
 #pragma once
 
 #include "readers/gcode/command.hpp"

@@ -53,7 +53,7 @@ class ProgramReader {
     }
 
   private:
-    // False where the program ends.
+    // Returns false at the end of the program.
     Result<bool> run(Block& block) {
         for (const std::string_view comment : block.comments) read_comment(comment, block.line);
         if (block.deletable && output_.options.skip_deletable_blocks) {
@@ -83,7 +83,7 @@ class ProgramReader {
     void read_comment(std::string_view comment, int line) {
         const auto tool = tool_in_comment(comment);
         if (!tool) return;
-        if (!tool_lines_.insert(line).second) return;  // a loop may lead here again
+        if (!tool_lines_.insert(line).second) return;  // a loop may read the line again
         declared_.push_back({tool->number, tool->diameter, tool->corner, line});
         output_.declare_tool({tool->number, tool->diameter * state_.unit_mm});
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a control remembers from one block to the next.
+// The state that a control keeps from one block to the next.
 #pragma once
 
 #include <array>
@@ -32,73 +32,73 @@ enum class MotionMode {
 };
 enum class Spindle { off, clockwise, counter_clockwise };
 
-// What is known of a coordinate: nothing has stated it yet; it is known; or the machine took the axis to a
-// place that only it knows (G28, G53).
+// Knowledge of a coordinate: not stated so far; known; or lost, because the machine moved the axis to a
+// position that the program does not give (G28, G53).
 enum class Known { unstated, yes, lost };
 
-// Turned about z; the very same where the angle is 0.
+// Turns about z. An angle of 0 returns the same bits.
 Vec3 turned(Vec3 v, double degrees);
 motion::Move turned(const motion::Move& move, double degrees);
 
 inline constexpr int kWorkSystems = 9;  // G54 to G59, G59.1 to G59.3
 
 struct WorkSystem {
-    Vec3 origin_mm;       // in the stock's frame
-    double turn_deg = 0;  // about the stock's z
+    Vec3 origin_mm;       // in the frame of the stock
+    double turn_deg = 0;  // about the z axis of the stock
     bool set = false;
 };
 
-// A canned cycle in force, with the words that stay until they are written again.
+// The canned cycle in force, with the words that stay until they are written again.
 struct Cycle {
     int tenths = 0;                              // 810 for G81; 0: none
-    int line = 0;                                // where its code stood
+    int line = 0;                                // line of its code
     std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
     std::optional<double> peck_mm, dwell_s;
-    std::optional<double> initial_mm;  // where the cycle axis stood at its start, to which G98 returns
+    std::optional<double> initial_mm;  // position on the cycle axis at its start; G98 returns to it
 };
 
 // A B-spline whose blocks are being read (G5.2, G6.2).
 struct Nurbs {
     bool runs = false;
     bool has_knots = false;    // G6.2
-    int line = 0, column = 0;  // where it began
+    int line = 0, column = 0;  // of its start
     std::size_t order = 3;
-    std::vector<motion::HomogeneousPoint> control;  // weight times point, in the frame of the tip
+    std::vector<motion::HomogeneousPoint> control;  // weight * point, in the frame of the tip
     std::vector<double> knots;
     Vec3 last_mm;       // the last control point
-    motion::Move like;  // with the feed and the words of its moves
+    motion::Move like;  // template of its moves: feed and words
 };
 
-// Cutter radius compensation (gcode_compensation.hpp); in the plane's coordinates.
+// Cutter radius compensation (motion/compensation.hpp); in the coordinates of the plane.
 struct Compensation {
     bool is_on = false;
-    bool has_begun = false;  // a move in the plane has led to the offset contour
+    bool has_begun = false;  // a move in the plane has reached the offset contour
     int code = 400;          // in tenths
     int line = 0;            // of that code
     Plane plane = Plane::xy;
-    double left_mm = 0;                 // the cutter's radius; below 0 to the right
-    Point at;                           // where the tool was at its start
-    Point direction;                    // of the contour at the end of its last move
-    double curvature_per_mm = 0;        // likewise
-    Element last;                       // the last move, offset; its end may still be cut off
-    std::vector<motion::Move> waiting;  // that move, and those along the tool that followed it
+    double left_mm = 0;                 // radius of the cutter; negative: to the right of the contour
+    Point at;                           // position of the tool at its start
+    Point direction;                    // of the contour, at the end of the last move
+    double curvature_per_mm = 0;        // the same
+    Element last;                       // the last move, offset; its end may still be shortened
+    std::vector<motion::Move> waiting;  // the last move, and the moves along the tool axis after it
 };
 
-// Rotary axes and tool tip control (gcode_rotary.hpp).
+// Rotary axes and tool tip control (motion/rotary.hpp).
 struct RotaryState {
-    Vec3 now_rad;                 // A B C of the machine, offsets applied
-    Vec3 target_rad;              // where the block leads them
+    Vec3 now_rad;                 // A B C of the machine, with offsets
+    Vec3 target_rad;              // at the end of the block
     bool stated = false;          // the block has rotary words
-    bool tip_control = false;     // coordinates are the tip's in the stock, not the machine's
-    bool by_length_code = false;  // switched on by a G43.4 of some kind, so that G49 ends it
-    bool vectors = false;         // I J K of a line are the tool's axis (G43.5)
+    bool tip_control = false;     // coordinates are those of the tip in the stock, not those of the machine
+    bool by_length_code = false;  // switched on by G43.4 or its like; G49 ends it
+    bool vectors = false;         // I J K of a line are the tool axis (G43.5)
     std::array<Vec3, kWorkSystems> origin_rad{};
 
-    // The tool's axis where its vectors are read without a machine.
+    // Tool axis when vectors are read without a machine.
     Vec3 now_axis{0, 0, 1}, target_axis{0, 0, 1};
 
     bool turns() const { return now_rad != target_rad || now_axis != target_axis; }
-    // The block is done: what it asked for is where the axes are.
+    // At the end of the block: the axes have reached their targets.
     void arrive() {
         now_rad = target_rad;
         now_axis = target_axis;
@@ -106,7 +106,7 @@ struct RotaryState {
 };
 
 struct State {
-    int line = 0;  // of the block that runs
+    int line = 0;  // of the running block
     double unit_mm = 1;
     bool unit_stated = false;
     Plane plane = Plane::xy;
@@ -116,7 +116,7 @@ struct State {
     Cycle cycle;
     Nurbs nurbs;
     Compensation compensation;
-    // Where compensation has left the tool; the next move starts there and not at tip_mm.
+    // Position of the tool at the end of compensation; the next move starts here and not at tip_mm.
     std::optional<Vec3> left_at_mm;
     std::optional<Vec3> spline_end_mm;  // from the end of the last G5 to its second control point
     bool retract_to_r = true;           // G99
@@ -124,7 +124,7 @@ struct State {
 
     FeedMode feed_mode = FeedMode::per_minute;
     std::optional<double> feed;  // mm/min, 1/min or mm per turn
-    int feed_line = 0;           // where F stood last
+    int feed_line = 0;           // line of the last F
 
     Spindle spindle = Spindle::off;
     double spindle_rpm = 0;
@@ -134,24 +134,24 @@ struct State {
 
     std::array<WorkSystem, kWorkSystems> work;
     int active_work = 0;
-    Vec3 preset_mm;  // G92's and G52's
+    Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
 
-    // In the frame of the program's axes: the stock's, turned about z by the work system's turn (mostly 0).
-    // 0 where not known. On a machine without tool tip control: X Y Z of the machine, counted from the
-    // stock's zero.
+    // In the frame of the axes of the program: the frame of the stock, turned about z by the work system
+    // (mostly by 0). 0 where not known. On a machine without tool tip control: X Y Z of the machine, relative
+    // to the zero of the stock.
     Vec3 tip_mm;
     std::array<Known, 3> known{Known::unstated, Known::unstated, Known::unstated};
     int lost_line = 0;  // of the last block that lost an axis
     RotaryState rotary;
 
     const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
-    // Where the program's zero stands, in the frame of its axes.
+    // Zero of the program, in the frame of its axes.
     Vec3 origin_mm() const {
         const Vec3 origin = turned(active().origin_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
-    // Counts the tip in the axes of the work system in force; they were turned by so much before.
+    // Converts the tip to the axes of the work system in force; the axes before were turned by `before_deg`.
     void reframe(double before_deg) {
         const double after_deg = active().turn_deg;
         if (before_deg != after_deg) tip_mm = turned(turned(tip_mm, before_deg), -after_deg);
@@ -161,11 +161,12 @@ struct State {
     }
     // G40, G41, ... in tenths.
     double compensation_code() const { return compensation.code; }
-    // The tool that cuts: before the first M6 the one that T names, as nothing else can be in the spindle.
+    // The cutting tool. Before the first M6 it is the tool of the T word: no other tool can be in the
+    // spindle.
     int tool() const { return has_changed_tool ? loaded_tool : selected_tool; }
 };
 
-// An assumption that is worth one warning per program, however often it is made.
+// Assumptions with one warning per program, however often they are made.
 enum class Note {
     no_unit,
     unstated_axes,
@@ -188,10 +189,10 @@ enum class Note {
     count
 };
 
-// Where blocks put what they give: moves, warnings and errors.
+// Receives the moves, warnings and errors of the blocks.
 class Output {
   public:
-    // Moves go to the sink, or into the program where there is none.
+    // Moves go to the sink, or into the program if `sink` is null.
     Output(const GcodeOptions& options, MoveSink* sink) : options(options), sink_(sink) {
         program.source = options.source_name;
         program.dialect = name_of(options.dialect);
@@ -204,16 +205,16 @@ class Output {
     const GcodeOptions& options;
     motion::Program program;
     std::size_t moves = 0;              // so far
-    std::optional<MachineRun> machine;  // that the program runs on; none: a machine of three axes
+    std::optional<MachineRun> machine;  // absent: a machine of three axes
 
-    // A move in the stock's frame.
+    // Adds a move in the frame of the stock.
     Result<void> append(const motion::Move& move);
-    // Where the options and the program name it.
+    // From the options or the program; absent: neither gives it.
     std::optional<double> tool_diameter_mm(int number) const;
     std::optional<double> tool_length_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_.push_back(tool); }
 
-    // True the first time it is asked of a note.
+    // Returns true at the first call for a note.
     bool first(Note note);
     void warn(int line, std::string text);
     std::unexpected<Error> refuse(int line, int column, std::string cause, std::string remedy) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CYCL DEF and CYCL CALL, datum shifts, tilted planes, tool tip control. What the drilling cycles do is what
-// the TNC 640 manual (Programming of Machining Cycles) says of cycles 200 to 203.
+// CYCL DEF and CYCL CALL, datum shifts, tilted planes, tool tip control. The drilling cycles follow the TNC
+// 640 manual (Programming of Machining Cycles), cycles 200 to 203.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr double kRapid = std::numeric_limits<double>::infinity();  // as a feed: FMAX
-constexpr double kFastFeed = 99'999;  // what a retraction feed of this size means
+constexpr double kRapid = std::numeric_limits<double>::infinity();  // value of a feed for FMAX
+constexpr double kFastFeed = 99'999;                                // value of a retraction feed for FMAX
 constexpr double kChipBreakMm = 0.2;
 constexpr double kLongestDwellS = 86'400;
 constexpr int kMostInfeeds = 100'000;
@@ -31,7 +31,7 @@ constexpr std::array kDrillingParameters{
     Parameter{357, Parameter::length}, Parameter{395, Parameter::other},
 };
 
-// Old cycles that say nothing about the path.
+// Old cycles without effect on the path.
 bool is_silent(int cycle) {
     return cycle == 13 || cycle == 32 || cycle == 12;
 }
@@ -48,7 +48,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
     const int number = static_cast<int>(**value);
     if (number >= 200 && number <= 203) return define_drilling(in, number);
     if (number == 7 || number == 10) return set_datum(in);
-    if (number == 9) {  // 9.0 names it, 9.1 has the time
+    if (number == 9) {  // 9.0 names the cycle, 9.1 has the time
         std::vector<Item> items;
         if (**value - number < 0.05) return {};
         if (auto done = in.items(items); !done) return done;
@@ -73,7 +73,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
                      "let the CAM system write its path as L and C blocks");
 }
 
-// Q200=2 ... on this line and those that '~' joins to it.
+// Reads Q200=2 ... on this line and on the lines joined by '~'.
 Result<void> Interpreter::read_parameters(LineReader& in, DrillingCycle& cycle) {
     std::vector<Item> items;
     if (auto done = in.items(items); !done) return done;
@@ -122,7 +122,7 @@ Result<void> Interpreter::define_drilling(LineReader& in, int number) {
     return {};
 }
 
-// CYCL DEF 7.1 X+10 (datum shift, an axis a line) and CYCL DEF 10.1 ROT+30.
+// CYCL DEF 7.1 X+10 (datum shift, one axis per line) and CYCL DEF 10.1 ROT+30.
 Result<void> Interpreter::set_datum(LineReader& in) {
     std::vector<Item> items;
     if (auto done = in.items(items); !done) return done;
@@ -159,7 +159,7 @@ Result<void> Interpreter::shift_datum(LineReader& in) {
     return set_datum(in);
 }
 
-// The frame in force; the tool stays where it is.
+// Sets the frame in force. The tool does not move.
 void Interpreter::set_frame() {
     path_.frame = plane_.shifted(shift_mm_).turned({0, 0, 1}, rotation_deg_ * math::kRadPerDeg);
     pole_.reset();
@@ -184,7 +184,8 @@ Result<void> Interpreter::call_cycle(Place where) {
     return cycle_.number == 200 || cycle_.number == 203 ? drill() : bore();
 }
 
-// 200 and 203: infeed by infeed, out to the set-up clearance in between, or a little for a broken chip.
+// 200 and 203: drills infeed by infeed; between infeeds returns to the set-up clearance, or by a short
+// distance to break the chip.
 Result<void> Interpreter::drill() {
     const double surface = cycle_.at(203), clearance = surface + cycle_.at(200);
     const double depth = -cycle_.at(201), second = std::max(clearance, surface + cycle_.at(204));
@@ -224,7 +225,7 @@ Result<void> Interpreter::drill() {
     return second > clearance ? go_to_height(second, kRapid) : Result<void>{};
 }
 
-// 201 and 202: in one go to the depth, and out at a feed of its own.
+// 201 and 202: drill to the depth in one move, and return at their own feed.
 Result<void> Interpreter::bore() {
     const double surface = cycle_.at(203), clearance = surface + cycle_.at(200);
     const double second = std::max(clearance, surface + cycle_.at(204)), plunge = cycle_.at(206);
@@ -241,7 +242,7 @@ Result<void> Interpreter::bore() {
     return second > clearance ? go_to_height(second, kRapid) : Result<void>{};
 }
 
-// PLANE SPATIAL, EULER and VECTOR: the plane in which the program goes on, the tool upright on it.
+// PLANE SPATIAL, EULER and VECTOR: the plane of the following blocks, with the tool normal to it.
 Result<void> Interpreter::plane(LineReader& in) {
     const int column = in.column();
     enum { spatial, euler, vector, reset } kind;

@@ -12,9 +12,9 @@ namespace tribo::readers {
 namespace heidenhain {
 namespace {
 
-// Subprograms within subprograms; the control allows 19.
+// Largest depth of subprograms; the control allows 19.
 constexpr std::size_t kDeepestCalls = 100;
-constexpr double kEqual = 1e-9;  // numbers nearer than this are equal to FN 9
+constexpr double kEqual = 1e-9;  // FN 9: numbers closer than this are equal
 constexpr double kLargestSpindleRpm = 1e6;
 constexpr long kMostRepeats = 65534;
 
@@ -48,7 +48,7 @@ Result<motion::Program> Interpreter::run() {
     return finish();
 }
 
-// Goes to the line that '~' joins to this one, if it does.
+// Moves to the line joined by '~'. Returns false if there is none.
 bool Interpreter::goes_on() {
     if (!line_.goes_on || at_ + 1 >= lines_.size()) return false;
     ++at_;
@@ -108,7 +108,7 @@ Result<void> Interpreter::execute(LineReader& in) {
         return in.refuse(line_.column, std::string(word) + " is not read yet",
                          "let the CAM system write the path with L, C and CC");
     }
-    // A block of miscellaneous functions alone.
+    // A block with miscellaneous functions only.
     if (to_upper(first) == 'M') {
         const auto words = read_words(in, "M");
         if (!words) return std::unexpected(words.error());
@@ -162,7 +162,7 @@ Result<void> Interpreter::blank_form(LineReader& in) {
         const std::size_t increment = item.name.size() == 2 && item.name[0] == 'I'
                                           ? std::string_view("XYZ").find(item.name[1])
                                           : std::string::npos;
-        if (item.name.size() == 1 && axis < 3 && !item.value) continue;  // the tool's axis
+        if (item.name.size() == 1 && axis < 3 && !item.value) continue;  // the tool axis
         if (item.value && item.name.size() == 1 && axis < 3) {
             corner[axis] = *item.value * unit_mm_;
         } else if (item.value && increment < 3 && blank_min_) {
@@ -264,7 +264,7 @@ Result<void> Interpreter::assign(LineReader& in) {
     return {};
 }
 
-// FN 0 to FN 13; others do not move the tool or are refused.
+// FN 0 to FN 13. Other functions have no effect on the tool or are refused.
 Result<void> Interpreter::function(LineReader& in) {
     const int column = in.column();
     const auto number = in.number();
@@ -315,11 +315,11 @@ Result<void> Interpreter::go_to(const std::string& label, int column) {
         return path_.refuse(place(column), "there is no LBL " + (label[0] == '"' ? label + "\"" : label),
                             "correct the label's name");
     }
-    at_ = found->second - 1;  // run() goes on behind it
+    at_ = found->second - 1;  // run() continues after this line
     return {};
 }
 
-// CALL LBL 1 runs to LBL 0 and returns; CALL LBL 1 REP 2 runs again what lies between, twice.
+// CALL LBL 1 runs to LBL 0 and returns. CALL LBL 1 REP 2 repeats the lines from the label to here twice.
 Result<void> Interpreter::call_label(LineReader& in) {
     const int column = in.column();
     if (!in.take("LBL")) {

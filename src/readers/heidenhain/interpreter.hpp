@@ -13,7 +13,7 @@
 
 namespace tribo::readers::heidenhain {
 
-// What is worth one warning per program.
+// Notes with one warning per program.
 enum Note {
     kNoUnit,
     kUnstatedAxes,
@@ -28,7 +28,7 @@ enum Note {
     kDeltas,
 };
 
-// A drilling cycle in force: number and parameters by their Q numbers.
+// The drilling cycle in force: its number, and its parameters by Q number.
 struct DrillingCycle {
     int number = 0;  // 0: none
     Place place;
@@ -46,7 +46,7 @@ class Interpreter {
     Result<motion::Program> run();
 
   private:
-    // Flow and data (heidenhain_interpreter.cpp)
+    // Flow and data (interpreter.cpp)
     bool goes_on();
     Result<void> execute(LineReader& in);
     Result<void> begin(LineReader& in);
@@ -61,8 +61,8 @@ class Interpreter {
     Result<void> go_to(const std::string& label, int column);
     Result<motion::Program> finish();
 
-    // Moves (heidenhain_motion.cpp)
-    struct Words;  // the words of a path function, sorted
+    // Moves (motion.cpp)
+    struct Words;  // the sorted words of a path function
     Result<Words> read_words(LineReader& in, std::string_view own);
     Result<void> apply_feed(const Words& words);
     Result<Vec3> target(const Words& words);
@@ -80,7 +80,7 @@ class Interpreter {
     Result<void> go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
     Result<void> require_start();
 
-    // Cycles and planes (heidenhain_cycles.cpp)
+    // Cycles and planes (cycles.cpp)
     Result<void> define_cycle(LineReader& in);
     Result<void> define_drilling(LineReader& in, int number);
     Result<void> read_parameters(LineReader& in, DrillingCycle& cycle);
@@ -99,10 +99,10 @@ class Interpreter {
     std::string source_name_;
     Path path_;
     std::vector<std::string_view> lines_;
-    std::map<std::string, std::size_t> labels_;  // the line after LBL
+    std::map<std::string, std::size_t> labels_;  // line after the LBL
     std::map<std::size_t, long> repeats_;        // runs left, by the line of CALL LBL REP
     std::vector<std::size_t> calls_;             // lines to return to
-    std::size_t at_ = 0;                         // the line that runs
+    std::size_t at_ = 0;                         // index of the running line
     Line line_;
     bool ended_ = false, begun_ = false, moved_ = false;
     std::size_t steps_ = 0;
@@ -114,9 +114,9 @@ class Interpreter {
     bool shortest_way_ = false;  // M126
     std::optional<Vec3> pole_;   // in the frame
     Vec3 tangent_;               // of the last move, in the frame; 0: none
-    motion::WorkFrame plane_;    // PLANE; its origin is the datum that was in force
+    motion::WorkFrame plane_;    // of PLANE; its origin is the datum in force at the PLANE
     Vec3 shift_mm_;              // datum shift in the plane
-    Vec3 untilted_shift_mm_;     // datum shift to which PLANE RESET returns
+    Vec3 untilted_shift_mm_;     // datum shift restored by PLANE RESET
     double rotation_deg_ = 0;    // CYCL DEF 10
     DrillingCycle cycle_;
     bool cycle_at_every_position_ = false;  // M89

@@ -13,7 +13,7 @@ namespace tribo::readers::heidenhain {
 namespace {
 
 constexpr int kDeepestNesting = 60;
-// Digits of a number; no control writes half as many.
+// Longest number, digits. No control writes half as many.
 constexpr std::size_t kLongestNumber = 64;
 constexpr double kLargestNumber = 1e15;
 
@@ -122,7 +122,7 @@ Result<std::optional<double>> LineReader::number() {
     if (*q) {
         skip_blanks();
         if (peek() != '=') return sign * parameters_.get(**q);
-        at_ = start;  // Q200=2 of a cycle is a word of its own
+        at_ = start;  // Q200=2 of a cycle is a separate word
         return std::nullopt;
     }
     // The decimal sign may be a comma.
@@ -306,7 +306,7 @@ Result<std::optional<Item>> LineReader::item() {
         return item;
     }
     while (is_word(peek())) ++at_;
-    // FQ5 and X+Q5: a parameter is a value, not a part of the word.
+    // FQ5 and X+Q5: the parameter is the value, not a part of the word.
     if (at_ - start > 1 && to_upper(line_.text[at_ - 1]) == 'Q' && is_digit(peek())) --at_;
     for (std::size_t i = start; i < at_; ++i) item.name += to_upper(line_.text[i]);
     if (item.name == "Q" && is_digit(peek())) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One block of Heidenhain conversational text as items: words with a number (X+10, IZ-2, R0), words with a
-// sign (DR+), words alone (FMAX, TCPM). What they mean is not known here.
+// sign (DR+), words alone (FMAX, TCPM). The line reader does not know their meaning.
 #pragma once
 
 #include <optional>
@@ -21,40 +21,40 @@ struct Line {
     bool goes_on = false;  // ends with '~': the next line belongs to it
 };
 
-// The line's text as a block.
+// Returns the line as a block.
 Line line_of(std::string_view text, int number);
 
 struct Item {
-    std::string name;  // upper case; empty for a number by itself
+    std::string name;  // upper case; empty: a number without a word
     std::optional<double> value;
     int sign = 0;        // of a word with a sign but no number: +1 or -1
-    int parameter = -1;  // of Q200=2: 200
-    std::string word;    // FAUTO or FMAX in the place of a parameter's value
+    int parameter = -1;  // 200 for Q200=2
+    std::string word;    // FAUTO or FMAX as the value of a parameter
     int column = 0;
 };
 
 // Reads a line from left to right.
 class LineReader {
   public:
-    // Both must outlive it.
+    // `line` and the other references must outlive the object.
     LineReader(const Line& line, const std::string& source_name, const Parameters& parameters)
         : line_(line), source_name_(source_name), parameters_(parameters) {}
 
     bool at_end();
     int column();
-    // Takes the word (upper case) where it stands next and no letter or digit of it goes on.
+    // Takes the word (upper case) if it is next and no letter or digit follows it directly.
     bool take(std::string_view word);
     bool take(char character);
-    // A number, perhaps signed, or a Q parameter.
+    // Reads a number with an optional sign, or a Q parameter.
     Result<std::optional<double>> number();
     Result<double> formula();
-    // The index of a parameter after its Q.
+    // Reads the index of a parameter after its Q.
     Result<std::optional<int>> parameter();
-    // A label's name: a number or a text in quotes.
+    // Reads the name of a label: a number or a text in quotes.
     Result<std::string> label();
-    // The next item; absent at the end.
+    // Returns the next item; absent at the end.
     Result<std::optional<Item>> item();
-    // Appends the items to the end of the line.
+    // Appends all items up to the end of the line.
     Result<void> items(std::vector<Item>& items);
 
     std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Path functions: lines, circles, poles, and the words that they share.
+// Path functions: lines, circles, poles, and their common words.
 #include <cmath>
 
 #include "base/math.hpp"
@@ -13,8 +13,8 @@ namespace {
 constexpr std::string_view kAxes = "XYZ", kRotary = "ABC";
 constexpr double kLargestFeed = 1e6;          // mm/min
 constexpr double kLargestAngleDeg = 100'000;  // 278 turns
-// Miscellaneous functions that change nothing that is simulated: coolant, clamps, feed of rotary axes, corner
-// and look-ahead behaviour.
+// Miscellaneous functions without effect on the simulation: coolant, clamps, feed of rotary axes, corner and
+// look-ahead behaviour.
 constexpr int kSilent[] = {0,   1,   6,   7,   8,   9,   25,  26,  27,  28,  90, 97,
                            101, 107, 108, 116, 117, 120, 124, 134, 135, 138, 141};
 
@@ -56,7 +56,7 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
         } else if (vector < 3 && item.value && own == "LN") {
             words.vector[vector] = *item.value;
         } else if (own == "LN" && item.value && item.name.size() == 2 && item.name[0] == 'N') {
-            continue;  // the surface's normal: only a radius compensation uses it
+            continue;  // the normal of the surface: used by radius compensation only
         } else if (name == "PR" && item.value) {
             words.polar_radius = *item.value * unit_mm_;
             words.polar_radius_increment = incremental;
@@ -74,7 +74,7 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
         } else if (item.name == "FMAX") {
             words.fast = true;
         } else if (item.name == "F" || item.name == "FAUTO" || item.name == "AUTO" || item.name == "MAX") {
-            continue;  // apply_feed
+            continue;  // read by apply_feed
         } else if (item.name == "M" && item.value) {
             if (*item.value < 0 || *item.value > 999 || *item.value != std::floor(*item.value)) {
                 return in.refuse(item.column, "M without a whole number", "correct it");
@@ -119,7 +119,7 @@ Result<void> Interpreter::apply_feed(const Words& words) {
     return {};
 }
 
-// Miscellaneous functions of the block; those that act at its end act after the path function has run.
+// Runs the miscellaneous functions of the block that act at its end, after the path function.
 Result<void> Interpreter::miscellaneous(const Words& words) {
     bool call = false;
     for (const int m : words.m) {
@@ -262,7 +262,7 @@ Result<void> Interpreter::require_start() {
     return {};
 }
 
-// From a known tip; `to` in the frame.
+// Adds a move from a known tip; `to` in the frame.
 Result<void> Interpreter::go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad) {
     const Place where = place(line_.column);
     if (!rapid) {
@@ -277,7 +277,7 @@ Result<void> Interpreter::go(bool rapid, Vec3 to, const std::optional<motion::Ar
     return path_.move(rapid ? motion::MoveKind::rapid : motion::MoveKind::feed, to, arc, to_rad, where);
 }
 
-// One path function: feed and functions, the move, and the cycle that M89 asks for.
+// Runs one path function: feed and functions, the move, and the cycle of M89.
 Result<void> Interpreter::travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc,
                                  Vec3 to_rad) {
     if (auto done = apply_feed(words); !done) return done;
@@ -292,7 +292,7 @@ Result<void> Interpreter::travel(const Words& words, Vec3 to, const std::optiona
         }
         return miscellaneous(words);
     }
-    if (!path_.knows_tip()) {  // not all coordinates are stated yet: nothing to show
+    if (!path_.knows_tip()) {  // some coordinates are not stated yet: no move
         path_.set_rotary(to_rad);
         return miscellaneous(words);
     }
@@ -311,7 +311,7 @@ Result<void> Interpreter::line(LineReader& in, bool polar) {
     if (!words) return std::unexpected(words.error());
     bool moves = polar;
     for (std::size_t k = 0; k < 3; ++k) moves = moves || words->axis[k] || words->increment[k];
-    // M128 acts from the start of its block, M129 too: the tool stands still when they switch.
+    // M128 and M129 act at the start of their block. The tool stands still when they switch.
     for (const int m : words->m) {
         if (m == 3 || m == 4 || m == 13 || m == 14) path_.spindle_on = true;
         if (m == 128 && path_.machine) path_.switch_tip_control(true, line_.number);
@@ -331,7 +331,7 @@ Result<void> Interpreter::line(LineReader& in, bool polar) {
     return travel(*words, *to, {}, *to_rad);
 }
 
-// LN X Y Z NX NY NZ TX TY TZ: the tip and the tool's axis, whatever the machine.
+// LN X Y Z NX NY NZ TX TY TZ: tip and tool axis, independent of the machine.
 Result<void> Interpreter::line_with_vectors(LineReader& in) {
     const auto words = read_words(in, "LN");
     if (!words) return std::unexpected(words.error());
@@ -363,7 +363,7 @@ Result<void> Interpreter::line_with_vectors(LineReader& in) {
     return travel(*words, *to, {}, to_rad);
 }
 
-// CC X Y: the pole; CC alone: where the tip stands.
+// CC X Y sets the pole; CC alone sets it to the position of the tip.
 Result<void> Interpreter::pole(LineReader& in) {
     const auto words = read_words(in, "CC");
     if (!words) return std::unexpected(words.error());
@@ -416,7 +416,7 @@ Result<void> Interpreter::circle_of_radius(LineReader& in) {
     return travel(*words, *to, *arc, path_.rotary_rad());
 }
 
-// CT: the arc to the end that leaves the last element without a corner.
+// CT: an arc to the end, tangent to the last element.
 Result<void> Interpreter::tangent_circle(LineReader& in) {
     const auto words = read_words(in, "CT");
     if (!words) return std::unexpected(words.error());
@@ -428,7 +428,7 @@ Result<void> Interpreter::tangent_circle(LineReader& in) {
     }
     const auto to = target(*words);
     if (!to) return std::unexpected(to.error());
-    // The centre lies on the normal of the tangent at the start, as far from the start as from the end.
+    // The centre is on the normal of the tangent at the start, at equal distances from start and end.
     const Vec3 t = normalized(along), normal{-t.y, t.x, 0}, chord{to->x - from.x, to->y - from.y, 0};
     const double across = dot(chord, normal);
     if (std::abs(across) <= 1e-9 * length(chord)) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 
-// Gives positions new numbers in the order in which triangles first use them; drops the others.
+// Renumbers positions in the order of their first use by triangles. Drops the others.
 void renumber(TriangleMesh& mesh) {
     std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
     std::vector<Point3f> used;
@@ -26,7 +26,7 @@ void renumber(TriangleMesh& mesh) {
     mesh.positions = std::move(used);
 }
 
-// Drops triangles that use a vertex twice; gives how many.
+// Drops triangles that use a vertex twice. Returns their number.
 std::size_t drop_degenerate(Model& model) {
     std::vector<Triangle>& triangles = model.mesh.triangles;
     std::vector<ModelPart>& parts = model.parts;

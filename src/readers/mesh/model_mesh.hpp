@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all model readers do with their triangles once they have them.
+// Common last steps of all model readers.
 #pragma once
 
 #include "base/mesh.hpp"
@@ -7,19 +7,19 @@
 
 namespace tribo::readers {
 
-// Files in which a vertex is written once per triangle have their equal vertices made one; files with an
-// index keep the one they have: solids that touch there stay apart.
+// `exact` merges equal vertices, for files that repeat a vertex in each triangle. Files with an index keep
+// their vertices, so that solids that touch stay separate.
 enum class Weld { no, exact };
 
-// The point in mm; none when it is not finite or beyond single precision.
+// Returns the point in mm; none if it is not finite or beyond single precision.
 std::optional<Point3f> to_position(double x, double y, double z, double unit_mm);
 
-// Warns where faces cross themselves or have no area.
+// Warns of faces that intersect themselves or have no area.
 void warn_of_crossing_faces(Model& model, const ModelOptions& options, std::uint64_t faces);
 
-// The model of the triangles read: welds, drops triangles that use a vertex twice (counted in a warning; a
-// triangle without area but with three different corners may be what closes a mesh, and stays), drops unused
-// positions. A model without triangles is an error.
+// Completes a model: merges vertices, drops triangles that use a vertex twice (counted in a warning), and
+// drops unused positions. A triangle with three different corners but no area stays, because it may close a
+// mesh. A model without triangles is an error.
 Result<Model> finish_model(Model model, const ModelOptions& options, Weld weld);
 
 }  // namespace tribo::readers

@@ -6,7 +6,7 @@
 
 namespace tribo::readers {
 
-// Newell's method gives the area vector of any polygon, planar or not.
+// Newell's method gives the area vector of any polygon, also if it is not planar.
 void PolygonTriangulator::project(std::span<const std::uint32_t> corners, std::span<const Vec3> points) {
     Vec3 area;
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
@@ -38,7 +38,7 @@ double PolygonTriangulator::turn(const Corner& a, const Corner& b, const Corner&
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// True when all corners, seen from the first, stand one after the other within half a turn.
+// True when all corners, seen from the first, follow each other within half a turn.
 bool PolygonTriangulator::fan_fits() const {
     for (std::size_t i = 2; i < corners_.size(); ++i) {
         if (turn(corners_[0], corners_[i - 1], corners_[i]) <= flat_) return false;
@@ -57,7 +57,7 @@ bool PolygonTriangulator::is_ear(std::uint32_t corner) {
         ++tests_;
         if (turn(a, b, p) < 0 || turn(b, c, p) < 0 || turn(c, a, p) < 0) continue;
         const auto at = [&](const Corner& q) { return p.u == q.u && p.v == q.v; };
-        if (!at(a) && !at(b) && !at(c)) return false;  // the bridges to holes pass a corner twice
+        if (!at(a) && !at(b) && !at(c)) return false;  // bridges to holes use a corner twice
     }
     return true;
 }
@@ -76,7 +76,8 @@ bool PolygonTriangulator::clip_ears(std::vector<Triangle>& out) {
             continue;
         }
         if (refused >= left) {
-            // No ear is left: the rest is straight or crosses itself. Cut a corner that turns left, if any.
+            // No ear is left: the rest is straight or intersects itself. Cut a corner that turns left, if
+            // there is one.
             forced = true;
             for (std::size_t i = 0; i < left; ++i, at = corners_[at].after) {
                 if (turn(corners_[corners_[at].before], corners_[at], corners_[corners_[at].after]) > flat_) {
@@ -88,7 +89,7 @@ bool PolygonTriangulator::clip_ears(std::vector<Triangle>& out) {
         out.push_back({corners_[cut.before].index, cut.index, corners_[cut.after].index});
         corners_[cut.before].after = cut.after;
         corners_[cut.after].before = cut.before;
-        at = corners_[cut.after].after;  // not the neighbour: its triangle would be a sliver
+        at = corners_[cut.after].after;  // not the neighbour, whose triangle would be a sliver
         refused = 0;
         --left;
     }

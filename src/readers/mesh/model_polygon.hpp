@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Polygons to triangles. Exporters leave concave faces in files whose format promises convex ones (98 of
-// 90,379 measured VRML faces), so every face with more than three corners is tested, whatever its flags say.
+// Polygons to triangles. Exporters write concave faces into files whose format promises convex ones (98 of
+// 90,379 measured VRML faces). Therefore every face with more than three corners is tested, whatever its
+// flags say.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +12,21 @@
 
 namespace tribo::readers {
 
-// One object per file; allocates only while its longest face grows.
+// One object per file. Allocates only when a face is longer than all faces before it.
 class PolygonTriangulator {
   public:
-    // Corner-in-triangle tests for all concave faces of a file, one to two seconds: files made to be slow end
-    // here.
+    // Upper limit of corner-in-triangle tests for all concave faces of a file (one to two seconds), against
+    // files made to be slow.
     static constexpr std::uint64_t kMaxTests = 40'000'000;
 
-    // Appends the triangles of the face whose corner i is number corners[i] at points[i]. A fan from the
-    // first corner where that is right, else ear clipping (Meisters 1975) in the plane along which the face
-    // is largest. Repeated neighbours count once; a face of less than three corners gives nothing. False when
-    // the tests are spent.
+    // Appends the triangles of the face whose corner i has index corners[i] and position points[i]. Uses a
+    // fan from the first corner if it is correct, else ear clipping (Meisters 1975) in the plane of the
+    // largest projection of the face. Repeated neighbours count once; a face with less than three corners
+    // gives nothing. Returns false when the tests are used up.
     bool append(std::span<const std::uint32_t> corners, std::span<const Vec3> points,
                 std::vector<Triangle>& out);
 
-    // Faces found to cross themselves or to have no area: they were cut somehow.
+    // Number of faces that intersect themselves or have no area. They were triangulated anyway.
     std::uint64_t crossing_faces() const { return crossing_; }
 
   private:
@@ -41,7 +42,7 @@ class PolygonTriangulator {
     bool clip_ears(std::vector<Triangle>& out);
 
     std::vector<Corner> corners_;
-    double flat_ = 0;  // a turn up to this is straight on
+    double flat_ = 0;  // turns up to this value count as straight
     std::uint64_t tests_ = 0, crossing_ = 0;
 };
 

@@ -13,12 +13,12 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// Statements that say nothing about where the surface is.
+// Statements without effect on the surface.
 constexpr std::array kPassedOver{"vt"sv,         "vn"sv,       "vp"sv,     "g"sv,        "o"sv,
                                  "s"sv,          "mg"sv,       "mtllib"sv, "usemtl"sv,   "lod"sv,
                                  "bevel"sv,      "maplib"sv,   "usemap"sv, "c_interp"sv, "d_interp"sv,
                                  "shadow_obj"sv, "trace_obj"sv};
-// Statements of curves and surfaces in free form, and those that reach outside the file.
+// Statements of free-form curves and surfaces, and of other files.
 constexpr std::array kRefused{"cstype"sv, "deg"sv,  "bmat"sv,  "step"sv,  "curv"sv, "curv2"sv,
                               "surf"sv,   "parm"sv, "trim"sv,  "hole"sv,  "scrv"sv, "sp"sv,
                               "end"sv,    "con"sv,  "ctech"sv, "stech"sv, "bzp"sv,  "bsp"sv,
@@ -54,7 +54,7 @@ class ObjReader {
                        std::move(remedy));
     }
 
-    // The next word of the statement, over lines that end with a backslash, up to a comment.
+    // Returns the next word of the statement, across lines that end with a backslash, up to a comment.
     std::string_view next_word() {
         for (;;) {
             const std::string_view word = cursor_.word_on_line();

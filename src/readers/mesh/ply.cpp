@@ -19,19 +19,19 @@ double as_double(const char* bytes) {
     return static_cast<double>(value);
 }
 
-// Reads one value after the other, whatever the encoding.
+// Reads one value after the other, in any encoding.
 class ValueReader {
   public:
     ValueReader(TextCursor cursor, PlyEncoding encoding)
         : cursor_(cursor), bytes_(cursor.rest()), encoding_(encoding) {}
 
     bool is_text() const { return encoding_ == PlyEncoding::text; }
-    // Bytes not read yet, and the fewest that a value takes.
+    // Number of unread bytes, and the smallest size of a value.
     std::size_t left() const { return is_text() ? cursor_.rest().size() : bytes_.size() - at_; }
     std::size_t least_size(PlyType type) const { return is_text() ? 1 : size_of(type); }
     int line() const { return is_text() ? cursor_.line() : 0; }
     int column() const { return is_text() ? cursor_.column() : 0; }
-    // The word that was not a number; empty when the file ended.
+    // The word that is not a number; empty at the end of the file.
     std::string_view refused() const { return refused_; }
 
     std::optional<double> next(PlyType type) {
@@ -131,7 +131,7 @@ class PlyReader {
         return fail_in(element, row, "expected a number, found " + quoted(values_.refused()));
     }
 
-    // A count that the rest of the file cannot hold is a lie; told before anything is reserved for it.
+    // Refuses a count that the rest of the file cannot contain, before memory is reserved for it.
     Result<void> check_count(const PlyElement& element) const {
         std::uint64_t row = 0;
         for (const PlyProperty& p : element.properties) {
@@ -144,7 +144,7 @@ class PlyReader {
                        "the file is cut short; export it again");
     }
 
-    // The length of a list, held against what is left.
+    // Reads the length of a list and compares it with the remaining bytes.
     Result<std::size_t> read_length(const PlyElement& element, std::uint64_t row, const PlyProperty& p) {
         const auto length = values_.next(p.count_type);
         if (!length) return no_value(element, row);

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames{{
     {"float64", PlyType::float64},
 }};
 
-// Elements and properties that a header may list; real ones have a dozen.
+// Largest number of elements and properties in a header; real files have a dozen.
 constexpr std::size_t kMaxEntries = 256;
 
 PlyType type_named(std::string_view word) {
@@ -42,7 +42,7 @@ class HeaderReader {
         : cursor_(cursor), source_name_(source_name) {}
 
     Result<PlyHeader> read() {
-        cursor_.word_on_line();  // "ply", by which the file was recognised
+        cursor_.word_on_line();  // "ply", checked before
         cursor_.next_line();
         bool format_known = false;
         while (!cursor_.at_end()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The header of a PLY file: which elements follow, in which types.
+// The header of a PLY file: its elements and their types.
 #pragma once
 
 #include "readers/text/model_text.hpp"
@@ -17,7 +17,7 @@ inline bool is_integer(PlyType type) {
 struct PlyProperty {
     std::string_view name;
     PlyType type = PlyType::none;
-    PlyType count_type = PlyType::none;  // of a list's length; none: a single value
+    PlyType count_type = PlyType::none;  // type of the length of a list; none: a single value
 
     bool is_list() const { return count_type != PlyType::none; }
 };
@@ -28,7 +28,7 @@ struct PlyElement {
     int line = 0;
     std::vector<PlyProperty> properties;
 
-    // Where the property stands; -1: there is none.
+    // Returns the index of the property; -1 if there is none.
     int find(std::string_view property) const;
 };
 
@@ -37,7 +37,8 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
 };
 
-// Reads up to and with `end_header` and its line end. The header's names point into the cursor's text.
+// Reads up to and including `end_header` and its line end. The names in the header point into the text of the
+// cursor.
 Result<PlyHeader> read_ply_header(TextCursor& cursor, const std::string& source_name);
 
 }  // namespace tribo::readers

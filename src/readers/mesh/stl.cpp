@@ -32,7 +32,7 @@ bool has_binary_size(std::string_view bytes) {
 }
 
 bool is_text_stl(std::string_view bytes) {
-    constexpr std::size_t far_enough = 4096;  // past the name on the first line
+    constexpr std::size_t far_enough = 4096;  // beyond the name on the first line
     const std::string_view start = without_byte_order_mark(bytes).substr(0, far_enough);
     if (start.find('\0') != std::string_view::npos) return false;
     return equals_ignoring_case(TextCursor(start).word(), "solid") &&
@@ -86,7 +86,8 @@ class StlTextReader {
 
     Result<void> read_facet() {
         if (auto ok = expect("normal"); !ok) return ok;
-        for (int i = 0; i < 3; ++i) {  // recomputed from the corners: exporters write nan here
+        for (int i = 0; i < 3;
+             ++i) {  // ignored: normals are computed from the corners, as exporters write nan here
             if (cursor_.word().empty()) return expected("a normal", {});
         }
         if (auto ok = expect("outer"); !ok) return ok;

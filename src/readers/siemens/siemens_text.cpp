@@ -14,13 +14,12 @@ namespace {
 struct Replacement {
     std::string_view word, by;
 };
-// Words of more than a letter and what stands for them; with parentheses behind them those go too.
+// Words of more than one letter, with their replacement. Parentheses after them are removed too.
 constexpr std::array kReplaced{
     Replacement{"TRAORI", "G43.5"}, Replacement{"TRAFOOF", "G49"}, Replacement{"SUPA", "G53"},
     Replacement{"TRANS", "G52"},    Replacement{"RET", "M2"},
 };
-// Words that say nothing about the path: messages, look-ahead, smoothing, how the control orients between
-// two vectors.
+// Words without effect on the path: messages, look-ahead, smoothing, orientation control between two vectors.
 constexpr std::array<std::string_view, 40> kSilent{
     "MSG",       "STOPRE",     "SOFT",     "BRISK",     "DRIVE",  "FFWON",   "FFWOF",   "COMPCAD",
     "COMPON",    "COMPCURV",   "COMPOF",   "ORIWKS",    "ORIMKS", "ORIAXES", "ORIVECT", "ORISON",
@@ -66,7 +65,7 @@ constexpr std::array kRefused{
     Refused{"EXTCALL", "calls of other programs", "copy that program into this one"},
     Refused{"CALL", "calls of other programs", "copy that program into this one"},
 };
-// G codes that differ: units with and without feeds, exact stops and smoothing that are not followed, no work
+// G codes with another number: units with and without feeds, exact stop and smoothing (ignored), no work
 // offset.
 constexpr std::array kCodes{
     Replacement{"G70", "G20"},  Replacement{"G71", "G21"}, Replacement{"G700", "G20"},
@@ -82,7 +81,7 @@ bool is_name(char c) {
     return is_letter(c) || is_digit(c) || c == '_';
 }
 
-// The end of the parenthesis that opens at `at`, behind its ')'; none where it does not close.
+// Returns the position after the ')' that closes the parenthesis at `at`; none if it is not closed.
 std::optional<std::size_t> parenthesis_end(std::string_view line, std::size_t at) {
     int depth = 0;
     bool quoted = false;
@@ -103,7 +102,7 @@ class Rewriter {
     Result<void> run() {
         const std::string_view text = trimmed(line_);
         if (text.starts_with("%") || text.starts_with("PROC") || text.starts_with("proc")) return {};
-        if (!text.empty() && text[0] == ':') {  // a main block
+        if (!text.empty() && text[0] == ':') {  // block number of a main block
             at_ = static_cast<std::size_t>(text.data() - line_.data()) + 1;
             out_.append(at_, ' ');
             while (at_ < line_.size() && is_digit(line_[at_])) copy_blank(1);
@@ -138,7 +137,7 @@ class Rewriter {
         at_ += count;
     }
 
-    // Writes what stands for line_[at_, end).
+    // Writes the replacement of line_[at_, end).
     void put(std::string_view by, std::size_t end) {
         const std::size_t width = end - at_;
         out_ += by;
@@ -183,7 +182,7 @@ class Rewriter {
                 return {};
             }
         }
-        if (name[0] == 'D' && name.size() > 1) {  // the tool's edge
+        if (name[0] == 'D' && name.size() > 1) {  // cutting edge of the tool
             put("", end);
             return {};
         }
@@ -234,14 +233,14 @@ class Rewriter {
             return refuse(at_, name + " (cycles) is not read yet", std::string(kPlain));
         }
         if (next < line_.size() && line_[next] == ':') {
-            put("", next + 1);  // a label that no jump can reach
+            put("", next + 1);  // a label; jumps to labels are refused
             return {};
         }
         return refuse(at_, "the word " + name.substr(0, 20) + " is not known",
                       "delete it where it does not move the tool");
     }
 
-    // NAME=value, the '=' at `equals`.
+    // NAME=value, with the '=' at `equals`.
     Result<void> assignment(const std::string& name, std::size_t equals) {
         std::size_t end = equals + 1;
         while (end < line_.size() && is_blank(line_[end])) ++end;
@@ -291,7 +290,7 @@ class Rewriter {
         return {};
     }
 
-    // R1 to #1, parentheses to brackets.
+    // Converts R1 to #1 and parentheses to brackets.
     Result<std::string> expression(std::string_view value, std::size_t at, const std::string& setting) const {
         if (value.empty()) return refuse(at, "a value is missing behind '='", "write a number");
         std::string text;
@@ -309,7 +308,7 @@ class Rewriter {
             std::size_t end = i;
             while (end < value.size() && is_name(value[end])) name += to_upper(value[end++]);
             if (name[0] == 'R' && name.size() > 1 && std::all_of(name.begin() + 1, name.end(), is_digit)) {
-                // Whether the old or the new value is meant the G-code reader would not ask.
+                // The block may mean the old or the new value; the G-code reader does not detect this.
                 if (std::find(set_here_.begin(), set_here_.end(), name) != set_here_.end() &&
                     name != setting) {
                     return refuse(at + i, name + " is used in the block that sets it", "put it on two lines");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The trace of a servo: where the probe was and what the hand felt, a row per tick. A trace is a stroke too
-// (stroke_csv.hpp).
+// The trace of a servo: position of the probe and force on the hand, a row per tick. A trace can also be read
+// as a stroke (stroke_csv.hpp).
 #pragma once
 
 #include <string>

@@ -43,7 +43,7 @@ std::uint64_t checksum_of(std::string_view payload) {
     return hash.value();
 }
 
-// What a reader that cannot use the bytes in place owns.
+// Data of a table whose bytes cannot be used in place.
 struct Copy {
     std::vector<Piece> pieces;
     std::vector<ForcePiece> forces;
@@ -82,7 +82,7 @@ Copy copied(std::string_view bytes, const Layout& l) {
 std::string write_force_bake(const contact::ForceTable& table, std::uint64_t key) {
     const contact::PerceptualTable::Parts& parts = table.table().parts();
     std::string payload;
-    // Of an empty table: the end of the list alone.
+    // An empty table has only the end of the list.
     const std::size_t pieces = table.table().pieces().size();
     for (std::size_t n = 0; n < pieces; ++n) {
         append(payload, parts.pieces[n].from);
@@ -122,7 +122,7 @@ Result<ForceBake> read_force_bake(std::string_view bytes, std::shared_ptr<const 
     Layout l;
     l.channels = number_at<std::uint32_t>(bytes, 12);
     const auto pieces = number_at<std::uint64_t>(bytes, 16), knots = number_at<std::uint64_t>(bytes, 24);
-    // Before any product: no count is above the bytes there are.
+    // Checked before any multiplication: no count exceeds the number of bytes.
     if (l.channels < 3 - 2 * (knots == 0) || l.channels > kMostChannels || pieces > bytes.size() ||
         knots > bytes.size())
         return refuse("the header of this force table is damaged");

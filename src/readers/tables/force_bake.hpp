@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A force table as a file: written once, mapped into memory and used as it lies there.
+// A force table as a file: written once, then memory-mapped and used in place.
 //
 // All numbers little-endian, every block begins at a multiple of 8 bytes:
 //   64 bytes   "TRIBOFT\n", version u32, channels u32, pieces u64, knots u64, key u64, checksum u64, 16 zero
@@ -7,7 +7,7 @@
 //   pieces     phase f64, rate f64, order step f64
 //   knots      at f64
 //   knots      channels values f32
-// The checksum is FNV-1a over all that follows the header; the key says what the table was made from.
+// The checksum is FNV-1a over all bytes after the header. The key identifies the inputs of the table.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,9 @@ struct ForceBake {
     std::uint64_t key = 0;
 };
 
-// The table that the bytes hold. `owner` keeps them alive; the table uses them in place where they are
-// aligned to 8 bytes and the machine is little-endian, else it copies. Linear in the bytes (the checksum).
+// Returns the table in the bytes. `owner` keeps the bytes alive. The table uses them in place if they are
+// aligned to 8 bytes and the machine is little-endian, else it copies them. Linear in the bytes (the
+// checksum).
 Result<ForceBake> read_force_bake(std::string_view bytes, std::shared_ptr<const void> owner,
                                   const std::string& source_name);
 

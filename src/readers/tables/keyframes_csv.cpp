@@ -18,11 +18,11 @@ constexpr std::array<std::string_view, 6> kPoseColumns{"x", "y", "z", "i", "j", 
 constexpr std::string_view kWeightColumn = "weight", kFeedColumn = "feed_mm_per_min";
 constexpr const char* kHeaderRemedy = "start with the line x,y,z,i,j,k[,weight][,feed_mm_per_min]";
 constexpr double kLargestFeed = 1e6;    // mm/min
-constexpr double kLargestWeight = 1e9;  // and the smallest is one over it: beyond, sums of weights lose poses
-// Shorter axes than this have no direction that could be meant.
+constexpr double kLargestWeight = 1e9;  // smallest weight: 1 / this; beyond, sums of weights lose poses
+// Shorter axes have no reliable direction.
 constexpr double kShortestAxis = 1e-9, kLongestAxis = 1e9;
 
-// A vector that is a unit one but for rounding stays as it is, so that tables survive being written and read.
+// A vector that is unit up to rounding stays unchanged, so that written tables read back the same.
 Vec3 to_unit(Vec3 axis) {
     constexpr double rounding = 1e-15;
     const double squared = squared_length(axis);

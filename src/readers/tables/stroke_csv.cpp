@@ -13,9 +13,9 @@
 namespace tribo::readers {
 namespace {
 
-constexpr double kLongestStrokeS = 1e6;   // eleven days: more is a slip of the unit
-constexpr double kLargestForceN = 1e6;    // no finger, and no arm
-constexpr std::size_t kShownColumns = 4;  // both kinds have this many
+constexpr double kLongestStrokeS = 1e6;   // eleven days; a longer stroke is an error of the unit
+constexpr double kLargestForceN = 1e6;    // more than any finger or arm
+constexpr std::size_t kShownColumns = 4;  // both kinds have four columns
 
 struct Column {
     std::string_view name;
@@ -126,7 +126,7 @@ class StrokeReader {
     const Columns& columns_;
     const StrokeOptions& options_;
     std::vector<CsvField> fields_;
-    std::array<std::size_t, kShownColumns> place_{};  // of each column among the fields
+    std::array<std::size_t, kShownColumns> place_{};  // index of each column among the fields
     std::size_t field_count_ = 0;
 };
 

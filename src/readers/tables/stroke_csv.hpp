@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strokes: where a hand or finger went and when, as comma-separated text whose header names the columns.
+// Strokes: the motion of a hand or finger over time, as comma-separated text whose header names the columns.
 //
 //   a probe in space          t_s,x_mm,y_mm,z_mm
 //   a finger on a surface     t_s,x_mm,y_mm,force_n
@@ -31,18 +31,18 @@ struct FingerPoint {
 };
 
 struct StrokeOptions {
-    std::string source_name;              // stands in messages
+    std::string source_name;              // used in messages
     std::size_t max_points = 10'000'000;  // more are refused
 };
 
-// Each reads its four columns, in any order; other columns are left alone, so that a trace or a device log is
-// a stroke too. Blank lines and those that start with '#' are left out. Times are >= 0 and rise from line to
-// line; between two points everything runs linearly. At least two points. Linear in the bytes.
+// Each function reads its four columns, in any order. Other columns are ignored, so that a trace or a device
+// log can be read as a stroke. Blank lines and lines that start with '#' are skipped. Times are >= 0 and
+// increase from line to line. Values are linear between two points. At least two points. Linear in the bytes.
 Result<std::vector<ProbePoint>> read_probe_stroke(std::string_view bytes, const StrokeOptions& options = {});
 Result<std::vector<FingerPoint>> read_finger_stroke(std::string_view bytes,
                                                     const StrokeOptions& options = {});
 
-// The tables that the readers read back to the same points.
+// Write tables that the readers read back to the same points.
 std::string write_probe_stroke(const std::vector<ProbePoint>& points);
 std::string write_finger_stroke(const std::vector<FingerPoint>& points);
 

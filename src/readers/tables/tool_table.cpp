@@ -132,7 +132,7 @@ class ToolTableReader {
             if (letter == 'T') what = 0;
             if (letter == 'D') what = 1;
             if (letter == 'Z') what = 4;
-            if (!what) continue;  // pocket, other axes' offsets, lathe angles
+            if (!what) continue;  // pocket, offsets of other axes, lathe angles
             if (auto done = set(tool, *what, *what == 0 ? value : value * unit, column); !done) {
                 return std::unexpected(done.error());
             }
@@ -184,7 +184,7 @@ class ToolTableReader {
         if (2 * tool.corner_mm > tool.diameter_mm) {
             return refuse(1, "the corner radius is more than half the diameter", "correct one of them");
         }
-        if (tool.number == 0) return {};  // tool.tbl's empty spindle
+        if (tool.number == 0) return {};  // entry of tool.tbl for the empty spindle
         for (const motion::DeclaredTool& other : table_.tools) {
             if (other.number != tool.number) continue;
             return refuse(1, "tool " + std::to_string(tool.number) + " stands in the table twice",
@@ -196,7 +196,7 @@ class ToolTableReader {
 
     TextLines lines_;
     const ToolTableOptions& options_;
-    std::vector<std::size_t> columns_;  // of CSV: what each holds
+    std::vector<std::size_t> columns_;  // of CSV: content of each column
     ToolTable table_;
 };
 

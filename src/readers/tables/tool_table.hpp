@@ -13,17 +13,18 @@
 namespace tribo::readers {
 
 struct ToolTableOptions {
-    std::string source_name{};                 // stands in messages
-    LengthUnit unit = LengthUnit::millimetre;  // of tool.tbl, which does not say; CSV is in mm
+    std::string source_name{};                 // used in messages
+    LengthUnit unit = LengthUnit::millimetre;  // unit of tool.tbl, which does not state one; CSV is in mm
 };
 
 struct ToolTable {
-    std::vector<motion::DeclaredTool> tools;  // numbers differ; D and corner, flutes, length where given
+    std::vector<motion::DeclaredTool>
+        tools;  // different numbers; diameter and corner, flutes, length if given
     Warnings warnings;
 };
 
-// A CSV table begins with a line of names, of which number and diameter_mm are needed: number, diameter_mm,
-// corner_mm, flutes, length_mm (from the spindle nose to the tip). Everything else is read as tool.tbl.
+// A CSV table begins with a line of column names: number, diameter_mm (both required), corner_mm, flutes,
+// length_mm (from the spindle nose to the tip). Any other text is read as tool.tbl.
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options = {});
 
 }  // namespace tribo::readers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Comma-separated text, line by line: no quotes, blanks around a field do not count.
+// Comma-separated text, line by line. There are no quotes; blanks around a field are ignored.
 #pragma once
 
 #include <string>
@@ -16,17 +16,17 @@ struct CsvField {
     int column = 1;         // of its first character, from 1
 };
 
-// The lines of a table that hold something: neither empty nor a comment that begins with #.
+// The lines of a table, without empty lines and comments that begin with #.
 class CsvLines {
   public:
-    // `source_name` is what errors call it.
+    // `source_name` is the name of the table in errors.
     CsvLines(std::string_view text, std::string source_name)
         : lines_(text), source_name_(std::move(source_name)) {}
 
-    // The fields of the next line into `fields`; false after the last one.
+    // Writes the fields of the next line into `fields`. Returns false after the last line.
     bool next(std::vector<CsvField>& fields);
     int number() const { return lines_.number(); }
-    // An error at a column of the line that next() gave last; column 0: of the whole line.
+    // Returns an error at a column of the last line of next(); column 0: for the whole line.
     std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const;
 
   private:
@@ -34,7 +34,7 @@ class CsvLines {
     std::string source_name_;
 };
 
-// Whether the field is the column `name`; ASCII letters of either case.
+// True when the field is the column `name`; the case of ASCII letters is ignored.
 bool is_csv_column(std::string_view text, std::string_view name);
 
 }  // namespace tribo::readers

@@ -34,7 +34,8 @@ void append_fixed(std::string& text, double value, int decimals) {
         text += "e+" + std::to_string(exponent);
         return;
     }
-    // Whole part and fraction apart: the difference is exact, so only the scaling of the fraction rounds.
+    // Whole part and fraction separately: the difference is exact, so only the scaling of the fraction
+    // rounds.
     const std::uint64_t scale = kPowerOfTen[static_cast<std::size_t>(decimals)];
     const double floor = std::floor(size);
     auto whole = static_cast<std::uint64_t>(floor);

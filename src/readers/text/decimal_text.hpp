@@ -7,11 +7,11 @@
 namespace tribo::readers {
 
 // Appends the value with exactly `decimals` digits after the point (0 to 9), rounded to nearest: -0.50. A
-// value that rounds to zero has no sign. From 1e15 in size on the digits end in an exponent: 1.25e+20. What
-// is not finite reads nan, inf or -inf.
+// value that rounds to zero has no sign. An absolute value from 1e15 on is written with an exponent:
+// 1.25e+20. Values that are not finite give nan, inf or -inf.
 void append_fixed(std::string& text, double value, int decimals);
 
-// The same without zeros at the end: 0.5, 12, 3.1416.
+// The same without trailing zeros: 0.5, 12, 3.1416.
 std::string short_decimal(double value, int decimals = 4);
 
 }  // namespace tribo::readers

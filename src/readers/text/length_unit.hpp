@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The two units that machining files count lengths in.
+// The two length units of machining files.
 #pragma once
 
 #include <string_view>
@@ -15,8 +15,8 @@ constexpr std::string_view plural(LengthUnit unit) {
     return unit == LengthUnit::inch ? "inches" : "millimetres";
 }
 
-// Coordinates beyond this are taken for a slip of the pen, mm: no machine is a kilometre long, and products
-// of larger ones would lose the micrometre.
+// Larger coordinates count as a typing error, mm: no machine is a kilometre long, and products of larger
+// values would lose the micrometre.
 inline constexpr double kLargestCoordinateMm = 1e6;
 
 }  // namespace tribo::readers

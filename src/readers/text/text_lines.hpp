@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lines of a text file, with their numbers, and how a piece of one is shown in a message.
+// The lines of a text file with their numbers, and a character in a form for messages.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,16 @@
 
 namespace tribo::readers {
 
-// Walks the lines of a text. A line ends at LF, CR or CR LF; a UTF-8 byte order mark at the start is left
-// out.
+// Reads the lines of a text. A line ends at LF, CR or CR LF. A UTF-8 byte order mark at the start is skipped.
 class TextLines {
   public:
     explicit TextLines(std::string_view text);
 
-    // The next line without what ends it; none after the last one.
+    // Returns the next line without its line end; none after the last one.
     std::optional<std::string_view> next();
-    // Number of the line that next() gave last, from 1.
+    // Number of the last line of next(), from 1.
     int number() const { return number_; }
-    // What next() has not given yet.
+    // The text after the last line of next().
     std::string_view rest() const { return rest_; }
 
   private:
@@ -35,18 +34,18 @@ constexpr bool is_digit(char c) {
 constexpr bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
-// ASCII only, so that no locale matters.
+// For ASCII only, so that no locale matters.
 constexpr char to_upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
 std::string_view trimmed(std::string_view text);
 
-// The number that the whole text spells, with a sign before it if need be; none when it spells none, or one
-// too large for a double.
+// Returns the number if the whole text is one, with an optional sign. Returns none for other text, and for a
+// number too large for a double.
 std::optional<double> number_of(std::string_view text);
 
-// The character as a message may show it: 'x', or byte 0xE9 where it is not plain ASCII.
+// Returns the character for messages: 'x', or byte 0xE9 if it is not plain ASCII.
 std::string shown_character(char c);
 
 }  // namespace tribo::readers

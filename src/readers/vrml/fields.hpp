@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Field values of a node as numbers and flags, refused where they cannot be meant.
+// Field values of a node as numbers and flags. Invalid values are refused.
 #pragma once
 
 #include "readers/text/model_text.hpp"
@@ -11,7 +11,7 @@ class VrmlFields {
   public:
     VrmlFields(const VrmlTree& tree, VrmlNodeId node) : tree_(tree), node_(node) {}
 
-    // Sets `out` where the node has the field.
+    // Sets `out` if the node has the field.
     template <std::size_t N>
     Result<void> read(std::string_view field, double (&out)[N]) const {
         const VrmlValue* value = tree_.find(node_, field);
@@ -25,15 +25,15 @@ class VrmlFields {
         return {};
     }
     Result<void> read_flag(std::string_view field, bool& out) const;
-    // One number of at least `least`, or above it where it may not be that itself.
+    // Reads one number >= `least`, or > `least` if `may_be_least` is false.
     Result<void> read_size(std::string_view field, double& out, double least, bool may_be_least) const;
-    // A list of vectors of `width` numbers; empty where there is none.
+    // Reads a list of vectors of `width` numbers; empty if the node has none.
     Result<std::span<const double>> read_list(std::string_view field, std::size_t width) const;
-    // The place of a list's number `at`, found by reading its text again.
+    // Returns the place of number `at` of a list. Reads the text of the list again.
     VrmlPlace place_of_number(const VrmlValue& list, std::size_t at) const;
 
     std::unexpected<Error> refuse(const VrmlValue& value, std::string cause) const;
-    // At the field's value, or at the node where it has no such field.
+    // The error is at the value of the field, or at the node if it has no such field.
     std::unexpected<Error> refuse_field(std::string_view field, std::string cause) const;
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of a model: its own and those that Inline and EXTERNPROTO name, each read once.
+// The files of a model: its own, and those named by Inline and EXTERNPROTO, each read once.
 #pragma once
 
 #include <map>
@@ -9,15 +9,15 @@
 
 namespace tribo::readers {
 
-// Of all files together, unpacked, bytes.
+// Limit of all files together after unpacking, bytes.
 inline constexpr std::uint64_t kMaxVrmlText = 64 * 1024 * 1024;
 inline constexpr std::size_t kMaxVrmlFiles = 1000;
 inline constexpr int kMaxVrmlFileDepth = 8;
 
-// What one text defines at its top.
+// The top-level definitions of one text.
 struct VrmlTop {
     std::vector<VrmlNodeId> roots;
-    std::vector<std::pair<std::string_view, std::uint32_t>> prototypes;  // in their order
+    std::vector<std::pair<std::string_view, std::uint32_t>> prototypes;  // in order
 };
 
 class VrmlFiles {
@@ -25,12 +25,12 @@ class VrmlFiles {
     VrmlFiles(VrmlTree& tree, const ModelOptions& options)
         : tree_(tree), options_(options), prototypes_(tree, *this) {}
 
-    // The model's own text, whose header has been checked.
+    // Reads the text of the model. Its header must be checked before.
     Result<void> read_model(std::string_view text);
-    // Adds an Inline node after the nodes of the first file of its `url` that can be read, which stand in its
-    // field `children`; why none can be goes to the tree's refusals.
+    // Adds an Inline node. Its field `children` holds the nodes of the first file of its `url` that can be
+    // read. If none can be read, the first error goes to the refusals of the tree.
     VrmlNodeId add_inline(const VrmlNodeType& type, const VrmlPlace& at, std::span<const VrmlField> fields);
-    // The prototype that the urls (file.wrl#Name) lead to.
+    // Returns the prototype that the urls (file.wrl#Name) lead to.
     Result<std::uint32_t> read_external(std::span<const std::string_view> urls, const VrmlPlace& at);
 
     VrmlPrototypes& prototypes() { return prototypes_; }
@@ -38,7 +38,7 @@ class VrmlFiles {
   private:
     struct Known {
         std::string name;
-        bool is_open = false;  // being read: who asks for it now stands inside it
+        bool is_open = false;  // being read: a request for it now comes from inside it
         Result<VrmlTop> top;
     };
     Result<const VrmlTop*> open(std::string_view url, const VrmlPlace& at);
@@ -53,7 +53,7 @@ class VrmlFiles {
     int depth_ = 0;
 };
 
-// The file's first line says what it is; other formats are refused by name.
+// Checks the format by the first line of the file. Other formats are refused by name.
 Result<void> check_vrml_header(std::string_view text, const std::string& file, bool may_be_missing);
 
 }  // namespace tribo::readers

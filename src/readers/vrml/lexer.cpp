@@ -15,7 +15,7 @@ bool ends_word(char c) {
     return is_separator(c) || c == '{' || c == '}' || c == '[' || c == ']' || c == '"' || c == '#';
 }
 
-// The number that the whole word spells; hexadecimal with 0x or 0X in front, as integers may be.
+// Returns the number if the whole word is one. Integers may be hexadecimal with 0x or 0X.
 std::optional<double> number_of(std::string_view word) {
     const char first = word.front();
     if ((first < '0' || first > '9') && first != '+' && first != '-' && first != '.') return std::nullopt;

@@ -22,22 +22,22 @@ enum class VrmlTokenKind : std::uint8_t {
 
 struct VrmlToken {
     VrmlTokenKind kind = VrmlTokenKind::end;
-    std::string_view text;  // as written; a string without its quotes, its escapes kept
-    double number = 0;      // may be infinite where the text is too large
+    std::string_view text;  // as written; a string without quotes, with its escapes
+    double number = 0;      // infinite if the text is too large a number
     int line = 1, column = 1;
     std::uint32_t offset = 0;  // of the first byte
 
     bool is(std::string_view word) const { return kind == VrmlTokenKind::word && text == word; }
 };
 
-// Commas are blanks, `#` starts a comment to the end of the line, any other run of bytes is a word (names in
-// real files hold dots, plus signs and bytes of any code page) or a number, hexadecimal ones included.
+// Commas are blanks, and `#` starts a comment to the end of the line. Any other run of bytes is a word (names
+// in real files contain dots, plus signs and bytes of any code page) or a number, also a hexadecimal one.
 class VrmlLexer {
   public:
     explicit VrmlLexer(std::string_view text) : text_(text) {}
 
     VrmlToken next();
-    // Goes on at `token`, which this lexer gave.
+    // Continues at `token`, which must come from this lexer.
     void rewind(const VrmlToken& token);
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The 54 nodes of VRML 2.0 as this reader sees them.
+// The 54 nodes of VRML 2.0, with their roles for this reader.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 namespace tribo::readers {
 
 enum class VrmlRole : std::uint8_t {
-    group,        // its children are seen
-    transform,    // a group with a place
-    choice,       // Switch: one child or none is seen
-    level,        // LOD: its first level is seen
-    inline_file,  // the nodes of another file are seen; they stand in its field `children` once read
-    shape,        // its geometry is seen
+    group,        // its children are visible
+    transform,    // a group with a placement
+    choice,       // Switch: one child or none is visible
+    level,        // LOD: its first level is visible
+    inline_file,  // the nodes of another file are visible; after reading they are in its field `children`
+    shape,        // its geometry is visible
     face_set,     // IndexedFaceSet
     box,
     cone,
@@ -26,13 +26,13 @@ enum class VrmlRole : std::uint8_t {
     appearance,
     material,
     colour,      // colours for geometry
-    no_surface,  // geometry of points, lines or letters: passed over with a warning
+    no_surface,  // geometry of points, lines or letters: ignored with a warning
     silent,      // has no geometry
-    script,      // has fields of its own making, so its inside is skipped unread
-    instance     // of a prototype, where it stands in the body of another
+    script,      // defines its own fields, therefore its body is skipped
+    instance     // of a prototype, inside the body of another prototype
 };
 
-// Geometry that this reader makes triangles of.
+// True for geometry that this reader converts to triangles.
 constexpr bool is_surface(VrmlRole role) {
     return role >= VrmlRole::face_set && role <= VrmlRole::extrusion;
 }
@@ -41,10 +41,10 @@ struct VrmlNodeType {
     std::string_view name;
     VrmlRole role = VrmlRole::silent;
     std::span<const std::string_view> used = {};    // fields whose values the reader keeps
-    std::span<const std::string_view> passed = {};  // for nodes with used fields: the other fields it knows
+    std::span<const std::string_view> passed = {};  // the other known fields, for nodes with used fields
 };
 
-// The type of that name; null where VRML 2.0 has none.
+// Returns the type of that name; null if VRML 2.0 has none.
 const VrmlNodeType* find_vrml_node(std::string_view name);
 
 }  // namespace tribo::readers

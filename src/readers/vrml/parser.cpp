@@ -18,7 +18,7 @@ bool is_one_of(std::string_view word, std::span<const std::string_view> list) {
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-// Keeps what is open in a list of its own: the stack of a WebAssembly module is small.
+// Open nodes are kept in a list instead of by recursion: the stack of a WebAssembly module is small.
 class Parser {
   public:
     Parser(VrmlTree& tree, VrmlFiles& files, std::uint32_t file)
@@ -37,22 +37,21 @@ class Parser {
   private:
     enum class Form : std::uint8_t { node, interface, body };
 
-    // A node, an interface or a body of a prototype whose end has not been read, and the field of it that is
-    // being read.
+    // A node, an interface or a body of a prototype whose end is not read yet, and its current field.
     struct Open {
         Form form = Form::node;
         const VrmlNodeType* type = nullptr;
         VrmlToken start;
         std::string_view defined_name;
         std::uint32_t prototype = 0;    // of an instance
-        std::vector<VrmlField> fields;  // of an interface: all that it declares
+        std::vector<VrmlField> fields;  // of an interface: all declared fields
         VrmlField field;
-        bool used = false, known = false;  // the field's value is kept; the node has such a field
+        bool used = false, known = false;  // the value of the field is kept; the node has such a field
         bool in_value = false, bracketed = false, any = false;
         std::size_t links_from = 0;
     };
 
-    // A prototype that is being read.
+    // A prototype whose definition is not complete.
     struct Pending {
         std::string_view name;
         VrmlPlace place;
@@ -62,7 +61,7 @@ class Parser {
         std::optional<VrmlNodeId> first;
     };
 
-    // Names hold from their definition to the end of the body, or file, that they stand in.
+    // Names are valid from their definition to the end of their body or file.
     struct Scope {
         std::map<std::string_view, VrmlNodeId> nodes;
         std::map<std::string_view, std::uint32_t> prototypes;
@@ -113,7 +112,7 @@ class Parser {
         return end_body();
     }
 
-    // At the top of a file or of a body: a prototype, a route or a node.
+    // Reads one item at the top of a file or body: a prototype, a route or a node.
     Result<void> step_statement() {
         if (token_.is("ROUTE")) return skip_route();
         if (token_.is("PROTO")) return begin_prototype();
@@ -139,9 +138,10 @@ class Parser {
         return id;
     }
 
-    // Hands a finished node to where it stands.
+    // Adds a finished node to its parent.
     Result<void> deliver(VrmlNodeId node, std::string_view defined_name) {
-        if (!defined_name.empty()) scopes_.back().nodes[defined_name] = node;  // only now: none holds itself
+        if (!defined_name.empty())
+            scopes_.back().nodes[defined_name] = node;  // only now, so that no node can contain itself
         if (open_.empty()) {
             top_.roots.push_back(node);
             return {};
@@ -226,7 +226,7 @@ class Parser {
         return deliver(found->second, {});
     }
 
-    // From '{' past its '}', whatever is inside. Names defined inside stand for nothing.
+    // Skips from '{' to after its '}', whatever is inside. Names defined inside stand for empty nodes.
     Result<void> skip_braces() {
         const int start_line = token_.line;
         std::size_t depth = 0;
@@ -305,7 +305,7 @@ class Parser {
         scopes_.pop_back();
         Pending pending = std::move(pending_.back());
         pending_.pop_back();
-        // A body that begins with a USE of what its interface holds stands for nothing of its own.
+        // A body that begins with a USE of a node from its interface has no first node of its own.
         if (pending.first && !tree_.nodes[*pending.first].is_template) pending.first.reset();
         const auto number = files_.prototypes().define(pending.name, std::move(pending.interface),
                                                        pending.body_from, pending.first, pending.place);
@@ -348,7 +348,7 @@ class Parser {
         return {};
     }
 
-    // Between the fields of the innermost open node.
+    // Runs between the fields of the innermost open node.
     Result<void> step_node() {
         Open& node = open_.back();
         if (token_.kind == Kind::close_brace) return end_node();
@@ -432,7 +432,7 @@ class Parser {
         if (node.bracketed) advance();
     }
 
-    // Before an element of the field's value, or at its end.
+    // Runs before an element of the value of the field, or at its end.
     Result<void> step_value() {
         Open& node = open_.back();
         VrmlValue& value = node.field.value;
@@ -474,19 +474,20 @@ class Parser {
         if (node.known || token_.is("DEF") || token_.is("USE")) return begin_node();
         const VrmlToken word = token_;
         advance();
-        if (token_.kind != Kind::open_brace) return element_of(VrmlValue::Kind::strings);  // its vendor knows
+        if (token_.kind != Kind::open_brace) return element_of(VrmlValue::Kind::strings);  // unknown word
         lexer_.rewind(word);
         advance();
         return begin_node();
     }
 
-    // A value without brackets: several numbers make a vector, rotation or colour; all else stands alone.
+    // True when a value without brackets continues: several numbers are a vector, rotation or colour. Other
+    // values have one element.
     bool goes_on(VrmlValue::Kind kind) const {
         return (kind == VrmlValue::Kind::numbers && token_.kind == Kind::number) ||
                (kind == VrmlValue::Kind::strings && token_.kind == Kind::string);
     }
 
-    // One more element of the innermost value has been read.
+    // Called after one more element of the innermost value.
     Result<void> element_of(VrmlValue::Kind kind) {
         Open& node = open_.back();
         VrmlValue& value = node.field.value;
@@ -511,7 +512,7 @@ class Parser {
         if (node.used) keep_field(node.field);
     }
 
-    // The value given last holds.
+    // Sets the field; the value given last is used.
     void keep_field(const VrmlField& field) {
         std::vector<VrmlField>& fields = open_.back().fields;
         const auto same = std::find_if(fields.begin(), fields.end(),
@@ -532,7 +533,7 @@ class Parser {
     std::vector<Scope> scopes_;
     std::vector<Pending> pending_;
     std::vector<Open> open_;
-    std::vector<VrmlNodeId> links_;  // nodes of the values being read, innermost last
+    std::vector<VrmlNodeId> links_;  // nodes of the open values, innermost last
 };
 
 }  // namespace

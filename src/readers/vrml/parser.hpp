@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One VRML 2.0 text to nodes of a tree. The syntax is read without knowing the nodes.
+// One VRML 2.0 text to nodes of a tree. The syntax is read without knowledge of the nodes.
 #pragma once
 
 #include "readers/vrml/files.hpp"

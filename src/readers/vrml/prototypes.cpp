@@ -12,11 +12,12 @@ namespace tribo::readers {
 Result<std::uint32_t> VrmlPrototypes::define(std::string_view name, std::vector<VrmlField> interface,
                                              VrmlNodeId body_from, std::optional<VrmlNodeId> first,
                                              const VrmlPlace& at) {
-    constexpr std::uint64_t enough = std::uint64_t{1} << 60;  // more is all the same, and must not wrap
+    constexpr std::uint64_t enough = std::uint64_t{1} << 60;  // upper limit of the sum, against overflow
     VrmlPrototype made;
     made.name = name;
     made.interface = std::move(interface);
-    // Templates stand after those below them: from the first node down each is met after all that lead to it.
+    // Templates are stored after their children. Backwards from the first node, each is visited after all its
+    // parents.
     std::vector<bool> reached(first ? *first - body_from + 1 : 0);
     if (first) reached.back() = true;
     for (std::size_t i = reached.size(); i-- > 0;) {

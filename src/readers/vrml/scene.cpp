@@ -11,9 +11,9 @@
 namespace tribo::readers {
 namespace {
 
-// Nodes that the walk may pass, DEF and USE unfolded: about a second.
+// Largest number of nodes visited by the walk, with DEF and USE unfolded: about a second.
 constexpr std::uint64_t kMaxVisits = 4'000'000;
-// diffuseColor of a Material that does not say.
+// Default diffuseColor of a Material.
 constexpr Rgb8 kGrey{204, 204, 204};
 
 class SceneReader {
@@ -43,17 +43,17 @@ class SceneReader {
   private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
-    // What lies at and below a node, counted before anything is made of it.
+    // Contents at and below a node, counted before anything is made.
     struct Summary {
         std::uint64_t triangles = 0, visits = 1;
         int depth = 1;
-        VrmlNodeId refused = kNone;  // a node that would be seen and is not read
+        VrmlNodeId refused = kNone;  // a node that would be visible but is not read
     };
 
     const VrmlNode& node(VrmlNodeId id) const { return tree_.nodes[id]; }
     VrmlRole role(VrmlNodeId id) const { return node(id).type->role; }
 
-    // The children that are seen.
+    // Returns the visible children.
     Result<std::span<const VrmlNodeId>> seen(VrmlNodeId id) const {
         std::string_view field;
         switch (role(id)) {
@@ -110,7 +110,8 @@ class SceneReader {
                                      : "geometry belongs into the geometry field of a Shape");
     }
 
-    // Which nodes can be seen at all: from the roots down, parents stand after their children.
+    // Returns for each node whether it can be visible. Goes down from the roots: parents are stored after
+    // their children.
     Result<std::vector<bool>> reach() const {
         std::vector<bool> reached(tree_.nodes.size());
         for (const VrmlNodeId root : tree_.roots) reached[root] = true;
@@ -127,7 +128,7 @@ class SceneReader {
         return reached;
     }
 
-    // Sums up what is seen, from the children up, and holds it against the limits.
+    // Sums up the visible content, from the children up, and checks the limits.
     Result<void> check() {
         for (const VrmlNodeId root : tree_.roots) {
             if (auto ok = check_place(root, false); !ok) return ok;
@@ -140,7 +141,7 @@ class SceneReader {
             Summary& s = summary_[id];
             if (is_surface(role(id))) {
                 s.triangles = count_triangles(tree_, id);
-                // The walk passes by what shows nothing; where that is a slip it must not go unseen.
+                // The walk skips nodes without triangles; therefore errors in them are reported here.
                 if (s.triangles == 0) {
                     if (auto empty = read_vrml_surface(tree_, id, triangulator_); !empty)
                         return std::unexpected(empty.error());
@@ -171,9 +172,9 @@ class SceneReader {
     }
 
     static void add(Summary& s, const Summary& child) {
-        constexpr std::uint64_t enough = std::uint64_t{1} << 60;  // more is all the same, and must not wrap
+        constexpr std::uint64_t enough = std::uint64_t{1} << 60;  // upper limit of the sum, against overflow
         if (s.refused == kNone) s.refused = child.refused;
-        if (child.triangles == 0) return;  // the walk passes it by
+        if (child.triangles == 0) return;  // the walk skips it
         s.triangles = std::min(enough, s.triangles + child.triangles);
         s.visits = std::min(enough, s.visits + child.visits);
         s.depth = std::max(s.depth, 1 + child.depth);
@@ -184,8 +185,8 @@ class SceneReader {
         return false;
     }
 
-    // Depth first, at most kMaxVrmlNesting deep; false with error_ set where it ends. `paint` is the colour
-    // of the shape that the node stands in, if it has one.
+    // Depth first, at most kMaxVrmlNesting deep. Returns false with error_ set on failure. `paint` is the
+    // colour of the enclosing shape, if it has one.
     bool emit(VrmlNodeId id, const Affine& to_world, const Rgb8* paint) {
         if (summary_[id].triangles == 0) return true;
         if (is_surface(role(id))) return emit_surface(id, to_world, paint);
@@ -206,7 +207,7 @@ class SceneReader {
         return read_vrml_colours(tree_, nodes[0], "material");
     }
 
-    // Multiplies a Transform's own place onto `to_world` (ISO 14772-1, 6.52): T C R SR S -SR -C.
+    // Multiplies the placement of a Transform onto `to_world` (ISO 14772-1, 6.52): T C R SR S -SR -C.
     bool place(VrmlNodeId id, Affine& to_world) {
         double t[3] = {0, 0, 0}, c[3] = {0, 0, 0}, s[3] = {1, 1, 1}, r[4] = {0, 0, 1, 0}, o[4] = {0, 0, 1, 0};
         const VrmlFields fields(tree_, id);
@@ -258,7 +259,7 @@ class SceneReader {
         return true;
     }
 
-    // The first colour of a model gives all triangles before it one as well.
+    // Adds colours. At the first colour of a model, all triangles before it get the default colour.
     void add_colours(const VrmlSurface& surface, const Rgb8* paint) {
         std::vector<Rgb8>& colours = model_.colours;
         if (colours.empty() && surface.colours.empty() && !paint) return;
@@ -274,10 +275,10 @@ class SceneReader {
     const ModelOptions& options_;
     Model model_;
     std::vector<Summary> summary_;
-    std::vector<std::uint32_t> surface_of_;  // node to surfaces_
+    std::vector<std::uint32_t> surface_of_;  // index into surfaces_, by node
     std::vector<VrmlSurface> surfaces_;
     PolygonTriangulator triangulator_;
-    VrmlPlace crossing_at_;  // the first node with a face that crosses itself
+    VrmlPlace crossing_at_;  // the first node with a face that intersects itself
     std::optional<Error> error_;
 };
 

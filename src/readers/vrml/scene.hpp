@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What of a VRML tree is seen, as one model.
+// The visible geometry of a VRML tree, as one model.
 #pragma once
 
 #include "readers/mesh/model.hpp"
@@ -7,8 +7,8 @@
 
 namespace tribo::readers {
 
-// Triangles of all that is seen from the roots, in world space. Triangles, nodes and nesting are counted
-// before anything is made of them. Adds to tree.warnings.
+// Returns the triangles of all visible geometry below the roots, in world space. Triangles, nodes and nesting
+// are counted before anything is allocated for them. Adds to tree.warnings.
 Result<Model> read_vrml_scene(VrmlTree& tree, const ModelOptions& options);
 
 }  // namespace tribo::readers

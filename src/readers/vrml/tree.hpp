@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// VRML 2.0 text as a tree of nodes: DEF and USE resolved, prototypes unfolded, files that it names read in. A
-// node's role (vrml_nodes.hpp) only says which field values are worth keeping.
+// VRML 2.0 text as a tree of nodes: DEF and USE are resolved, prototypes unfolded, named files read. The role
+// of a node (nodes.hpp) determines only which field values are kept.
 #pragma once
 
 #include <deque>
@@ -17,11 +17,11 @@ namespace tribo::readers {
 
 using VrmlNodeId = std::uint32_t;
 
-// Where something is written.
+// Place of a word in the text.
 struct VrmlPlace {
-    std::uint32_t file = 0;  // of VrmlTree::files
+    std::uint32_t file = 0;  // index into VrmlTree::files
     int line = 0, column = 0;
-    std::uint32_t offset = 0;  // in the file's text
+    std::uint32_t offset = 0;  // in the text of the file
 };
 
 struct VrmlValue {
@@ -31,13 +31,13 @@ struct VrmlValue {
         numbers,
         strings,
         nodes,
-        bound  // IS: the value that an instance gives; found in templates only
+        bound  // IS: the value given by an instance; in templates only
     };
     Kind kind = Kind::null;
     bool truth = false;
     std::uint32_t first = 0,
-                  count = 0;  // of numbers, strings or links; bound: number of the interface's field
-    VrmlPlace start;          // of its first word
+                  count = 0;  // of numbers, strings or links; bound: index of the field in the interface
+    VrmlPlace start;          // of the first word
 };
 
 struct VrmlField {
@@ -49,30 +49,30 @@ struct VrmlNode {
     const VrmlNodeType* type = nullptr;
     VrmlPlace place;
     std::uint32_t first_field = 0, fields = 0;
-    std::uint32_t number = 0;  // role instance: of its prototype; inline_file: of its refusal, from 1, or 0
-    bool is_template = false;  // stands in the body of a prototype: copied, never seen itself
+    std::uint32_t number = 0;  // role instance: its prototype; inline_file: its refusal, from 1, or 0
+    bool is_template = false;  // part of the body of a prototype: copied, never visible itself
 };
 
 struct VrmlFile {
     std::string name;
-    std::string bytes;      // empty for the first file, whose bytes are the caller's
+    std::string bytes;      // empty for the first file: the caller owns its bytes
     std::string_view text;  // without a byte order mark
 };
 
-// Nodes stand after all nodes below them: a child's id is less than its parent's, so no walk can run in a
-// circle. One node may be a child of many (USE).
+// Nodes are stored after all nodes below them: the id of a child is less than that of its parent, so no walk
+// can run in a circle. A node may have many parents (USE).
 struct VrmlTree {
-    std::deque<VrmlFile> files;  // the model's own first; words in the tree point into their texts
+    std::deque<VrmlFile> files;  // the file of the model first; words in the tree point into the texts
     std::vector<VrmlNode> nodes;
     std::vector<VrmlField> fields;
     std::vector<double> numbers;  // finite
     std::vector<std::string_view> strings;
     std::vector<VrmlNodeId> links;
     std::vector<VrmlNodeId> roots;
-    std::vector<Error> refusals;  // why files of Inline nodes were not read: told where they would be seen
+    std::vector<Error> refusals;  // of Inline files that were not read; reported if visible
     Warnings warnings;
 
-    // The value given last; null where there is none.
+    // Returns the value given last; null if there is none.
     const VrmlValue* find(VrmlNodeId node, std::string_view field) const;
     std::span<const double> numbers_of(const VrmlValue& value) const;
     std::span<const std::string_view> strings_of(const VrmlValue& value) const;
@@ -80,11 +80,11 @@ struct VrmlTree {
 
     VrmlNodeId add(const VrmlNodeType& type, const VrmlPlace& at, std::span<const VrmlField> with);
     std::unexpected<Error> refuse(const VrmlPlace& at, std::string cause, std::string remedy) const;
-    // Each text once, and no more of them than are worth reading.
+    // Adds each text once, and only a limited number of texts.
     void warn_once(const VrmlPlace& at, std::string text);
 };
 
-// What stands for a node that is passed over.
+// Stands for a node that is skipped.
 const VrmlNodeType& skipped_vrml_node();
 
 inline constexpr int kMaxVrmlNesting = 256;

@@ -9,10 +9,10 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Ends nearer than this in the plane are one point, mm: below the last digit of any program, above what
-// adding up increments loses.
+// Ends closer than this in the plane count as one point, mm: below the last digit of any program, above the
+// rounding error of summed increments.
 constexpr double kSamePointMm = 1e-6;
-// By how much half a chord may exceed the radius, mm: the rounding of coordinates with three decimals.
+// Half a chord may exceed the radius by this much, mm: the rounding of coordinates with three decimals.
 constexpr double kRadiusToleranceMm = 0.005;
 
 struct RadiusTolerance {
@@ -89,7 +89,7 @@ Result<motion::Arc> arc_of_radius(const ArcEnds& ends, double radius_mm) {
                         " from the start",
                     "correct R or the end; R is a radius, not a diameter");
     }
-    // Of the midpoint of the chord from the centre.
+    // Distance of the midpoint of the chord from the centre.
     const double apothem = half < radius ? std::sqrt((radius - half) * (radius + half)) : 0;
     const bool centre_on_left = ends.clockwise == (radius_mm < 0);
     const double side = (centre_on_left ? apothem : -apothem) / length;

@@ -12,7 +12,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Directions that differ by less than this go on straight, rad.
+// Directions that differ by less than this count as straight, rad.
 constexpr double kStraightRad = 1e-6;
 constexpr double kSamePointMm = 1e-7;
 constexpr double kLargestDiameterMm = 1e4;
@@ -76,7 +76,7 @@ class Corner {
         return output_.refuse(move.line, 1, std::move(cause), std::move(remedy));
     }
 
-    // A dwell, or a move along the tool: wherever the last move of the contour will end.
+    // A dwell, or a move along the tool: it happens at the later end of the last contour move.
     Result<void> stay(const motion::Move& programmed) {
         motion::Move move = programmed;
         const Point here = comp_.has_begun ? comp_.last.end : comp_.at;
@@ -91,12 +91,12 @@ class Corner {
         return {};
     }
 
-    // The move along the compensated element, with the words of the programmed one.
+    // Returns the move along the compensated element, with the words of the programmed move.
     motion::Move along(const Element& element, const motion::Move& programmed) const {
         motion::Move move = programmed;
         move.start.tip_mm = in_space(element.start, programmed.start.tip_mm[w_]);
         move.end.tip_mm = in_space(element.end, programmed.end.tip_mm[w_]);
-        move.duration_s = 0;  // its time was that of the programmed length
+        move.duration_s = 0;  // the time was that of the programmed length
         move.arc.reset();
         if (element.is_arc()) {
             motion::Arc arc;
@@ -156,7 +156,8 @@ class Corner {
         return {};
     }
 
-    // A path that turns back turns to the side on which it goes on; along the very same line it goes round.
+    // If the path reverses, the side on which it continues decides the sign of the turn; a path back along
+    // the same line goes round the corner.
     double turn_at_corner(const Element& contour) const {
         const double turn = turn_between(comp_.direction, contour.start_direction());
         if (math::kPi - std::abs(turn) >= kStraightRad) return turn;
@@ -166,7 +167,7 @@ class Corner {
         return turns_left ? math::kPi : -math::kPi;
     }
 
-    // Round an outside corner.
+    // At an outside corner.
     Result<void> turn_about(Point corner, Point to, double turn, const motion::Move& programmed) {
         Element arc{comp_.last.end, to, corner, turn};
         motion::Move move = programmed;
@@ -278,7 +279,7 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
         if (!(number >= 0 && number <= largest_number) || number != std::floor(number)) {
             return output.refuse(command.line(), column, "D is not the number of a tool", "correct D");
         }
-        // D0 is no compensation by old custom.
+        // D0 means no compensation, by convention.
         const bool is_none = word != nullptr && number == 0;
         diameter_mm = is_none ? 0 : output.tool_diameter_mm(static_cast<int>(number));
         if (!diameter_mm) {

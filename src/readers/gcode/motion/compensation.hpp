@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Cutter radius compensation, G40 to G42.1: the programmed contour is followed by the edge of the cutter
-// (RS274/NGC 3.5.10 and appendix B, with LinuxCNC's entry). The first move leads to the offset point at its
-// end; round an outside corner the centre turns about it, at an inside corner two moves are cut off where
-// they meet. What cannot be cut without gouging is refused.
+// Cutter radius compensation, G40 to G42.1: the edge of the cutter follows the programmed contour (RS274/NGC
+// 3.5.10 and appendix B, with the entry move of LinuxCNC). The first move leads to the offset point at its
+// end. At an outside corner the centre turns about the corner; at an inside corner both moves are shortened
+// to their intersection. A contour that cannot be cut without gouging is refused.
 #pragma once
 
 #include "readers/gcode/command.hpp"
@@ -10,19 +10,20 @@
 
 namespace tribo::readers::gcode {
 
-// G40: what waits goes out. The tool stays on the offset contour until the next move leads it away.
+// G40: outputs the waiting moves. The tool stays on the offset contour until the next move.
 Result<void> end_compensation(State& state, Output& output);
 
-// Refuses what a block may not do while compensation is on; ends it where the block has G40.
+// Refuses the codes that are not allowed while compensation is on. Ends compensation if the block has G40.
 Result<void> check_compensation(const Command& command, State& state, Output& output);
 
-// G41, G42, G41.1 and G42.1 of the block, with their tool's diameter.
+// G41, G42, G41.1 and G42.1 of the block, with the diameter of their tool.
 Result<void> begin_compensation(Command& command, State& state, Output& output);
 
-// Hands out the first move after G40, which starts where the tool is.
+// Outputs the first move after G40. It starts at the current position of the tool.
 Result<void> leave_compensation(motion::Move move, State& state, Output& output);
 
-// Takes a programmed move while compensation is on. It goes out when the next one has shown where it ends.
+// Takes a programmed move while compensation is on. The move is output when the next one has determined its
+// end.
 Result<void> compensate(const motion::Move& programmed, State& state, Output& output);
 
 }  // namespace tribo::readers::gcode

@@ -9,7 +9,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Points nearer than this are one, mm.
+// Points closer than this count as one, mm.
 constexpr double kSamePointMm = 1e-7;
 
 Point operator+(Point a, Point b) {
@@ -35,7 +35,7 @@ Point unit(Point a) {
     return size > 0 ? (1 / size) * a : Point{1, 0};
 }
 
-// From 0 to a full turn, in the sense of `sign`; nearly a full turn counts as none.
+// Returns a turn from 0 to a full turn, in the direction of `sign`. Nearly a full turn counts as 0.
 double turn_from(Point centre, Point a, Point b, double sign) {
     double turn = sign * turn_between(a - centre, b - centre);
     const double least = -kSamePointMm / std::max(distance(a, centre), kSamePointMm);
@@ -186,7 +186,7 @@ std::optional<Point> meeting(const Element& first, const Element& second) {
 }
 
 std::optional<Element> arc_into(Point start, const Element& arc) {
-    // The centre lies on the normal at the end, as far from the start as from the end.
+    // The centre is on the normal at the end, at equal distances from start and end.
     const Point normal = left_of(arc.end_direction());
     const Point back = start - arc.end;
     const double aside = dot(back, normal);

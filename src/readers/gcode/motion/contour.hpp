@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines and arcs in a plane, offset sideways by the radius of a cutter, and where two of them meet. Pure
-// geometry, mm; any thread, no allocation.
+// Lines and arcs in a plane: offset by the radius of a cutter, and intersection. Pure geometry, mm; any
+// thread, no allocation.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct Point {
     bool operator==(const Point&) const = default;
 };
 
-// A line, or an arc about a centre that turns left for turn_rad > 0.
+// A line, or an arc about a centre. turn_rad > 0 turns left.
 struct Element {
     Point start, end;
     Point centre;
@@ -24,27 +24,29 @@ struct Element {
     // Unit directions of travel.
     Point start_direction() const;
     Point end_direction() const;
-    // 1 / radius, above 0 where it turns left.
+    // 1 / radius, positive for a left turn.
     double curvature_per_mm() const;
-    // How far `p`, which lies on the element or its continuation, is before its end or after its start.
+    // Distance of `p` before the end or after the start. `p` lies on the element or on its continuation.
     double before_end(Point p) const;
     double after_start(Point p) const;
-    // Cut off: at a new end or start on the element.
+    // Shortens the element to a new end or start on it.
     void set_end(Point p);
     void set_start(Point p);
 };
 
-// The element moved to its left by `left_mm` (right: below 0); none where an arc is too small for that.
+// Returns the element moved to the left by `left_mm` (negative: to the right); none if an arc is too small
+// for the offset.
 std::optional<Element> offset(const Element& element, double left_mm);
 
-// The angle by which a path turns left from direction a to direction b, in (-pi, pi].
+// Returns the angle of the left turn from direction a to direction b, in (-pi, pi].
 double turn_between(Point a, Point b);
 
-// Where `first` is to end and `second` to begin so that they join: the common point of both that cuts the
-// least off them; none where they have none.
+// Returns the point where `first` is to end and `second` to begin: of their common points the one that
+// shortens them least; none if they have no common point.
 std::optional<Point> meeting(const Element& first, const Element& second);
 
-// The arc from `start` to the end of `arc`, with the direction of `arc` there; none where it would be a line.
+// Returns the arc from `start` to the end of `arc`, with the direction of `arc` at the end; none if it would
+// be a line.
 std::optional<Element> arc_into(Point start, const Element& arc);
 
 double distance(Point a, Point b);

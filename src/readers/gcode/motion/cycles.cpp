@@ -13,8 +13,8 @@ namespace {
 
 using motion::MoveKind;
 
-// How far G73 lifts the drill, and at what distance from the ground G83 goes on at feed, mm (LinuxCNC: 0.01
-// inch).
+// G73 lifts the drill by this much, and G83 continues at feed at this distance from the bottom, mm (LinuxCNC:
+// 0.01 inch).
 constexpr double kChipBreakMm = 0.254;
 constexpr double kMostRepeats = 100'000;
 constexpr double kMostPecks = 100'000;
@@ -30,7 +30,7 @@ class Run {
         if (repeats_ == 0) return {};
         Cycle& cycle = state_.cycle;
         const double origin = state_.origin_mm()[axis_];
-        // In G91, R counts from where the cycle began and Z from R.
+        // In G91, R is relative to the start of the cycle, and Z to R.
         const double retract = *cycle.retract_mm + (state_.incremental ? *cycle.initial_mm : origin);
         const double depth = *cycle.depth_mm + (state_.incremental ? retract : origin);
         if (depth > retract) {
@@ -90,7 +90,7 @@ class Run {
 
     Result<void> read_words() {
         Cycle& cycle = state_.cycle;
-        // The axis word of the depth is no target of the tip.
+        // The word of the cycle axis is the depth, not a target of the tip.
         const auto depth = coordinate_mm(command_, axis_, state_, output_);
         if (!depth) return std::unexpected(depth.error());
         if (*depth) cycle.depth_mm = **depth;
@@ -128,7 +128,7 @@ class Run {
         return {};
     }
 
-    // L, or K on a Fanuc control, where 0 only stores the words of the cycle.
+    // L, or K on a Fanuc control. 0 only stores the words of the cycle.
     Result<void> read_repeats() {
         const bool is_fanuc = output_.options.dialect == GcodeDialect::fanuc;
         const Word* word = command_.use('L');
@@ -171,7 +171,7 @@ class Run {
         return dwell(seconds, command_, state_, output_);
     }
 
-    // From the retract level to the bottom; back as far as the cycle does that at feed.
+    // Moves from the retract level to the bottom, and back if the cycle returns at feed.
     Result<void> bottom_and_back() {
         if (pecks()) {
             const double peck = *state_.cycle.peck_mm;
@@ -188,7 +188,7 @@ class Run {
         if (auto moved = go(MoveKind::feed, depth_); !moved) return moved;
         if (auto waited = wait(); !waited) return waited;
         switch (state_.cycle.tenths) {
-            case 740:  // taps turn the other way on their way out
+            case 740:  // taps reverse their rotation on the way out
             case 840:
             case 890:
                 return go(MoveKind::feed,

@@ -27,7 +27,7 @@ Result<int> extra_turns(Command& command, const Output& output) {
     return static_cast<int>(turns->value) - 1;
 }
 
-// The arc from the tip to the target.
+// Returns the arc from the tip to the target.
 Result<motion::Arc> arc_of(Command& command, const State& state, Vec3 target, const Output& output) {
     ArcEnds ends;
     ends.plane = state.plane;
@@ -101,7 +101,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     return stays ? Result<void>{} : append(move, state, output);
 }
 
-// G53: coordinates that count from the machine's own zero, of which a program says nothing.
+// G53: coordinates relative to the zero of the machine, which is unknown to the program.
 Result<void> move_to_machine_position(Command& command, State& state, Output& output, int column) {
     if (state.motion != MotionMode::rapid) {
         return output.refuse(command.line(), column,

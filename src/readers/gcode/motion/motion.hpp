@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Axis words to moves: targets, arcs, feed and time of one block.
+// Axis words to moves: target, arc, feed and time of one block.
 #pragma once
 
 #include "readers/gcode/command.hpp"
@@ -7,13 +7,13 @@
 
 namespace tribo::readers::gcode {
 
-// Where the words of the block take the tip at a rapid, and the move there if start and end are known.
+// Moves the tip at rapid to the target of the axis words. Outputs a move if start and end are known.
 Result<void> move_rapidly(Command& command, State& state, Output& output);
 
-// The motion that the block asks for with the motion code in force.
+// Runs the motion of the block with the motion code in force.
 Result<void> apply_motion(Command& command, State& state, Output& output);
 
-// A stop of so many seconds where the tip stands.
+// Adds a dwell at the position of the tip.
 Result<void> dwell(double seconds, const Command& command, State& state, Output& output);
 
 }  // namespace tribo::readers::gcode

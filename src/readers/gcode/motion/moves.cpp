@@ -14,7 +14,7 @@ constexpr char kAxisLetters[] = "XYZ";
 
 }  // namespace
 
-// Column of the first of these words in the block; 1 where it has none.
+// Returns the column of the first of these words in the block; 1 if it has none.
 int column_of_any(Command& command, std::string_view letters) {
     for (const char letter : letters) {
         if (command.has(letter)) return command.use(letter)->column;
@@ -64,7 +64,8 @@ Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command
     return append(move, state, output);
 }
 
-// Where the axis words lead. In G91 an axis that nothing has stated is taken to start at the program's zero.
+// Returns the target of the axis words. In G91 an axis without a stated position starts at the zero of the
+// program.
 Result<Target> target_of(Command& command, State& state, Output& output) {
     Target target{state.tip_mm, state.known};
     for (int axis = 0; axis < 3; ++axis) {
@@ -94,7 +95,7 @@ Result<Target> target_of(Command& command, State& state, Output& output) {
     return target;
 }
 
-// A feed move needs to know where it starts.
+// Refuses a feed move without a known start.
 Result<void> require_start(Command& command, State& state, Output& output) {
     std::string assumed;
     for (int axis = 0; axis < 3; ++axis) {
@@ -120,7 +121,7 @@ Result<void> require_start(Command& command, State& state, Output& output) {
     return {};
 }
 
-// Sets feed and time of a feed move whose path is complete.
+// Sets feed and time of a feed move with a complete path.
 Result<void> set_feed(motion::Move& move, Command& command, const State& state, Output& output) {
     const int column = column_of_any(command, "FXYZIJKR");
     if (state.feed_mode == FeedMode::inverse_time) {

@@ -30,7 +30,7 @@ Result<void> apply_dwell(Command& command, State& state, Output& output, int col
     return dwell(seconds, command, state, output);
 }
 
-// The work system that P of G10 names; 0 is the one in force.
+// Returns the work system of the P word of G10; P0 is the one in force.
 Result<std::size_t> work_system_of(Command& command, const State& state, const Output& output, int column) {
     const Word* system = command.use('P');
     if (system == nullptr || system->value < 0 || system->value > kWorkSystems ||
@@ -51,7 +51,7 @@ void set_work(std::size_t index, const WorkSystem& work, State& state) {
     state.reframe(before_deg);
 }
 
-// G10 L2: where a work system lies, and how it is turned.
+// G10 L2: sets origin and rotation of a work system.
 Result<void> set_work_origin(Command& command, State& state, Output& output, int column) {
     const auto index = work_system_of(command, state, output, column);
     if (!index) return std::unexpected(index.error());
@@ -78,7 +78,7 @@ Result<void> set_work_origin(Command& command, State& state, Output& output, int
     return {};
 }
 
-// G10 L20: a work system is laid so that the tip gets these coordinates in it.
+// G10 L20: sets the origin of a work system so that the tip has these coordinates in it.
 Result<void> set_work_origin_by_tip(Command& command, State& state, Output& output, int column) {
     const auto index = work_system_of(command, state, output, column);
     if (!index) return std::unexpected(index.error());
@@ -106,7 +106,7 @@ Result<void> set_work_origin_by_tip(Command& command, State& state, Output& outp
     return {};
 }
 
-// G10 L1: a line of the tool table, of which the radius counts here.
+// G10 L1: sets a line of the tool table. Only the radius is used here.
 Result<void> set_tool_entry(Command& command, const State& state, Output& output, int column) {
     const Word* number = command.use('P');
     constexpr double largest_number = 999'999'999;
@@ -127,7 +127,7 @@ Result<void> set_tool_entry(Command& command, const State& state, Output& output
     return {};
 }
 
-// G10, by its L.
+// Runs G10 by its L word.
 Result<void> set_table(Command& command, State& state, Output& output, int column) {
     const Word* kind = command.use('L');
     if (kind != nullptr && kind->value == 1) return set_tool_entry(command, state, output, column);
@@ -138,7 +138,7 @@ Result<void> set_table(Command& command, State& state, Output& output, int colum
                          "let the CAM system write the path without other settings");
 }
 
-// G52: shifts the program's zero, by the same registers as G92 (LinuxCNC).
+// G52: shifts the zero of the program, in the same registers as G92 (LinuxCNC).
 Result<void> shift_locally(Command& command, State& state, Output& output, int column) {
     if (!command.has_any("XYZ")) {
         return output.refuse(command.line(), column, "G52 without coordinates", "write X, Y or Z after it");
@@ -153,7 +153,7 @@ Result<void> shift_locally(Command& command, State& state, Output& output, int c
     return {};
 }
 
-// G92: the tip's place gets new coordinates.
+// G92: gives new coordinates to the current position of the tip.
 Result<void> preset(Command& command, State& state, Output& output, int column) {
     if (!command.has_any("XYZ")) {
         return output.refuse(command.line(), column, "G92 without coordinates", "write X, Y or Z after it");
@@ -185,11 +185,11 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
     return {};
 }
 
-// G28, G30: a rapid to the point that the block names, then to a place that only the machine knows.
+// G28, G30: a rapid to the point of the block, then to a position defined by the machine.
 Result<void> go_home(Command& command, State& state, Output& output, int tenths) {
     std::array<bool, 3> goes{command.has('X'), command.has('Y'), command.has('Z')};
     if (!command.has_any("XYZ")) goes = {true, true, true};
-    // From a place that nothing has stated, an increment leads nowhere.
+    // An increment from an unknown position gives an unknown position.
     for (std::size_t axis = 0; axis < 3 && state.incremental; ++axis) {
         if (state.known[axis] == Known::unstated) state.known[axis] = Known::lost;
     }

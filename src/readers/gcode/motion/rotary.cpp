@@ -11,7 +11,7 @@ namespace tribo::readers::gcode {
 namespace {
 
 constexpr char kLetters[] = "ABC";
-// Beyond this no table turns: 278 turns.
+// No table turns further: 278 turns.
 constexpr double kLargestAngleDeg = 100'000;
 
 void note_machine_needed(const Command& command, Output& output) {
@@ -20,7 +20,7 @@ void note_machine_needed(const Command& command, Output& output) {
     program.has_rotary_words = true;
 }
 
-// Whether the block switches tool tip control, and to what.
+// Switch of tool tip control by the block, if any.
 struct Switch {
     bool on = false;
     bool by_length_code = false;
@@ -38,13 +38,13 @@ std::optional<Switch> switch_in(const Command& command, const State& state) {
         case 1690:
         case 2340:
             return Switch{true, true, code->tenths == 435};
-        default:  // G43 and G49 end what such a code began
+        default:  // G43 and G49 end tool tip control by such a code
             if (!state.rotary.by_length_code) return std::nullopt;
             return Switch{};
     }
 }
 
-// The word of the axis with the number 0 to 2 (A B C); absent where the block has none.
+// Returns the word of axis 0 to 2 (A B C); absent if the block has none.
 Result<std::optional<double>> word_rad(Command& command, int axis, const Output& output) {
     const Word* word = command.use(kLetters[axis]);
     if (word == nullptr) return std::nullopt;
@@ -92,7 +92,7 @@ Result<void> read_vector(Command& command, State& state, Output& output) {
     return {};
 }
 
-// G28, G30: the home of the rotary axes that the block names, or of all where it names no axis.
+// G28, G30: turns the rotary axes of the block to their home, or all if the block names no axis.
 void turn_home(Command& command, State& state, Output& output) {
     const bool all = !command.has_any("XYZABC");
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,7 +105,7 @@ void turn_home(Command& command, State& state, Output& output) {
     }
 }
 
-// G10 L2: where a work system has the zeros of its rotary axes. That L and P are right is checked with X Y Z.
+// G10 L2: sets the zeros of the rotary axes in a work system. L and P are checked with X Y Z.
 Result<void> set_rotary_origin(Command& command, State& state, const Output& output) {
     const Word* system = command.use('P');
     const int index = system == nullptr || !(system->value >= 1 && system->value <= kWorkSystems)
@@ -156,7 +156,7 @@ Result<void> switch_tip_control(const Command& command, State& state, Output& ou
     rotary.tip_control = to->on;
     const motion::Kinematics& kinematics = output.machine->kinematics();
     if (!to->on && output.machine->needs_tool_length(rotary.now_rad)) {
-        // Where the joints stand depends on the tool's length; as the tip, they are lost.
+        // The positions of the joints depend on the tool length, which is not known: the tip is lost.
         state.known = {Known::lost, Known::lost, Known::lost};
         state.lost_line = command.line();
         return {};
@@ -228,7 +228,7 @@ motion::Move with_vectors(const motion::Move& move, State& state) {
 void set_turning_time(motion::Move& move, const State& state) {
     if (!state.rotary.turns() || move.kind != motion::MoveKind::feed || move.duration_s > 0) return;
     const double length = motion::path_length_mm(move);
-    // With tool tip control the tip runs at the feed by itself, unless it stands.
+    // With tool tip control the feed is that of the tip, unless the tip stands still.
     if ((state.rotary.tip_control || state.rotary.vectors) && length > 0) return;
     const RotaryState& rotary = state.rotary;
     const double turn_deg = (tribo::length(rotary.target_rad - rotary.now_rad) +

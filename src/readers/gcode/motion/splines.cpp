@@ -17,7 +17,7 @@ constexpr std::size_t kHighestOrder = 10;
 constexpr std::size_t kMostControlPoints = 1'000'000;
 constexpr double kLargestWeight = 1e6;
 constexpr double kLargestKnot = 1e9;
-// How far the first control point of a G6.2 may be off the tip, mm: the rounding of three decimals.
+// Largest distance of the first control point of a G6.2 from the tip, mm: the rounding of three decimals.
 constexpr double kJoinMm = 0.002;
 
 Result<std::optional<double>> length_word(Command& command, char letter, const State& state,
@@ -29,7 +29,7 @@ Result<std::optional<double>> length_word(Command& command, char letter, const S
     return value;
 }
 
-// A pair of words that place a control point in the plane; none where the block has neither.
+// Reads a pair of words that place a control point in the plane; none if the block has neither.
 Result<std::optional<Vec3>> offset_words(Command& command, const char* letters, const State& state,
                                          const Output& output) {
     const auto x = length_word(command, letters[0], state, output);
@@ -45,7 +45,7 @@ int motion_column(Command& command) {
     return code ? code->column : column_of_any(command, "XYZIJKPQR");
 }
 
-// Feed and words that all moves of the curve share; its length counts in inverse time.
+// Template of the moves of the curve: feed and words. The length of the curve counts in inverse time.
 Result<motion::Move> like_of(double length_mm, Command& command, const State& state, Output& output) {
     motion::Move like = new_move(motion::MoveKind::feed, command, state);
     like.end.tip_mm.x += length_mm;
@@ -54,7 +54,7 @@ Result<motion::Move> like_of(double length_mm, Command& command, const State& st
     return like;
 }
 
-// The curve of a tip that keeps its axis: a translation by t is 1 + e t / 2, and its size the weight.
+// The curve of a tip with constant axis. A translation by t is 1 + e t / 2; its magnitude is the weight.
 motion::DualQuaternion translation(const HomogeneousPoint& p) {
     return {motion::Quaternion(p.w, {}), motion::Quaternion(0, 0.5 * p.xyz)};
 }
@@ -117,7 +117,7 @@ Result<void> begin_nurbs(Command& command, State& state, Output& output) {
     nurbs.column = motion_column(command);
     nurbs.order = nurbs.has_knots ? 4 : 3;
     nurbs.last_mm = state.tip_mm;
-    // The tip is the first control point of a G5.2; P beside it without X and Y is its weight.
+    // The tip is the first control point of a G5.2. Its weight is the P word of a block without X and Y.
     if (nurbs.has_knots) return {};
     double weight = 1;
     if (!command.has_any("XY")) {
@@ -178,7 +178,7 @@ std::unexpected<Error> refuse_nurbs(const State& state, const Output& output, st
     return output.refuse(state.nurbs.line, state.nurbs.column, std::move(cause), std::move(remedy));
 }
 
-// Clamped, with equal steps inside: what LinuxCNC puts under a G5.2.
+// Clamped, with uniform steps inside, as LinuxCNC uses for G5.2.
 std::vector<double> uniform_knots(std::size_t points, std::size_t order) {
     std::vector<double> knots(order, 0);
     const std::size_t pieces = points - order + 1;
@@ -278,7 +278,7 @@ Result<void> add_to_nurbs(Command& command, State& state, Output& output) {
     }
     if (begins) {
         if (auto done = read_order(command, 'P', state, output); !done) return done;
-        command.use('Q');  // how the control follows the feed along the curve
+        command.use('Q');  // feed control along the curve; it is ignored
     }
     const Word* knot = command.use('K');
     if (knot == nullptr) {

@@ -8,17 +8,17 @@
 
 namespace tribo::readers::gcode {
 
-// G5 and G5.1: one curve, whose block names its end and control points.
+// G5 and G5.1: one curve. The block gives its end and control points.
 Result<void> run_bezier(Command& command, State& state, Output& output);
 
-// G5.2 and G6.2: takes the control point, weight and knot of a block.
+// G5.2 and G6.2: adds the control point, weight and knot of a block.
 Result<void> add_to_nurbs(Command& command, State& state, Output& output);
 
-// Ends the B-spline that runs: at G5.3, or where a G6.2 gives way to another block of motion. Nothing is done
-// where none runs.
+// Ends the running B-spline: at G5.3, or when another motion follows a G6.2. Does nothing if none runs.
 Result<void> finish_nurbs(State& state, Output& output);
 
-// What a block means for a B-spline that runs: it ends it (G6.2 before another motion) or is refused (G5.2).
+// Called before a block while a B-spline runs: ends it (G6.2 before another motion) or refuses the block
+// (G5.2).
 Result<void> close_nurbs_before(const Command& command, State& state, Output& output);
 
 }  // namespace tribo::readers::gcode

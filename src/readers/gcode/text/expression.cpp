@@ -10,12 +10,11 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Longest number, characters without its sign and blanks; no control writes half as many.
+// Longest number, characters without sign and blanks. No control writes half as many.
 constexpr std::size_t kLongestNumber = 64;
-// Brackets, functions, signs and '#' within each other.
+// Largest depth of brackets, functions, signs and '#'.
 constexpr int kDeepestNesting = 60;
-// How far a number may be off a whole one where a whole one is asked for, and how near numbers are equal
-// (LinuxCNC).
+// Largest difference from a whole number where one is required; also the tolerance of EQ (LinuxCNC).
 constexpr double kWholeTolerance = 1e-4, kEqualTolerance = 1e-4;
 
 bool is_number_character(char c) {
@@ -54,7 +53,7 @@ constexpr Named<Function> kFunctions[] = {
     {"LN", Function::ln},     {"ROUND", Function::round}, {"SIN", Function::sin},
     {"SQRT", Function::sqrt}, {"TAN", Function::tan},
 };
-// The longer of two that start alike comes first.
+// If two names start alike, the longer one comes first.
 constexpr Named<Operator> kOperators[] = {
     {"**", Operator::power}, {"*", Operator::times}, {"/", Operator::over},   {"MOD", Operator::modulo},
     {"+", Operator::plus},   {"-", Operator::minus}, {"EQ", Operator::eq},    {"NE", Operator::ne},
@@ -155,7 +154,7 @@ class ExpressionReader {
         return read;
     }
 
-    // Operators of at least this precedence.
+    // Evaluates operators of at least this precedence.
     Result<double> operation(int least) {
         auto left = value();
         if (!left) return left;
@@ -331,7 +330,7 @@ Result<std::optional<double>> read_digits(Cursor& cursor, std::size_t start) {
             ++cursor.at;
         }
         text = {joined.data(), std::min(length, joined.size())};
-        if (length > joined.size()) end = first + length;  // refused below
+        if (length > joined.size()) end = first + length;  // too long: refused below
     }
     if (end - first > kLongestNumber) {
         return cursor.refuse(start, "a number has more than 64 digits", "round it");

@@ -10,7 +10,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr std::size_t kMostLandmarks = 1'000'000;  // some 150 MB
+constexpr std::size_t kMostLandmarks = 1'000'000;  // about 150 MB
 constexpr std::size_t kDeepestNesting = 1000;
 constexpr double kLargestLabel = 999'999'999;
 
@@ -118,7 +118,7 @@ Result<Labels> Labels::of(std::string_view bytes, const std::string& source_name
         if (to_upper(cursor.peek_after_blanks()) != 'O') continue;
         const std::size_t start = cursor.at;
         auto word = read_o_word(cursor, nullptr);
-        if (!word) continue;  // refused when it is run
+        if (!word) continue;  // the error is reported when the line is run
         if (labels.marks_.size() == kMostLandmarks) {
             return cursor.refuse(start, "the program has more than a million O-words", "split it");
         }
@@ -141,7 +141,7 @@ int Labels::innermost(std::string_view label, std::initializer_list<Keyword> key
     return -1;
 }
 
-// Whatever was opened inside and not closed stays without a closer.
+// Openers inside `opener` that are still open keep no closer.
 void Labels::close(int index, int opener) {
     marks_[static_cast<std::size_t>(opener)].closer = index;
     while (!open_.empty() && open_.back() >= opener) open_.pop_back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The O-words of a text: where subroutines, loops and branches begin and end.
+// The O-words of a text: start and end of subroutines, loops and branches.
 #pragma once
 
 #include <map>
@@ -36,36 +36,36 @@ enum class Keyword {
 struct OWord {
     std::string label;  // digits without leading zeros, or <name>
     Keyword keyword = Keyword::none;
-    bool is_computed = false;  // the label was an expression
+    bool is_computed = false;  // the label is an expression
 };
 
-// Reads label and keyword; the cursor stands on the O and is left behind the keyword. Without parameters a
+// Reads label and keyword. The cursor starts on the O and ends after the keyword. Without parameters a
 // computed label is refused.
 Result<OWord> read_o_word(Cursor& cursor, const Parameters* parameters);
 
 std::string_view spelling(Keyword keyword);
 
-// A line with an O-word. Numbers of other landmarks are -1 where the text has none that fits.
+// A line with an O-word. Indices of other landmarks are -1 if the text has no matching one.
 struct Landmark {
     std::string label;
     Keyword keyword = Keyword::none;
     int line = 0;
-    TextLines at, after;   // places that give this line and the one after it
-    int opener = -1;       // of a closing, branching or leaving keyword: what it belongs to
+    TextLines at, after;   // positions before this line and before the next one
+    int opener = -1;       // of a closing, branching or leaving keyword: its opening keyword
     int closer = -1;       // of an opening keyword: endsub, endif, endwhile, the while of a do, endrepeat
     int next_branch = -1;  // of if and elseif: the elseif, else or endif that follows
-    int last_branch = -1;  // of if: the last one found so far
+    int last_branch = -1;  // of if: the last branch found so far
 };
 
 class Labels {
   public:
-    // Walks the whole text once. More than a million O-words, or 1000 within each other, are refused.
+    // Reads the whole text once. Refuses more than a million O-words, and more than 1000 levels of nesting.
     static Result<Labels> of(std::string_view bytes, const std::string& source_name, bool skip_deletable);
 
     const Landmark& operator[](int index) const { return marks_[static_cast<std::size_t>(index)]; }
-    // The landmark on that line; -1 if there is none.
+    // Returns the landmark on that line; -1 if there is none.
     int on_line(int line) const;
-    // The first subroutine or program of that label; -1 if there is none.
+    // Returns the first subroutine or program of that label; -1 if there is none.
     int find_sub(std::string_view label) const;
     int find_program(std::string_view label) const;
 
@@ -75,7 +75,7 @@ class Labels {
     void close(int index, int opener);
 
     std::vector<Landmark> marks_;  // by line, ascending
-    std::vector<int> open_;        // openers that nothing has closed yet
+    std::vector<int> open_;        // openers without a closer so far
     std::map<std::string, int, std::less<>> subs_, programs_;
 };
 

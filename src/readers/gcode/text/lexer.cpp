@@ -6,7 +6,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// What begins with a letter and a number, and yet is no word: TRAORI, X=5.
+// Remedy for text that begins with a letter and a number but is no word: TRAORI, X=5.
 constexpr const char* kOtherDialect = "post-process the program for LinuxCNC or Fanuc";
 
 }  // namespace
@@ -25,7 +25,7 @@ bool skip_block_head(Cursor& cursor) {
     if (cursor.peek_after_blanks() == '/') {
         deletable = true;
         ++cursor.at;
-        if (is_digit(cursor.peek())) ++cursor.at;  // which of several delete switches
+        if (is_digit(cursor.peek())) ++cursor.at;  // number of the delete switch
     }
     if (to_upper(cursor.peek_after_blanks()) == 'N') {
         ++cursor.at;
@@ -57,7 +57,7 @@ Result<bool> Lexer::next(Block& block) {
         block.deletable = true;
         if (skip_deletable_) return true;
         ++cursor_.at;
-        if (is_digit(cursor_.peek())) ++cursor_.at;  // which of several delete switches
+        if (is_digit(cursor_.peek())) ++cursor_.at;  // number of the delete switch
     }
     for (;;) {
         const char c = cursor_.peek_after_blanks();
@@ -171,7 +171,7 @@ Result<double> Lexer::read_number(char letter, std::size_t word) {
     return value;
 }
 
-// Says what stands where the number of a word should.
+// Refuses the text at the place of a number.
 std::unexpected<Error> Lexer::refuse_number(char letter, std::size_t word, bool has_sign) {
     const std::string_view line = cursor_.line;
     const char next = cursor_.peek();

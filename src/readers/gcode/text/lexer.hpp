@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // G-code bytes to blocks of words (RS274/NGC, Kramer, Proctor, Messina 2000, section 3.3): letters in either
-// case, blanks anywhere, comments in parentheses or after a semicolon, numbers as expressions. What the words
-// mean is not known here.
+// case, blanks anywhere, comments in parentheses or after a semicolon, numbers as expressions. The lexer does
+// not know the meaning of words.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct Word {
     int column = 0;  // of the letter, from 1
 };
 
-// #1=2 or #<name>=2, which takes effect after the whole block is read.
+// #1=2 or #<name>=2. It takes effect after the whole block is read.
 struct Assignment {
     ParameterName to;
     double value = 0;
@@ -30,39 +30,39 @@ struct Assignment {
 };
 
 enum class BlockKind {
-    words,    // maybe none
+    words,    // may be empty
     percent,  // a line with %
-    o_word,   // a program number, or the flow of control; words do not stand beside it
+    o_word,   // a program number or control flow; no words beside it
 };
 
 struct Block {
     BlockKind kind = BlockKind::words;
     int line = 0;             // from 1
-    int column = 0;           // of what makes it a percent or o_word block
+    int column = 0;           // of the start of a percent or o_word block
     bool deletable = false;   // starts with '/'
     std::vector<Word> words;  // in order, line numbers (N) left out
     std::vector<Assignment> assignments;
     std::vector<std::string_view> comments;
 };
 
-// Blocks of one text. The block that next() fills is reused, so that a file of short lines costs no
-// allocation per line.
+// The blocks of one text. next() reuses its block, so that a file of short lines needs no allocation per
+// line.
 class Lexer {
   public:
-    // Blocks that start with '/' come without their words where `skip_deletable` says so, whatever stands in
-    // them. Expressions are evaluated with `parameters`, which must outlive the lexer.
+    // With `skip_deletable`, blocks that start with '/' come without words, and their content is not checked.
+    // Expressions are evaluated with `parameters`, which must outlive the lexer.
     Lexer(std::string_view bytes, std::string source_name, bool skip_deletable, const Parameters& parameters);
 
-    // False at the end of the text. Errors carry line and column.
+    // Returns false at the end of the text. Errors have line and column.
     Result<bool> next(Block& block);
 
-    // What next() reads next: a place that go_to() leads back to.
+    // The position of the next block, for go_to().
     const TextLines& place() const { return lines_; }
     void go_to(const TextLines& place) { lines_ = place; }
 
-    // The line of the block; it stands on the O of an o_word block.
+    // The line of the block; in an o_word block the cursor is on the O.
     Cursor& cursor() { return cursor_; }
-    // Reads the comments that end an o_word block; refuses anything else.
+    // Reads the comments at the end of an o_word block. Refuses anything else.
     Result<void> read_end(Block& block);
 
   private:
@@ -79,8 +79,7 @@ class Lexer {
     Cursor cursor_;
 };
 
-// Leads the cursor past what may stand before the words of a block: '/' and N123. True where the block is
-// deletable.
+// Moves the cursor past '/' and N123 at the start of a block. Returns true if the block is deletable.
 bool skip_block_head(Cursor& cursor);
 
 }  // namespace tribo::readers::gcode

@@ -10,7 +10,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Where LinuxCNC keeps what the control knows.
+// Numbers of the parameters with the state of the control in LinuxCNC.
 constexpr int kFirstProbe = 5061, kLastProbe = 5070;
 constexpr int kPresetOn = 5210, kFirstPreset = 5211;
 constexpr int kActiveWork = 5220, kFirstWork = 5221, kLastWork = 5390, kWorkStep = 20;
@@ -19,7 +19,7 @@ constexpr int kInput = 5399;
 constexpr int kFirstState = 5400, kLastState = 5428;
 constexpr int kTool = 5400, kToolDiameter = 5410, kFirstPosition = 5420;
 constexpr int kAxes = 9;  // x y z a b c u v w
-// From here on numbers show the state of a Fanuc control.
+// From this number on, parameters are the state of a Fanuc control.
 constexpr int kFirstFanucSystem = 1000;
 
 std::string shown(int number) {
@@ -49,7 +49,7 @@ struct Shown {
     std::string_view name;
     double (*value)(const State&);
 };
-// By name, ascending.
+// Sorted by name.
 constexpr Shown kShown[] = {
     {"_absolute", [](const State& s) { return s.incremental ? 0.0 : 1.0; }},
     {"_ccomp", [](const State& s) { return s.compensation_code(); }},
@@ -77,7 +77,7 @@ constexpr Shown kShown[] = {
     {"_task", [](const State&) { return 0.0; }},
     {"_units_per_minute", [](const State& s) { return s.feed_mode == FeedMode::per_minute ? 1.0 : 0.0; }},
     {"_units_per_rev", [](const State& s) { return s.feed_mode == FeedMode::per_turn ? 1.0 : 0.0; }},
-    // The release whose documents this reader follows.
+    // The release of LinuxCNC whose documentation this reader follows.
     {"_vmajor", [](const State&) { return 2.9; }},
     {"_vminor", [](const State&) { return 0.0; }},
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The variables of a program: #1 to #5602 and #<names>, those local to a subroutine call, and those by which
-// the control shows its own state (#5420, #<_x>, ...). Numbers and names are LinuxCNC's; lengths are in the
-// unit in force.
+// The variables of a program: #1 to #5602 and #<names>, the local variables of a subroutine call, and
+// variables that show the state of the control (#5420, #<_x>, ...). Numbers and names are those of LinuxCNC;
+// lengths are in the unit in force.
 #pragma once
 
 #include <array>
@@ -24,21 +24,21 @@ inline constexpr int kLocalParameters = 30;  // #1 to #30: the arguments of a ca
 
 class Parameters {
   public:
-    // Shows and changes `state` and warns in `output`; both must outlive it.
+    // Reads and changes `state` and warns in `output`; both must outlive the object.
     Parameters(State& state, Output& output);
 
-    // Errors have cause and remedy, but no place. A number that nothing has assigned reads as 0, with a
-    // warning; a name that nothing has assigned is refused.
+    // Errors have cause and remedy, but no place. An unassigned number reads as 0, with a warning; an
+    // unassigned name is refused.
     Result<double> get(int number) const;
     Result<double> get(std::string_view name) const;
     bool exists(std::string_view name) const;
     Result<void> set(int number, double value);
     Result<void> set(std::string_view name, double value);
 
-    // The variables of a subroutine: `arguments` in #1 and on, 0 in the rest, no names.
+    // Begins the variables of a subroutine: `arguments` in #1 and on, 0 in the others, no names.
     void enter(std::span<const double> arguments);
     void leave();
-    // What #<_value> and #<_value_returned> show after a call.
+    // Sets the values of #<_value> and #<_value_returned> after a call.
     void set_returned(std::optional<double> value) { returned_ = value; }
 
   private:
@@ -54,8 +54,8 @@ class Parameters {
     State& state_;
     Output& output_;
     std::vector<Frame> frames_;
-    std::vector<std::optional<double>> numbers_;  // of the outermost level; empty until one is set
-    Names global_names_;                          // those that start with '_'
+    std::vector<std::optional<double>> numbers_;  // of the outermost level; empty until the first assignment
+    Names global_names_;                          // names with a leading '_'
     std::optional<double> returned_;
 };
 

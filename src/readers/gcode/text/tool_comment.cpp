@@ -9,7 +9,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Takes a number from the front; none where it does not start with one.
+// Takes a number from the front; none if the text does not start with one.
 std::optional<double> take_number(std::string_view& text) {
     std::size_t length = 0;
     while (length < text.size() && (is_digit(text[length]) || text[length] == '.')) ++length;

@@ -9,10 +9,11 @@ namespace tribo::readers::gcode {
 
 struct ToolComment {
     int number = 0;
-    double diameter = 0, corner = 0;  // in the program's unit
+    double diameter = 0, corner = 0;  // in the unit of the program
 };
 
-// The tool of a comment that starts with T, a number and D=; CR= may follow. None in any other comment.
+// Returns the tool of a comment that starts with T, a number and D=, with an optional CR=. Returns none for
+// other comments.
 std::optional<ToolComment> tool_in_comment(std::string_view comment);
 
 }  // namespace tribo::readers::gcode

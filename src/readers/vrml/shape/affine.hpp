@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Places of VRML nodes.
+// Placements of VRML nodes.
 #pragma once
 
 #include "base/math.hpp"
@@ -7,7 +7,7 @@
 
 namespace tribo::readers {
 
-// x -> linear x + offset, the linear part by its columns.
+// x -> linear * x + offset; the linear part is stored by columns.
 struct Affine {
     Vec3 column[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     Vec3 offset;
@@ -20,7 +20,7 @@ struct Affine {
     bool mirrors() const { return dot(cross(column[0], column[1]), column[2]) < 0; }
 };
 
-// About an axis through the origin (Rodrigues); an axis without direction turns nothing.
+// Rotation about an axis through the origin (Rodrigues). A zero axis gives no rotation.
 inline Affine rotation(Vec3 axis, double angle_rad) {
     const Vec3 u = normalized(axis, {});
     if (u == Vec3{}) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Extrusion (ISO/IEC 14772-1, 6.18): a cross-section in the x-z plane, carried along a spine.
+// Extrusion (ISO/IEC 14772-1, 6.18): a cross-section in the x-z plane, moved along a spine.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -14,26 +14,26 @@
 namespace tribo::readers {
 namespace {
 
-// What the standard gives where the node says nothing.
+// Default values of the standard.
 constexpr std::array kSquare{1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0};
 constexpr std::array kUpright{0.0, 0.0, 0.0, 0.0, 1.0, 0.0};
 constexpr std::array kUnscaled{1.0, 1.0};
 constexpr std::array kUnturned{0.0, 0.0, 1.0, 0.0};
 
-// A sine of an angle up to this counts as straight on.
+// Angles with a sine up to this value count as straight.
 constexpr double kStraight = 1e-9;
 
 struct Frame {
     Vec3 x, y, z;
 };
 
-// The direction across two segments, or nothing where they run in one line.
+// Returns the direction perpendicular to two segments; zero if they are collinear.
 Vec3 across(Vec3 a, Vec3 b) {
     const Vec3 c = cross(a, b);
     return length(c) <= kStraight * length(a) * length(b) ? Vec3{} : normalized(c);
 }
 
-// Fills gaps with the last known before them, and those at the start with the first known.
+// Replaces gaps by the last known value before them, and gaps at the start by the first known value.
 void fill_gaps(std::vector<Vec3>& v) {
     const auto known = std::find_if(v.begin(), v.end(), [](Vec3 a) { return a != Vec3{}; });
     if (known == v.end()) return;
@@ -43,13 +43,13 @@ void fill_gaps(std::vector<Vec3>& v) {
     }
 }
 
-// Of a spine in one line: the turn that takes +y to its direction, about the axis across the two.
+// Frame of a straight spine: the rotation from +y to its direction, about their common perpendicular.
 Frame straight_frame(Vec3 along) {
     const Vec3 up{0, 1, 0};
     if (along == Vec3{}) return {{1, 0, 0}, up, {0, 0, 1}};
     const double c = dot(up, along);
     if (c <= -1 + kStraight) return {{-1, 0, 0}, -up, {0, 0, 1}};  // half a turn about z
-    const Vec3 a = cross(up, along);                               // of length sin
+    const Vec3 a = cross(up, along);                               // length: sine of the angle
     const auto turned = [&](Vec3 p) { return c * p + cross(a, p) + dot(a, p) / (1 + c) * a; };
     return {turned({1, 0, 0}), along, turned({0, 0, 1})};
 }
@@ -162,7 +162,7 @@ class ExtrusionReader {
         }
     }
 
-    // Flat faces of the whole cross-section, closed if it is not.
+    // Makes flat faces from the whole cross-section, which is closed if necessary.
     Result<void> add_caps(std::uint32_t rings, std::uint32_t corners) {
         std::vector<std::uint32_t> numbers(corners);
         std::vector<Vec3> points(corners);
@@ -180,11 +180,11 @@ class ExtrusionReader {
         return {};
     }
 
-    // Closed sections and spines and pointed ends have corners twice.
+    // Closed sections, closed spines and pointed ends have equal corners; this merges them.
     void join_equal_points() {
         const std::vector<Vec3>& p = surface_.points;
         if (!std::ranges::all_of(p, [](Vec3 q) { return is_finite(q); }))
-            return;  // refused where it is placed
+            return;  // refused later, when it is placed
         std::vector<std::uint32_t> order(p.size()), joined(p.size());
         std::iota(order.begin(), order.end(), 0);
         const auto key = [&](std::uint32_t i) { return std::tuple{p[i].x, p[i].y, p[i].z, i}; };

@@ -71,7 +71,7 @@ class FaceSetReader {
         return {};
     }
 
-    // Triangles of corners, which know their colours as well as their points.
+    // Triangles refer to corners, because corners have colours and points.
     Result<void> cut_faces(std::span<const double> xyz) {
         std::vector<Vec3> points;
         std::vector<std::uint32_t> numbers;
@@ -95,7 +95,7 @@ class FaceSetReader {
         return {};
     }
 
-    // Number of the colour of each corner or face; empty where an index names no colour.
+    // Returns the colour index of each corner or face; empty if an index refers to no colour.
     std::vector<std::uint32_t> colour_numbers(std::size_t wanted, bool per_vertex, std::size_t colours) {
         std::vector<std::uint32_t> out;
         const VrmlValue* list = tree_.find(node_, "colorIndex");
@@ -148,7 +148,7 @@ class FaceSetReader {
         return {};
     }
 
-    // From corners to the points that they use, those given new numbers in their order.
+    // Replaces corners by their points. Only used points stay, numbered in order of use.
     void keep_used_points(std::span<const double> xyz) {
         std::vector<std::uint32_t> used;
         used.reserve(corners_.size());
@@ -175,8 +175,8 @@ class FaceSetReader {
     VrmlFields fields_;
     PolygonTriangulator& triangulator_;
     VrmlSurface surface_;
-    std::vector<std::uint32_t> corners_;  // point of each; each face ends with kFaceEnd
-    std::vector<std::size_t> face_ends_;  // triangles up to the end of each face
+    std::vector<std::uint32_t> corners_;  // point of each corner; each face ends with kFaceEnd
+    std::vector<std::size_t> face_ends_;  // number of triangles up to the end of each face
 };
 
 }  // namespace

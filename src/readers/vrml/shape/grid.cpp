@@ -9,7 +9,7 @@
 namespace tribo::readers {
 namespace {
 
-// Points along x or z; 0 for what is no count.
+// Number of points along x or z; 0 if the value is not a valid count.
 std::uint64_t dimension(const VrmlTree& tree, VrmlNodeId grid, std::string_view field) {
     const VrmlValue* value = tree.find(grid, field);
     const auto numbers = value ? tree.numbers_of(*value) : std::span<const double>{};
@@ -20,7 +20,7 @@ std::uint64_t dimension(const VrmlTree& tree, VrmlNodeId grid, std::string_view 
     return static_cast<std::uint64_t>(numbers[0]);
 }
 
-// One colour for each square or, as the mean of its corners, for each triangle.
+// One colour for each square, or for each triangle the mean of its corners.
 void add_colours(VrmlSurface& surface, const std::vector<Rgb8>& colours, bool per_vertex) {
     for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
         if (!per_vertex) {

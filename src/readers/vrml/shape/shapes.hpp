@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Geometry that VRML describes by a few numbers, as triangles: closed where it is meant to be, so that
-// corners are shared and volumes come out right.
+// Triangles of the geometry that VRML describes by a few numbers. Shapes that are meant to be closed share
+// their corners, so that volumes are right.
 #pragma once
 
 #include "readers/vrml/shape/surface.hpp"
@@ -11,8 +11,8 @@ namespace tribo::readers {
 std::uint64_t count_solid_triangles(VrmlRole role);
 Result<VrmlSurface> read_vrml_solid(const VrmlTree& tree, VrmlNodeId solid);
 
-// Each square of an ElevationGrid is cut from its corner at x + 1 to that at z + 1, which the standard leaves
-// open; Coin cuts the same way.
+// Each square of an ElevationGrid is split from its corner at x + 1 to its corner at z + 1. The standard
+// leaves this open; Coin splits in the same way.
 std::uint64_t count_grid_triangles(const VrmlTree& tree, VrmlNodeId grid);
 Result<VrmlSurface> read_vrml_grid(VrmlTree& tree, VrmlNodeId grid);
 

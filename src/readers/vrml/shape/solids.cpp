@@ -64,7 +64,7 @@ class SolidReader {
         return {};
     }
 
-    // Corners of a ring, its first number.
+    // Adds the corners of a ring. Returns the index of the first.
     std::uint32_t add_ring(double radius, double y) {
         const auto first = static_cast<std::uint32_t>(surface_.points.size());
         for (const Direction& d : around_) surface_.points.push_back({radius * d.x, y, radius * d.z});
