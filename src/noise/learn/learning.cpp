@@ -15,14 +15,14 @@
 namespace tribo::noise {
 namespace {
 
-constexpr double kWhite = 1e-11;         // added to r_0: the top of a band-limited recording is empty
-constexpr double kHeldOutBlockS = 0.25;  // alternate blocks learn and test
+constexpr double kWhite = 1e-11;         // added to r_0, because the top of a band-limited recording is empty
+constexpr double kHeldOutBlockS = 0.25;  // alternate blocks are used for fitting and for testing
 constexpr double kSame = 1e-9;           // relative difference of equal speeds and forces
 
-// Of the bass: 2.7 Hz at 44.1 kHz, fine enough for the lowest third octave and for a line of the mains.
+// For the bass: 2.7 Hz at 44.1 kHz, fine enough for the lowest third octave and for a mains line.
 constexpr std::size_t kBassFrame = 16384;
 constexpr std::size_t kBassOrder = 100;
-constexpr double kLeastBass = 1e-6;  // of the power: less is none
+constexpr double kLeastBass = 1e-6;  // share of the power; below it there is no bass model
 constexpr double kBassToleranceDb = 1, kLowestBandHz = 63;
 constexpr double kThirdOctave = 1.2589254117941673, kSixthOctave = 1.1220184543019633;  // 10^0.1, 10^0.05
 
@@ -57,12 +57,12 @@ std::vector<Group> grouped(std::span<const Recording> recordings) {
     return groups;
 }
 
-// Every other block of the pieces.
+// Returns every other block of the pieces.
 Pieces alternate(const Pieces& pieces, std::size_t block, std::size_t which) {
     Pieces half;
     std::size_t n = 0;
     for (const std::span<const double> piece : pieces) {
-        // Whole blocks alone: a short rest would be mostly window.
+        // Whole blocks only: a short rest would be mostly window.
         const std::size_t own = std::max<std::size_t>(std::min(block, piece.size() / 2), 1);
         for (std::size_t at = 0; at + own <= piece.size(); at += own, ++n) {
             if (n % 2 == which) half.push_back(piece.subspan(at, own));
@@ -71,7 +71,7 @@ Pieces alternate(const Pieces& pieces, std::size_t block, std::size_t which) {
     return half;
 }
 
-// Divides a power spectrum by the high-pass's and continues it flat below the corner.
+// Divides a power spectrum by that of the high-pass, and continues it flat below the corner.
 void restore_below(std::vector<double>& power, double rate_hz, double highpass_hz) {
     if (!(highpass_hz > 0)) return;
     const double corner = math::tan(math::kPi * highpass_hz / rate_hz);
@@ -89,8 +89,8 @@ void restore_below(std::vector<double>& power, double rate_hz, double highpass_h
     for (std::size_t k = 0; k < first; ++k) power[k] = mean;
 }
 
-// Mean power spectrum under Hann windows of `frame` samples (a power of two) that overlap by half, a bin 0
-// ... `frame`, times `weight`. Pieces shorter than `shortest` are left out.
+// Mean power spectrum under Hann windows of `frame` samples (a power of two) with half overlap, bins 0 ...
+// `frame`, times `weight`. Pieces shorter than `shortest` are skipped.
 struct WindowedPower {
     std::vector<double> bins;
     double weight = 0;
@@ -120,9 +120,10 @@ WindowedPower windowed_power(std::span<const std::span<const double>> pieces, do
     return power;
 }
 
-// How far, in dB, the models of orders 1 ... most of one half of the sound are from the spectrum of the
-// other: mean of both ways round. By what would be heard, not by what is predicted: an impulsive sound is
-// predicted from a few samples, and its spectrum is not drawn by so few poles.
+// Returns the distance in dB between the models of one half of the sound and the spectrum of the other half,
+// for orders 1 ... most, as the mean of both directions. The measure is the spectrum, which is heard, and not
+// the prediction error: an impulsive sound is predicted from a few samples, but so few poles do not give its
+// spectrum.
 std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, double highpass_hz, int most) {
     const auto block = static_cast<std::size_t>(kHeldOutBlockS * rate_hz);
     const std::vector<double> hz = spectrum_hz(rate_hz);
@@ -144,7 +145,7 @@ std::vector<double> held_out_errors(const Pieces& pieces, double rate_hz, double
     return errors;
 }
 
-// The smallest order that comes as near to held-out sound as the best one does.
+// Returns the smallest order whose error on held-out sound is close to that of the best order.
 int chosen_order(std::span<const double> errors) {
     const double best = *std::ranges::min_element(errors);
     std::size_t order = 1;
@@ -152,7 +153,7 @@ int chosen_order(std::span<const double> errors) {
     return static_cast<int>(order);
 }
 
-// The autocorrelation of all members of a group together, at the rate of the first.
+// Returns the joint autocorrelation of all members of a group, at the sample rate of the first.
 std::vector<double> group_autocorrelation(const Group& group, std::span<const PreparedRecording> prepared,
                                           double highpass_hz, int order) {
     std::vector<double> sum(static_cast<std::size_t>(order) + 1);
@@ -172,7 +173,7 @@ std::vector<double> group_autocorrelation(const Group& group, std::span<const Pr
     return sum;
 }
 
-// The member with the most sound.
+// Returns the member with the most sound.
 const PreparedRecording& longest_of(const Group& group, std::span<const PreparedRecording> prepared) {
     const PreparedRecording* longest = &prepared[group.members[0]];
     for (const std::size_t n : group.members) {
@@ -255,7 +256,7 @@ std::optional<BassModel> learn_bass(std::span<const std::span<const double>> pie
     if (!(r[0] > kLeastBass * all)) return std::nullopt;
     BassModel model{{bass_rate_hz, levinson(r, kWhite)}, r[0] / all};
 
-    // Only where the model of the whole is off by more than can be heard, third octave by third octave.
+    // Return a bass model only if the error of the whole model, over third octaves, is audible.
     double error = 0, bands = 0;
     for (double middle = kLowestBandHz; middle < kBassHz; middle *= kThirdOctave) {
         double heard = 0, modelled = 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// From recordings of friction to the voices of a material.
+// Learns the voices of a material from recordings of friction.
 //
-// Each recording: high-pass, silence out, autocorrelation under Hann windows of 4096 samples, Yule-Walker
-// equations by Levinson and Durbin (or Burg's method), RMS level. Recordings at one speed and force are
-// learned from together. One order serves all models of a material: the smallest whose distance from the
-// spectrum of held-out sound is within kOrderToleranceDb of the best. What a recording is beyond Gaussian
-// noise becomes its texture (texture_learning.hpp); of several at one speed and force that of the longest.
-// Paper: the touch paper, 3.1, with RMS in place of mean power. Allocates; any thread.
+// Steps for each recording: high-pass, removal of silence, autocorrelation under Hann windows of 4096
+// samples, Yule-Walker equations by Levinson and Durbin (or Burg's method), RMS level. Recordings at one
+// speed and force give one model. All models of a material have the same order: the smallest one whose
+// distance from the spectrum of held-out sound is within kOrderToleranceDb of the best. The part of a
+// recording beyond Gaussian noise becomes its texture (texture_learning.hpp); with several recordings at one
+// speed and force, the longest one gives the texture. Paper: the touch paper, 3.1, with RMS in place of mean
+// power. Allocates; any thread.
 #pragma once
 
 #include <optional>
@@ -24,16 +25,16 @@ enum class Method { yule_walker, burg };
 
 struct LearningOptions {
     Method method = Method::yule_walker;
-    std::optional<int> order{};  // 1 ... kLargestOrder; absent: by held-out sound
+    std::optional<int> order{};  // 1 ... kLargestOrder; absent: chosen by held-out sound
     double highpass_hz = 50;     // 0: only the mean is removed
-    bool textures = true;        // false: Gaussian models alone
+    bool textures = true;        // false: Gaussian models only
 };
 
 inline constexpr int kMostLearnedOrder = 100;
 inline constexpr double kOrderToleranceDb = 0.05;
 inline constexpr std::size_t kAutocorrelationFrame = 4096;
 
-// What was learned from one recording.
+// The result for one recording.
 struct LearnedRecording {
     std::string name;
     int model = 0;  // index into voices.models
@@ -44,25 +45,26 @@ struct LearnedRecording {
 struct Learned {
     MaterialVoices voices;
     int order = 0;
-    // Distance of the models of one half of the sound from the spectrum of the other (shape_distance_db), at
-    // each order 1, 2, ..., mean over the recordings; empty where the order was given.
+    // Distance between the models of one half of the sound and the spectrum of the other half
+    // (shape_distance_db), at each order 1, 2, ..., mean over the recordings. Empty if the order was given.
     std::vector<double> held_out_db;
-    std::vector<LearnedRecording> recordings;  // as they came
+    std::vector<LearnedRecording> recordings;  // in the order of the input
     Warnings warnings;
 };
 
-// Any number of recordings in any order. Refused: none, speeds or forces that are not above 0, what
-// prepare() refuses.
+// Takes any number of recordings in any order. Refuses none at all, speeds or forces that are not > 0, and
+// recordings that prepare() refuses.
 Result<Learned> learn(std::span<const Recording> recordings, const LearningOptions& options = {});
 
-// Autocorrelation r_0 ... r_lags of sound that went through prepare()'s high-pass, as if nothing had been
-// removed: above the corner the filter's loss is made good, below it the spectrum goes on as it is just
-// above. So the fit does not bend to a hole that the recording never had. r_0 is the mean square.
+// Returns the autocorrelation r_0 ... r_lags of sound after the high-pass of prepare(), with the effect of
+// the high-pass removed: above the corner its loss is compensated, below the corner the spectrum is continued
+// flat. Otherwise the model would follow a gap that the recording never had. r_0 is the mean square.
 std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
                                              double sample_rate_hz, double highpass_hz, int lags);
 
-// The bass of pieces that went through prepare()'s high-pass; none where `whole` tells of it within 1 dB (RMS
-// over third octaves), where there is none, or where no piece is long enough for 3 Hz (0.4 s at 44.1 kHz).
+// Returns the bass model of pieces after the high-pass of prepare(). Returns none if `whole` is within 1 dB
+// of the bass (RMS over third octaves), if there is no bass, or if no piece is long enough for 3 Hz (0.4 s at
+// 44.1 kHz).
 std::optional<BassModel> learn_bass(std::span<const std::span<const double>> pieces, const ArModel& whole,
                                     double highpass_hz);
 

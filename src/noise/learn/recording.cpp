@@ -11,24 +11,25 @@ namespace tribo::noise {
 namespace {
 
 constexpr double kFrameS = 0.01;
-constexpr double kSilentBelowDb = 50;  // under the louder tenth
+constexpr double kSilentBelowDb = 50;  // below the loudest tenth
 constexpr double kShortestSilenceS = 0.25;
 constexpr double kShortestConstantS = 0.02;
 constexpr double kSilentPower = 1e-10;  // -100 dB of full scale: nothing was recorded
 constexpr int kShortestClip = 3;
 constexpr double kNearPeak = 0.9999;
-constexpr double kLeastClipLevel = 0.25;  // a flat top far below full scale is no clipping
+constexpr double kLeastClipLevel = 0.25;  // flat peaks far below full scale are not clipping
 
 double db_of_power(double power) {
     return 10 * math::log10(std::max(power, 1e-40));
 }
 
-// Tenths of a per cent.
+// Rounded to tenths of a per cent.
 std::string percent(double share) {
     return format_decimal(std::round(1000 * share) / 10) + " %";
 }
 
-// Second-order Butterworth high-pass (bilinear transform), started as if its first sample had always been.
+// Second-order Butterworth high-pass (bilinear transform). Its initial state is that of a constant input
+// equal to the first sample.
 void high_pass(std::vector<double>& x, double corner_hz, double rate_hz) {
     const double k = math::tan(math::kPi * corner_hz / rate_hz);
     const double a0 = 1 + std::sqrt(2.0) * k + k * k;
@@ -63,7 +64,7 @@ std::size_t clipped_samples(std::span<const double> x, double peak) {
     return clipped;
 }
 
-// Marks the frames of silence in a recording; `raw` before, `sound` after the high-pass.
+// Marks the frames of silence in a recording. `raw` is the sound before the high-pass, `sound` after it.
 std::vector<bool> silent_frames(std::span<const double> raw, std::span<const double> sound, std::size_t frame,
                                 double rate_hz) {
     const std::size_t count = (sound.size() + frame - 1) / frame;
@@ -96,7 +97,7 @@ std::vector<bool> silent_frames(std::span<const double> raw, std::span<const dou
     };
     mark([&](std::size_t f) { return power[f] < floor; }, kShortestSilenceS);
     mark([&](std::size_t f) { return static_cast<bool>(constant[f]); }, kShortestConstantS);
-    // Where sound begins or ends inside a frame, the edge would be heard as a click.
+    // Also mark the neighbouring frames: an edge where sound begins or ends inside a frame would click.
     std::vector<bool> wider = silent;
     for (std::size_t f = 0; f < count; ++f) {
         if (silent[f] && f > 0) wider[f - 1] = true;
@@ -181,9 +182,10 @@ Result<PreparedRecording> prepare(const Recording& recording, double highpass_hz
 }
 
 std::vector<double> brought_down(std::span<const double> samples, double from_hz, double to_hz) {
-    // A sinc of 48 zero crossings a side at 0.95 of the new half rate under a Blackman window, tabulated.
+    // Tabulated sinc with 48 zero crossings on each side, at 0.95 of the new half rate, under a Blackman
+    // window.
     constexpr int kSide = 48, kPerCrossing = 256;
-    const double ratio = from_hz / to_hz, cutoff = 0.95 / ratio;  // of the old half rate
+    const double ratio = from_hz / to_hz, cutoff = 0.95 / ratio;  // relative to the old half rate
     std::vector<double> table(kSide * kPerCrossing + 2);
     for (std::size_t n = 0; n < table.size(); ++n) {
         const double t = static_cast<double>(n) / kPerCrossing, x = math::kPi * t;

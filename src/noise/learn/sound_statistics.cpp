@@ -111,7 +111,7 @@ std::vector<double> power_spectrum(std::span<const double> sound, std::size_t fr
         for (std::size_t n = 0; n < frame; ++n) x[n] = window[n] * sound[at + n];
         fourier(x);
         for (std::size_t k = 0; k < power.size(); ++k) {
-            // Half of both neighbouring lines belongs to a step between them.
+            // Half of each neighbouring line belongs to the band between them.
             power[k] += 0.5 * (std::norm(x[k]) + std::norm(x[k + 1])) / weight;
         }
     }

@@ -13,19 +13,19 @@ namespace {
 
 constexpr int kSeeds = 6;
 constexpr int kRounds = 10;
-// Given up after this many rounds without a miss that is less by 2 %.
+// Ends after this many rounds without an improvement of 2 %.
 constexpr int kPatience = 3;
 constexpr double kGain = 0.98;
 constexpr double kPlayedS = 5;  // for each seed
-// A round moves a knob by this factor at most.
+// Largest factor for one parameter in one round.
 constexpr double kLargestTurn = 2;
-// Coherence is measured through the levels' noise: up to this factor too low.
+// Measured coherence contains the noise of the levels: it is up to this factor too low.
 constexpr double kCoherenceWithin = 1.5;
 constexpr std::size_t kSteps = kModulationHz.size();
 constexpr double kLeast = 1e-12;      // modulation
-constexpr double kLeastExcess = 0.1;  // of a kurtosis over 3
+constexpr double kLeastExcess = 0.1;  // of a kurtosis above 3
 
-// Second-order Butterworth, as texture_excitation plays it.
+// Second-order Butterworth, as in texture_excitation.
 void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool low) {
     const double k = math::tan(math::kPi * corner_hz / rate_hz);
     const double a0 = 1 + std::sqrt(2.0) * k + k * k;
@@ -40,8 +40,8 @@ void split_off(std::vector<double>& x, double corner_hz, double rate_hz, bool lo
     }
 }
 
-// Of a texture's own sound: mean over seeds, of `count` samples each; of the kurtosis the geometric mean, and
-// how far its logarithm is from the wanted one, root mean square over the seeds.
+// Measures of the sound of a texture: mean over seeds, of `count` samples each. Of the kurtosis it has the
+// geometric mean, and the RMS over the seeds of the difference between its logarithm and the wanted one.
 struct Played : HeardTexture {
     double kurtosis_miss = 0;
 };
@@ -74,13 +74,13 @@ Played played(const TextureModel& texture, const ArModel& model, std::size_t cou
     return all;
 }
 
-// What is turned until a texture sounds like its recording.
+// Parameters that are fitted until a texture sounds like its recording.
 struct Knobs {
-    std::vector<double> spread;   // of each band: factor on the levels' deviations from their middle
+    std::vector<double> spread;   // factor for each band, on the deviations of its levels from the middle
     std::vector<double> weights;  // of the memories
     double coherence = 1;
-    double crest = 1;   // factor on the levels of the louder sixth
-    double grains = 1;  // factor on the grains' share
+    double crest = 1;   // factor on the levels of the loudest sixth
+    double grains = 1;  // factor on the share of the grains
 };
 
 TextureModel turned(const TextureModel& texture, const Knobs& knobs) {
@@ -110,9 +110,9 @@ double turn(double factor) {
     return std::clamp(factor, 1 / kLargestTurn, kLargestTurn);
 }
 
-// How far what is played is from what is wanted: the Itakura-Saito distance of the modulation spectra
-// (Itakura and Saito 1968), to which a line that is missed weighs more than a gap that is filled, and for the
-// kurtosis what that distance is for small errors, half the squared logarithm.
+// Distance between the played and the wanted sound. Modulation spectra: Itakura-Saito distance (Itakura and
+// Saito 1968), in which a missed line counts more than a filled gap. Kurtosis: half the squared logarithm,
+// which equals this distance for small errors.
 double distance(const HeardTexture& wanted, const Played& now) {
     double sum = 0, count = 0;
     for (std::size_t b = 0; b < wanted.modulation.size(); ++b) {
@@ -126,11 +126,11 @@ double distance(const HeardTexture& wanted, const Played& now) {
     return sum / std::max(count, 1.0) + 0.5 * now.kurtosis_miss * now.kurtosis_miss;
 }
 
-// One round: each knob a step towards what is wanted.
+// One round: moves each parameter a step towards the wanted sound.
 void turn_knobs(Knobs& knobs, const TextureModel& measured, std::span<const double> memory_s,
                 const HeardTexture& wanted, const HeardTexture& now) {
     const bool grains = !measured.grains.sizes.empty();
-    std::vector<double> strength;  // of modulation, wanted over now
+    std::vector<double> strength;  // of the modulation, wanted over played
     for (std::size_t b = 0; b < now.modulation.size(); ++b) {
         strength.push_back(std::max(sum_of(wanted.modulation[b]), kLeast) /
                            std::max(sum_of(now.modulation[b]), kLeast));
@@ -140,18 +140,18 @@ void turn_knobs(Knobs& knobs, const TextureModel& measured, std::span<const doub
         knobs.spread[b] = std::clamp(knobs.spread[b] * turn(std::sqrt(strength[b])), 0.02, 4.0);
         bands += math::log(strength[b]) / static_cast<double>(knobs.spread.size());
     }
-    // Bands that wander together fluctuate more as a whole.
+    // Coherent bands fluctuate more as a whole.
     knobs.coherence = std::clamp(knobs.coherence * turn(strength.back() / math::exp(bands)),
                                  measured.coherence / kCoherenceWithin,
                                  std::min(measured.coherence * kCoherenceWithin, 1.0));
-    // Multiplicative steps down the Itakura-Saito distance of the modulation spectra.
+    // Multiplicative steps that reduce the Itakura-Saito distance of the modulation spectra.
     std::vector<double> weights = knobs.weights;
     for (std::size_t m = 0; m < weights.size(); ++m) {
         double up = 0, down = 0;
         for (std::size_t b = 0; b < now.modulation.size(); ++b) {
             for (std::size_t k = 0; k < kSteps; ++k) {
                 const double p = now.modulation[b][k];
-                if (!(p > 0)) continue;  // too short a sound for this step
+                if (!(p > 0)) continue;  // the sound is too short for this step
                 const double w = math::kTwoPi * kModulationHz[k] * memory_s[m];
                 const double basis = memory_s[m] / (1 + w * w);
                 up += basis * wanted.modulation[b][k] / (strength[b] * p * p);
@@ -162,7 +162,7 @@ void turn_knobs(Knobs& knobs, const TextureModel& measured, std::span<const doub
     }
     const double sum = sum_of(weights);
     for (std::size_t m = 0; m < weights.size(); ++m) knobs.weights[m] = weights[m] / sum;
-    // Few sounds are loud enough to count for the kurtosis: it scatters, so that steps are small.
+    // The kurtosis depends on a few loud sounds and scatters; therefore its steps are small.
     const double peak = math::pow(
         turn(std::max(wanted.kurtosis - 3, kLeastExcess) / std::max(now.kurtosis - 3, kLeastExcess)), 0.35);
     if (grains) knobs.grains *= peak;

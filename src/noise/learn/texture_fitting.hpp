@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A texture by its own sound: what is heard of it, and turning it until that is what a recording has.
-// Allocates; any thread.
+// Measures the texture of a sound, and fits a texture until it has the measures of a recording. Allocates;
+// any thread.
 #pragma once
 
 #include <array>
@@ -13,24 +13,24 @@
 
 namespace tribo::noise {
 
-// Half octaves whose modulation a texture takes from its recording: 4 ... 64 Hz.
+// Half octaves of the modulation that a texture takes from its recording: 4 ... 64 Hz.
 inline constexpr std::array<double, 8> kModulationHz{4.76, 6.73, 9.51, 13.5, 19.0, 26.9, 38.1, 53.8};
 
 struct HeardTexture {
-    // Of each band, and of all together at the end: modulation density at kModulationHz.
+    // Modulation density at kModulationHz: of each band, then of all bands together.
     std::vector<std::vector<double>> modulation;
     double kurtosis = 0;
 };
 HeardTexture heard_texture(const std::vector<double>& sound, double sample_rate_hz,
                            std::span<const double> crossovers_hz);
 
-// One band of a sound, parted by the second-order Butterworth filters with which a texture is played.
+// Returns one band of a sound, split off by the second-order Butterworth filters of the playback.
 std::vector<double> band_of(const std::vector<double>& sound, std::size_t band,
                             std::span<const double> crossovers_hz, double sample_rate_hz);
 
-// The texture with the spread of its levels, the weights of its lengths, its coherence and the share of its
-// grains such that what `model` plays of it, `samples` at a time, comes nearest to what is wanted. Tries a
-// few rounds on the sound of a few seeds, always the same ones.
+// Fits the spread of the levels, the weights of the lengths, the coherence and the share of the grains, so
+// that the sound played with `model`, `samples` at a time, is closest to the wanted measures. Runs a few
+// rounds on the sound of a few seeds, always the same ones.
 TextureModel fitted_texture(const TextureModel& texture, const ArModel& model, double speed_mm_per_s,
                             const HeardTexture& wanted);
 

@@ -20,19 +20,19 @@ using Pieces = std::span<const std::span<const double>>;
 
 constexpr std::array<double, 4> kCrossoversHz{400, 1500, 5000, 12000};
 constexpr double kFrameS = 0.003;
-constexpr double kFramesPerBandwidth = 4;  // a band's frame is at least this many over its width
-// Memory of the level process, at the learned speed.
+constexpr double kFramesPerBandwidth = 4;  // minimum of frame length * bandwidth of a band
+// Memory times of the level process, at the learned speed.
 constexpr std::array<double, kMostLengths> kMemoryS{0.002, 0.006, 0.02, 0.06};
-// Level deviations beyond those of Gaussian noise that are worth a texture.
+// Least excess of the level deviation over that of Gaussian noise for a texture.
 constexpr double kLeastDeviationDb = 0.7;
-// With fewer grains than this nothing is known of their sizes.
+// With fewer grains their sizes are unknown.
 constexpr std::size_t kFewestGrains = 8;
 constexpr double kGrainReachS = 0.0005;
 constexpr double kSurroundingsS = 0.01;
-// Share of a grain's energy in its five middle samples; noise of one level has a tenth there.
+// Least share of the energy of a grain in its five middle samples; it is a tenth for noise of constant level.
 constexpr double kGrainConcentration = 0.2;
 
-// Where a Gaussian is exceeded by 1 - p: Acklam's rational approximation (2003), to 1e-9.
+// Quantile of the normal distribution: rational approximation of Acklam (2003), to 1e-9.
 double normal_quantile(double p) {
     if (p > 0.5) return -normal_quantile(1 - p);
     if (p < 0.02425) {
@@ -64,7 +64,7 @@ double normal_quantile(double p) {
             1);
 }
 
-// Levels of one band, two ways.
+// Levels of one band at two frame lengths.
 struct BandLevels {
     std::vector<double> fine,
         coarse;  // dB, at kFrameS (or longer in narrow bands), and at the longest of them
@@ -110,7 +110,7 @@ double deviation(const std::vector<double>& x) {
     return std::sqrt(square / static_cast<double>(x.size()));
 }
 
-// Levels as Gaussian numbers of the same order.
+// Maps levels to Gaussian numbers of the same order.
 std::vector<double> gaussianized(const std::vector<double>& levels) {
     std::vector<std::size_t> order(levels.size());
     for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
@@ -136,7 +136,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, s
     return aa * bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-// The distribution of levels at g = -4 ... 4, pulled towards its middle by `shrink`.
+// Returns the distribution of the levels at g = -4 ... 4, with deviations from the middle scaled by `shrink`.
 std::vector<double> level_table(std::vector<double> levels, double shrink) {
     std::ranges::sort(levels);
     const auto count = static_cast<double>(levels.size());
@@ -152,8 +152,9 @@ std::vector<double> level_table(std::vector<double> levels, double shrink) {
     return table;
 }
 
-// Shares of the memories that explain an autocorrelation best: projected coordinate descent. What it leaves
-// of the share of the variance that is not the frames' own noise (`real`) is forgotten within a frame.
+// Returns the shares of the memory times that explain an autocorrelation best, by projected coordinate
+// descent. `real` is the share of the variance that is not noise of the frames; its unexplained rest goes to
+// a memory shorter than a frame.
 std::vector<double> memory_shares(const std::vector<double>& g, double frame_s, double real) {
     constexpr std::array<std::size_t, 10> kLags{1, 2, 3, 5, 8, 12, 20, 32, 50, 80};
     std::vector<double> w(kMemoryS.size(), 0.25);
@@ -197,7 +198,7 @@ std::vector<double> plain_noise(const ArModel& model, std::size_t count, std::ui
     return x;
 }
 
-// What the model does not predict, mean square 1; `scale` becomes what it was multiplied by.
+// Returns the prediction error of the model with mean square 1. `scale` becomes its normalisation factor.
 std::vector<double> residual_of(const std::vector<double>& x, const std::vector<double>& a, double& scale) {
     std::vector<double> e(x.size());
     double square = 0;
@@ -212,7 +213,7 @@ std::vector<double> residual_of(const std::vector<double>& x, const std::vector<
     return e;
 }
 
-// The way back.
+// Inverse of residual_of().
 std::vector<double> filtered(const std::vector<double>& e, const std::vector<double>& a, double scale) {
     std::vector<double> x(e.size());
     for (std::size_t n = 0; n < e.size(); ++n) {
@@ -234,7 +235,7 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
     double energy = 0;
     for (const double v : residual) energy += v * v;
     for (std::size_t begin = 0; begin + around <= residual.size(); begin += around) {
-        // The median size of a Gaussian is 0.6745 of its deviation.
+        // The median absolute value of a Gaussian is 0.6745 of its deviation.
         const std::size_t from = begin > around / 2 ? begin - around / 2 : 0;
         const std::size_t to = std::min(residual.size(), begin + 3 * around / 2);
         window.clear();
@@ -271,18 +272,19 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
         gaps += last_gap;
         squares += last_gap * last_gap;
     }
-    // Impulses, white as the noise between them: the model's filter gives both their colour.
+    // Impulses, white like the noise between them: the filter of the model colours both.
     grains.shape = {1};
     const auto count = static_cast<double>(places.size() - 1);
     const double mean = gaps / count;
     grains.scatter = std::min(std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean, 1.0);
-    // Of grains at random places those nearer than the reach to one another are found as one.
+    // Random grains that are closer than the reach are found as one grain.
     const double rate = static_cast<double>(places.size()) / static_cast<double>(residual.size());
     grains.per_mm =
         rate / (1 - grains.scatter * rate * static_cast<double>(reach)) * sample_rate_hz / speed_mm_per_s;
     grains.share = std::clamp(taken / energy, 0.0, 1.0);
     std::ranges::sort(sizes);
-    // Every grain's, or of more grains than there is room for the root mean square of as many neighbours.
+    // Sizes of all grains. If there are more than the table can hold, each entry is the RMS of neighbouring
+    // sizes.
     const std::size_t steps = std::min<std::size_t>(sizes.size(), kMostGrainSizes);
     for (std::size_t n = 0; n < steps; ++n) {
         const std::size_t begin = n * sizes.size() / steps, end = (n + 1) * sizes.size() / steps;
@@ -322,7 +324,7 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
     if (largest < kLeastDeviationDb * kLeastDeviationDb && texture.grains.sizes.empty()) return std::nullopt;
     texture.crossovers_hz = corners_at(rate);
 
-    // Memory: of the bands whose frames are short, together.
+    // Memory times, from all bands with short frames together.
     std::vector<double> together;
     double real = 0, weights = 0;
     for (std::size_t b = 2; b < own.bands.size(); ++b) {
@@ -348,7 +350,8 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
     }
     texture.coherence = std::clamp(coherence / std::max(pairs, 1), 0.0, 1.0);
     HeardTexture wanted = heard_texture(level, rate, texture.crossovers_hz);
-    // What the slow level takes away is partly the texture's own: the truth lies between with and without it.
+    // Removing the slow level also removes a part of the texture. Use the geometric mean of the kurtosis with
+    // and without the slow level.
     const double with_slow = kurtosis(joined(pieces));
     wanted.kurtosis = std::sqrt(with_slow * std::min(with_slow, wanted.kurtosis));
     return fitted_texture(texture, model, speed_mm_per_s, wanted);

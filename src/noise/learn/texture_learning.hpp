@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Finding the texture of a recording. Its slow level goes first: that is the hand's (slow_level.hpp). Then
-// single grains are taken out of what the all-pole model does not predict, and the level of bands of what is
-// left is measured, frame by frame, as a process over the way of the finger. What Gaussian noise of the same
-// model shows under the same analysis is taken off, so that a Gaussian recording gets no texture. At last the
-// texture is played and turned until its own sound has the recording's modulation from 4 to 64 Hz in each
-// band and as a whole, and its kurtosis. Allocates; any thread.
+// Finds the texture of a recording. Steps:
+// - Remove the slow level, which comes from the hand (slow_level.hpp).
+// - Take single grains out of the prediction error of the all-pole model.
+// - Measure the level of bands of the rest, frame by frame, as a process over the distance of the finger.
+// - Subtract the values of Gaussian noise of the same model under the same analysis, so that a Gaussian
+//   recording gets no texture.
+// - Play the texture and fit it until it has the modulation of the recording from 4 to 64 Hz, in each band
+// and
+//   as a whole, and its kurtosis.
+// Allocates; any thread.
 #pragma once
 
 #include <optional>
@@ -16,13 +20,14 @@
 
 namespace tribo::noise {
 
-// `pieces` of sound at the model's rate, made at this speed. Nothing where the sound is Gaussian.
+// `pieces` of sound at the sample rate of the model, recorded at this speed. Returns none if the sound is
+// Gaussian.
 std::optional<TextureModel> learn_texture(std::span<const std::span<const double>> pieces,
                                           const ArModel& model, double speed_mm_per_s);
 
-// Grains of a residual (white, mean square 1): impulses that stand out of their surroundings by
-// kGrainThreshold. In `residual` noise of their surroundings' level takes their place. `sample_rate_hz` over
-// speed makes distances of times.
+// Takes the grains out of a residual (white, mean square 1): impulses that exceed their surroundings by the
+// factor kGrainThreshold. Noise at the level of the surroundings replaces them in `residual`. Times are
+// converted to distances by `sample_rate_hz` and speed.
 inline constexpr double kGrainThreshold = 5.5;
 GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, double speed_mm_per_s);
 

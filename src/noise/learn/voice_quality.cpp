@@ -16,7 +16,7 @@ namespace {
 constexpr double kBlockS = 0.25;
 constexpr int kPlainOrder = 50;
 constexpr double kPlayedS = 10;
-constexpr double kLevelS = 60;  // the level of a textured voice wanders: a long mean
+constexpr double kLevelS = 60;  // the level of a textured voice varies slowly, so its mean needs a long time
 
 using Pieces = std::vector<std::span<const double>>;
 
@@ -88,7 +88,7 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     const std::vector<double> long_voice = played(model, true, kLevelS, 2);
     for (const double v : long_voice) power += v * v / static_cast<double>(long_voice.size());
     q.level_error_db = db(power) - model.level_db;
-    // The voice leaves the hand's slow level to the stroke.
+    // Remove the slow level of the hand: in playback it comes from the stroke.
     std::vector<double> levelled;
     for (const std::vector<double>& piece : without_slow_level(recording.pieces(), rate)) {
         levelled.insert(levelled.end(), piece.begin(), piece.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How near a learned voice comes to its recording: what `tribo learn --report` shows. Allocates; any thread.
+// Distance between a learned voice and its recording, for `tribo learn --report`. Allocates; any thread.
 #pragma once
 
 #include <vector>
@@ -8,24 +8,24 @@
 
 namespace tribo::noise {
 
-// The recording, the voice without its texture, the voice: in this order.
+// Values of the recording, the voice without its texture, and the voice.
 struct Trio {
     double original = 0, gaussian = 0, voice = 0;
 };
 
-// Levels of half bands of an octave of the envelope's fluctuation, dB relative to its mean square.
+// Levels of the fluctuation of the envelope in half octaves, dB relative to its mean square.
 struct ModulationSpectrum {
     std::vector<double> hz, original_db, gaussian_db, voice_db;
 };
 
 struct VoiceQuality {
     double sample_rate_hz = 48000;
-    // Fitted on one half of the recording's blocks, held against the spectrum of the other; shape alone, 200
-    // Hz to 20 kHz. Beside it the same for a plain Yule-Walker fit of order 50, and what the two halves
-    // differ by themselves.
+    // Fit on one half of the blocks of the recording, compared with the spectrum of the other half; shape
+    // only, 200 Hz to 20 kHz. Then the same for a plain Yule-Walker fit of order 50, and the difference
+    // between the two halves.
     double held_out_db = 0, held_out_plain_db = 0, halves_db = 0;
-    double level_error_db = 0;  // of a minute played, against the level that was learned
-    // Of the recording as it is; the level deviation (10 ms) and the modulation without its slow level.
+    double level_error_db = 0;  // level of a minute of playback, relative to the learned level
+    // Kurtosis of the unchanged recording. Level deviation (10 ms) and modulation without its slow level.
     Trio kurtosis, deviation_db;
     std::vector<double> hz, original_db, model_db;  // spectra
     ModulationSpectrum modulation;

@@ -26,8 +26,8 @@ double squared_size(std::span<const double> predictor, double angle) {
     return re * re + im * im;
 }
 
-// By how much the all-pass z^-1 A~(z) / A(z) of the lattice lags at an angle: each section bends the lag of
-// the one before by less than half a turn, so no jump of the arctangent is ever taken for a turn.
+// Phase lag of the all-pass z^-1 A~(z) / A(z) of the lattice at an angle. Each section changes the lag of the
+// section before by less than half a turn, so the arctangent is never ambiguous.
 double lag(std::span<const double> reflection, double angle) {
     double theta = angle;
     for (const double k : reflection) {
@@ -97,7 +97,7 @@ double power_at(const ArModel& model, double hz) {
 }
 
 std::vector<double> autocorrelation_of(std::span<const double> reflection, int lags) {
-    // Levinson's recursion run backwards: the predictor of order m and r_0 ... r_(m-1) give r_m.
+    // Levinson's recursion in reverse: the predictor of order m and r_0 ... r_(m-1) give r_m.
     std::vector<double> r(static_cast<std::size_t>(lags) + 1), a;
     r[0] = 1;
     double error = 1;
@@ -135,8 +135,8 @@ void predictor_from_line_spectrum(std::span<const double> angles, std::span<doub
                                   std::span<double> work) {
     const std::size_t order = angles.size();
     assert(predictor.size() == order && work.size() >= 2 * (order + 2));
-    // A = (P + Q) / 2; the roots of P are the angles 1, 3, ..., those of Q the others, and of the angles 0
-    // and pi each belongs to the one that makes the degree p + 1.
+    // A = (P + Q) / 2. The roots of P are the angles 1, 3, ..., the roots of Q the others. The angles 0 and
+    // pi belong to the polynomial that they complete to degree p + 1.
     const std::span<double> p = work.first(order + 2), q = work.subspan(order + 2, order + 2);
     std::size_t p_degree = 0, q_degree = 0;
     p[0] = q[0] = 1;
@@ -159,10 +159,10 @@ ArModel at_rate(const ArModel& model, double sample_rate_hz, double* power) {
     if (power) *power = 1;
     ArModel moved{sample_rate_hz, model.reflection};
     if (sample_rate_hz == model.sample_rate_hz) return moved;
-    // Autocorrelation of the spectrum on a grid of the new band, by the trapezoid rule: exact but for what
-    // rings longer than the grid's two sides.
+    // Autocorrelation of the spectrum on a grid of the new band, by the trapezoid rule. It is exact, except
+    // for responses longer than the grid.
     constexpr int kGrid = 4096;
-    // Beyond the old band: falling by 60 dB per octave, down to 60 dB under the mean.
+    // Beyond the old band the spectrum falls by 60 dB per octave, down to 60 dB below the mean.
     constexpr double kFloor = 1e-6;
     const std::size_t order = model.reflection.size();
     const std::vector<double> predictor = predictor_of(model.reflection);

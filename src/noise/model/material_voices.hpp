@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is known of a material's friction sound: one model for each speed (and force) at which it was
-// recorded, and the law by which its level follows them. This is what `tribo learn` finds, a material file
-// carries and FrictionVoice plays. Plain data.
+// The friction sound of a material: one model for each recorded speed (and force), and the law of its level.
+// `tribo learn` computes it, a material file stores it, FrictionVoice plays it. Plain data.
 #pragma once
 
 #include <optional>
@@ -20,17 +19,18 @@ struct VoiceModel {
     double level_db = 0;        // RMS, dB of full scale
     ArModel spectrum;
     std::optional<TextureModel> texture{};  // absent: Gaussian noise of that spectrum
-    std::optional<BassModel> bass{};        // absent: the spectrum tells enough of it
+    std::optional<BassModel> bass{};        // absent: `spectrum` is accurate enough in the bass
 
     friend bool operator==(const VoiceModel&, const VoiceModel&) = default;
 };
 
-// Level in dB, linear in the logarithms of speed and force: the line that fits the recordings best. Between
-// them the recordings themselves are followed; the law leads on beyond them.
+// Level in dB, linear in the logarithms of speed and force: the best fit to the recordings. Between
+// recordings the level is interpolated; the law holds beyond them.
 struct LevelLaw {
     double level_db = 0;  // at 100 mm/s and 1 N
-    // Friction noise grows about with the square root of friction power, force times speed (van den Doel,
-    // Kry, Pai 2001): 10 dB a decade. This stands where recordings at one speed or one force tell nothing.
+    // Friction noise grows about with the square root of friction power, force * speed (van den Doel, Kry,
+    // Pai 2001): 10 dB per decade. This default is kept if recordings at one speed or one force give no
+    // slope.
     double db_per_decade_speed = 10;
     double db_per_decade_force = 10;
 
@@ -40,16 +40,16 @@ inline constexpr double kLawSpeedMmPerS = 100;
 inline constexpr double kLawForceN = 1;
 
 struct MaterialVoices {
-    std::vector<VoiceModel> models;  // ascending by force, then speed; no two alike in both
+    std::vector<VoiceModel> models;  // ascending by force, then speed; no two with equal speed and force
     LevelLaw law;
 
     friend bool operator==(const MaterialVoices&, const MaterialVoices&) = default;
 };
 
-// A law is no steeper, and its level lies within this range.
+// Limits of the slopes of a law and of its level.
 inline constexpr double kSteepestLawDb = 200, kLeastLawDb = -200, kMostLawDb = 60;
 
-// The law that fits the levels of the models best (least squares), within those bounds.
+// Fits the law to the levels of the models by least squares, within these limits.
 LevelLaw fit_level_law(const std::vector<VoiceModel>& models);
 
 }  // namespace tribo::noise

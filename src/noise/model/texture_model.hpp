@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT
-// What a friction sound is beyond coloured Gaussian noise: how the level of its bands wanders along the way
-// (weave, holes, a patchy surface), and single grains that the finger runs over. Both are tied to distance,
-// so they come faster as the finger moves faster. Plain data.
+// The properties of a friction sound beyond coloured Gaussian noise: slow variation of the band levels along
+// the path (weave, holes, a patchy surface), and single grains under the finger. Both are functions of
+// distance, so they are faster if the finger is faster. Plain data.
 #pragma once
 
 #include <vector>
 
 namespace tribo::noise {
 
-// Grains: impulses that excite the material's resonances.
+// Grains: impulses that excite the resonances of the material.
 struct GrainModel {
-    double per_mm = 0;   // mean count on a millimetre of way; 0: none
+    double per_mm = 0;   // mean count per millimetre; 0: none
     double share = 0;    // of the power at the learned speed, 0 ... 1
-    double scatter = 1;  // of the distances between grains: deviation over mean, 0 (even) ... 1 (at random)
-    // Amplitudes, signed, ascending; each comes as often as another.
+    double scatter = 1;  // of the distances between grains: deviation over mean, 0 (even) ... 1 (random)
+    // Amplitudes, signed, ascending; all are equally frequent.
     std::vector<double> sizes;
-    // What a grain of size 1 adds to the driving noise, sample by sample at the model's rate; sum of
+    // Contribution of a grain of size 1 to the driving noise, per sample at the rate of the model; sum of
     // squares 1.
     std::vector<double> shape;
 
     friend bool operator==(const GrainModel&, const GrainModel&) = default;
 };
 
-// A level process: Gaussian numbers g of given correlation over distance, led through a table into dB.
+// A level process: Gaussian numbers g with a given correlation over distance, mapped to dB by a table.
 struct TextureModel {
-    // Where neighbouring bands part; ascending, below half the model's sample rate. n of them make n + 1
-    // bands.
+    // Limits between neighbouring bands; ascending, below half the sample rate of the model. n limits make n
+    // + 1 bands.
     std::vector<double> crossovers_hz;
     // For each band the level in dB at g = -4, -3.5 ... 4, linear between. The mean power over g is 1.
     std::vector<std::vector<double>> levels_db;
-    // Share of g that all bands have in common, 0 ... 1; the rest is each band's own.
+    // Share of g that all bands have in common, 0 ... 1. The rest is independent in each band.
     double coherence = 1;
-    // g is the sum of processes that forget exponentially over these distances, with these shares of the
-    // variance (sum 1).
+    // g is a sum of processes. Each has exponential memory over one of these lengths, and a share of the
+    // variance (sum of shares 1).
     std::vector<double> lengths_mm, weights;
     GrainModel grains;
 
@@ -41,12 +41,12 @@ struct TextureModel {
 
 inline constexpr int kMostBands = 8;
 inline constexpr int kMostLengths = 4;
-inline constexpr int kLevelSteps = 17;    // of a table
+inline constexpr int kLevelSteps = 17;    // entries of a table
 inline constexpr double kLevelReach = 4;  // g runs from -4 to 4
 inline constexpr int kMostGrainSizes = 65;
 inline constexpr int kLongestGrain = 64;  // samples
 
-// Shifts every table so that the mean power over a Gaussian g is 1.
+// Shifts each table so that its mean power over a Gaussian g is 1.
 void normalize(TextureModel& texture);
 
 }  // namespace tribo::noise

@@ -12,14 +12,14 @@ namespace {
 // Below the recorded range the level falls at least with the square root of speed or force.
 constexpr double kLeastSlopeDb = 10;
 
-// Forces that differ by less than this are one row.
+// Forces with a smaller difference form one row.
 constexpr double kSameForce = 1e-9;
 
 double power_of_db(double db) {
     return math::pow(10, 0.1 * db);
 }
 
-// Level in dB by a slope over a logarithm that is bent where the recorded range [low, high] ends.
+// Returns the level in dB: a slope over a logarithm, with other slopes beyond the recorded range [low, high].
 double bent(double slope_db, double x, double low, double high) {
     const double inside = slope_db * std::clamp(x, low, high);
     if (x < low) return inside + std::max(slope_db, kLeastSlopeDb) * (x - low);
@@ -50,7 +50,7 @@ LevelLaw fit_level_law(const std::vector<VoiceModel>& models) {
         vy += v * y;
         fy += f * y;
     }
-    // Spreads of less than a hundredth of a decade tell no slope, nor do speed and force that move together.
+    // A spread below a hundredth of a decade gives no slope; nor do speed and force that change together.
     constexpr double kSpread = 1e-4;
     const double determinant = vv * ff - vf * vf;
     if (vv > kSpread && ff > kSpread && determinant > 1e-3 * vv * ff) {
@@ -135,7 +135,7 @@ VoicePlace VoiceMap::at(double speed_mm_per_s, double force_n) const {
 }
 
 VoicePlace VoiceMap::as_published(double speed_mm_per_s) const {
-    // Of several forces the middle one.
+    // With several forces, use the middle one.
     const Row& row = rows_[(rows_.size() - 1) / 2];
     const auto knot = [&](int n) -> const Knot& { return knots_[static_cast<std::size_t>(row.first + n)]; };
     int upper = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which of a material's models sound at a speed and force, in which shares, how loud.
+// Selects the models of a material for a speed and force, with their shares and level.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace tribo::noise {
 
-// How far above its loudest recording a voice may get beyond the recorded speeds, and as much again beyond
-// the recorded forces.
+// Largest rise above the level of the loudest recording beyond the recorded speeds; the same again beyond the
+// recorded forces.
 inline constexpr double kMostAboveDb = 6;
 
-// Up to four models: the two neighbours in speed at each of the two neighbouring forces.
+// Up to four models: the two neighbouring speeds at each of the two neighbouring forces.
 struct VoicePlace {
     int count = 0;
     std::array<int, 4> model{};     // ascending
@@ -21,26 +21,26 @@ struct VoicePlace {
     double gain = 0;                // RMS amplitude, full scale 1; 0: silence
 };
 
-// Construction allocates; the look-ups are real-time safe, any thread.
+// Construction allocates. The look-ups are real-time safe, on any thread.
 class VoiceMap {
   public:
-    // `voices`: at least one model; borrowed for this call only.
+    // `voices`: at least one model; used during this call only.
     explicit VoiceMap(const MaterialVoices& voices);
 
-    // Any finite speed and force; standing still, or without force, is silence. Between recordings shares and
-    // level (in dB) are linear in the logarithms; beyond them the law leads on, below to silence (at least
-    // with the square root of speed and force), above by kMostAboveDb at most.
+    // Takes any finite speed and force; zero speed or zero force is silence. Between recordings, shares and
+    // level (in dB) are linear in the logarithms. Beyond them the law holds: below, down to silence (at least
+    // with the square root of speed and force); above, up to kMostAboveDb more.
     VoicePlace at(double speed_mm_per_s, double force_n) const;
 
-    // As printed: shares linear in speed between the neighbours (amplitudes, not powers) and the linearly
-    // interpolated mean power as the gain; at the ends the last model alone. Force is ignored.
+    // As printed: shares linear in speed between the neighbours (amplitudes, not powers), and the linearly
+    // interpolated mean power as the gain. At the ends only the last model is used. Force is ignored.
     VoicePlace as_published(double speed_mm_per_s) const;
 
   private:
     struct Knot {
         double log_speed = 0, speed = 0;
         double power = 0;      // mean square
-        double offset_db = 0;  // by how much the recording is louder than the law
+        double offset_db = 0;  // level of the recording relative to the law
     };
     struct Row {  // the models of one force
         double log_force = 0;

@@ -9,7 +9,7 @@
 namespace tribo::noise {
 namespace {
 
-// Of the two sections of a Butterworth filter of fourth order: 1 / Q.
+// 1 / Q of the two sections of a fourth-order Butterworth filter.
 constexpr std::array<double, 2> kDamping{1.8477590650225735, 0.7653668647301795};
 
 std::size_t divisor_at(double sample_rate_hz) {
@@ -39,13 +39,13 @@ DetailedNoise::DetailedNoise(const ArModel& model, const BassModel& bass, double
     : rest_(at_rate(model, sample_rate_hz), seed),
       bass_(bass_at(bass, sample_rate_hz), ~seed),
       divisor_(divisor_at(sample_rate_hz)) {
-    // Bilinear transform, the corner kept.
+    // Bilinear transform with the exact corner.
     const double k = math::tan(math::kPi * kBassHz / sample_rate_hz);
     for (std::size_t n = 0; n < high_pass_.size(); ++n) {
         const double a0 = 1 + kDamping[n] * k + k * k;
         high_pass_[n] = {1 / a0, 2 * (k * k - 1) / a0, (1 - kDamping[n] * k + k * k) / a0};
     }
-    // Each part has its share of the power, whatever the whole model thinks of its bass.
+    // Each part gets its own share of the power. The bass of the whole model is not used.
     const ArModel whole = at_rate(model, sample_rate_hz);
     constexpr int kSteps = 4096;
     double power = 0;
@@ -56,7 +56,7 @@ DetailedNoise::DetailedNoise(const ArModel& model, const BassModel& bass, double
     }
     rest_gain_ = power > 0 ? std::sqrt((1 - bass.share) / power) : 0;
     bass_gain_ = std::sqrt(bass.share);
-    // A windowed sinc between the samples of the bass (Hann), each phase with a sum of 1.
+    // Hann-windowed sinc between the samples of the bass; the sum of each phase is 1.
     taps_.resize(divisor_ * kTaps);
     for (std::size_t phase = 0; phase < divisor_; ++phase) {
         double sum = 0;

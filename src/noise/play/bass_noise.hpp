@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Noise of a model whose bass is drawn in detail: the poles of a model are spread evenly over the whole band,
-// so that a hundred of them do not tell 100 from 300 Hz.
+// Noise of a model with a detailed bass. The poles of a model are spread evenly over the whole band, so a
+// hundred of them cannot separate 100 Hz from 300 Hz.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace tribo::noise {
 
-// Below kBassHz: a model of its own, at a sample rate of about kBassRateHz. `share`: of the whole power.
+// Below kBassHz: a separate model at a sample rate of about kBassRateHz. `share`: of the whole power.
 struct BassModel {
     ArModel spectrum;
     double share = 0;
@@ -22,23 +22,23 @@ struct BassModel {
 };
 inline constexpr double kBassHz = 1400, kBassRateHz = 6000;
 
-// What of power stays below the crossover, at `hz`: a Butterworth low-pass of fourth order. The rest is
+// Share of the power at `hz` that stays below the crossover: a fourth-order Butterworth low-pass. The rest is
 // above.
 double bass_share(double hz);
 
-// Bass and the rest know nothing of each other: their powers add up. Mean square 1. Construction may
-// allocate; everything else is real-time safe, about 10 ns a sample. One thread at a time.
+// Bass and rest are independent, so their powers add. Mean square 1. Construction may allocate; everything
+// else is real-time safe, about 10 ns a sample. One thread at a time.
 class DetailedNoise {
   public:
-    // `model` and `bass` at any rate.
+    // `model` and `bass` at any sample rate.
     DetailedNoise(const ArModel& model, const BassModel& bass, double sample_rate_hz, std::uint64_t seed);
 
-    // Block `index`; blocks are meant to follow each other, after a gap it goes on from where it was. Valid
-    // until the next call.
+    // Returns block `index`. Blocks should follow each other; after a gap the filter continues from its last
+    // state. The span is valid until the next call.
     std::span<const double, kNoiseBlock> block(std::uint64_t index);
 
   private:
-    static constexpr std::size_t kTaps = 16;  // of the interpolation, at the bass's rate
+    static constexpr std::size_t kTaps = 16;  // of the interpolation, at the rate of the bass
     struct Section {                          // high-pass: b (1 - z^-1)^2 / (1 + a1 z^-1 + a2 z^-2)
         double b = 0, a1 = 0, a2 = 0, s1 = 0, s2 = 0;
         double step(double x);

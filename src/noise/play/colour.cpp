@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNepersPerDb = 0.11512925464970229;  // of amplitude, ln 10 / 20
 constexpr double kDeepestDb = 200;
-constexpr double kWhite = 1e-9;  // of the power, so that empty bands stay well conditioned
+constexpr double kWhite = 1e-9;  // share of the power, so that empty bands stay well conditioned
 
 }  // namespace
 
@@ -30,7 +30,7 @@ ArModel model_of(std::span<const ColourPoint> colour, double sample_rate_hz, int
         while (line + 2 < colour.size() && hz > colour[line + 1].hz) ++line;
         const ColourPoint &a = colour[line], &b = colour[line + 1];
         const double db = a.db + (b.db - a.db) * math::log(hz / a.hz) / math::log(b.hz / a.hz) - highest;
-        // A third octave grows with its middle: the density is its level over hz.
+        // The width of a third octave is proportional to its centre, so the density is level / hz.
         const double density = math::exp(2 * kNepersPerDb * std::max(db, -kDeepestDb)) / hz;
         for (std::size_t k = 0; k < autocorrelation.size(); ++k) {
             autocorrelation[k] += density * math::cos(math::kPi * share * static_cast<double>(k));

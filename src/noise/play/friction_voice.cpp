@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kQuantumS = 64.0 / 48000;
 constexpr double kSmoothingS = 0.001;
-// A finger slower than this stands still: the level is 40 dB under that at 100 mm/s at least.
+// A slower finger stands still: its level is at least 40 dB below that at 100 mm/s.
 constexpr double kStandstillMmPerS = 0.01;
 constexpr double kNoForceN = 1e-4;
 
@@ -75,7 +75,8 @@ double FrictionVoice::target_gain() const {
 }
 
 void FrictionVoice::smooth_targets() {
-    // A touch begins at its own force and speed, not on a way from zero: the gain's ramp is smooth enough.
+    // A touch begins at its own force and speed without smoothing from zero: the ramp of the gain is smooth
+    // enough.
     if (force_ == 0) force_ = target_force_;
     if (options_.as_published) {
         speed_ = target_speed_;

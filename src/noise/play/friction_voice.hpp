@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The sound of rubbing a material: noise of the models learned nearest to the speed and force of the finger,
-// mixed with equal power, at the level that the recordings had.
+// The sound of rubbing a material: noise of the learned models nearest to the speed and force of the finger,
+// mixed with equal power, at the level of the recordings.
 //
 //     FrictionVoice voice(material.voices, {.sample_rate_hz = 48000});
-//     voice.set_target(120, 0.8);        // mm/s, N: whenever they are known
+//     voice.set_target(120, 0.8);        // mm/s, N: at any time
 //     voice.render(block);               // in the audio callback
 //
-// Speed and force are taken up at the next quantum (1.33 ms) and smoothed by a millisecond; steps of either
-// are free of clicks. The output depends on seed, targets and the frames at which they came, never on block
+// Speed and force take effect at the next quantum (1.33 ms) and are smoothed over a millisecond, so steps do
+// not click. The output depends on the seed, the targets and the frames at which they are set, never on block
 // lengths.
 #pragma once
 
@@ -25,19 +25,19 @@ namespace tribo::noise {
 // Between two recordings.
 enum class Interpolation {
     mix,           // both models sound, with equal power
-    line_spectrum  // one model, its line spectral frequencies between those of the two: peaks move
+    line_spectrum  // one model with interpolated line spectral frequencies: peaks move
 };
 
 struct FrictionOptions {
-    double sample_rate_hz = 48000;  // 1000 ... 192000: a servo's rate gives vibration in place of sound
+    double sample_rate_hz = 48000;  // 1000 ... 192000; at the rate of a servo it gives vibration
     std::uint64_t seed = 1;
     Interpolation interpolation = Interpolation::mix;
-    // Without the textures: coloured Gaussian noise, for comparison.
+    // Without textures: coloured Gaussian noise, for comparison.
     bool gaussian = false;
-    // Frames between two looks at the targets: 1, 2, 4 ... 64; 0: what is nearest to 1.33 ms.
+    // Frames between two updates of the targets: 1, 2, 4 ... 64; 0: the value nearest to 1.33 ms.
     int quantum_frames = 0;
-    // The paper's generation step as printed: all models always run, amplitudes are mixed linearly (3 dB too
-    // low half way), mean power serves as gain, nothing is smoothed, a finger at rest is heard.
+    // The generation step of the paper as printed: all models always run, amplitudes are mixed linearly (3 dB
+    // too low half way), the mean power is used as gain, nothing is smoothed, a finger at rest is audible.
     bool as_published = false;
 };
 
@@ -47,18 +47,18 @@ class FrictionVoice {
     // `voices`: at least one model; copied.
     explicit FrictionVoice(const MaterialVoices& voices, const FrictionOptions& options = {});
 
-    // Finger speed along the surface (its size) and force into it; 0 or less of either, or what is not a
-    // number: silence.
+    // Sets the finger speed along the surface (its magnitude) and the force into the surface. Values <= 0 and
+    // NaN give silence.
     void set_target(double speed_mm_per_s, double force_n);
 
-    // The next frames, mono, full scale 1 (never beyond: the ends are clipped). Replaces what `out` holds.
+    // Renders the next frames, mono, full scale 1 (clipped). Overwrites `out`.
     void render(std::span<float> out);
 
-    // Goes to a frame of the stream and to silence; the same targets then give the same samples again.
+    // Goes to a frame of the stream and to silence. The same targets then give the same samples.
     void seek(std::uint64_t frame);
     std::uint64_t frame() const { return frame_; }
 
-    // RMS level that the present target leads to, full scale 1.
+    // RMS level of the current target, full scale 1.
     double target_gain() const;
 
   private:
@@ -72,15 +72,15 @@ class FrictionVoice {
     VoiceMap map_;
     std::vector<ModelNoise> noises_;
     std::vector<float> gain_, next_gain_;  // of each model, now and at the end of the quantum
-    // For Interpolation::line_spectrum: the one model that sounds, at the end of noises_, and its angles.
+    // For Interpolation::line_spectrum: the one audible model, last in noises_, and its angles.
     std::vector<std::vector<double>> lines_;
     std::vector<double> line_, predictor_, reflection_, line_work_;
-    std::vector<float> band_;  // what share of a model's amplitude the sample rate carries
+    std::vector<float> band_;  // share of the amplitude of a model that the sample rate can carry
     double target_speed_ = 0, target_force_ = 0;
     double speed_ = 0, force_ = 0, smoothing_ = 1;
-    std::uint64_t frame_ = 0;  // of the next sample handed out
+    std::uint64_t frame_ = 0;  // of the next sample to return
     int quantum_ = 64;
-    std::array<float, kNoiseBlock> ready_{};  // the quantum that is being handed out
+    std::array<float, kNoiseBlock> ready_{};  // the quantum that is being returned
 };
 
 }  // namespace tribo::noise

@@ -11,7 +11,7 @@
 namespace tribo::noise {
 namespace {
 
-// Blocks that run unheard before the first one: 21 ms at 48 kHz, longer than friction rings.
+// Blocks that run before the first audible one: 21 ms at 48 kHz, longer than the decay of friction sound.
 constexpr std::uint64_t kRunUp = 16;
 
 }  // namespace
@@ -42,7 +42,7 @@ void ModelNoise::retune(std::span<const double> predictor, double gain) {
 
 void ModelNoise::make(std::uint64_t index, double travel_mm) {
     std::array<float, kNoiseBlock> white;
-    // Samples are numbered by 32 bits inside a stream of its own for each 2^26 blocks (a day at 48 kHz).
+    // Samples are numbered by 32 bits in a separate stream for each 2^26 blocks (a day at 48 kHz).
     constexpr std::uint64_t kBlocksPerKey = std::uint64_t{1} << 26;
     const auto key = static_cast<std::uint32_t>(CounterNoise(key_).bits(index / kBlocksPerKey) >> 32);
     const auto first = static_cast<std::uint32_t>(index % kBlocksPerKey * kNoiseBlock);
@@ -61,7 +61,7 @@ void ModelNoise::seek(std::uint64_t index) {
     y_.fill(0);
     if (texture_) texture_->restart();
     for (std::uint64_t n = index - std::min(index, kRunUp); n < index; ++n) make(n, 0);
-    // Where nothing lies before the start, the far end of the stream does.
+    // Before the start, use the end of the stream.
     if (index < kRunUp) {
         for (std::uint64_t n = index; n < kRunUp; ++n) make(n - kRunUp, 0);
     }

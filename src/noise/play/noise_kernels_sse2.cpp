@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For every processor: SSE2 on x86, whatever the target's baseline is elsewhere.
+// The build for every processor: SSE2 on x86, whatever the baseline of the target is elsewhere.
 #include "noise/play/noise_kernels.inl"
 
 namespace tribo::noise {

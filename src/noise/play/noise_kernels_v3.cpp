@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For x86-64-v3 (AVX2): this file alone is compiled for it, so nothing of it may run before the processor was
-// asked.
+// The build for x86-64-v3 (AVX2). Only this file is compiled for it, so none of its code may run before the
+// check of the processor.
 #include "base/processor.hpp"
 #include "noise/play/noise_kernels.inl"
 

@@ -18,7 +18,7 @@ PinkNoise::PinkNoise(std::uint64_t seed, double sample_rate_hz)
     : kernels_(&noise_kernels()), key_(CounterNoise(seed).bits(0)), sample_rate_hz_(sample_rate_hz) {
     double pole_hz = kLowestPoleHz;
     for (Section& s : sections_) {
-        // Half way to the next pole, on a scale of octaves.
+        // Half way to the next pole on a logarithmic scale.
         const double zero_hz = pole_hz * std::sqrt(kPoleRatio);
         s.pole = math::exp(-math::kTwoPi * pole_hz / sample_rate_hz);
         s.zero = math::exp(-math::kTwoPi * zero_hz / sample_rate_hz);
@@ -50,7 +50,7 @@ double PinkNoise::power_at(double hz) const {
 }
 
 std::span<const double, kNoiseBlock> PinkNoise::block(std::uint64_t index) {
-    // Samples are numbered by 32 bits inside a stream of its own for each 2^26 blocks.
+    // Samples are numbered by 32 bits in a separate stream for each 2^26 blocks.
     constexpr std::uint64_t kBlocksPerKey = std::uint64_t{1} << 26;
     const auto key = static_cast<std::uint32_t>(CounterNoise(key_).bits(index / kBlocksPerKey) >> 32);
     std::array<float, kNoiseBlock> white;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Noise with the same power in every octave: what breaking chips, fans and bearings have in common.
+// Noise with the same power in every octave, as from breaking chips, fans and bearings.
 #pragma once
 
 #include <array>
@@ -10,19 +10,19 @@
 
 namespace tribo::noise {
 
-// White counter noise through real poles and zeros that take turns, a pole every two octaves from 20 Hz: 3 dB
-// less per octave, within 0.5 dB from 30 Hz to 10 kHz at 48 kHz (the construction: Keshner 1982; Smith,
-// Spectral Audio Signal Processing 2011, "Synthesis of 1/F noise"). Mean square 1. No allocation; real-time
-// safe, about 5 ns a sample; one thread at a time.
+// White counter noise through alternating real poles and zeros, with a pole every two octaves from 20 Hz: -3
+// dB per octave, within 0.5 dB from 30 Hz to 10 kHz at 48 kHz (Keshner 1982; Smith, Spectral Audio Signal
+// Processing 2011, "Synthesis of 1/F noise"). Mean square 1. No allocation; real-time safe, about 5 ns a
+// sample; one thread at a time.
 class PinkNoise {
   public:
     PinkNoise(std::uint64_t seed, double sample_rate_hz);
 
-    // Block `index` of the stream. The filter goes on from where it was: after a gap its past is as good as
-    // any. Valid until the next call.
+    // Returns block `index` of the stream. After a gap the filter continues from its last state, which is
+    // statistically equivalent. The span is valid until the next call.
     std::span<const double, kNoiseBlock> block(std::uint64_t index);
 
-    // Power density at `hz`, 0 ... half the sample rate; its mean over them is 1.
+    // Power density at `hz`, 0 ... half the sample rate. Its mean is 1.
     double power_at(double hz) const;
 
   private:

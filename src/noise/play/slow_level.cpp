@@ -10,9 +10,9 @@ namespace tribo::noise {
 namespace {
 
 constexpr double kFrameS = 0.01;
-constexpr double kReachS = 0.75;       // of the low-pass to either side: from 1 to 0 within 2.7 Hz
-constexpr double kSilentBelowDb = 60;  // under the loudest frame: what is quieter counts as this
-// Under the loudest slow level: what is quieter, a hand that turns round or lifts, is not raised further.
+constexpr double kReachS = 0.75;       // of the low-pass to each side: falls from 1 to 0 within 2.7 Hz
+constexpr double kSilentBelowDb = 60;  // below the loudest frame; quieter frames are set to this level
+// Below the loudest slow level. Quieter parts (a hand that reverses or lifts) are not raised further.
 constexpr double kRestsBelowDb = 15;
 
 std::vector<double> levels_of(std::span<const double> sound, std::size_t frame) {
@@ -25,7 +25,7 @@ std::vector<double> levels_of(std::span<const double> sound, std::size_t frame) 
     return levels;
 }
 
-// A sinc under a Hann window; the levels go on as in a mirror at both ends.
+// Low-pass by a sinc under a Hann window. The levels are mirrored at both ends.
 std::vector<double> low_passed(const std::vector<double>& levels, double corner_hz) {
     const auto reach = static_cast<std::ptrdiff_t>(kReachS / kFrameS);
     std::vector<double> kernel;
@@ -71,7 +71,7 @@ std::vector<std::vector<double>> without_slow_level(std::span<const std::span<co
         }
     }
     mean /= std::max(count, 1.0);
-    double below = 0, octave_more = 0, top = -300;  // sums of squares; the loudest
+    double below = 0, octave_more = 0, top = -300;  // sums of squares; the loudest level
     std::vector<std::vector<double>> slow;
     for (const std::vector<double>& piece : levels) {
         slow.push_back(low_passed(piece, kSlowHz));
@@ -81,9 +81,10 @@ std::vector<std::vector<double>> without_slow_level(std::span<const std::span<co
         }
         for (const double v : low_passed(piece, 2 * kSlowHz)) octave_more += (v - mean) * (v - mean);
     }
-    // Fluctuation as strong on a hertz below kSlowHz as in the octave above it makes these differ by a half.
+    // If the density of the fluctuation below kSlowHz equals that of the octave above, octave_more = 2 *
+    // below.
     const double excess = below > 0 ? std::clamp(2 - octave_more / below, 0.0, 1.0) : 0;
-    // A small excess is chance, a large one is all the hand's.
+    // A small excess is chance. A large excess comes from the hand and is removed completely.
     const double share = excess * excess * (3 - 2 * excess);
     for (std::size_t p = 0; p < out.size(); ++p) {
         if (slow[p].empty()) continue;

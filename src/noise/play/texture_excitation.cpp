@@ -11,12 +11,12 @@
 namespace tribo::noise {
 namespace {
 
-// Levels are looked up this often and run linearly between: 0.7 ms at 48 kHz.
+// Samples between two updates of the levels, with linear interpolation: 0.7 ms at 48 kHz.
 constexpr int kLevelFrames = 32;
-// More grains than this in one block are noise, not grains.
+// More grains than this in one block are noise.
 constexpr int kMostInBlock = 64;
 
-// Butterworth low-pass (or high-pass) of second order for one lane; the two powers add up to 1.
+// Second-order Butterworth low-pass (or high-pass) for one lane. The powers of both add up to 1.
 void set_lane(BandSection& s, std::size_t lane, double corner_hz, double rate_hz, bool low) {
     const double k = math::tan(math::kPi * corner_hz / rate_hz);
     const double a0 = 1 + std::sqrt(2.0) * k + k * k;
@@ -30,7 +30,7 @@ void set_lane(BandSection& s, std::size_t lane, double corner_hz, double rate_hz
 }  // namespace
 
 void normalize(TextureModel& texture) {
-    // Trapezoid over g, finer than the table.
+    // Trapezoid rule over g, finer than the table.
     constexpr int kFiner = 8;
     for (std::vector<double>& table : texture.levels_db) {
         double sum = 0, weights = 0;
@@ -40,7 +40,7 @@ void normalize(TextureModel& texture) {
             const double share = place - static_cast<double>(index);
             const double g = -kLevelReach + 0.5 * place;
             const double w = math::exp(-0.5 * g * g);
-            // What is played between two steps is linear in amplitude.
+            // The playback is linear in amplitude between two steps.
             const double amplitude = (1 - share) * math::pow(10, 0.05 * table[index]) +
                                      share * math::pow(10, 0.05 * table[index + 1]);
             sum += w * amplitude * amplitude;
@@ -55,7 +55,7 @@ TextureExcitation::TextureExcitation(const TextureModel& texture, double sample_
     : key_(CounterNoise(seed).bits(1)) {
     std::array<double, kMostBands - 1> corners{};
     int count = 0;
-    // Bands that the sample rate does not carry are left out.
+    // Leave out bands that the sample rate cannot carry.
     for (const double hz : texture.crossovers_hz) {
         if (hz < 0.45 * sample_rate_hz) corners[static_cast<std::size_t>(count++)] = hz;
     }
@@ -122,8 +122,8 @@ double TextureExcitation::next_gap() {
     return ((1 - scatter_) - scatter_ * math::log(1 - u)) / per_mm_;
 }
 
-// Every size comes once before one comes again: the few large ones, on which the kurtosis hangs, come as
-// often as in the recording, not twice or never by bad luck.
+// Returns the sizes in rounds: each size occurs once per round. So the few large sizes, which determine the
+// kurtosis, are exactly as frequent as in the recording.
 double TextureExcitation::next_size() {
     if (sizes_left_ == 0) sizes_left_ = sizes_;
     const double place = CounterNoise(key_).uniform(drawn_++) * sizes_left_;
@@ -165,8 +165,8 @@ void TextureExcitation::step_levels(double travel_mm) {
 }
 
 void TextureExcitation::add_grains(double travel_mm, std::span<float, 64> out) {
-    // Grains per sample times their mean square is their share of the power; at another speed than the
-    // learned one there are more or fewer of them, and the level law alone says how loud it gets.
+    // Grains per sample * their mean square = their share of the power. At another speed than the learned one
+    // there are more or fewer grains; the loudness is that of the level law.
     for (std::size_t n = 0; n < out.size(); ++n) out[n] += tail_[n];
     tail_.fill(0);
     const double per_sample = per_mm_ * travel_mm / 64;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Driving noise with the texture of a recording: bands of counter noise whose levels wander with the distance
-// travelled, and grains. White on average, mean square 1, for an all-pole filter to colour.
+// Driving noise with the texture of a recording: bands of counter noise, whose levels vary with the travelled
+// distance, and grains. White on average, mean square 1, as input of an all-pole filter.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace tribo::noise {
 
-// Construction allocates nothing that lives on; everything is real-time safe. One thread at a time. About
-// 10 ns a sample.
+// Construction keeps no allocated memory; everything is real-time safe. One thread at a time. About 10 ns a
+// sample.
 class TextureExcitation {
   public:
     TextureExcitation(const TextureModel& texture, double sample_rate_hz, std::uint64_t seed);
 
-    // Samples `first` ... of the stream, 64 of them, while the finger moves on by `travel_mm`.
+    // Writes the 64 samples from `first` on, while the finger moves by `travel_mm`.
     void block(std::uint64_t first, double travel_mm, std::span<float, 64> out);
-    // Forgets the way: the next block begins it anew.
+    // Resets the distance: the next block starts anew.
     void restart();
 
   private:
@@ -42,7 +42,7 @@ class TextureExcitation {
         order_{};  // places in size_: those left of this round come first
     int sizes_left_ = 0;
     std::array<float, kLongestGrain> shape_{};
-    std::array<float, 64> tail_{};  // of grains that reach into the next block
+    std::array<float, 64> tail_{};  // of grains that continue in the next block
     int taps_ = 1;
     double to_next_mm_ = 0;
     std::uint64_t key_ = 0, drawn_ = 0;
