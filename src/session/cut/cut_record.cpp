@@ -10,7 +10,7 @@
 namespace tribo::session {
 namespace {
 
-// Shares of the work, each with force models of its own.
+// Number of shares of the work. Each share has its own force models.
 constexpr std::size_t kShares = 8;
 
 void add(Hash& hash, const motion::ToolPose& pose) {
@@ -29,7 +29,7 @@ double changed_phase_rad(const milling::CutRow& row, const CutChange& change) {
 
 namespace {
 
-// Calls visit(n, row, engaged model) for the rows, shared among threads.
+// Calls visit(n, row, engaged model) for the rows, distributed over the threads.
 template <class Visit>
 void each_engaged(std::span<const milling::CutRow> rows, const MillSetup& setup, const CutChange& change,
                   const ParallelFor& parallel, const Visit& visit) {

@@ -12,7 +12,7 @@
 namespace tribo::session {
 namespace {
 
-// Many, so that all threads have work; few enough that a stop is heard soon.
+// Enough moves that all threads have work, and few enough that a stop takes effect soon.
 constexpr std::size_t kCarvedAtOnce = 256;
 static_assert(kCarvedAtOnce <= field::CarvedField::kMostAtOnce);
 

@@ -9,13 +9,13 @@
 namespace tribo::session {
 namespace {
 
-// The cuts of one job, and the frame of the job at hand in the coordinates of that one.
+// The cuts of one earlier job, and the frame of the current job in the coordinates of the earlier one.
 struct Link {
     EarlierCuts cuts;
     motion::WorkFrame frame;
 };
 
-// `frame` stands in the coordinates of `outer`: the same frame in those that `outer` stands in.
+// `frame` is given in the coordinates of `outer`. Returns it in the coordinates in which `outer` is given.
 motion::WorkFrame composed(const motion::WorkFrame& outer, const motion::WorkFrame& frame) {
     return {outer.in_stock(frame.origin_mm), outer.direction_in_stock(frame.x),
             outer.direction_in_stock(frame.y), outer.direction_in_stock(frame.z)};
@@ -29,7 +29,7 @@ job::StockRecord record_of(const EarlierCuts& cuts, std::uint64_t stock_hash) {
     return record;
 }
 
-// What differs, for a message; empty where nothing does.
+// Returns the difference as text for a message; empty if there is none.
 std::string difference(const job::StockRecord& then, const job::StockRecord& now) {
     std::string text;
     const auto add = [&](bool differs, const char* what) {
@@ -50,7 +50,7 @@ std::uint64_t hash_of(const job::StockRecord& left, const motion::WorkFrame& fra
     return hash.value();
 }
 
-// What an earlier job cuts, in its own coordinates.
+// Returns the cuts of an earlier job, in its own coordinates.
 Result<EarlierCuts> planned_cuts(const job::EarlierJob& earlier, Warnings& warnings) {
     MillOptions options;
     if (earlier.source.record) options.until_s = earlier.source.record->until_s;
@@ -59,7 +59,8 @@ Result<EarlierCuts> planned_cuts(const job::EarlierJob& earlier, Warnings& warni
     return planned_cuts(*setup);
 }
 
-// Refuses a folder that shows another stock than its job leaves now; `next` is the job that names it.
+// Refuses a render folder whose stock differs from that of its job now. `next` is the job that refers to the
+// folder.
 Result<void> check_record(const job::Job& next, const job::StockSource& source, const job::StockRecord& now) {
     const std::string changed = source.record ? difference(*source.record, now) : std::string();
     if (changed.empty()) return {};

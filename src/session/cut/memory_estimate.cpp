@@ -10,25 +10,26 @@
 namespace tribo::session {
 namespace {
 
-// A brick keeps nodes of its own where the surface comes nearer to it than CarvedField::kNearCells; in edges.
+// A brick has its own nodes if the distance of the surface is less than CarvedField::kNearCells; in brick
+// edges.
 constexpr double kNearEdges = field::CarvedField::kNearCells / field::kBrickCells;
-// How far the grid goes beyond the blank.
+// Margin of the grid beyond the blank, in brick edges.
 constexpr double kMarginEdges = field::CarvedField::kMarginCells / field::kBrickCells;
-// From a brick's middle to its corners, in edges.
+// Distance from the centre of a brick to its corners, in edges.
 constexpr double kToCorner = 0.8661;
-// Cells of the coarse grid, at most: its table has eight bytes for each 512.
+// Largest number of cells of the coarse grid. Its table has eight bytes for each 512 cells.
 constexpr double kMostCells = 5e8;
-// Bytes of a move with its timing and what goes with it, and of its sweep, with what the heap adds.
+// Bytes of a move with its timing and other data, and of its sweep, with the overhead of the heap.
 constexpr double kMoveBytes = sizeof(motion::Move) + 2 * sizeof(motion::MoveTiming) + 64;
 constexpr double kSweepBytes = 320, kCurvedSweepBytes = 1400;
-// Vertices of a brick that was cut, about; one of a flat face has one.
+// Typical number of vertices of a brick that was cut. A brick on a flat face has one.
 constexpr double kCutBrickVertices = 25;
-// Bytes of meshing, measured: for a vertex with its two triangles, as arrays grow; for what is known of the
-// bricks in hand; for each brick of two layers.
+// Bytes of meshing, measured: per vertex with its two triangles, including growth of the arrays; for the
+// bricks being processed; per brick of two layers.
 constexpr double kVertexBytes = 50, kInHandBytes = 1e7, kLayerBrickBytes = 16;
 
-// The surface of the tool from a point: how far (negative inside), and in which direction, by the axis and
-// away from it.
+// The surface of the tool, seen from a point: distance (negative inside) and direction, in components along
+// the axis and away from it.
 struct FromTool {
     double mm, up, out;
 };
@@ -46,7 +47,7 @@ FromTool from_tool(const milling::Cutter& c, double along, double off) {
     return along - c.length_mm > side.mm ? FromTool{along - c.length_mm, 1, 0} : side;
 }
 
-// The cells of the coarse grid, as field::BrickIndex keeps them.
+// The cells of the coarse grid, stored as in field::BrickIndex.
 class CoarseStock {
   public:
     CoarseStock(const field::Shape& blank, double edge)
@@ -89,7 +90,8 @@ class CoarseStock {
         const FromTool tool = from_tool(cutter, along, off);
         const Vec3 outward = off > 0 ? (from_tip - along * pose.axis) / off : Vec3{};
         const Vec3 n = tool.up * pose.axis + tool.out * outward;
-        // Half the cell's extent along n, so that a plane across n meets the cell, and the band beside it.
+        // Half the extent of the cell along n, so that a plane normal to n meets the cell, plus the narrow
+        // band.
         const double near = edge_ * (0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) + kNearEdges);
         if (tool.mm > near || (tool.mm > -near && was != field::kUntouched)) return;
         if (was == field::kUntouched) ++touched_;
@@ -107,7 +109,7 @@ class CoarseStock {
     std::size_t surface_ = 0, most_ = 0, touched_ = 0;
 };
 
-// How far any point of the tool goes in a move, about.
+// Returns the approximate largest distance that a point of the tool moves.
 double travel_mm(const motion::Move& move, const milling::Cutter& cutter) {
     return motion::path_length_mm(move) + cutter.length_mm * length(move.end.axis - move.start.axis);
 }
@@ -116,7 +118,7 @@ double steps_of(const motion::Move& move, const milling::Cutter& cutter, double 
     return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
 }
 
-// Calls visit(move, cutter, whether it is the last) for the moves of earlier jobs and the setup's own.
+// Calls visit(move, cutter, is_last) for the moves of earlier jobs and of the setup.
 template <class Visit>
 void over_moves(const MillSetup& setup, const Visit& visit) {
     std::size_t left = setup.moves.size();
@@ -129,7 +131,7 @@ void over_moves(const MillSetup& setup, const Visit& visit) {
         visit(setup.moves[n], setup.cutters[setup.cutter_of_move[n]], --left == 0);
 }
 
-// Looks at cells that marking would take.
+// Returns the number of cell tests that the marking would need.
 double tests_at(const MillSetup& setup, double edge) {
     const Vec3 blank = setup.blank->bounds_mm().size();
     double tests = 0, travelled = 0;
@@ -202,7 +204,7 @@ double MemoryEstimate::mesh_bytes(double cell_mm) const {
 std::optional<MemoryShortage> memory_shortage(
     const MillSetup& setup, double budget_bytes,
     const std::function<double(const MemoryEstimate& estimate, double cell_mm)>& bytes_at) {
-    constexpr double kCoarser = 1.1;  // from one try to the next
+    constexpr double kCoarser = 1.1;  // factor from one tried spacing to the next
     const auto need_at = [&](double cell) { return bytes_at(MemoryEstimate(setup, cell), cell); };
     MemoryShortage shortage;
     shortage.need_bytes = shortage.least_bytes = need_at(setup.cell_mm);

@@ -12,9 +12,9 @@
 namespace tribo::session {
 namespace {
 
-// Moves that are offered to the cut at once; it takes as many of them as are worth looking at together.
+// Moves offered to the cut at once. The cut takes as many of them as it can process together.
 constexpr std::size_t kOfferedMoves = 64;
-// Force models, so that several threads may each use their own.
+// Number of force models, so that several threads have their own.
 constexpr std::size_t kShares = 8;
 
 }  // namespace
@@ -70,10 +70,10 @@ class MillSession::Run {
     MillTotals totals_;
     double end_s_ = 0, now_s_ = 0;
     double removed_earlier_mm3_ = 0;  // by jobs before this one
-    bool stopped_ = false;            // while their cuts were carved
+    bool stopped_ = false;            // during the carving of their cuts
 
   private:
-    // Offers the next moves to the cut, up to the end of time, and books what it took.
+    // Offers the next moves to the cut, up to the end of time, and books the moves that it took.
     void cut() {
         steps_.clear();
         std::size_t n = next_move_;
@@ -109,7 +109,7 @@ class MillSession::Run {
         next_move_ += count;
     }
 
-    // The steps of one pass, and its rows of those machined, in time.
+    // Finishes the steps of one pass and its machined rows, in the order of time.
     void finish_pass(std::size_t step, std::size_t last_step, std::size_t first, std::size_t last) {
         const std::size_t move = next_move_ + step;
         const double start = schedule_->moves[move].start_s;
@@ -120,7 +120,7 @@ class MillSession::Run {
             totals_.path_mm += motion::path_length_mm(*steps_[n].move);
             totals_.fed_mm3 += machined_.removed_mm3[n];
         }
-        std::size_t at = step;  // where the rows have come to
+        std::size_t at = step;  // step of the current row
         double begun_mm = 0, travelled = 0, row_start = start;
         for (std::size_t n = first; n < last; ++n) {
             milling::CutRow& cut = machined_.rows[n];
@@ -143,7 +143,8 @@ class MillSession::Run {
         now_s_ = end;
     }
 
-    // When the tip has gone so far on the step; on one without a way, when that share of it is done.
+    // Returns the time at which the tip has moved `way_mm` on the step. On a step without a path: the time at
+    // which `share` of it is done.
     double time_on_s(std::size_t step, double way_mm, double share) const {
         const milling::Step& s = steps_[step];
         const motion::MoveTiming& timing = schedule_->moves[next_move_ + step];
@@ -160,7 +161,7 @@ class MillSession::Run {
             forces_.emplace_back();
         }
         milling::CutRow& row = rows_[row_count_++];
-        std::swap(row, cut);  // both keep their room
+        std::swap(row, cut);  // both keep their allocated memory
         row.line = setup_.moves[move].line;
         row.cutter = cutter;
         row.start_s = start;
@@ -180,7 +181,7 @@ class MillSession::Run {
         }
     }
 
-    // Nobody hears a spectrum where nobody is told of rows.
+    // Spectra are not needed without a receiver of rows.
     void evaluate(bool spectra) {
         parallel_(kShares, [&](std::size_t share) {
             const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
@@ -247,13 +248,13 @@ class MillSession::Run {
     std::array<std::vector<milling::ForceModel>, kShares> models_;
     std::vector<milling::Step> steps_;
     milling::Machined machined_;
-    std::vector<milling::CutRow> rows_;      // of the moves just cut; the first row_count_ count
-    std::vector<milling::RowForce> forces_;  // one a row
+    std::vector<milling::CutRow> rows_;      // of the last moves; only the first row_count_ are valid
+    std::vector<milling::RowForce> forces_;  // one per row
     std::size_t row_count_ = 0;
-    motion::Move last_move_;          // cut short by the end of time
+    motion::Move last_move_;          // shortened by the end of time
     double last_share_ = 1;           // of its path
     std::vector<double> cutting_at_;  // seconds by cutter
-    std::vector<char> joins_;         // by move: shares a row with the one before
+    std::vector<char> joins_;         // per move: shares a row with the move before
     std::size_t next_move_ = 0;
     double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
 };

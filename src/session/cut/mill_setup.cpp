@@ -58,9 +58,9 @@ void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& so
     }
 }
 
-// Scallops are right at any grid of up to half the sidestep; below that cusps merge.
+// Scallops are accurate on a grid of up to half the sidestep. On a coarser grid cusps merge.
 constexpr double kLeastCellsPerSidestep = 2;
-// Less of the path than this is a lead-in, a corner or the end of a raster.
+// A smaller share of the path is a lead-in, a corner or the end of a raster.
 constexpr double kWorthAWarning = 0.1;
 
 void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& source, Warnings& warnings) {
@@ -68,7 +68,7 @@ void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& so
     const double within = kLeastCellsPerSidestep * setup.cell_mm * (1 - kRounding);
     const motion::ClosePasses close = motion::close_passes(setup.moves, within);
     if (close.share < kWorthAWarning) return;
-    // Rounded down, so that the spacing asked for is fine enough.
+    // Rounded down, so that the recommended spacing is fine enough.
     const double sidestep = close.sidestep_mm * (1 + kRounding), finest = sidestep / kLeastCellsPerSidestep;
     double digit = 1e-6;
     while (finest >= 100 * digit) digit *= 10;

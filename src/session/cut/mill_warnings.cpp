@@ -8,12 +8,12 @@
 namespace tribo::session {
 namespace {
 
-// A balance that is off by more is told.
+// A larger deviation of the balance gives a warning.
 constexpr double kBalanced = 0.01;
-// Every cut begins and ends with thin chips: rubbing is told from this share of the cutting time on.
+// Every cut begins and ends with thin chips. Rubbing gives a warning from this share of the cutting time on.
 constexpr double kRubbingShare = 0.1;
 
-// To one part in `parts`.
+// Rounds to 1 / `parts`.
 std::string rounded(double value, double parts) {
     return format_decimal(std::round(value * parts) / parts);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a finished run has to be warned of: nothing cut, a force that does not balance the metal, chips that
-// rub or overload.
+// Warnings of a finished run: nothing cut, a force that does not balance the removed material, chips that rub
+// or overload.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace tribo::session {
 
-// `job` and `program` are the names of the files that the messages name.
+// `job` and `program`: file names for the messages.
 Warnings warnings_of(const MillTotals& totals, const std::string& job, const std::string& program);
 
 }  // namespace tribo::session

@@ -10,9 +10,9 @@
 namespace tribo::session {
 namespace {
 
-constexpr double kSpacingShare = 0.01;  // of the part's size, between points that are looked at
+constexpr double kSpacingShare = 0.01;  // distance between tested points, as a share of the size of the part
 
-// Points of the triangle, its corners among them, no more than `longest` apart.
+// Calls look(p) for points of the triangle, including its corners, at most `longest` apart.
 template <class Look>
 void for_points_in(Vec3 a, Vec3 b, Vec3 c, double longest, const Look& look) {
     const double edge = std::max({distance(a, b), distance(b, c), distance(c, a)});
@@ -22,7 +22,7 @@ void for_points_in(Vec3 a, Vec3 b, Vec3 c, double longest, const Look& look) {
     }
 }
 
-// To a micrometre.
+// Rounds to a micrometre.
 std::string text_of(double mm) {
     return format_decimal(std::round(mm * 1e3) / 1e3);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whether the blank is large enough for the designed part.
+// Checks whether the blank is large enough for the designed part.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@
 namespace tribo::session {
 
 struct OutsidePoint {
-    double mm = 0;  // how far it is outside the blank
+    double mm = 0;  // distance outside the blank
     Vec3 at_mm;
 };
 
-// The point of the part that is farthest outside the blank, none where all of it is inside or nearer than
-// kOutsideMm. Exact for a box; in a blank of any shape the part's corners are looked at, and points a
-// hundredth of its size apart.
+// Returns the point of the part that is farthest outside the blank; none if all points are inside or closer
+// to it than kOutsideMm. Exact for a box. For other blanks, tests the corners of the part and points at
+// distances of a hundredth of its size.
 inline constexpr double kOutsideMm = 0.01;
 std::optional<OutsidePoint> farthest_outside(const TriangleMesh& part, const field::Shape& blank);
 
-// Warns of it: what is missing in the blank no cut can make.
+// Adds a warning about this point: a cut cannot make material that is missing in the blank.
 void warn_of_part_outside(const TriangleMesh& part, const field::Shape& blank, const std::string& job,
                           Warnings& warnings);
 

@@ -6,12 +6,12 @@
 namespace tribo::session {
 namespace {
 
-// Of the finger's cylinder: beyond it, it is the hand.
+// Length of the finger cylinder; beyond it begins the hand.
 constexpr double kFingerMm = 40;
-// A texture record answers for places up to this share of the records' spacing away.
+// A texture record is valid for positions up to this multiple of the record spacing away.
 constexpr double kReach = 1.5;
 constexpr std::size_t kMostRecords = 20'000;
-// N/ms where nothing has to be protected.
+// N/ms, for a device without motors to protect.
 constexpr double kFreeSlew = 20;
 
 }  // namespace
@@ -72,7 +72,7 @@ haptics::TextureMap texture_map(std::span<const milling::CutRow> cut, const cont
         if (places.empty() || distance(places.back()->pose.tip_mm, row.pose.tip_mm) >= spacing_mm)
             places.push_back(&row);
     }
-    // Evenly thinned where there would be too many.
+    // Thin evenly if there are too many.
     const std::size_t step = places.size() / kMostRecords + 1;
     std::vector<std::optional<contact::TextureRecord>> found((places.size() + step - 1) / step);
     parallel(found.size(), [&](std::size_t n) {
@@ -110,7 +110,7 @@ haptics::RenderedForce CutSource::render(const haptics::HandReading& hand, doubl
         felt.contact_n = contact.force_n;
         felt.touching = contact.in_contact;
     }
-    // Both come from the machine that moves the cutter: the hand's work has no part in them.
+    // The machine that moves the cutter causes both forces; the hand does no work for them.
     felt.driven_n = force.total_n();
     felt.touching = felt.touching || squared_length(force.cutting_n) > 0;
     return felt;

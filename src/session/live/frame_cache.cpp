@@ -4,7 +4,7 @@
 namespace tribo::session {
 namespace {
 
-// Of the sound only the end matters: the clock is never far behind what is milled.
+// Only the last sound frames are needed: the clock is always close to the end of the milled part.
 constexpr std::size_t kSoundFrames = 64;
 
 }  // namespace

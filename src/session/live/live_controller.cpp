@@ -9,7 +9,7 @@
 namespace tribo::session {
 namespace {
 
-// Of the settings, what changes the cut.
+// The settings that change the cut.
 auto cut_of(const protocol::LiveSettings& s) {
     return std::tie(s.feed_percent, s.spindle_percent, s.helix_deg, s.material);
 }
@@ -99,7 +99,7 @@ Result<void> LiveController::set(const protocol::LiveSettings& wanted) {
     settings_ = wanted;
     if (recut || rescaled) ++force_changes_;
     if (rescaled) use_force();
-    // Before the next picture shows it.
+    // Immediately, not only with the next picture.
     if (settings_.stopped) finger_.stop(scene());
     return {};
 }

@@ -14,7 +14,7 @@ std::unique_ptr<haptics::Device> arm_or_hand(std::unique_ptr<haptics::Device> ar
     return hand;
 }
 
-// The force that each triangle adds where a finger presses as the force field lets it.
+// Returns the force that each triangle adds at the press depth of the force field.
 protocol::LiveTexture texture_message(double t_s, const contact::TextureRecord* texture) {
     protocol::LiveTexture told{t_s, {}};
     if (texture == nullptr) return told;
@@ -77,7 +77,7 @@ void LiveFinger::show(LiveScene scene, Vec3 tip_mm, const protocol::FrameSink& f
     touch.cut_mode = scene.cut_mode;
     touch.cutting_force = scene.cutting_force;
     touch.stopped = scene.stopped;
-    // Without a hand there is nothing that moves.
+    // Without a hand the message contains no motion.
     if (!touch.hand) touch = {0, {}, {}, {}, 0, false, touch.cutting_force, touch.cut_mode, touch.stopped};
     protocol::write_frame(touch, frame_);
     if (frame_ != last_finger_) {

@@ -8,10 +8,10 @@
 namespace tribo::session {
 namespace {
 
-// Share of the program clock's error that a tick takes back: scenes come by the picture's clock, 60 times a
-// second and not quite evenly, and the teeth must not stutter with them.
+// Share of the program clock error that a tick corrects. Scenes come with the pictures, 60 times a second and
+// not evenly; the teeth must not stutter.
 constexpr double kClockPull = 0.005;
-// Seconds of the servo by which the clocks may differ before the program's is taken as it is.
+// If the clocks differ by more than this, in servo seconds, the program clock is set.
 constexpr double kClockJumpS = 0.05;
 
 }  // namespace
@@ -59,7 +59,8 @@ void LiveForceSource::set_textures(haptics::TextureMap textures) {
     ++textures_set_;
 }
 
-// The program's clock runs at its pace by the servo's own, drawn towards what the scenes say.
+// Advances the program clock by the servo clock at the current pace, and corrects it towards the clock of the
+// scenes.
 void LiveForceSource::keep_time(double now_s, double tick_s) noexcept {
     const LiveScene& newest = scenes_.read();
     if (!begun_ || newest.number != scene_.number) {
@@ -84,7 +85,7 @@ haptics::RenderedForce LiveForceSource::render(const haptics::HandReading& hand,
     if (part.get() == nullptr) return felt;
     part.get()->reader->refresh();
     if (!scene_.hand) {
-        // The next one begins where it is.
+        // The next contact begins at the position of the hand.
         part.get()->touch.reset();
         must_leave_ = false;
         return felt;
@@ -94,13 +95,13 @@ haptics::RenderedForce LiveForceSource::render(const haptics::HandReading& hand,
     touch_state_.slip_mm_per_s = length(contact.slip_mm_per_s);
     touch_state_.contact = contact.in_contact;
 
-    // A cutter that stands does not cut.
+    // A stopped cutter does not cut.
     cutter_force_.switch_cutting(scene_.cut_mode && scene_.cutting_force && scene_.pace > 0);
     if (scene_.pace > 0) force_.set_pace(scene_.pace);
     const haptics::FieldForce near_cutter =
         cutter_force_.render(hand, program_s_, part.get()->track, textures.get());
 
-    // A surface that comes back under a hand that presses would throw it out: it must leave first.
+    // If the surface returned under a pressing hand, it would push the hand away. The hand must leave first.
     if (scene_.stopped) must_leave_ = true;
     if (!contact.in_contact && !scene_.stopped) must_leave_ = false;
     if (scene_.stopped) return felt;

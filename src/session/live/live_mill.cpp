@@ -13,9 +13,9 @@
 namespace tribo::session {
 namespace {
 
-// Points along a curved move of the drawn path: one a millimetre, at most these.
+// Points along a curved move of the drawn path: one per millimetre, up to this number.
 constexpr double kCurvePointMm = 1, kMostCurvePoints = 4;
-// Rows in one frame: what a viewer takes in without a stutter.
+// Rows in one frame: a viewer can process them without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096;
 constexpr std::size_t kPiecesPerFrame = 64;
 constexpr std::size_t kTrianglesPerFrame = 20'000;
@@ -41,7 +41,7 @@ protocol::LivePath path_of(const MillSession& session) {
     return path;
 }
 
-// Where the tool, standing up to its shank, was between two times.
+// Returns the box swept by the tool, up to its shank, between two times.
 Box3 swept_box(const MillSession& session, double from_s, double to_s) {
     Box3 box;
     const MillSetup& setup = session.setup();
@@ -66,7 +66,7 @@ protocol::LiveCutter live_cutter(const milling::Cutter& cutter) {
     return told;
 }
 
-// All that the ear needs of a row with its spectrum.
+// Returns the data of a row that the sound needs, with its spectrum.
 protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum,
                                           int edges, const CutChange& change) {
     protocol::LiveSoundPiece piece;
@@ -130,7 +130,7 @@ void LiveMill::set_session_observer(std::function<void(MillSession*)> observer) 
 
 void LiveMill::set_change(const CutChange& change) {
     change_ = change;
-    // What is behind the clock is heard no more.
+    // Rows before the clock are not heard any more.
     std::size_t heard = rows_.size();
     while (heard > 0 && rows_[heard - 1].end_s > clock_s_) --heard;
     sound_.pieces.clear();
@@ -152,7 +152,7 @@ void LiveMill::set_speed(double seconds_per_second) {
 void LiveMill::set_clock(double t_s) {
     if (std::isnan(t_s)) return;
     clock_s_ = std::clamp(t_s, 0.0, duration_s());
-    // Metal does not grow again.
+    // Removed material does not come back: milling starts again.
     set_back_ = clock_s_ < session_->milled_s();
 }
 
@@ -172,7 +172,7 @@ void LiveMill::add_row(const milling::CutRow& row) {
     record_.add(row);
 }
 
-// What follows from the force of a row; it is heard where there is a spectrum.
+// Sets the values that depend on the force of a row. The row gets sound only if there is a spectrum.
 void LiveMill::set_force(std::size_t n, const milling::RowForce& force) {
     const milling::CutRow& cut = record_.rows()[n];
     protocol::LiveRow& row = rows_[n];
@@ -199,7 +199,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
     if (set_back_) {
         if (auto begun = begin(); !begun) return begun;
     }
-    // The clock runs on from where the part is.
+    // The clock continues from the milled part.
     const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
     const std::size_t rows_before = rows_.size();
     MillSinks sinks;
@@ -216,7 +216,7 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
         begun_anew_ = false;
         show_job(frames);
         show_part(picture_->all(), frames);
-        // After the part: on a slow line the first picture does not wait for them.
+        // After the part, so that the first picture is not delayed on a slow connection.
         if (extras_.designed) show_designed(frames);
         protocol::write_frame(path_, frame_);
         frames(frame_);
@@ -240,7 +240,7 @@ void LiveMill::show_job(const protocol::FrameSink& frames) {
     job::Listening listening = this->listening();
     protocol::write_frame(listening, frame_);
     frames(frame_);
-    // In the precision of the frame: the sound is the page's, bit by bit.
+    // In the precision of the frame, so that the sound has the same bits as in the page.
     if (sound_listener_ && protocol::read_frame(frame_, listening)) sound_listener_(listening);
 }
 

@@ -60,7 +60,7 @@ void LiveSound::take(const job::Listening& listening) {
 void LiveSound::take(const protocol::LiveSoundPieces& sound) {
     for (const protocol::LiveSoundPiece& told : sound.pieces) {
         protocol::LiveSoundPiece& piece = pieces_[written_ % kPieces];
-        // Keeps the room of its harmonics.
+        // Keeps the allocated memory of its harmonics.
         piece = told;
         piece.order_step = std::max(piece.order_step, 1);
         piece.edges = std::clamp(piece.edges, 0, kMostEdges);
@@ -86,7 +86,7 @@ void LiveSound::follow(double t_s, double speed, bool playing, double lead_s) {
 
 const protocol::LiveSoundPiece* LiveSound::piece_at(double t_s) const {
     const std::size_t oldest = written_ > kPieces ? written_ - kPieces : 0;
-    // The clock is near the end of what is milled.
+    // The clock is near the end of the milled part.
     for (std::size_t n = written_; n > oldest; --n) {
         const protocol::LiveSoundPiece& piece = pieces_[(n - 1) % kPieces];
         if (t_s < piece.t_s - kSameCutS) continue;
@@ -95,7 +95,7 @@ const protocol::LiveSoundPiece* LiveSound::piece_at(double t_s) const {
     return nullptr;
 }
 
-// The spindle turns on as it did last.
+// The spindle continues with its last speed.
 void LiveSound::idle() {
     contact::ContactSample s;
     s.t_s = static_cast<double>(track_->frames_rendered() + kHop) / base_.sample_rate_hz;

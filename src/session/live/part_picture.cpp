@@ -13,7 +13,7 @@ namespace {
 
 using field::BrickCoord;
 
-// State of a chunk that nobody has looked at.
+// State of a chunk that was not examined yet.
 constexpr std::uint64_t kUnseen = 0;
 
 ChunkCoord chunk_of(BrickCoord b) {
@@ -49,7 +49,8 @@ std::size_t PartPicture::number(ChunkCoord c) const {
 }
 
 std::uint64_t PartPicture::state(ChunkCoord chunk) const {
-    // A cut that moves the surface of a brick takes volume from it. The contour reaches one brick back.
+    // The state depends on the volume of the bricks: a cut that moves their surface removes volume. The
+    // contour also uses the bricks one before the chunk.
     const BrickCoord first = first_brick(chunk), size = field_.size();
     Hash hash;
     for (int k = std::max(first.k - 1, 0); k < std::min(first.k + kChunkBricks, size.k); ++k) {
@@ -73,7 +74,7 @@ void PartPicture::update(const Box3& box_mm, const Show& show) {
                           std::clamp(b.k, 0, n.k - 1)};
     };
     const ChunkCoord first = chunk_of(inside(field_.brick_at(box_mm.min)));
-    // Bricks of a chunk are drawn with those before them, so a cut also changes the chunk after it.
+    // The contour of a chunk uses the bricks before it, so a cut also changes the chunk after it.
     BrickCoord after = field_.brick_at(box_mm.max);
     ++after.i, ++after.j, ++after.k;
     const ChunkCoord last = chunk_of(inside(after));

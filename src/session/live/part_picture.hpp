@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part as a picture that follows the cut: chunks of the surface, each told anew when it has changed.
+// The part as a picture that follows the cut: chunks of the surface, sent again when they change.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace tribo::session {
 
-// Bricks along each edge of a chunk: large enough that a part is some hundred chunks, small enough that a cut
-// changes few of them.
+// Bricks along each edge of a chunk. Large enough that a part has some hundred chunks, small enough that a
+// cut changes few of them.
 inline constexpr int kChunkBricks = 4;
 
-// Counts chunks, not bricks.
+// In chunks, not bricks.
 struct ChunkCoord {
     int i = 0, j = 0, k = 0;
 };
@@ -26,25 +26,25 @@ struct ChunkCoord {
 // One thread at a time, never while the field is carved.
 class PartPicture {
   public:
-    // Deviations from the designed surface are looked for up to here.
+    // Largest distance at which deviations from the designed surface are searched.
     static constexpr double kReachMm = 3;
-    // A chunk's surface, and how far each vertex is from the designed one (surface::deviations_of), if there
-    // is any.
+    // Receives the surface of a chunk, and for each vertex its deviation from the designed surface
+    // (surface::deviations_of), if there is one.
     using Show = std::function<void(ChunkCoord, TriangleMesh, std::vector<float> deviations_mm)>;
 
-    // The field must outlive it.
+    // `field` must outlive this object.
     explicit PartPicture(const field::CarvedField& field, ParallelFor parallel = serial_for,
                          std::shared_ptr<const surface::DesignedSurface> designed = {});
 
-    // Calls show for each chunk within `box_mm` whose surface is not as it was last shown; an
-    // empty mesh stands for a surface that is gone. Cost: the chunks of the box, and a contour of those that
-    // have changed.
+    // Calls show for each chunk within `box_mm` whose surface has changed since it was last shown. An empty
+    // mesh means that the surface is gone. Cost: a check of the chunks in the box, and a contour of the
+    // changed ones.
     void update(const Box3& box_mm, const Show& show);
-    // The box of everything.
+    // The box of the whole field.
     Box3 all() const;
 
   private:
-    // A number that changes with the bricks that a chunk is drawn from.
+    // Returns a hash of the bricks that the chunk is drawn from.
     std::uint64_t state(ChunkCoord chunk) const;
     std::size_t number(ChunkCoord chunk) const;
 

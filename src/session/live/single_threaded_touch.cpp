@@ -8,10 +8,10 @@
 namespace tribo::session {
 namespace {
 
-// The most of a servo's time that is made up for at once.
+// Largest servo time that is caught up at once.
 constexpr double kMostOwedS = 0.1;
-// Force and texture are made anew this often, from what was cut since this long before the clock, of the
-// servo's time.
+// Force and texture are updated at the interval kRenewS of servo time, from the cut of the last kBehindS
+// before the clock.
 constexpr double kRenewS = 0.1, kBehindS = 0.15;
 constexpr std::size_t kMostStretches = 400;
 
@@ -20,7 +20,7 @@ constexpr std::size_t kMostStretches = 400;
 void SingleThreadedTouch::renew() {
     LiveMill& mill = controller_.mill();
     const auto all = mill.record().rows();
-    // Begun anew, or another force: at once.
+    // After a restart or a change of the force: update at once.
     if (all.size() < stretches_ || force_changes_ != controller_.force_changes()) {
         force_changes_ = controller_.force_changes();
         renewed_s_ = -1;

@@ -9,7 +9,7 @@ namespace tribo::session {
 namespace {
 
 constexpr double kTailS = 0.05;
-// Targets are renewed this often, whatever blocks are asked for.
+// Interval between updates of the targets, independent of the block size.
 constexpr std::size_t kStepFrames = 32;
 
 }  // namespace
@@ -26,7 +26,7 @@ double StrokeMotion::speed_of(std::size_t segment) const {
 
 double StrokeMotion::change_s(std::size_t point) const {
     if (point == 0 || point + 1 >= points_.size()) return 0;
-    // What a lifted finger does between two strokes is not heard in either.
+    // The motion of a lifted finger between two strokes has no effect on either.
     const auto lifted = [&](std::size_t n) { return points_[n].force_n <= 0 && points_[n + 1].force_n <= 0; };
     if (lifted(point - 1) || lifted(point)) return 0;
     const double before = points_[point].t_s - points_[point - 1].t_s;
