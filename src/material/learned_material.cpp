@@ -10,7 +10,7 @@ double rounded(double value, double step) {
     return std::round(value / step) / std::round(1 / step);
 }
 
-// Leaves as many digits as matter, so that files stay short and readable.
+// Rounds to the significant digits, so that files stay short and readable.
 void round_digits(noise::MaterialVoices& voices) {
     const auto all = [](std::vector<double>& values, double step) {
         for (double& v : values) v = rounded(v, step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What was learned from recordings as a material.
+// Makes a material from voices learned from recordings.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace tribo::material {
 
-// `known` with the voices that were learned, how, and from what. `recordings`: of each that was learned from,
-// as they came: file, rate, channels and bits; the rest was found. Numbers keep as many digits as matter.
+// Returns `known` with the learned voices, the method and the sources. `recordings`: the input of each
+// learned recording (file, rate, channels and bits); its other values are computed. Numbers are rounded to
+// significant digits.
 Material learned_material(Material known, const noise::Learned& learned,
                           const noise::LearningOptions& options,
                           const std::vector<RecordingSource>& recordings);

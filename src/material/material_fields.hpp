@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The keys of a material file as a list, for those who need names and ranges without a material: the JSON
-// reader knows by it which keys there are, the page's reader and docs/material.md are compared with it.
+// The keys of a material file as a list, with names and ranges. The JSON reader uses it as the list of valid
+// keys. The reader of the page and docs/material.md are compared with it.
 #pragma once
 
 #include <cstddef>
@@ -17,15 +17,15 @@ enum class FieldKind { text, number, numbers, tables, object, objects };
 struct Field {
     std::string_view key;
     FieldKind kind = FieldKind::text;
-    Range range{};                   // of a number, or of each in a list
-    std::optional<double> absent{};  // what stands for a number that is absent
+    Range range{};                   // of a number, or of each number in a list
+    std::optional<double> absent{};  // value of an absent number
     bool required = false;
-    std::size_t most = 0;         // bytes of a text, numbers, tables or objects of a list
-    bool heard = true;            // a finger's sound needs it; it goes into the voice numbers
+    std::size_t most = 0;         // bytes of a text; numbers, tables or objects of a list
+    bool heard = true;            // needed for the sound of a finger; included in the voice numbers
     std::vector<Field> fields{};  // of an object
 };
 
-// Of the whole file, in its order. The first call allocates.
+// The fields of the whole file, in its order. The first call allocates.
 const std::vector<Field>& material_fields();
 
 }  // namespace tribo::material

@@ -18,12 +18,12 @@ std::vector<std::string_view> keys_of(const std::vector<Field>& fields) {
     return keys;
 }
 
-// Reads one object of a file; the first thing wrong in the file goes to `error`.
+// Reads one object of a file. The first error of the file goes to `error`.
 class JsonReader {
   public:
     static constexpr bool kReads = true;
 
-    // `fields`: what the object may hold.
+    // `fields`: the valid keys of the object.
     JsonReader(const files::Json& json, std::string path, const std::vector<Field>& fields,
                std::optional<Error>& error, const std::string& file)
         : section_(json, std::move(path), keys_of(fields), error, file),

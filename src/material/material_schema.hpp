@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The one description of a material file (docs/material.md): every key with its type, range and default, and
-// the rules between them. `describe` shows the fields of an object to a visitor in the order of the file. Who
-// reads, writes or lists materials is such a visitor: material_json.cpp, material_text.cpp,
-// voice_numbers.cpp, material_fields.cpp; the page's reader is driven by the list of fields.
+// the rules between keys. `describe` shows the fields of an object to a visitor in the order of the file. The
+// visitors read, write or list materials: material_json.cpp, material_text.cpp, voice_numbers.cpp,
+// material_fields.cpp. The reader of the page uses the list of fields.
 //
 // A visitor has
 //
@@ -36,17 +36,18 @@ inline constexpr const char* kMaterialSchema = "tribo.material/1";
 inline constexpr std::size_t kLongestText = 10'000, kLongestTable = 256;
 inline constexpr std::size_t kMostVoices = 64, kMostRecordings = 256;
 
-// What stands for a number that is absent.
+// Value of an absent number.
 struct Absent {
     double value = 0;
-    bool left_out = false;  // where a number has this value, a writer leaves it out
+    bool left_out = false;  // a writer omits the number if it has this value
 };
 
-// The elastic sheet's own range.
+// The range of the elastic sheet.
 inline constexpr Range kStiffness{1e-3, 1e6}, kViscosity{0, 1e6};
 inline constexpr Range kWidth{0, 1e5}, kShare{0, 1}, kRoughness{0.05, 1}, kHighpass{0, 1e5};
 inline constexpr Range kLevel{-200, 60}, kModelRate{1000, 384'000};
-inline constexpr Range kBand{0, 0.5 * kModelRate.max, true};  // below half of the model's own rate besides
+inline constexpr Range kBand{0, 0.5 * kModelRate.max,
+                             true};  // in addition below half of the sample rate of the model
 inline constexpr Range kReflection{-noise::kLargestReflection, noise::kLargestReflection};
 
 template <class Visitor>
@@ -97,7 +98,7 @@ void describe(Visitor& f, noise::TextureModel& t) {
     f.object("grains", t.grains, t.grains.per_mm > 0);
 }
 
-// Line spectral frequencies of a model to a hundredth of a hertz.
+// Line spectral frequencies of a model, rounded to a hundredth of a hertz.
 std::vector<double> line_spectrum_hz(const noise::ArModel& model);
 
 template <class Visitor>
@@ -109,7 +110,7 @@ void describe(Visitor& f, noise::VoiceModel& v, std::vector<RecordingSource>* so
     f.numbers("reflection", v.spectrum.reflection, kReflection, noise::kLargestOrder);
     const double highest_hz = 0.5 * v.spectrum.sample_rate_hz;
     f.unheard([&](auto& whole) {
-        // For readers that would rather have it; the reflection coefficients count.
+        // For readers that prefer them; the reflection coefficients are decisive.
         std::optional<std::vector<double>> lines;
         if constexpr (!Visitor::kReads) lines = line_spectrum_hz(v.spectrum);
         whole.numbers("line_spectrum_hz", lines, {0, 0.5 * kModelRate.max}, noise::kLargestOrder);

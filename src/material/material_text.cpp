@@ -16,7 +16,7 @@ void append(std::string& to, int value) {
     to += std::to_string(value);
 }
 
-// With a point or an exponent, so that readers see that it need not be whole.
+// Writes a point or an exponent, so that readers see that the number need not be an integer.
 void append(std::string& to, double value) {
     const std::size_t begin = to.size();
     append_decimal(to, value);

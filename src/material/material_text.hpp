@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A material as the text of its file, without a JSON library: for learn.wasm, and for material_json.
+// A material as the text of its file, without a JSON library: for learn.wasm and material_json.
 #pragma once
 
 #include <string>

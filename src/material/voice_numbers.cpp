@@ -57,8 +57,8 @@ class NumberReader {
     bool at_end() const { return left_.empty(); }
 
   private:
-    // In range even where it is none: the caller goes on and looks at the end. Numbers one by one instead of
-    // a Range are less code.
+    // Returns a value in range even after an error: the caller continues and checks at the end. Single
+    // numbers instead of a Range give less code.
     [[gnu::noinline]] double next(const char* key, double min, double max, bool above) {
         expect(!left_.empty(), key, "is missing", "");
         if (!good_) return max;
