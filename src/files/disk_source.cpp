@@ -51,7 +51,7 @@ FileResult<job::StockSource> DiskSource::stock_source(const std::string& path) c
         return refuse(record.error().cause, record.error().remedy);
     }
     const fs::path folder = fs::weakly_canonical(path, error);
-    // By the name that was given where that leads to the same file: messages show it.
+    // Use the given name if it leads to the same file: messages show it.
     std::string file = (path / fs::path(record->job)).lexically_normal().string();
     const fs::path counted = (folder / record->job).lexically_normal();
     if (fs::exists(counted, error) && !fs::equivalent(file, counted, error)) file = counted.string();

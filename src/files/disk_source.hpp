@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A job's files on the disk.
+// The files of a job on the disk.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ class DiskSource final : public job::FileSource {
     FileResult<readers::Model> read_model(const readers::ModelFile& file) const override;
     // A job file, or the folder of its render.
     FileResult<job::StockSource> stock_source(const std::string& path) const override;
-    // Absolute, with links in its folders resolved. A link to a job stays: what the job names is found from
-    // where the link stands.
+    // Returns an absolute path with resolved links in its folders. A link to a job file is kept: the files
+    // named by the job are searched relative to the link.
     std::string identity(const std::string& path) const override;
 };
 
-// `file` as it is called from within `folder`.
+// Returns `file` relative to `folder`.
 std::string relative_to(const std::string& folder, const std::string& file);
 
 }  // namespace tribo::files

@@ -17,7 +17,7 @@ FileResult<FileBeside> open_beside(const std::string& path) {
     FileBeside file;
     struct stat status = {};
     const bool there = ::lstat(path.c_str(), &status) == 0;
-    // A folder, and a file that may not be written, are refused as the system refuses them.
+    // The system refuses a folder and a file without write permission.
     file.beside = !there || (S_ISREG(status.st_mode) && ::access(path.c_str(), W_OK) == 0);
     if (path.empty() || path.ends_with('/')) file.beside = false;
     const std::string name = file.beside ? name_beside(path) : path;

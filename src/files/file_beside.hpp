@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A file that grows beside the one it will replace: whoever is stopped half way leaves the old file as it
-// was.
+// A new file beside the file that it will replace. If the program is stopped half way, the old file stays
+// unchanged.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace tribo::files {
 
 struct FileBeside {
     int descriptor = -1;
-    bool beside = false;  // false: a device, a pipe or a link, written as it is
+    bool beside = false;  // false: a device, a pipe or a link, which is written directly
 };
 
-// Where the new file grows; what a killed run left there is overwritten.
+// Returns the name of the new file. A file left there by a killed run is overwritten.
 std::string name_beside(const std::string& path);
 FileResult<FileBeside> open_beside(const std::string& path);
-// The whole file takes its name, closed before; 0 or the system's error number.
+// Renames the complete, closed file to `path`. Returns 0 or the error number of the system.
 int take_name(const std::string& path);
 
 }  // namespace tribo::files

@@ -14,7 +14,7 @@ namespace tribo::files {
 namespace {
 
 constexpr std::size_t kWriteBufferBytes = std::size_t{1} << 18;
-constexpr std::size_t kReadStepBytes = std::size_t{1} << 20;  // of a pipe, whose length nobody knows
+constexpr std::size_t kReadStepBytes = std::size_t{1} << 20;  // for a pipe, whose length is unknown
 
 // Closes a descriptor at the end of its scope.
 struct Closing {
@@ -67,7 +67,7 @@ std::unexpected<FileFailure> too_long(const std::string& path, std::uint64_t lim
         FileFailure({path, 0, 0, "is longer than the " + limit + " that this kind of file may have", ""}));
 }
 
-// Reads until the end or until `bytes` is full; returns 0 or the error number.
+// Reads to the end, or until `bytes` is full. Returns 0 or the error number.
 int read_some(int descriptor, std::string& bytes, std::size_t& filled) {
     while (filled < bytes.size()) {
         const ssize_t got = ::read(descriptor, bytes.data() + filled, bytes.size() - filled);
@@ -108,7 +108,8 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
     const std::uint64_t told = S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
     if (told > limit_bytes) return too_long(path, limit_bytes);
 
-    // One byte more than told: a file that is still growing, or whose length the system does not know, shows.
+    // Read one byte more than stated, to detect a file that is growing or whose length is unknown to the
+    // system.
     std::string bytes;
     std::size_t filled = 0;
     for (std::uint64_t wanted = told + 1;; wanted = filled + kReadStepBytes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole files in, whole files out. Nothing here throws; every refusal says whether the caller named something
-// wrong or the system would not do it, because the two end the program with different codes.
+// Reads and writes whole files. Nothing here throws. Every error says whether the caller named something
+// wrong or the system refused, because these have different exit codes.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 
 namespace tribo::files {
 
-// What the last failed call of the system means for `file`. `doing` completes "cannot ...: ".
+// Converts the error number of a failed system call for `file`. `doing` completes "cannot ...: ".
 std::unexpected<FileFailure> system_failure(const std::string& file, const char* doing, int error_number);
 
-// Text formats are read whole; above this a file is refused before any memory is taken for it.
+// Text formats are read whole. A larger file is refused before memory is allocated for it.
 inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 
-// The bytes of a regular file or of a pipe.
+// Returns the bytes of a regular file or of a pipe.
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
 
-// Writes a new file piece by piece through one buffer. A failure sticks: later pieces are dropped and
-// finish() tells the first one. It grows beside a file of that name, which it replaces in the end; one that
-// was not finished leaves nothing.
+// Writes a new file in pieces through one buffer. After a failure later pieces are dropped, and finish()
+// returns the first error. The file is written beside the file of that name, and replaces it at the end. An
+// unfinished file leaves nothing.
 class FileWriter {
   public:
     static FileResult<FileWriter> create(const std::string& path);
@@ -32,7 +32,7 @@ class FileWriter {
     ~FileWriter();
 
     void write(std::string_view bytes);
-    // Hands everything to the system and closes the file.
+    // Passes all data to the system and closes the file.
     FileResult<void> finish();
 
   private:
@@ -41,12 +41,12 @@ class FileWriter {
 
     std::string path_;
     int descriptor_ = -1;
-    bool removable_ = false;  // grows beside; a device is written as it is
+    bool removable_ = false;  // written beside the old file; a device is written directly
     int error_number_ = 0;
     std::string buffer_;
 };
 
-// A whole small file at once.
+// Writes a small file at once.
 FileResult<void> write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace tribo::files

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kGzipOnly = 16 + MAX_WBITS;
 
-// Ends the stream however the function is left.
+// Ends the stream when the function returns.
 struct Inflater {
     z_stream stream = {};
     bool ready = false;
@@ -43,7 +43,7 @@ Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit_bytes,
     std::size_t at = 0;
     for (;;) {
         const std::size_t given = std::min<std::size_t>(bytes.size() - at, std::numeric_limits<uInt>::max());
-        // zlib's interface is not const; it does not write there.
+        // The interface of zlib is not const; it does not write there.
         z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + at));
         z.avail_in = static_cast<uInt>(given);
         z.next_out = reinterpret_cast<Bytef*>(piece.data());
@@ -56,7 +56,7 @@ Result<std::string> gunzip(std::string_view bytes, std::uint64_t limit_bytes,
                           "unpack it with gunzip, or simplify it");
         }
         if (status == Z_STREAM_END) {
-            // Another member may follow; what else follows is padding.
+            // Another member may follow. Other bytes after a member are padding.
             if (!is_gzip(bytes.substr(at)) || inflateReset(&z) != Z_OK) return out;
         } else if (status == Z_BUF_ERROR || (status == Z_OK && at == bytes.size() && z.avail_out > 0)) {
             return refuse("the packed file is cut short", "copy it again");

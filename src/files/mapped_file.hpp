@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file's bytes as memory: nothing is read until it is used, and what is not used again may leave.
+// A memory-mapped file: pages are read at first use, and unused pages may be dropped.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace tribo::files {
 
-// The bytes of a regular file, aligned to a page; they live as long as the object. The file must not be cut
-// short meanwhile: whoever writes one puts a new one in its place.
+// The bytes of a regular file, aligned to a page. They live as long as the object. The file must not be
+// truncated meanwhile; writers must replace it by a new file instead.
 class MappedFile {
   public:
     static FileResult<std::shared_ptr<const MappedFile>> open(const std::string& path);
@@ -26,7 +26,7 @@ class MappedFile {
     std::string_view bytes_;
 };
 
-// Writes a whole file beside `path` and renames it: whoever has the old one mapped keeps it.
+// Writes a whole file beside `path` and renames it. Existing mappings of the old file stay valid.
 FileResult<void> replace_file(const std::string& path, std::string_view bytes);
 
 }  // namespace tribo::files

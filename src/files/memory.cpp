@@ -13,10 +13,11 @@ namespace tribo::files {
 namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kFallbackBytes = std::uint64_t{2} << 30;  // taken as the memory of a silent system
+constexpr std::uint64_t kFallbackBytes = std::uint64_t{2}
+                                         << 30;  // assumed memory if the system does not state it
 constexpr std::uint64_t kSystemFileBytes = std::uint64_t{1} << 20;
 
-// The number that `text` begins with after blanks; kNoLimit where there is none ("max").
+// Returns the number at the start of `text`, after blanks; kNoLimit if there is none ("max").
 std::uint64_t leading_number(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
     std::uint64_t value = 0;
@@ -29,7 +30,7 @@ std::uint64_t number_in_file(const std::string& path) {
     return text ? leading_number(*text) : kNoLimit;
 }
 
-// The least limit on the way from a group to the root of its hierarchy.
+// Returns the smallest limit from a group up to the root of its hierarchy.
 std::uint64_t group_limit(const std::string& hierarchy, std::string group, const char* file) {
     std::uint64_t limit = number_in_file(hierarchy + "/" + file);
     while (!group.empty() && group != "/") {

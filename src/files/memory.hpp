@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much memory there is to take, and how much was taken.
+// Available memory, and memory used by this process.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace tribo::files {
 
-// The machine's memory or, where control groups (version 1 or 2) allow this process less, that limit; bytes.
-// 0 where the system does not tell. `root` is the root of the file tree that holds proc/ and sys/.
+// Returns the memory of the machine, or the limit of control groups (version 1 or 2) if it is smaller; bytes.
+// 0: the system does not state it. `root`: root of the file tree with proc/ and sys/.
 std::uint64_t available_memory_bytes(const std::string& root = "");
 
-// The most memory that this process has held at once, bytes.
+// Returns the peak memory of this process, bytes.
 std::uint64_t peak_memory_bytes();
 
-// What a run may take unless --memory says otherwise: half of what there is, so that the machine stays
+// Returns the memory limit of a run without --memory: half of the available memory, so that the machine stays
 // usable.
 std::uint64_t default_memory_budget_bytes();
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPartialNames = 1000;  // tried before giving up; each is free unless this very process holds it
+constexpr int kPartialNames = 1000;  // names tried; each is free unless this process uses it
 
 std::string partial_prefix(const std::string& base) {
     return "." + base + ".tribo-partial-";
@@ -29,7 +29,7 @@ std::unexpected<FileFailure> refuse(const std::string& shown, std::string cause,
     return std::unexpected(FileFailure({shown, 0, 0, std::move(cause), std::move(remedy)}));
 }
 
-// True where the folder's mark says that Tribo made it.
+// True when the mark in the folder says that Tribo made it.
 bool is_marked(const std::string& dir, const FolderMark& mark) {
     const FileResult<std::string> text = read_file(dir + "/" + mark.file);
     if (!text) return false;
@@ -40,7 +40,7 @@ bool is_marked(const std::string& dir, const FolderMark& mark) {
            text->compare(value, mark.schema.size() + 1, "\"" + mark.schema) == 0;
 }
 
-// Checks what stands at `target` now: nothing, an empty folder or Tribo's own may be replaced.
+// Checks the current content of `target`. Nothing, an empty folder, or a folder of Tribo may be replaced.
 FileResult<void> check_replaceable(const std::string& target, const std::string& shown,
                                    const FolderMark& mark) {
     struct stat status = {};
@@ -63,7 +63,7 @@ FileResult<void> check_replaceable(const std::string& target, const std::string&
                   "name a new folder, or remove this one first");
 }
 
-// True when no living run holds the folder.
+// True when no running process holds the folder.
 bool is_orphan(const std::string& dir) {
     const int descriptor = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor < 0) return false;
@@ -72,8 +72,8 @@ bool is_orphan(const std::string& dir) {
     return free;
 }
 
-// Removes what killed runs left beside the target. A folder that was moved aside and never replaced goes
-// back.
+// Removes the folders that killed runs left beside the target. A folder that was moved aside and not replaced
+// is moved back.
 void clean_siblings(const std::string& parent, const std::string& base, const std::string& target) {
     std::error_code error;
     std::vector<std::string> partial, older;
@@ -96,7 +96,7 @@ void clean_siblings(const std::string& parent, const std::string& base, const st
     }
 }
 
-// Makes the missing folders on the way to `dir` and lists them in `made`, outermost first.
+// Creates the missing parent folders of `dir` and lists them in `made`, outermost first.
 FileResult<void> make_folders(const fs::path& dir, const std::string& shown, std::vector<std::string>& made) {
     std::vector<fs::path> missing;
     for (fs::path at = dir; !at.empty(); at = at.parent_path()) {
@@ -122,7 +122,7 @@ FileResult<void> make_folders(const fs::path& dir, const std::string& shown, std
 int sync_path(const std::string& path, int flags) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | flags);
     if (descriptor < 0) return errno;
-    // A file system that cannot sync (EINVAL, ENOTSUP) has nothing more durable to offer.
+    // A file system without sync (EINVAL, ENOTSUP) offers nothing more durable.
     int error = ::fsync(descriptor) == 0 ? 0 : errno;
     if (error == EINVAL || error == ENOTSUP) error = 0;
     ::close(descriptor);
@@ -169,7 +169,7 @@ FileResult<void> OutputFolder::make_partial(const std::string& parent, const std
             return system_failure(shown_, "make the output folder", errno);
         }
         const int descriptor = ::open(candidate.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-        if (descriptor < 0) continue;  // a run that was cleaning took it for an orphan
+        if (descriptor < 0) continue;  // a cleaning run took it for an orphan
         const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
         struct stat held = {}, seen = {};
         const bool same = ::fstat(descriptor, &held) == 0 && ::lstat(candidate.c_str(), &seen) == 0 &&
@@ -213,18 +213,18 @@ FileResult<void> OutputFolder::commit() {
     if (error) return system_failure(shown_, "write", error.value());
     if (const int number = sync_path(partial_, O_DIRECTORY)) return system_failure(shown_, "write", number);
 
-    // What stands there may have changed while the run went on.
+    // The target may have changed during the run.
     if (auto free = check_replaceable(target_, shown_, mark_); !free)
         return std::unexpected(std::move(free).error());
-    std::string left_over;  // the older folder, out of the way
+    std::string left_over;  // the older folder, moved aside
     if (::rename(partial_.c_str(), target_.c_str()) != 0) {
         if (errno != ENOTEMPTY && errno != EEXIST)
             return system_failure(shown_, "put the output folder in place", errno);
         if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
             left_over = partial_;
         } else {
-            // A file system without the exchange: for a moment there is no folder, and clean_siblings()
-            // knows.
+            // Without the exchange in the file system there is no folder for a moment; clean_siblings()
+            // handles this state.
             const fs::path target(target_);
             left_over = (target.parent_path() /
                          (older_prefix(target.filename().string()) + std::to_string(::getpid())))
@@ -242,7 +242,7 @@ FileResult<void> OutputFolder::commit() {
     partial_.clear();
     made_parents_.clear();
     sync_path(fs::path(target_).parent_path().string(),
-              O_DIRECTORY);  // the new name is there even if this fails
+              O_DIRECTORY);  // the new name exists even if this fails
     if (!left_over.empty()) fs::remove_all(left_over, error);
     return {};
 }

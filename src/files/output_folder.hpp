@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A folder of results that appears whole or not at all. It is built in a hidden sibling and takes its place
-// by one rename; whatever way a run ends, there is the old folder, the new one, or none.
+// A folder of results that appears complete or not at all. It is built in a hidden sibling and moved into
+// place by one rename. However a run ends, there is the old folder, the new one, or none.
 #pragma once
 
 #include <string>
@@ -10,33 +10,33 @@
 
 namespace tribo::files {
 
-// The file by which Tribo knows a folder as its own, and how the value of that file's "schema" begins.
+// The file that marks a folder as Tribo's, and the start of its "schema" value.
 struct FolderMark {
     std::string file = "summary.json";
     std::string schema = "tribo.";
 };
 
-// One run's hold on DIR. While it lives, `.NAME.tribo-partial-PID-N` beside DIR takes the files; another run
-// with the same DIR has a sibling of its own, and the last to commit wins. A sibling is locked (flock) while
-// its run lives, so that a later run can tell what a killed one left and remove it.
+// The claim of one run on DIR. During its life the files are written to `.NAME.tribo-partial-PID-N` beside
+// DIR. Another run with the same DIR has its own sibling, and the last commit wins. A sibling is locked
+// (flock) while its run lives, so that a later run can identify and remove the folders of killed runs.
 class OutputFolder {
   public:
-    // Refuses a DIR that is a file, a link, or a folder that holds something and is not marked as Tribo's.
-    // Missing parents are made, and removed again if nothing comes of it.
+    // Refuses a DIR that is a file, a link, or a non-empty folder without the mark of Tribo. Creates missing
+    // parents; they are removed again without a commit.
     static FileResult<OutputFolder> open(const std::string& dir, FolderMark mark = {});
     OutputFolder(OutputFolder&& other) noexcept;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    // Without a commit nothing is left.
+    // Without a commit removes everything.
     ~OutputFolder();
 
-    // Where a file called `name` is to be written now.
+    // Returns the current path for a file called `name`.
     std::string file(const std::string& name) const { return partial_ + "/" + name; }
-    // The folder as the user named it.
+    // The folder as named by the user.
     const std::string& name() const { return shown_; }
-    // Where DIR is or will be: absolute, links in its parents resolved.
+    // The present or future path of DIR: absolute, with resolved links in its parents.
     const std::string& path() const { return target_; }
 
-    // Sends every file to the disk and puts the folder in the place of DIR; an older one disappears whole.
+    // Syncs every file to the disk and moves the folder to DIR. An older folder is removed completely.
     FileResult<void> commit();
 
   private:

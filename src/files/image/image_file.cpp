@@ -26,7 +26,7 @@
 namespace tribo::files {
 namespace {
 
-// What a pixel of the result covers of one side of the source: pixels and their shares, which add up to 1.
+// The pixels that one pixel of the result covers along one side of the source, with their shares (sum 1).
 struct Cover {
     int first = 0;
     std::vector<float> shares;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures out of the program.
+// Writes pictures.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Image {
     std::vector<std::uint8_t> rgba;  // 4 width height
 };
 
-// The image as the bytes of a PNG file: the same bytes for the same image. Empty for an image without pixels.
+// Returns the bytes of a PNG file, always the same for the same image. Empty for an image without pixels.
 std::string png_bytes(const Image& image);
 
 FileResult<void> write_png(const std::string& path, const Image& image);

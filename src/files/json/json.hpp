@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How Tribo writes JSON: keys in the order in which they are set, no nulls, text always valid UTF-8.
-// It brings in the JSON library: no header of files/ but this one and json_section.hpp includes it.
+// The JSON output of Tribo: keys in the order in which they are set, no nulls, text always valid UTF-8. It
+// includes the JSON library; of the headers of files/ only this one and json_section.hpp do.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ inline Json triple(Vec3 v) {
 inline std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
-// Indented, but arrays of plain values on one line; ends with a line end.
+// Indented, with arrays of plain values on one line. Ends with a line end.
 std::string pretty(const Json& json);
 
 }  // namespace tribo::files

@@ -10,7 +10,7 @@
 namespace tribo::files {
 namespace {
 
-// Deeper nesting is no file of ours.
+// No file of Tribo has deeper nesting.
 constexpr int kDeepest = 32;
 
 struct Place {
@@ -70,7 +70,7 @@ Result<Json> parse_json(std::string_view text, const std::string& file) {
     } catch (const Json::parse_error& error) {
         const Place place = place_of(text, error.byte > 0 ? error.byte - 1 : 0);
         std::string what = error.what();
-        // The library's text after its own number and place.
+        // The text of the library after its own error number and place.
         if (const std::size_t colon = what.rfind("; "); colon != what.npos) what = what.substr(colon + 2);
         const bool ends = error.byte > text.size();
         return fail_at(file, place.line, place.column,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One object of a JSON file, read key by key with types and ranges checked, as TomlSection does with TOML.
-// The first thing wrong is kept, named by its path ("voices[2].speed_mm_per_s"); whatever is read after it
-// comes back empty. It brings in the JSON library.
+// One object of a JSON file, read key by key with checks of types and ranges, as TomlSection does for TOML.
+// The first error is kept, with its path ("voices[2].speed_mm_per_s"); all later reads return empty values.
+// Includes the JSON library.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@
 
 namespace tribo::files {
 
-// Parses with line and column where it is not JSON, and refuses doubled keys. Never throws.
+// Parses the text. Errors of syntax have line and column; duplicate keys are refused. Never throws.
 Result<Json> parse_json(std::string_view text, const std::string& file);
 
 class JsonSection {
   public:
-    // `path` is how messages call the object; empty for the whole file. `keys` are all that it may hold.
-    // `error` collects for all sections of a file.
+    // `path`: name of the object in messages; empty for the whole file. `keys`: all valid keys. `error`
+    // collects the error for all sections of a file.
     JsonSection(const Json& object, std::string path, std::span<const std::string_view> keys,
                 std::optional<Error>& error, const std::string& file);
 
@@ -32,12 +32,12 @@ class JsonSection {
     std::string text(std::string_view key, const std::optional<std::string>& otherwise = {},
                      std::size_t longest = 10'000);
     std::vector<double> numbers(std::string_view key, Range range, std::size_t most);
-    // An array of at most `most` arrays of numbers, each as numbers() takes them with `longest`.
+    // Reads an array of at most `most` arrays of numbers. Each must be valid for numbers() with `longest`.
     std::vector<std::vector<double>> tables(std::string_view key, Range range, std::size_t most,
                                             std::size_t longest);
-    // The objects under a key; none where it is absent.
+    // Returns the objects under a key; none if it is absent.
     std::vector<const Json*> objects(std::string_view key, std::size_t most);
-    // The object under a key; null where it is absent.
+    // Returns the object under a key; null if it is absent.
     const Json* object(std::string_view key);
 
     void fail(std::string_view key, std::string cause, std::string remedy);

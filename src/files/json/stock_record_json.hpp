@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The key "stock_record" of a render's summary.json: how a later job finds out which stock the folder shows.
+// The key "stock_record" of summary.json of a render: it identifies the stock in the folder for later jobs.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace tribo::files {
 
-// Out of the summary.json of a folder. Refuses a folder that Tribo did not render, and one of an older
-// version, which left no record.
+// Reads summary.json of a folder. Refuses a folder that Tribo did not render, and a folder of an older
+// version without a record.
 FileResult<job::StockRecord> read_stock_record(const std::string& folder);
 
 }  // namespace tribo::files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0 in (through tinygltf) and out.
+// glTF 2.0: reading (through tinygltf) and writing.
 #pragma once
 
 #include <functional>
@@ -12,23 +12,23 @@
 
 namespace tribo::files {
 
-// Whether a triangle is still the face of the blank that it was before the cut.
+// True for a triangle that is still an uncut face of the blank.
 using IsUntouched = std::function<bool(const Triangle&)>;
 
-// A binary glTF file, straight from the mesh: nothing but a bit per triangle is held beside it. Machined
-// surface is blue (as in the milling paper, figure 5), untouched stock grey; without `untouched` all of it is
-// machined. Positions stay in mm with z up; a node turns them into glTF's metres with y up, and
-// asset.extras.unit_mm says how long the unit is, for readers that would take it for something else. No
-// normals: viewers then shade each triangle flat (glTF 2.0, 3.7.2.1), which keeps cusps sharp.
+// Writes a binary glTF file directly from the mesh, with one additional bit per triangle in memory. Machined
+// surface is blue (as in the milling paper, figure 5), untouched stock grey. Without `untouched` all
+// triangles are machined. Positions stay in mm with z up. A node converts them to the metres of glTF with y
+// up, and asset.extras.unit_mm gives the length of the unit for other readers. There are no normals: viewers
+// then shade each triangle flat (glTF 2.0, 3.7.2.1), which keeps cusps sharp.
 FileResult<void> write_glb(const std::string& path, const TriangleMesh& mesh,
                            const IsUntouched& untouched = {});
 
-// The triangles of all nodes of a scene, turned so that z is up, equal vertices made one. One unit is
-// `unit_mm` as in every model file; where nobody says it, the file's own asset.extras.unit_mm (Tribo writes
-// it), and otherwise 1 with a warning: the standard's unit is the metre, exporters differ. Only what is
-// inside the file is read: buffers in other files are refused by name, as are sparse accessors and compressed
-// meshes; images are skipped. Triangles are counted before memory is taken for them, a mesh once for each
-// node that shows it.
+// Reads the triangles of all nodes of a scene, rotated so that z is up, and merges equal vertices. One unit
+// is `unit_mm`, as in every model file; without it, asset.extras.unit_mm of the file (Tribo writes it); else
+// 1 with a warning, because the unit of the standard is the metre but exporters differ. Only data inside the
+// file is read: buffers in other files, sparse accessors and compressed meshes are refused by name; images
+// are skipped. Triangles are counted before memory is allocated for them, a mesh once for each node that uses
+// it.
 Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOptions& options);
 
 }  // namespace tribo::files

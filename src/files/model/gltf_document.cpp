@@ -8,11 +8,11 @@
 namespace tribo::files {
 namespace {
 
-// Real files nest a dozen levels; this many are far from the end of any stack.
+// Real files have about a dozen levels of nesting. This many are far below the limit of any stack.
 constexpr int kDeepest = 100;
 constexpr std::size_t kMostBuffers = 1000;
 
-// The JSON chunk of a binary file, the whole of a text one; nothing where the file ends before it should.
+// Returns the JSON chunk of a binary file, or a whole text file; none if the file is too short.
 std::string_view json_of(std::string_view bytes) {
     constexpr std::size_t kHeaders = 20;
     if (!bytes.starts_with("glTF")) return bytes;

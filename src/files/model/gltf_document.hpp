@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must hold of a glTF file before its library may see it.
+// Checks a glTF file before the library reads it.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace tribo::files {
 
-// Walks the JSON of a .gltf or .glb file once, keeping nothing of it but its list of buffers. Refuses broken
-// JSON, nesting that would exhaust the stack of the library's recursion, data in other files, and more than
-// one buffer that stands for the binary chunk, of which each would be a copy.
+// Walks the JSON of a .gltf or .glb file once and keeps only its list of buffers. Refuses broken JSON,
+// nesting that would exhaust the stack of the library (it uses recursion), data in other files, and more than
+// one buffer for the binary chunk, because each would be a copy.
 Result<void> check_gltf_document(std::string_view bytes, const std::string& source_name);
 
 }  // namespace tribo::files

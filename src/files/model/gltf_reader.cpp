@@ -13,10 +13,10 @@
 namespace tribo::files {
 namespace {
 
-// Column-major, as glTF has it.
+// Column-major, as in glTF.
 using Matrix = std::array<double, 16>;
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-constexpr int kMostNodes = 100'000;  // visited, so that a graph that is no tree ends
+constexpr int kMostNodes = 100'000;  // visited nodes; ends the walk of a graph that is not a tree
 
 Matrix product(const Matrix& a, const Matrix& b) {
     Matrix c{};
@@ -72,7 +72,7 @@ std::unexpected<Error> refused(const std::string& file, std::string cause, const
     return fail_at(file, 0, 0, std::move(cause), remedy);
 }
 
-// The bytes of an accessor's elements, checked against its view and buffer.
+// The bytes of the elements of an accessor, checked against its view and buffer.
 struct Elements {
     const unsigned char* first = nullptr;
     std::size_t stride = 0, count = 0;
@@ -124,7 +124,7 @@ std::uint32_t index_at(const Elements& e, std::size_t n) {
     return v;
 }
 
-// Positions and, where it has them, indices of one run of triangles.
+// Positions and optional indices of one primitive.
 struct Primitive {
     Elements points, indices;
     bool indexed = false;
@@ -132,7 +132,7 @@ struct Primitive {
     std::size_t triangles() const { return (indexed ? indices.count : points.count) / 3; }
 };
 
-// Walks the nodes of a scene twice: to count, then to copy.
+// Walks the nodes of a scene twice: first to count, then to copy.
 class GltfReader {
   public:
     GltfReader(const tinygltf::Model& model, const std::string& file, double unit_mm)
@@ -238,7 +238,7 @@ class GltfReader {
             }
             mesh_.positions.push_back(*point);
         }
-        const bool mirrored = determinant(here) < 0;  // turns triangles inside out (glTF 2.0, 3.7.4)
+        const bool mirrored = determinant(here) < 0;  // a mirror reverses triangles (glTF 2.0, 3.7.4)
         for (std::size_t n = 0; n < p.triangles(); ++n) {
             Triangle t;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -264,7 +264,7 @@ class GltfReader {
     TriangleMesh mesh_;
 };
 
-// What the file says one of its units is, mm; none where it says nothing.
+// Returns the length of one unit stated in the file, mm; none if it states none.
 Result<std::optional<double>> unit_inside(const tinygltf::Model& model, const std::string& file) {
     const tinygltf::Value& extras = model.asset.extras;
     if (!extras.IsObject() || !extras.Has("unit_mm")) return std::nullopt;
@@ -276,7 +276,7 @@ Result<std::optional<double>> unit_inside(const tinygltf::Model& model, const st
     return mm;
 }
 
-// Nothing outside the bytes is ever opened.
+// Refuses to open any other file.
 bool no_file(const std::string&, void*) {
     return false;
 }

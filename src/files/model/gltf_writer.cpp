@@ -13,12 +13,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "glTF is little-endian, and memory is written as it is");
 
-// Numbers of the standard (glTF 2.0, 3.6.2 and 3.7.2).
+// Constants of the standard (glTF 2.0, 3.6.2 and 3.7.2).
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kArrayBuffer = 34962, kElementArrayBuffer = 34963,
               kTriangles = 4;
-constexpr double kUnitMm = 1000;  // glTF's unit is the metre
+constexpr double kUnitMm = 1000;  // the unit of glTF is the metre
 
-// An array's bytes as they lie in memory.
+// The bytes of an array, as in memory.
 template <class T>
 std::string_view raw(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
@@ -52,7 +52,7 @@ Json accessor(std::size_t view, std::size_t offset, int component, std::size_t c
     return a;
 }
 
-// What the mesh looks like: positions, then the indices of machined triangles, then those of the others.
+// The data of the mesh: positions, then the indices of machined triangles, then those of the others.
 Json document(const TriangleMesh& mesh, std::size_t machined) {
     Json json;
     json["asset"]["version"] = "2.0";
@@ -97,7 +97,7 @@ Json document(const TriangleMesh& mesh, std::size_t machined) {
     return json;
 }
 
-// Four bytes of a chunk's or the file's header.
+// Appends four bytes of the header of a chunk or file.
 void put(FileWriter& file, std::uint64_t value) {
     const auto bytes = std::bit_cast<std::array<char, 4>>(static_cast<std::uint32_t>(value));
     file.write({bytes.data(), bytes.size()});

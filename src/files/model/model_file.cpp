@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Text models are packed; more than a reader takes of them would be unpacked for nothing.
+// Text models may be compressed. More bytes than a reader accepts need not be unpacked.
 constexpr std::uint64_t kLargestUnpacked = 64 * 1024 * 1024;
 
-// Schemes (http:, file:, C:) lead out of the folder, whatever stands behind them.
+// Schemes (http:, file:, C:) lead out of the folder, whatever follows.
 bool is_plain_name(const fs::path& url) {
     const std::string text = url.string();
     return !text.empty() && !url.is_absolute() && text.find_first_of(":\\") == std::string::npos &&
@@ -30,7 +30,7 @@ bool is_below(const fs::path& file, const fs::path& folder) {
     return true;
 }
 
-// The files that a model may name: those in its folder and below, links resolved.
+// The files that a model may name: files in its folder and below, with resolved links.
 class Neighbours {
   public:
     explicit Neighbours(std::string model) : model_(std::move(model)) {
@@ -59,7 +59,7 @@ class Neighbours {
             if (!unpacked) return fail(unpacked.error().cause);
             bytes = *std::move(unpacked);
         }
-        // Named as the user would: the model's folder and the way from there.
+        // Named as the user would: the folder of the model and the relative path.
         const fs::path shown =
             fs::path(model_).parent_path() / path.lexically_relative(model_path_.parent_path());
         return readers::ModelNeighbour{shown.string(), *std::move(bytes)};

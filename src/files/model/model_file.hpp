@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models from files, whatever format their content shows.
+// Reads models from files; the content determines the format.
 #pragma once
 
 #include "files/files.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The child that reads a SOFA file, and its parent.
+// The child process that reads a SOFA file, and its parent.
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -23,11 +23,11 @@ Result<sound::HrirSet> hrirs_of_sofa(const std::string& path);
 
 namespace {
 
-// "ok" and the set, or "no" and the reason.
+// The reply is "ok" and the set, or "no" and the reason.
 constexpr std::string_view kGood = "TRIBO-HRIR-1 ok\n", kBad = "TRIBO-HRIR-1 no\n";
 constexpr std::size_t kMostReply = std::size_t{600} << 20;
 constexpr std::size_t kMostReason = 400;
-// The address sanitizer reserves terabytes of addresses.
+// The address sanitizer reserves terabytes of address space.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kCanLimitMemory = false;
 #elif defined(__has_feature)
@@ -56,7 +56,7 @@ class Unpacking {
     template <class T>
     bool take(T* values, std::size_t count) {
         if (bytes_.size() / sizeof(T) < count) return false;
-        if (count == 0) return true;  // there may be no place to put nothing
+        if (count == 0) return true;  // the pointer may be null then
         std::memcpy(values, bytes_.data(), count * sizeof(T));
         bytes_.remove_prefix(count * sizeof(T));
         return true;
@@ -82,7 +82,7 @@ void write_all(std::string_view bytes) {
     }
 }
 
-// Runs the child to its end; its output, or why there is none.
+// Runs the child to its end. Returns its output, or the reason of a failure.
 Result<std::string> output_of(const std::string& program, const std::string& verb, const std::string& path) {
     const std::string remedy = "try another SOFA file, or leave 'hrtf' out for the built-in set";
     int ends[2];

@@ -69,10 +69,10 @@ bool fits(const MYSOFA_ARRAY& array, std::size_t least) {
     return array.values != nullptr && array.elements >= least;
 }
 
-// SOFA's listener looks along +x with +y to the left; the head here along +y with +x to the right.
+// The listener of SOFA looks along +x with +y to the left; the head here along +y with +x to the right.
 Result<sound::HrirSet> set_of(MYSOFA_HRTF& h) {
-    // Whichever ear the file puts first: the left one has the larger y. libmysofa wants it first, at +y; what
-    // the responses themselves say counts in the end (sound::ear_order).
+    // The file may store either ear first. The left one has the larger y, and libmysofa expects it first, at
+    // +y. Finally the responses themselves decide (sound::ear_order).
     constexpr float kEarM = 0.09F;
     const bool swapped =
         fits(h.ReceiverPosition, 6) && h.ReceiverPosition.values[1] < h.ReceiverPosition.values[4];

@@ -13,7 +13,7 @@
 namespace tribo::files {
 namespace {
 
-// Bytes in memory as libsndfile reads them.
+// Bytes in memory as a file for libsndfile.
 struct Memory {
     std::string_view bytes;
     sf_count_t at = 0;
@@ -64,7 +64,7 @@ bool is_known(int format) {
            container == SF_FORMAT_W64 || container == SF_FORMAT_FLAC;
 }
 
-// Whether libsndfile's log says that the data chunk is cut short.
+// True when the log of libsndfile says that the data chunk is truncated.
 bool cut_short(SNDFILE* file) {
     std::array<char, 4096> log{};
     ::sf_command(file, SFC_GET_LOG_INFO, log.data(), static_cast<int>(log.size()) - 1);
@@ -106,7 +106,7 @@ Result<SoundFile> parse_sound(std::string_view bytes, const std::string& source_
     sound.sample_rate_hz = info.samplerate;
     sound.channels = info.channels;
     sound.bits = bits_of(info.format);
-    // The header may promise anything: memory is taken as samples really come.
+    // The header may be wrong: memory is allocated only for samples that are read.
     const auto channels = static_cast<std::size_t>(info.channels);
     std::vector<double> block(4096 * channels), energy(channels);
     std::vector<std::vector<double>> all(channels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings in: WAV and FLAC at any rate and depth (libsndfile decodes).
+// Reads recordings: WAV and FLAC at any rate and depth (decoded by libsndfile).
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct SoundFile {
     Warnings warnings;
 };
 
-// 22 minutes at 48 kHz, mono. More is refused before memory is taken for it.
+// 22 minutes at 48 kHz, mono. Longer files are refused before memory is allocated for them.
 inline constexpr std::int64_t kMostSoundSamples = std::int64_t{1} << 26;
 inline constexpr double kLeastSoundHz = 4000, kMostSoundHz = 384000;
 
-// Refuses other containers, rates out of range, samples that are no numbers, files that hold nothing; a file
-// that ends before its header says is read as far as it goes, with a warning. Never throws.
+// Refuses other containers, rates out of range, samples that are not finite, and empty files. A file that is
+// shorter than its header states is read to its end, with a warning. Never throws.
 Result<SoundFile> parse_sound(std::string_view bytes, const std::string& source_name);
 FileResult<SoundFile> read_sound(const std::string& path);
 

@@ -16,10 +16,10 @@
 namespace tribo::files {
 namespace {
 
-constexpr std::int64_t kLargestFileBytes = 0xffffffff;  // the RIFF length
-constexpr std::int64_t kHeaderBytes = 1024;             // more than any header that is written here
+constexpr std::int64_t kLargestFileBytes = 0xffffffff;  // 32-bit length of RIFF
+constexpr std::int64_t kHeaderBytes = 1024;             // upper limit of the headers written here
 
-// What libsndfile sees of the file: the system's own error numbers stay with us.
+// The file as seen by libsndfile. It keeps the error numbers of the system.
 struct OpenFile {
     int descriptor = -1;
     int error_number = 0;
@@ -57,7 +57,7 @@ SF_VIRTUAL_IO callbacks() {
     return {OpenFile::tell_length, OpenFile::seek, OpenFile::read, OpenFile::write, OpenFile::tell};
 }
 
-// Integers of `bits` bits, rounded; a sample that is not a number is silence.
+// Converts to integers of `bits` bits, rounded. NaN becomes silence.
 double quantized(float sample, int bits, double dither_steps) {
     const double scale = static_cast<double>(1 << (bits - 1));
     if (sample != sample) return 0;
@@ -82,7 +82,7 @@ struct WavWriter::State {
     CounterNoise dither{0};
     std::int64_t frames = 0;
     bool too_long = false;
-    bool broken = false;  // libsndfile would not go on, and the system told no reason
+    bool broken = false;  // libsndfile failed without an error of the system
 
     ~State() {
         if (container != nullptr) ::sf_close(container);
@@ -147,7 +147,7 @@ FileResult<WavWriter> WavWriter::create(const std::string& path, const WavFormat
         const int error_number = state->file.error_number;
         return system_failure(path, "write", error_number != 0 ? error_number : EIO);
     }
-    // The PEAK chunk of float files would hold the time of day.
+    // The PEAK chunk of float files would contain the time of day.
     ::sf_command(state->container, SFC_SET_ADD_PEAK_CHUNK, nullptr, SF_FALSE);
     return WavWriter(std::move(state));
 }
@@ -167,14 +167,14 @@ void WavWriter::write(std::span<const float> interleaved) {
                 interleaved,
                 [&](float v, std::uint64_t sample) {
                     const std::uint64_t b = s.dither.bits(sample);
-                    // Two even numbers of one step's width each: triangular.
+                    // The sum of two uniform numbers of one step's width is triangular.
                     const double two = static_cast<double>(b & 0xffffffff) + static_cast<double>(b >> 32);
                     return static_cast<short>(quantized(v, 16, v == 0 ? 0 : two * 0x1p-32 - 1));
                 },
                 ::sf_write_short);
             break;
         case 24:
-            // libsndfile takes the upper 24 of 32 bits.
+            // libsndfile uses the upper 24 of 32 bits.
             s.write_as<int>(
                 interleaved,
                 [](float v, std::uint64_t) { return static_cast<int>(quantized(v, 24, 0)) * 256; },
