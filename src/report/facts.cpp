@@ -22,7 +22,7 @@ std::string_view path_name(job::PathKind kind) {
     return kPathNames[static_cast<std::size_t>(kind)];
 }
 
-// Three decimals at most, none that say nothing.
+// At most three decimals, without trailing zeros.
 std::string number(double value) {
     std::array<char, 64> text = {};
     std::snprintf(text.data(), text.size(), "%.3f", value);
@@ -55,7 +55,7 @@ files::Json box_json(const Box3& box) {
     return files::Json::array({files::triple(box.min), files::triple(box.max)});
 }
 
-// Builds both forms side by side.
+// Builds text and JSON together.
 class Builder {
   public:
     explicit Builder(const char* kind) {
@@ -141,7 +141,7 @@ void add_material(Builder& b, const job::JobMaterial& material) {
                            ", kae " + number(k.kae) + " N/mm");
 }
 
-// Facts of a named file under a key of their own; its lines follow the name, its warnings join.
+// Adds the facts of a named file under their own key. Its lines follow the name; its warnings are appended.
 void add_inner(Builder& b, const char* name, const Facts& inner) {
     b.json[name] = files::Json::parse(inner.json);
     b.json[name].erase("schema");
@@ -149,14 +149,14 @@ void add_inner(Builder& b, const char* name, const Facts& inner) {
     b.facts.warnings.insert(b.facts.warnings.end(), inner.warnings.begin(), inner.warnings.end());
 }
 
-// Parts smaller or larger than this across are rarely milled: their unit is another, mm.
+// Smaller or larger parts are rarely milled: their unit is probably wrong, mm.
 constexpr double kSmallestPartMm = 3, kLargestPartMm = 5000;
 
 std::string counted(std::uint64_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-// Equal corners count as one, however often the file writes them.
+// Equal corners count once, however often the file repeats them.
 void add_edges(Builder& b, TriangleMesh mesh, bool closed) {
     weld_exactly(mesh);
     const MeshEdges e = describe_edges(mesh);
@@ -192,11 +192,11 @@ void add_unit_warning(Builder& b, const Box3& box, const readers::Model& model) 
     b.facts.warnings.push_back({"", 0, text});
 }
 
-// Less of the path than this is a lead-in, a corner or the end of a raster.
+// A smaller share of the path is a lead-in, a corner or the end of a raster.
 constexpr double kLeastShareOfPasses = 0.1;
 
-// How far passes run apart and the cusps that they leave between them, by the shape of the cutter as it leans
-// there (Xia and Ge 2001: effective cutting shape).
+// Distance between passes and height of the cusps between them, from the shape of the inclined cutter (Xia
+// and Ge 2001: effective cutting shape).
 void add_passes(Builder& b, const milling::Cutter& cutter, std::span<const motion::Move> moves) {
     const motion::ClosePasses passes = motion::close_passes(moves, cutter.diameter_mm);
     if (passes.share < kLeastShareOfPasses) return;

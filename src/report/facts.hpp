@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a file holds, said twice: for a machine as JSON, for a person as aligned lines.
+// Facts about a file in two forms: JSON for programs, aligned lines for people.
 #pragma once
 
 #include <span>
@@ -18,19 +18,18 @@ namespace tribo::report {
 struct Facts {
     std::string json;                                        // one object, "schema" and "kind" first
     std::vector<std::pair<std::string, std::string>> lines;  // name and text
-    Warnings warnings;                                       // those of the JSON
+    Warnings warnings;                                       // the same as in the JSON
 };
 
 // {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
 Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min = 10000);
-// The same of a program whose moves went by: the meter saw them.
+// The same for a program whose moves were streamed through `meter`.
 Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, job::PathKind format,
                double rapid_mm_per_min = 10000);
 // {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}
 Facts describe(const readers::Model& model);
-// {kind: "job", ...}; what is known of the files that it names stands under "program" and "part". `moves`: of
-// its program, for {passes: {share, sidestep_mm, scallop_mm}} where passes of its one cutter run side by
-// side.
+// {kind: "job", ...}. Facts of the named files are under "program" and "part". `moves`: the moves of its
+// program, for {passes: {share, sidestep_mm, scallop_mm}} if its only cutter has parallel passes.
 Facts describe(const job::Job& job, const Facts* program, const Facts* part,
                std::span<const motion::Move> moves = {});
 
@@ -38,7 +37,7 @@ Facts describe(const job::Job& job, const Facts* program, const Facts* part,
 // ...}], ...}
 Facts describe(const material::Material& material);
 
-// The lines as text, names padded to one width.
+// Returns the lines as text, with names padded to one width.
 std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines);
 
 }  // namespace tribo::report

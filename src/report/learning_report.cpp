@@ -24,7 +24,7 @@ struct PlotLine {
     const std::vector<double>* values;
 };
 
-// Levels in dB over a logarithmic axis of frequency.
+// Plots levels in dB over a logarithmic frequency axis.
 std::string plot(const std::vector<double>& hz, const std::vector<PlotLine>& lines, double from_hz,
                  double to_hz) {
     constexpr double kWidth = 560, kHeight = 240, kLeft = 46, kBottom = 26;

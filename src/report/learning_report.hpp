@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page that `tribo learn --report` writes: original and voice side by side, to see and to hear. One file
-// that opens offline.
+// The page of `tribo learn --report`: original and voice side by side, as plots and sound. One file that
+// opens offline.
 #pragma once
 
 #include <string>

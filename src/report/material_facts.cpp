@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `tribo inspect` says of a material.
+// Facts of a material for `tribo inspect`.
 #include <algorithm>
 #include <cstdio>
 
@@ -38,7 +38,7 @@ std::string voice_text(const noise::VoiceModel& v) {
     return text;
 }
 
-// What makes a voice doubtful.
+// Warnings about doubtful voices.
 Warnings doubts(const material::Material& m) {
     Warnings warnings;
     if (m.voices.models.empty()) warnings.push_back({"", 0, "no voices: rubbing it makes no sound"});

@@ -16,11 +16,9 @@ constexpr int kSamples = 2;            // per pixel along each side
 constexpr int kSubpixel = 256;         // steps of a vertex between two samples
 constexpr double kTanHalfView = 0.24;  // a portrait lens: 27 degrees, little distortion
 constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
-constexpr double kLineLift =
-    2e-3;  // share of the distance by which lines stand before the surface they touch
+constexpr double kLineLift = 2e-3;  // share of the distance by which lines are in front of the surface
 
-// Where a point lands: sample coordinates and one over the distance along the view, which is linear on the
-// screen.
+// Projection of a point: sample coordinates, and 1 / depth along the view, which is linear on the screen.
 struct Seen {
     double x = 0, y = 0, inverse_depth = 0;
 };
@@ -37,7 +35,7 @@ struct Camera {
     }
 };
 
-// Puts the eye so that every point is in the frame and the frame is filled.
+// Places the eye so that all points are in the frame and fill it.
 Camera frame(const std::vector<Point3f>& points, const PictureOptions& options) {
     Camera camera;
     camera.back = normalized(options.towards_viewer);
@@ -54,8 +52,8 @@ Camera frame(const std::vector<Point3f>& points, const PictureOptions& options) 
     const double tan_x = kTanHalfView * (width - margin) / shorter;
     const double tan_y = kTanHalfView * (height - margin) / shorter;
 
-    // A point at (x, y, z) of the camera's axes is in the frame of an eye at (ex, ey, ez) while
-    // |x - ex| <= tan_x (ez - z): the four planes' extremes give ez and the middle directly.
+    // In the axes of the camera, an eye at (ex, ey, ez) sees a point (x, y, z) if |x - ex| <= tan_x (ez - z),
+    // and likewise in y. The extremes of the four planes give ez and the centre directly.
     constexpr double kFar = std::numeric_limits<double>::infinity();
     double left = -kFar, right = -kFar, top = -kFar, bottom = -kFar, nearest = -kFar;
     for (const Point3f& q : points) {
@@ -73,7 +71,7 @@ Camera frame(const std::vector<Point3f>& points, const PictureOptions& options) 
     return camera;
 }
 
-// What is seen through each sample: the nearest triangle and how near it is.
+// For each sample the nearest triangle and its depth.
 struct Buffer {
     int width = 0, height = 0;  // samples
     std::vector<float> inverse_depth;
@@ -88,17 +86,17 @@ struct FixedPoint {
     std::int64_t x, y;
 };
 
-// Twice the area of a, b, p in subpixel units, positive when p is right of a -> b (y points down).
+// Twice the area of a, b, p in subpixel units, positive if p is right of a -> b (y points down).
 std::int64_t side(FixedPoint a, FixedPoint b, FixedPoint p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-// A sample exactly on an edge belongs to one of the two triangles that share it: the top-left rule.
+// Top-left rule: a sample exactly on a common edge belongs to one of the two triangles.
 bool owns_edge(FixedPoint a, FixedPoint b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-// Edge functions on a grid of 1/256 sample: exact in 64 bits, so neighbours leave neither gaps nor overlaps.
+// Edge functions on a grid of 1/256 sample are exact in 64 bits, so neighbours have no gaps and no overlaps.
 void fill(Buffer& buffer, std::uint32_t index, Seen a, Seen b, Seen c) {
     const auto fixed = [](Seen s) {
         return FixedPoint{static_cast<std::int64_t>(std::floor(s.x * kSubpixel + 0.5)),
@@ -113,7 +111,7 @@ void fill(Buffer& buffer, std::uint32_t index, Seen a, Seen b, Seen c) {
         std::swap(depth[1], depth[2]);
         area = -area;
     }
-    // Samples stand at half-integer places.
+    // Samples are at half-integer positions.
     const auto first = [](std::int64_t v) { return (v + kSubpixel / 2 - 1) / kSubpixel; };
     const auto last = [](std::int64_t v) { return (v - kSubpixel / 2) / kSubpixel; };
     const auto [x_min, x_max] = std::minmax({p[0].x, p[1].x, p[2].x});
@@ -158,7 +156,7 @@ float to_linear(float srgb) {
     return srgb <= 0.04045F ? srgb / 12.92F : static_cast<float>(math::pow((srgb + 0.055) / 1.055, 2.4));
 }
 
-// sRGB bytes of linear light 0..1.
+// Converts linear light 0..1 to sRGB bytes.
 class Encoder {
   public:
     Encoder() {
@@ -177,7 +175,7 @@ class Encoder {
     std::array<std::uint8_t, kSteps + 1> table_ = {};
 };
 
-// A key light low from the left, so that shallow grooves throw light and shade; a soft one from the right; a
+// Lights: a low key light from the left, so that shallow grooves are visible; a soft light from the right; a
 // sky.
 class Lights {
   public:
@@ -202,7 +200,8 @@ class Lights {
     Vec3 key_, fill_, half_;
 };
 
-// The triangle's normal at a sample, towards the viewer: interpolated where the mesh has normals.
+// Returns the normal of the triangle at a sample, towards the viewer. It is interpolated if the mesh has
+// normals.
 Vec3 normal_at(const TriangleMesh& mesh, const Triangle& t, const Camera& camera,
                const std::vector<Seen>& seen, double x, double y) {
     const Vec3 a = mesh.position(t[0]), b = mesh.position(t[1]), c = mesh.position(t[2]);
@@ -254,7 +253,7 @@ std::vector<Pixel> shade(const TriangleMesh& mesh, const Camera& camera, const s
             Pixel& pixel =
                 pixels[static_cast<std::size_t>(y / kSamples) * static_cast<std::size_t>(options.width) +
                        static_cast<std::size_t>(x / kSamples)];
-            // Clipped before the mean, or the edge of a highlight would show steps.
+            // Clip before taking the mean; otherwise the edge of a highlight would have steps.
             pixel.r += kShare * std::min(1.0F, own[0] * light.diffuse + light.shine);
             pixel.g += kShare * std::min(1.0F, own[1] * light.diffuse + light.shine);
             pixel.b += kShare * std::min(1.0F, own[2] * light.diffuse + light.shine);
@@ -264,7 +263,7 @@ std::vector<Pixel> shade(const TriangleMesh& mesh, const Camera& camera, const s
     return pixels;
 }
 
-// The columns of row `y` (relative to a line's start) that may be within `reach` of it.
+// The columns of row `y` (relative to the start of a line) that may be within `reach` of the line.
 struct Columns {
     double from, to;
 };
@@ -275,7 +274,7 @@ Columns columns_near(double y, double dx, double dy, double reach) {
     return {middle - half, middle + half};
 }
 
-// One piece of a line over the pixels, as wide as `width` pixels, where the part does not hide it.
+// Draws one piece of a line, `width` pixels wide, where the part does not hide it.
 void draw_segment(std::vector<Pixel>& pixels, const Buffer& buffer, const PictureOptions& options, Seen a,
                   Seen b, const Colour& ca, const Colour& cb, double width) {
     const double ax = a.x / kSamples, ay = a.y / kSamples, bx = b.x / kSamples, by = b.y / kSamples;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A still of a part, drawn on the processor: three-quarter view in perspective, two lights, antialiased, the
-// tool path as a line in it where wanted. For reports, READMEs and `inspect --picture`; no window and no GPU
-// needed.
+// A still picture of a part, rendered on the processor: three-quarter view in perspective, two lights,
+// antialiased, optionally with the tool path as a line. For reports, READMEs and `inspect --picture`; needs
+// no window and no GPU.
 #pragma once
 
 #include <array>
@@ -18,25 +18,24 @@ namespace tribo::report {
 // sRGB, 0..1.
 using Colour = std::array<float, 3>;
 
-// A line in space, one colour a point; hidden where the part stands before it.
+// A line in space, one colour per point. The part hides it where it is in front.
 struct PictureLine {
     std::vector<Vec3> points_mm;
-    std::vector<Colour> colours;  // as many as points, or one for all
+    std::vector<Colour> colours;  // one per point, or one for all
     double width_px = 1.5;
 };
 
 struct PictureOptions {
     int width = 1200, height = 900;        // pixels, 1..8192
-    Vec3 towards_viewer{0.55, -1.0, 0.9};  // from the part; any length above 0
+    Vec3 towards_viewer{0.55, -1.0, 0.9};  // from the part; length > 0
     Colour colour{0.70F, 0.73F, 0.77F};
-    double margin = 0.04;  // of the shorter side, kept free around the part
-    // One for each triangle, in the place of `colour`; sRGB. Empty: all are of that one.
+    double margin = 0.04;  // of the shorter side, free around the part
+    // One per triangle, instead of `colour`; sRGB. Empty: all triangles have `colour`.
     std::span<const std::array<std::uint8_t, 3>> triangle_colours = {};
 };
 
-// The image behind the part is transparent, so that it stands on any page. The same mesh gives the same
-// bytes. About 0.1 s for a million triangles at 1200 x 900; takes 40 bytes a pixel and 12 bytes a vertex
-// meanwhile.
+// The background of the image is transparent. The same mesh gives the same bytes. Takes about 0.1 s for a
+// million triangles at 1200 x 900, and 40 bytes a pixel and 12 bytes a vertex during the call.
 files::Image draw_part(const TriangleMesh& mesh, const std::vector<PictureLine>& lines = {},
                        const PictureOptions& options = {});
 

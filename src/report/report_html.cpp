@@ -17,11 +17,11 @@
 namespace tribo::report {
 namespace {
 
-constexpr std::size_t kMostRows = 12'000;  // more than the plots have pixels
+constexpr std::size_t kMostRows = 12'000;  // the plots have fewer pixels
 constexpr std::size_t kMostNotices = 30;
-constexpr double kGapShare = 0.5;  // of a row's duration; a longer pause is a gap between cuts
+constexpr double kGapShare = 0.5;  // of the duration of a row; a longer pause is a gap between cuts
 
-// Significant digits, but no exponent for what a person would write out.
+// Rounds to significant digits, without an exponent for numbers of usual size.
 std::string number(double value, int digits = 4) {
     std::array<char, 40> text = {};
     std::snprintf(text.data(), text.size(), "%.*g", digits, value);
@@ -132,7 +132,7 @@ std::string audio(const ReportSound& sound) {
     return html;
 }
 
-// The picture, and over it what the script shows in its place.
+// The picture, with the elements that the script shows over it.
 std::string picture(const ReportData& data) {
     const std::string still =
         "<img alt=\"The part as milled\" src=\"data:image/png;base64," + base64(data.picture_png) + "\">\n";
@@ -151,7 +151,7 @@ shows all again.</figcaption>
 </figure>)";
 }
 
-// Text of a JSON array with at most `digits` digits a number.
+// Returns a JSON array with at most `digits` digits per number.
 template <class Items, class Value>
 std::string array_of(const Items& items, int digits, const Value& value) {
     std::string text = "[";
@@ -228,7 +228,7 @@ std::string data_json(const ReportData& data) {
     if (data.sound && data.sound->seconds > 0) json += "," + sound_json(*data.sound);
     if (data.part) json += ",\"part\":" + report_part_json(*data.part);
     json += "}";
-    // Inside a script element only "</" could end it; '<' occurs in strings alone.
+    // In a script element only "</" could end it; '<' occurs only in strings.
     std::string safe;
     for (const char c : json) {
         if (c == '<') {
@@ -240,7 +240,7 @@ std::string data_json(const ReportData& data) {
     return safe;
 }
 
-// The page with every {{mark}} replaced, in one pass, so that what is put in is never looked at again.
+// Replaces every {{mark}} of the page in one pass, so that inserted text is never replaced again.
 std::string filled(std::string_view page, const std::function<std::string(std::string_view)>& value) {
     std::string out;
     while (true) {
@@ -280,7 +280,7 @@ std::vector<ReportRow> thin_rows(const std::vector<ReportRow>& rows, std::size_t
             }
         }
         thin.resize(kept);
-        if (kept == before) break;  // nothing but gaps
+        if (kept == before) break;  // only gaps are left
     }
     return thin;
 }

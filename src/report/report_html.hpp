@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // report.html: one file that opens offline and shows a render: the part in 3D, figures, warnings, force along
 // the program and along the path, one turn of the spindle with its spectrum, the sound and its waveforms, and
-// what it all rests on. The page's own text, style and script stand in page/ and are built in; the scripts
-// are made of web/report/.
+// the assumptions. Text, style and script of the page are in page/ and are built in; the scripts are made
+// from web/report/.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace tribo::report {
 
-// One stretch of the cut.
+// One piece of the cut.
 struct ReportRow {
     double t_s = 0, duration_s = 0;
     int line = 0;
@@ -31,11 +31,11 @@ struct ReportRow {
 struct ReportTurn {
     double t_s = 0, rpm = 0;
     int line = 0;
-    std::vector<Vec3> force_n;                        // at equal steps over 360 degrees, without the end
-    std::vector<std::pair<double, double>> spectrum;  // Hz and N, rising
+    std::vector<Vec3> force_n;  // at equal steps over 360 degrees, without the end point
+    std::vector<std::pair<double, double>> spectrum;  // Hz and N, ascending
 };
 
-// A stretch of sound pressure, short enough to see its form.
+// A piece of sound pressure, short enough to see its shape.
 struct ReportWave {
     std::string label;
     double rate_hz = 48000;
@@ -43,32 +43,33 @@ struct ReportWave {
 };
 
 struct ReportSound {
-    double seconds = 0;                                    // of the whole sound
-    std::vector<std::pair<float, float>> envelope_pascal;  // least and largest in equal steps over the whole
-    std::vector<ReportWave> waves;                         // as the paper's figure 8: two
-    // What the page plays: the stretch from heard_from_s, stereo samples in turn, full scale 1, at most
-    // kReportSoundS of it (the rest is left out).
+    double seconds = 0;  // of the whole sound
+    std::vector<std::pair<float, float>>
+        envelope_pascal;            // least and largest value in equal steps over the whole sound
+    std::vector<ReportWave> waves;  // two, as in figure 8 of the paper
+    // Sound played by the page: from heard_from_s on, interleaved stereo samples, full scale 1, at most
+    // kReportSoundS (the rest is left out).
     double heard_from_s = 0, rate_hz = 48000;
     std::vector<float> stereo;
 };
-inline constexpr double kReportSoundS = 10;  // 2.6 MB of the 5 that the page may weigh
+inline constexpr double kReportSoundS = 10;  // 2.6 MB of the 5 MB limit of the page
 
 struct ReportData {
     std::string title, subtitle;
     Summary summary;
     std::string picture_png;         // bytes of a PNG; empty: no picture
-    std::optional<ReportPart> part;  // shown in 3D in the picture's place, where the browser can
+    std::optional<ReportPart> part;  // shown in 3D instead of the picture, if the browser can
     std::vector<ReportRow> rows;     // in the order of time
     std::optional<ReportTurn> turn;
     std::optional<ReportSound> sound;
-    std::vector<std::pair<std::string, std::string>> facts;  // what it rests on: name, text
+    std::vector<std::pair<std::string, std::string>> facts;  // basis of the results: name, text
 };
 
-// At most `most` rows: neighbours without a gap between them are joined; the joined row keeps the place of
-// the largest force and means the mean over time.
+// Returns at most `most` rows. Neighbours without a gap are joined; a joined row has the position of the
+// largest force and the mean over time.
 std::vector<ReportRow> thin_rows(const std::vector<ReportRow>& rows, std::size_t most);
 
-// The whole page.
+// Returns the whole page.
 std::string report_html(const ReportData& data);
 
 }  // namespace tribo::report

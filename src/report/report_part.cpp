@@ -13,12 +13,12 @@ namespace tribo::report {
 namespace {
 
 constexpr std::int64_t kCellsAnAxis = 1 << 18;
-// So far out of its cell a vertex may lie, of the cell's side.
+// Largest distance of a vertex from its cell, in cell sides.
 constexpr double kOutside = 0.3;
-// From one size of cells to the next, where there were too many.
+// Factor on the cell size if there were too many cells.
 constexpr double kCoarser = 1.15;
 
-// The number of a vertex's cell and kind; sorted, they come together.
+// Index of the cell and kind of a vertex. After sorting, equal ones are adjacent.
 std::int64_t cell_of(Vec3 p, std::uint8_t kind, Vec3 least, double cell_mm) {
     std::int64_t key = kind;
     for (int axis = 0; axis < 3; ++axis)
@@ -26,7 +26,7 @@ std::int64_t cell_of(Vec3 p, std::uint8_t kind, Vec3 least, double cell_mm) {
     return key;
 }
 
-// For each vertex the index of its cell among those that hold any, and how many those are.
+// For each vertex the index of its cell among the occupied cells, and the number of these.
 std::size_t number_cells(const TriangleMesh& mesh, const std::vector<std::uint8_t>& kinds, Vec3 least,
                          double cell_mm, std::vector<std::uint32_t>& of) {
     std::vector<std::pair<std::int64_t, std::uint32_t>> keys(mesh.positions.size());
@@ -55,7 +55,7 @@ Grid grid_of(const TriangleMesh& mesh) {
     return {box.min, longest > 0 ? longest / 65535 : 1};
 }
 
-// Steps of a deviation: the whole range of the colours and as much again.
+// Range of stored deviations: twice the range of the colours.
 double deviation_step_mm(const ReportPart& part) {
     return 2 * part.deviation_range_mm / 32767;
 }
@@ -80,7 +80,7 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most,
     const Box3 box = bounds(mesh);
     const Vec3 size = box.size();
     const double longest = std::max({size.x, size.y, size.z, std::numeric_limits<double>::min()});
-    // A surface of that area fills about two cells for each square of a cell's side.
+    // A surface of that area occupies about two cells for each square of a cell side.
     double cell = std::max(std::sqrt(area_mm2(mesh) / static_cast<double>(std::max<std::size_t>(most, 1))),
                            longest / (kCellsAnAxis - 1));
     std::vector<std::uint32_t> cell_of_vertex;

@@ -13,7 +13,7 @@ void set_with_band(files::Json& json, const std::string& key, double value, cons
     }
 }
 
-// Sixteen hexadecimal digits: JSON's numbers are doubles for many readers, and would lose bits.
+// Sixteen hexadecimal digits: many readers store JSON numbers as doubles and would lose bits.
 std::string hex(std::uint64_t value) {
     constexpr char digits[] = "0123456789abcdef";
     std::string text(16, '0');
