@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of learn.wasm: recordings of friction in, a material file out. Handles come from
-// learn_create and end with learn_destroy. What is wrong with a recording is said in words, never by a trap;
-// memory that runs out is one.
+// The C ABI of learn.wasm: recordings of friction in, a material file out. Handles are created by
+// learn_create and ended by learn_destroy. Errors of a recording are texts, never traps; only a lack of
+// memory traps.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -30,8 +30,8 @@ TRIBO_EXPORT(learn_destroy) void learn_destroy(Learning* l) {
     delete l;
 }
 
-// One more recording, mono; its samples, full scale 1, are to be written where this says, before any other
-// call. Channels and bits (0: not integers) as its file has them.
+// Adds a mono recording. The caller must write its samples, full scale 1, to the returned address before any
+// other call. Channels and bits (0: not integers) as in its file.
 TRIBO_EXPORT(learn_add)
 double* learn_add(Learning* l, const char* name, std::uint32_t name_bytes, std::uint32_t samples,
                   double sample_rate_hz, double speed_mm_per_s, double force_n, std::int32_t channels,
@@ -43,8 +43,8 @@ double* learn_add(Learning* l, const char* name, std::uint32_t name_bytes, std::
     return l->recordings.back().samples.data();
 }
 
-// 1: learned, learn_text() is the material file, which knows no picture yet; 0: learn_text() says what is
-// wrong with a recording.
+// Returns 1 on success: learn_text() is the material file, still without a picture. Returns 0 on failure:
+// learn_text() is the error.
 TRIBO_EXPORT(learn_run) std::uint32_t learn_run(Learning* l) {
     const noise::LearningOptions options;
     const Result<noise::Learned> learned = noise::learn(l->recordings, options);
@@ -58,12 +58,12 @@ TRIBO_EXPORT(learn_run) std::uint32_t learn_run(Learning* l) {
     return 1;
 }
 
-// UTF-8 that ends with a zero.
+// UTF-8 with a terminating zero.
 TRIBO_EXPORT(learn_text) const char* learn_text(const Learning* l) {
     return l->text.c_str();
 }
 
-// One a line: UTF-8 that ends with a zero.
+// One warning per line: UTF-8 with a terminating zero.
 TRIBO_EXPORT(learn_warnings) const char* learn_warnings(const Learning* l) {
     return l->warnings.c_str();
 }

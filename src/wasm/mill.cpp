@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of tribo.wasm for the mill page's worker: files in by name, a job opened, time that passes,
-// frames out (docs/live-protocol.md) that the page cannot tell from an engine's. One mill a module.
+// The C ABI of tribo.wasm for the worker of the mill page: files in by name, a job opened, time that passes,
+// frames out (docs/live-protocol.md). The frames are the same as those of an engine. One mill per module.
 //
 // Texts go in as bytes and a length, in memory from tribo_allocate; what comes out stays until the next call.
 #include <cstdint>
@@ -21,8 +21,8 @@ namespace {
 using namespace tribo;
 
 struct Mill {
-    job::MemorySource files;  // as the page has put them
-    // Each of the three goes before those above it.
+    job::MemorySource files;  // given by the page
+    // Each of these three must be destroyed before those above it.
     std::unique_ptr<session::LiveMill> live;
     std::unique_ptr<session::LiveController> controller;
     std::unique_ptr<session::SingleThreadedTouch> touch;
@@ -54,7 +54,7 @@ void keep(std::span<const std::uint8_t> frame) {
 
 }  // namespace
 
-// Puts a file; `bytes` may be released afterwards.
+// Stores a file; `bytes` may be released afterwards.
 TRIBO_EXPORT(mill_put_file)
 void mill_put_file(const char* name, std::uint32_t name_length, const char* bytes, std::uint32_t length) {
     mill().files.put(text_of(name, name_length), text_of(bytes, length));
@@ -63,9 +63,9 @@ TRIBO_EXPORT(mill_forget_files) void mill_forget_files() {
     mill().files.clear();
 }
 
-// Opens a job or a program of the files; `part` names a model as its designed surface, or nothing. cell_mm 0:
-// as fine as the job needs. 1: opened, mill_text() has its warnings, one a line; 0: refused, it says why, and
-// what was open stays.
+// Opens a job or a program of the files. `part` names a model as its designed surface, or is empty. cell_mm
+// 0: the default spacing of the job. Returns 1 on success: mill_text() has the warnings, one per line.
+// Returns 0 if refused: mill_text() has the error, and the open job stays.
 TRIBO_EXPORT(mill_open)
 std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char* part,
                         std::uint32_t part_length, double cell_mm) {
@@ -78,7 +78,7 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     for (const Warning& w : loaded->warnings) warnings += w.message() + "\n";
     session::LiveExtras extras{loaded->listening, {}};
     if (loaded->part) extras.designed = std::make_shared<const TriangleMesh>(*std::move(loaded->part));
-    // Set back, the program begins again from the files.
+    // When the clock is set back, the program begins again from the files.
     auto ready = std::make_shared<std::optional<session::MillSetup>>(std::move(loaded->setup));
     const auto make_setup = [=]() -> Result<session::MillSetup> {
         if (*ready) return *std::exchange(*ready, std::nullopt);
@@ -101,13 +101,13 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     return true;
 }
 
-// What there was to say last, ended by a zero.
+// Returns the last text, with a terminating zero.
 TRIBO_EXPORT(mill_text) const char* mill_text() {
     return mill().text.c_str();
 }
 
-// A command (protocol/live_command.hpp): its operation, and what that brings along. 1: obeyed; 0: refused,
-// mill_text() says why.
+// Executes a command (protocol/live_command.hpp): its operation and its values. Returns 1 on success, 0 if
+// refused; mill_text() has the error.
 TRIBO_EXPORT(mill_command)
 std::uint32_t mill_command(const char* op, std::uint32_t op_length, double value, std::uint32_t on,
                            double x_mm, double y_mm, double z_mm, const char* word,
@@ -121,12 +121,12 @@ std::uint32_t mill_command(const char* op, std::uint32_t op_length, double value
     const auto obeyed = mill().controller->obey(command);
     return obeyed ? 1 : refuse(obeyed.error());
 }
-// What is set, as an engine tells a page; of an open mill.
+// Returns the settings of the open mill, in the form that an engine sends to a page.
 TRIBO_EXPORT(mill_settings) const char* mill_settings() {
     mill().text = protocol::live_settings(mill().controller->settings());
     return mill().text.c_str();
 }
-// All materials that are known, one a line.
+// Returns all known materials, one per line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {
     mill().text.clear();
     for (const milling::WorkpieceMaterial& m : milling::materials()) {
@@ -136,8 +136,9 @@ TRIBO_EXPORT(mill_materials) const char* mill_materials() {
     return mill().text.c_str();
 }
 
-// dt_s of the viewer's time passes; mills on for at most so many looks at it (a few moves each), as there is
-// no clock here. Gives the bytes of frames at mill_frames(), or -1: refused, mill_text() says why.
+// Advances the time of the viewer by dt_s. Mills for at most that many checks of the time budget (a few moves
+// each), as there is no clock here. Returns the number of bytes of frames at mill_frames(), or -1 on failure;
+// mill_text() has the error.
 TRIBO_EXPORT(mill_tick) std::int32_t mill_tick(double dt_s, std::uint32_t looks) {
     mill().frames.clear();
     if (!mill().live) return 0;

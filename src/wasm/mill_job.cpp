@@ -11,7 +11,7 @@
 namespace tribo::wasm {
 namespace {
 
-// A module may hold 4 GB, and a phone's page much less.
+// A module can hold 4 GB, and the page of a phone much less.
 constexpr double kMostBytes = 1.2e9;
 
 Result<void> check_memory(const session::MillSetup& setup, const std::string& name) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A job, or a program that comes alone, ready to be milled in the page.
+// Loads a job, or a single program, for milling in the page.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ struct LoadedMill {
     session::MillSetup setup;
     job::Listening listening;
     std::optional<TriangleMesh> part;  // the designed surface
-    std::string material;              // its name, or nothing where the job has coefficients of its own
+    std::string material;              // its name; empty: the job has its own coefficients
     Warnings warnings;
 };
 
-// `name`: a .toml job, or a program, for which the rest is assumed and said; a model among the files is its
-// designed surface where `part` names it. Refuses what would not fit into a module's memory.
+// `name`: a .toml job, or a program, whose other inputs are assumed, with warnings. `part`: name of a model
+// among the files, for the designed surface. Refuses a job that does not fit into the memory of a module.
 Result<LoadedMill> load_mill(const job::FileSource& files, const std::string& name, const std::string& part,
                              std::optional<double> cell_mm);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of mill_sound.wasm, for the mill page's AudioWorklet: frames in (docs/live-protocol.md), sound
-// out. One listener a module.
+// The C ABI of mill_sound.wasm for the AudioWorklet of the mill page: frames in (docs/live-protocol.md),
+// sound out. One listener per module.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -30,7 +30,7 @@ Ear& ear() {
 
 }  // namespace
 
-// 1: ready; 0: no such sample rate. Takes some 50 ms.
+// Returns 1 if ready, 0 for a sample rate out of range. Takes about 50 ms.
 TRIBO_EXPORT(sound_open) std::uint32_t sound_open(double sample_rate_hz) {
     tribo::sound::SoundtrackOptions options;
     if (!(sample_rate_hz >= tribo::sound::kLowestSampleRateHz &&
@@ -44,7 +44,7 @@ TRIBO_EXPORT(sound_open) std::uint32_t sound_open(double sample_rate_hz) {
     return 1;
 }
 
-// Frames of kinds job, listening and sound count; others and damaged ones are left alone.
+// Takes frames of the kinds job, listening and sound. Other and damaged frames are ignored.
 TRIBO_EXPORT(sound_take) void sound_take(const std::uint8_t* bytes, std::uint32_t length) {
     using tribo::protocol::LiveFrame;
     if (!ear().sound) return;
@@ -63,7 +63,7 @@ TRIBO_EXPORT(sound_follow)
 void sound_follow(double t_s, double speed, std::uint32_t playing, double lead_s) {
     if (ear().sound) ear().sound->follow(t_s, speed, playing != 0, lead_s);
 }
-// At most 1024 frames, left and right by turns.
+// Renders at most 1024 frames, left and right interleaved.
 TRIBO_EXPORT(sound_render) const float* sound_render(std::uint32_t frames) {
     if (ear().sound) ear().sound->render({ear().out.data(), std::size_t{2} * std::min(frames, kMostFrames)});
     return ear().out.data();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The whole run-time system of a module: memory that runs out and library checks that fail stop the module by
-// a trap instead of printing. Without it libc++ and wasi-libc pull in standard output, and the module would
-// import functions of a system that a browser has not got. Linked into every module; overrides the libraries'
-// own.
+// The complete run-time system of a module. Out of memory and failed library checks stop the module by a
+// trap, without printing. Otherwise libc++ and wasi-libc would include standard output, and the module would
+// import system functions that a browser does not have. Linked into every module; overrides the functions of
+// the libraries.
 #include <__verbose_abort>
 #include <cstddef>
 #include <cstdlib>

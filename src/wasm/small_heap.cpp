@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
-// malloc for modules that are to be small: free blocks in one list by address, first fit, neighbours joined
-// when one is freed. An eighth of the code of the library's own; slower where thousands of blocks are free,
-// which never happens here. One thread.
+// malloc for small modules: free blocks in one list by address, first fit, neighbours joined on free. It has
+// an eighth of the code size of the library's malloc. It is slower with thousands of free blocks, which never
+// occur here. One thread.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
-// Where the linker's data ends.
+// The end of the linker's data.
 extern "C" unsigned char __heap_base;
 
 namespace {
 
 constexpr std::size_t kAlign = 16, kPage = 65536;
 
-// In front of every block, and all of a free one that is used.
+// Header of every block. Free blocks use all of it.
 struct alignas(kAlign) Block {
-    std::size_t bytes;  // with this head
-    Block* next;        // of a free one
+    std::size_t bytes;  // including this header
+    Block* next;        // of a free block
 };
 static_assert(sizeof(Block) == kAlign);
 
@@ -67,7 +67,7 @@ bool grow(std::size_t bytes) {
     return true;
 }
 
-// A block whose content is aligned to `alignment`, a power of two of kAlign and more.
+// Returns a block aligned to `alignment`, a power of two >= kAlign.
 void* take(std::size_t bytes, std::size_t alignment) {
     if (bytes > PTRDIFF_MAX - alignment - 2 * kPage) return nullptr;
     bytes = (bytes + kAlign - 1) / kAlign * kAlign + sizeof(Block);

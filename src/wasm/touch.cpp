@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of touch.wasm, the page's side: a sheet. Handles come from sheet_create and end with
-// sheet_destroy. Numbers out of range are brought into it; what is not a number is ignored, as the rooms do.
-// Buffers move when memory grows: ask for them after calls.
+// The C ABI of touch.wasm for the page: a sheet. Handles are created by sheet_create and ended by
+// sheet_destroy. Numbers out of range are clamped; NaN is ignored, as in the rooms. Buffers move when memory
+// grows: request them after each call.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -53,7 +53,7 @@ void sheet_set_material(TouchSheet* s, double stiffness_n_per_mm, double viscosi
     s->sheet.set_material(material(stiffness_n_per_mm, viscosity_n_s_per_mm));
 }
 
-// Levels, one byte a node, row by row; palette: stiffness and viscosity of each of the 256 levels.
+// Sets levels, one byte per node, row by row. `palette`: stiffness and viscosity of each of the 256 levels.
 TRIBO_EXPORT(sheet_set_materials)
 void sheet_set_materials(TouchSheet* s, const std::uint8_t* levels, const double* palette) {
     std::array<SheetMaterial, 256> materials;
@@ -64,8 +64,8 @@ void sheet_set_materials(TouchSheet* s, const std::uint8_t* levels, const double
     s->sheet.set_materials({levels, static_cast<std::size_t>(size.width * size.height)}, materials);
 }
 
-// Where to write contacts before sheet_press: x_mm, y_mm, half_width_mm, half_height_mm, angle_rad, force_n,
-// held_s; doubles.
+// Address for contacts, to be written before sheet_press: x_mm, y_mm, half_width_mm, half_height_mm,
+// angle_rad, force_n, held_s; doubles.
 TRIBO_EXPORT(sheet_contacts) ContactEllipse* sheet_contacts(TouchSheet* s) {
     static_assert(sizeof(ContactEllipse) == 7 * sizeof(double));
     return s->contacts.data();
@@ -79,7 +79,7 @@ void sheet_press(TouchSheet* s, std::uint32_t count, std::uint32_t point, std::u
     s->sheet.press({s->contacts.data(), std::min(count, kMostContacts)}, options);
 }
 
-// 1 while anything moves.
+// Returns 1 while anything moves.
 TRIBO_EXPORT(sheet_step)
 std::uint32_t sheet_step(TouchSheet* s, double duration_s, std::uint32_t as_published) {
     using tribo::elastic::TimeScheme;
@@ -90,14 +90,14 @@ TRIBO_EXPORT(sheet_reset) void sheet_reset(TouchSheet* s) {
     s->sheet.reset();
 }
 
-// x, y, width, height of what moved since the last call; width 0: nothing.
+// Returns x, y, width, height of the region that changed since the last call; width 0: no change.
 TRIBO_EXPORT(sheet_changes) const std::int32_t* sheet_changes(TouchSheet* s) {
     const tribo::elastic::NodeRect rect = s->sheet.take_changes();
     s->changes = {rect.x, rect.y, rect.width, rect.height};
     return s->changes.data();
 }
 
-// First node of the first row; rows are sheet_stride floats apart.
+// Returns the first node of the first row. Rows are sheet_stride floats apart.
 TRIBO_EXPORT(sheet_heights) const float* sheet_heights(const TouchSheet* s) {
     return s->sheet.heights(0);
 }
@@ -105,14 +105,14 @@ TRIBO_EXPORT(sheet_stride) std::int32_t sheet_stride(const TouchSheet* s) {
     return static_cast<std::int32_t>(s->sheet.stride());
 }
 
-// x or y of the unit normals, brought up to date; laid out as the heights.
+// Returns x or y of the updated unit normals, in the layout of the heights.
 TRIBO_EXPORT(sheet_normals) const float* sheet_normals(TouchSheet* s, std::uint32_t axis) {
     s->sheet.update_normals();
     return axis == 0 ? s->sheet.normals_x(0) : s->sheet.normals_y(0);
 }
 
-// The small relief of width x height pixels of four bytes, in their place: the first two bytes of each become
-// the slopes x and y of SmallRelief, and 128.
+// Computes the small relief of width x height pixels of four bytes, in place. The first two bytes of each
+// pixel become the slopes x and y of SmallRelief, with an offset of 128.
 TRIBO_EXPORT(sheet_small_relief)
 void sheet_small_relief(std::uint8_t* rgba, int width, int height, double rms_slope) {
     const std::size_t bytes =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The C ABI of touch.wasm, the AudioWorklet's side: a friction voice. Handles come from voice_create and end
-// with voice_destroy.
+// The C ABI of touch.wasm for the AudioWorklet: a friction voice. Handles are created by voice_create and
+// ended by voice_destroy.
 #include <cstdint>
 
 #include "material/voice_numbers.hpp"
@@ -13,7 +13,8 @@ namespace {
 using namespace tribo;
 using noise::FrictionVoice;
 
-// Why voice_create gave none. The longest: line_spectrum_hz and a cause of three times its length.
+// The reason of a failed voice_create. The longest text: line_spectrum_hz, and a cause of three times its
+// length.
 char refusal_text[128];
 
 void keep(const material::Refusal& refusal) {
@@ -26,8 +27,8 @@ void keep(const material::Refusal& refusal) {
 
 }  // namespace
 
-// A voice from the numbers of material/voice_numbers.hpp. Null where they are no voices, or the rate is not
-// from 1000 to 192000 Hz; voice_refusal() then says why.
+// Makes a voice from the numbers of material/voice_numbers.hpp. Returns null if they are not valid voices or
+// the rate is not within 1000 to 192000 Hz; voice_refusal() then gives the reason.
 TRIBO_EXPORT(voice_create)
 FrictionVoice* voice_create(const double* numbers, std::uint32_t length, double sample_rate_hz,
                             std::uint32_t seed, std::uint32_t as_published) {
@@ -45,7 +46,7 @@ FrictionVoice* voice_create(const double* numbers, std::uint32_t length, double 
     options.as_published = as_published != 0;
     return new FrictionVoice(*voices, options);
 }
-// Text that ends with a zero, ASCII: the key and what is wrong with it.
+// ASCII text with a terminating zero: the key and its error.
 TRIBO_EXPORT(voice_refusal) const char* voice_refusal() {
     return refusal_text;
 }
@@ -60,7 +61,7 @@ void voice_set_target(FrictionVoice* voice, double speed_mm_per_s, double force_
 TRIBO_EXPORT(voice_render) void voice_render(FrictionVoice* voice, float* out, std::uint32_t frames) {
     voice->render({out, frames});
 }
-// RMS, full scale 1, that the present speed and force lead to.
+// RMS level of the current speed and force, full scale 1.
 TRIBO_EXPORT(voice_gain) double voice_gain(const FrictionVoice* voice) {
     return voice->target_gain();
 }
