@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a job is heard: the head, and the recordings that the job names.
+// Head and recordings of a job, for its sound.
 #pragma once
 
 #include <memory>

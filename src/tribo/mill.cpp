@@ -34,7 +34,7 @@ Result<void> check(const MillOptions& options) {
     return {};
 }
 
-// The finest grid that fits is named, as the options spell it.
+// The message names the finest grid that fits, by the name of the option.
 Result<void> check_memory(const session::MillSetup& setup, const MillOptions& options,
                           const std::string& file) {
     const double budget = options.memory_mb ? *options.memory_mb * kMegabyte

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A milling job from its file to forces, contacts and the part: what `tribo render` does, for programs.
+// A milling job from its file to forces, contacts and the part: the computation of `tribo render`, for
+// programs.
 //
 //     auto mill = tribo::Mill::open(argv[1]);
 //     if (!mill) return std::puts(mill.error().text().c_str()), 2;
@@ -31,48 +32,48 @@
 namespace tribo {
 
 struct MillOptions {
-    // Spacing of the stock's grid, 0.001 ... 10 mm; absent: as fine as the job needs.
+    // Grid spacing of the stock, 0.001 ... 10 mm; absent: the default spacing of the job.
     std::optional<double> cell_mm{};
-    // Mills no further than this time of the program; absent: to its end.
+    // Mills up to this time of the program; absent: to its end.
     std::optional<double> until_s{};
-    int threads = 0;  // at most; 0: as many as the process may use, which is never exceeded
-    // The run may hold as much memory as this; absent: as the machine gives.
+    int threads = 0;  // upper limit; 0: all that the process may use, which is never exceeded
+    // Memory limit of the run; absent: given by the machine.
     std::optional<double> memory_mb{};
 };
 
-// A job or a program, open and milled row by row. One thread at a time.
+// An open job or program, milled row by row. One thread at a time.
 class Mill {
   public:
-    // A job (docs/job.md), or a program in any language that Tribo reads, with a blank and a tool that are
-    // assumed. Refused, with file, line and remedy: what cannot be read or run, and what would not fit into
-    // memory.
+    // Opens a job (docs/job.md), or a program in any language that Tribo reads, with an assumed blank and
+    // tool. Refuses, with file, line and remedy, inputs that cannot be read or run, and a job that does not
+    // fit into memory.
     static FileResult<Mill> open(const std::string& file, const MillOptions& options = {});
     Mill(Mill&&) noexcept;
     Mill& operator=(Mill&&) noexcept;
     ~Mill();
 
-    // What was assumed, and what the run found (teeth that rub, a part that stands out of the stock).
+    // Assumptions, and findings of the run (for example rubbing teeth, or a part outside of the stock).
     Warnings warnings() const;
     double duration_s() const;                            // of the program, or until_s
     const std::vector<milling::Cutter>& cutters() const;  // CutRow::cutter is an index into it
 
-    // Each stretch of the cut in the order of time; the references are valid during the call.
+    // Receives each piece of the cut in the order of time. The references are valid during the call.
     using OnRow = std::function<void(const milling::CutRow&, const milling::RowForce&)>;
-    // Told now and then how much is done, 0 ... 1; false stops the run.
+    // Called from time to time with the finished share, 0 ... 1; false stops the run.
     using OnProgress = std::function<bool(double fraction)>;
-    // Mills on to the end. False: stopped.
+    // Mills to the end. Returns false if stopped.
     bool run(const OnRow& on_row = {}, const OnProgress& on_progress = {});
-    // Mills on through the moves that begin before `t_s`.
+    // Mills the moves that begin before `t_s`.
     bool run_to(double t_s, const OnRow& on_row = {}, const OnProgress& on_progress = {});
 
-    // What every sense needs to know of a row, at a time of it. The sample borrows from `force`.
+    // Returns the contact of a row at a time within it, for all senses. The sample refers to `force`.
     contact::ContactSample contact(const milling::CutRow& row, const milling::RowForce& force,
                                    double t_s) const;
 
-    const session::MillTotals& totals() const;  // complete when run() gave true
-    TriangleMesh part() const;                  // the material that is left: closed, outward normals
-    // The distance to the material that is left, for haptics::FieldContact; as long as the mill lives, and
-    // while it does not run.
+    const session::MillTotals& totals() const;  // complete after run() has returned true
+    TriangleMesh part() const;                  // the remaining material: closed, outward normals
+    // The distance to the remaining material, for haptics::FieldContact. Valid during the life of the mill,
+    // except while it runs.
     const contact::DistanceField& surface() const;
 
   private:

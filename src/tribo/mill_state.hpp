@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a Mill holds. Not installed.
+// The data of a Mill. Not installed.
 #pragma once
 
 #include <memory>

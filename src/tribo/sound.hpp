@@ -23,34 +23,34 @@
 
 namespace tribo {
 
-// How places are heard.
+// The way in which directions are rendered.
 enum class Ears { as_the_job_says, measured_head, sphere, panning };
 
 struct SoundOptions {
     int sample_rate_hz = 48000;         // 32000 ... 192000
-    std::optional<Vec3> listener_mm{};  // stock frame, looks along +y; absent: as the job says
+    std::optional<Vec3> listener_mm{};  // stock frame, looks along +y; absent: that of the job
     Ears ears = Ears::as_the_job_says;
 };
 
-// What is heard of a cut: contact samples in, stereo out.
+// The sound of a cut: contact samples in, stereo out.
 class CutSound {
   public:
-    // Machine, room, chips, levels and recordings are the job's. Refused: options out of range, and sound
+    // Takes machine, room, chips, levels and recordings from the job. Refuses options out of range, and sound
     // files that cannot be read.
     static FileResult<CutSound> of(const Mill& mill, const SoundOptions& options = {});
     CutSound(CutSound&&) noexcept;
     CutSound& operator=(CutSound&&) noexcept;
     ~CutSound();
 
-    const Warnings& warnings() const;  // that a head is missing, for instance
-    // The contact moves on to `next`, whose time is the track's; render frames_left() frames before the one
-    // after it. False: a number is not finite, nothing changes. The sample is not kept.
+    const Warnings& warnings() const;  // for example a missing head
+    // Moves the contact to `next`, at its time in the track. Render frames_left() frames before the next
+    // call. Returns false and changes nothing if a number is not finite. The sample is not kept.
     bool excite(const contact::ContactSample& next);
     std::int64_t frames_left() const;
-    // No contact from now on; what sounds dies away within tail_seconds().
+    // Ends the contact. The sound decays within tail_seconds().
     void release();
     double tail_seconds() const;
-    // The next interleaved.size() / 2 frames, full scale 1 and never beyond.
+    // Renders the next interleaved.size() / 2 frames, within full scale 1.
     void render(std::span<float> interleaved);
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pool of threads, handed to the rooms as a ParallelFor.
+// A thread pool as a ParallelFor.
 #pragma once
 
 #include "base/parallel.hpp"

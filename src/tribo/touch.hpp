@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A material under a finger: its image yields, and rubbing it sounds as it was recorded (docs/touch.md).
+// A material under a finger: its image yields, and rubbing sounds as recorded (docs/touch.md).
 //
 //     auto material = tribo::TouchMaterial::open(argv[1], {.size_px = 256});
 //     const tribo::elastic::ContactEllipse finger{.x_mm = middle, .y_mm = middle, .force_n = 0.8};
@@ -30,34 +30,34 @@ struct TouchOptions {
     std::uint64_t seed = 1;         // of its noise
 };
 
-// A material that is pressed, drawn and rubbed.
+// A material that can be pressed, drawn and rubbed.
 class TouchMaterial {
   public:
-    // A material file (docs/material.md) with its image and height map. Refused, with file and key: what
-    // cannot be read, and options out of range.
+    // Opens a material file (docs/material.md) with its image and height map. Refuses, with file and key,
+    // files that cannot be read, and options out of range.
     static FileResult<TouchMaterial> open(const std::string& file, const TouchOptions& options = {});
     TouchMaterial(TouchMaterial&&) noexcept;
     TouchMaterial& operator=(TouchMaterial&&) noexcept;
     ~TouchMaterial();
 
-    const Warnings& warnings() const;  // that a plain image stands for a missing one, for instance
+    const Warnings& warnings() const;  // for example a plain image in place of a missing one
     int size_px() const;
-    double width_mm() const;  // of the picture; x to the right, y down, from its top left corner
+    double width_mm() const;  // of the picture; x to the right, y down, from the top left corner
 
-    // What presses from now on. A contact that does not touch (elastic::touches) counts as none.
+    // Sets the contacts. A contact that does not touch (elastic::touches) has no effect.
     void press(std::span<const elastic::ContactEllipse> contacts);
-    // Lets time pass; not above 0 or not finite: nothing happens. False: nothing moves any more.
+    // Advances the time; values <= 0 or not finite have no effect. Returns false when nothing moves any more.
     bool step(double duration_s);
-    // How deep each pixel is pressed, mm, negative into the image; rows from the top.
+    // Depth of each pixel, mm, negative into the image; rows from the top.
     std::span<const float> depths_mm(int row) const;
-    // Four bytes a pixel (RGBA, sRGB), from the top; at rest the image itself, byte by byte. `rgba` holds
-    // size_px x size_px pixels (asserted).
+    // Draws four bytes a pixel (RGBA, sRGB), from the top; at rest exactly the bytes of the image. `rgba`
+    // must have size_px x size_px pixels (asserted).
     void draw(std::span<std::uint8_t> rgba) const;
 
     bool sounds() const;  // the material has voices
-    // Speed along the surface and force into it; 0 or less of either, or what is not a number: silence.
+    // Sets the speed along the surface and the force into it. Values <= 0 and NaN give silence.
     void rub(double speed_mm_per_s, double force_n);
-    // The next frames, mono, full scale 1 and never beyond; silence without voices. Real-time safe.
+    // Renders the next frames, mono, within full scale 1; silence without voices. Real-time safe.
     void render(std::span<float> out);
 
   private:

@@ -24,7 +24,7 @@ struct TouchImage {
     elastic::Finish finish() const;  // borrows the relief
 };
 
-// A plain image stands for a missing one, and kAssumedWidthMm for a missing width_mm; both with a warning.
+// If the image or width_mm is missing, uses a plain image or kAssumedWidthMm, with a warning.
 inline constexpr double kAssumedWidthMm = 100;
 FileResult<TouchImage> read_touch_image(const std::string& material_file, int size_px);
 
