@@ -25,7 +25,7 @@ void catch_signals() {
     sigemptyset(&action.sa_mask);
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before = {};
-        // A program started in the background with its signals ignored keeps ignoring them.
+        // If the program was started with ignored signals (in the background), it keeps ignoring them.
         if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
         ::sigaction(number, &action, nullptr);
     }

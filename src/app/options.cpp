@@ -10,7 +10,7 @@
 namespace tribo::app {
 namespace {
 
-// The verb that was being parsed; the program itself where none was.
+// The verb that was being parsed; the program itself if there was none.
 const CLI::App& deepest(const CLI::App& program) {
     const std::vector<CLI::App*> verbs = program.get_subcommands();
     return verbs.empty() ? program : *verbs.front();

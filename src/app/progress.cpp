@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kRedrawS = 0.1;         // of the bar
 constexpr double kLineS = 5;             // between plain lines of one stage
-constexpr double kFirstEstimateS = 0.5;  // before it a remaining time would jump about
-constexpr double kLeastShare = 0.01;     // likewise
+constexpr double kFirstEstimateS = 0.5;  // an earlier estimate would be unstable
+constexpr double kLeastShare = 0.01;     // the same
 constexpr int kStageColumns = 10, kPlainColumns = 40;
 
 std::string clock_text(double seconds) {

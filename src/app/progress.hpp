@@ -10,21 +10,21 @@
 namespace tribo::app {
 
 // The text of one state: `milling  [=====>    ]  52 %  0:12 left`, at most `columns` wide. remaining_s < 0:
-// not known yet.
+// not known so far.
 std::string progress_bar(const std::string& stage, double fraction, double remaining_s, int columns);
 // `milling 52 %, 0:12 left`
 std::string progress_line(const std::string& stage, double fraction, double remaining_s);
 
 class Progress {
   public:
-    // Writes to `out`; draws a bar where `out` is a terminal.
+    // Writes to `out`; draws a bar if `out` is a terminal.
     explicit Progress(std::FILE* out = stderr);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();  // removes the bar
 
-    // The share of the whole run that is done, 0..1. May be called often and from any thread; most calls only
-    // look at the clock.
+    // Sets the finished share of the whole run, 0..1. May be called often and from any thread; most calls
+    // only read the clock.
     void update(const std::string& stage, double fraction);
     // Removes the bar, so that other text can be printed.
     void clear();

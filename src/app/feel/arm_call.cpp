@@ -43,7 +43,7 @@ double stable_stiffness(std::optional<double> asked, const haptics::DeviceLimits
                       "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
                       static_cast<int>(limits.name.size()), limits.name.data(), most);
     }
-    // Only what was asked for is worth a word.
+    // Warn only about a requested value.
     if (asked) warnings.push_back({file, 0, text});
     return most;
 }

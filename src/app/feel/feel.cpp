@@ -35,9 +35,9 @@
 namespace tribo::app {
 namespace {
 
-// A row of the trace and its share of the text, bytes: what a run may hold.
+// Limit for the memory of a run: each tick needs a row of the trace and its text.
 constexpr double kMostTicks = 20e6;
-// By the clock, the part in cut mode is milled on this often.
+// With a real clock, the part in cut mode is milled at this interval.
 constexpr std::chrono::milliseconds kMillEvery{5};
 
 report::DurationFigures figures_of(const devices::DurationHistogram& histogram) {
@@ -76,7 +76,7 @@ Result<std::unique_ptr<haptics::Device>> open_device(const FeelCall& call, hapti
     return devices::open_arm(call.device, mounting(call.arm, blank));
 }
 
-// The servo over a whole stroke, and what is known of it afterwards.
+// Runs the servo over a whole stroke and keeps its results.
 class Run {
   public:
     Run(haptics::Device& device, haptics::ForceSource& source, const haptics::SafetyLimits& limits,
@@ -88,7 +88,7 @@ class Run {
         trace_.resize(count_);
     }
 
-    // Tick by tick as fast as it goes; time is counted, not measured.
+    // Runs tick after tick without waiting; time is counted, not measured.
     bool count_through(FeelSource& felt, report::FeelStats& stats) {
         devices::TickClock clock;
         Progress progress;
@@ -110,7 +110,7 @@ class Run {
         return true;
     }
 
-    // By the clock, on a thread of its own.
+    // Runs with a real clock on a separate thread.
     bool run_in_time(FeelSource& felt, report::FeelStats& stats) {
         std::atomic<double> clock_s = 0;
         std::atomic<bool> over = false;
@@ -170,7 +170,7 @@ class Run {
     std::vector<readers::FeelTraceRow> trace_;
 };
 
-// What is to be felt: a job that is milled, or a model as it is.
+// The object to feel: a job that is milled, or a model.
 struct Part {
     job::Job job;
     std::optional<session::MillSetup> setup, in_time;

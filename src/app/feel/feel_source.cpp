@@ -16,7 +16,7 @@
 namespace tribo::app {
 namespace {
 
-// Radius of a fingertip, where --probe-mm says no other.
+// Radius of a fingertip, if --probe-mm is not given.
 constexpr double kFingerMm = 8;
 
 }  // namespace
@@ -43,7 +43,7 @@ FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
 std::optional<contact::ForceTable> FeelSource::baked(std::uint64_t key) const {
     if (call_.bake.empty()) return std::nullopt;
     auto file = files::MappedFile::open(call_.bake);
-    if (!file) return std::nullopt;  // not baked yet
+    if (!file) return std::nullopt;  // not baked so far
     auto bake = readers::read_force_bake((*file)->bytes(), *file, call_.bake);
     if (!bake) {
         report(Warnings{{call_.bake, 0, bake.error().cause + "; it is baked again"}});
@@ -77,7 +77,7 @@ haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) 
     haptics::ContactOptions contact;
     contact.stiffness_n_per_mm = surface_n_per_mm_;
     contact.probe_radius_mm = call_.probe_mm;
-    // A flag for one of the two is not mixed with the job's other one.
+    // If one of the two flags is given, neither value is taken from the job.
     const bool called = call_.friction_static || call_.friction_kinetic;
     const auto& friction_static = called ? call_.friction_static : job_.haptics.friction_static;
     const auto& friction_kinetic = called ? call_.friction_kinetic : job_.haptics.friction_kinetic;
@@ -87,7 +87,7 @@ haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) 
     contact.tick_s = 1 / call_.rate_hz;
     if (job_.haptics.probe == job::ProbeKind::ray) probe = haptics::ProbeShape::ray();
     if (job_.haptics.probe == job::ProbeKind::cylinder) {
-        // The radius is the finger's, not that of the points on it.
+        // The radius is that of the finger, not of the points on it.
         probe = haptics::ProbeShape::cylinder(call_.probe_mm > 0 ? call_.probe_mm : kFingerMm);
         contact.probe_radius_mm = 0;
     }

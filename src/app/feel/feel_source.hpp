@@ -38,7 +38,7 @@ class FeelSource {
 
   private:
     FileResult<contact::ForceTableOptions> table_options() const;
-    // The table in the --bake file, if it belongs to this job.
+    // Reads the table in the --bake file, if it belongs to this job.
     std::optional<contact::ForceTable> baked(std::uint64_t key) const;
     bool mill(session::MillSetup setup, const ParallelFor& parallel);
     haptics::ContactOptions contact_options(haptics::ProbeShape& probe) const;

@@ -12,7 +12,7 @@
 namespace tribo::app {
 namespace {
 
-// Without a screen xdg-open would start a browser of text in this very terminal.
+// Without a screen xdg-open would start a text browser in this terminal.
 bool has_screen() {
     for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
         const std::string_view text(*entry);
@@ -36,7 +36,7 @@ void open_browser(const std::string& url) {
     ::posix_spawn_file_actions_addopen(&quiet, 0, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
-    // In a group of its own: Ctrl-C ends the engine, not the browser.
+    // In a separate process group: Ctrl-C ends the engine, not the browser.
     posix_spawnattr_t apart;
     ::posix_spawnattr_init(&apart);
     ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);

@@ -17,7 +17,7 @@
 namespace tribo::app {
 namespace {
 
-// The arm that the call names; null: the simulated hand, and where "auto" found no arm, why.
+// Opens the requested arm. Returns null for the simulated hand, also if "auto" finds no arm.
 Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const Box3& blank) {
     if (call.device == "simulated") return nullptr;
     auto arm = devices::open_arm(call.device, mounting(call.arm, blank));
@@ -97,7 +97,7 @@ int live(const LiveCall& call) {
     extras.listening = job::listening_to(first->job, first->setup.blank->bounds_mm());
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
 
-    // Set back, the program begins again as its files are by then.
+    // When the clock is set back, the program begins again from the current files.
     const auto load_again = [file = call.job, options]() -> Result<session::MillSetup> {
         auto again = prepare_job(file, options);
         if (!again) return std::unexpected(Error(again.error()));

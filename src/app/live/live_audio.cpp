@@ -9,7 +9,7 @@ namespace tribo::app {
 namespace {
 
 constexpr std::size_t kBlockFrames = 128;
-// How often the thread looks whether the device took something.
+// Interval at which the thread checks whether the device has taken samples.
 constexpr auto kLook = std::chrono::milliseconds(2);
 
 }  // namespace

@@ -49,7 +49,7 @@ FileResult<net::ServerOptions> live_server_options(const LiveCall& call) {
         auto tls = read_tls(call);
         if (!tls) return std::unexpected(tls.error());
         options.tls = tls->context;
-        // Who has the key is what the certificate says.
+        // The names of this server are those of the certificate.
         options.hosts = tls->names;
     }
     if (net::is_loopback(call.listen)) return options;
@@ -64,7 +64,7 @@ FileResult<net::ServerOptions> live_server_options(const LiveCall& call) {
 std::vector<std::string> live_urls(const net::ServerOptions& options, std::uint16_t port) {
     const bool every = net::is_every_address(options.address);
     std::vector<std::string> hosts;
-    // Under another name than its certificate's, browsers warn of it.
+    // With another name than that of the certificate, browsers show a warning.
     if (options.tls) hosts = options.hosts;
     if (!options.tls) hosts.push_back(every ? "127.0.0.1" : options.address);
     if (every) {

@@ -16,11 +16,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
-// Of a frame's time, how much may go into milling: the rest is for the picture.
+// Largest part of the frame time for milling; the rest is for the picture.
 constexpr auto kMillingTime = std::chrono::microseconds(9'000);
-// A clock that did not run for longer than this (a laptop asleep) jumps no further.
+// If the clock stood still for longer (a sleeping laptop), it advances by this only.
 constexpr double kLongestStepS = 0.1;
-// Pictures from one word about the servo to the next.
+// Number of pictures between two servo reports.
 constexpr int kServoEvery = 15;
 
 net::Bytes shared(std::span<const std::uint8_t> frame) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo live` without a job: the page mills what is dropped into it by itself; the engine only serves it.
+// `tribo live` without a job: the page mills the files dropped into it; the engine only serves the page.
 #include <chrono>
 #include <mutex>
 #include <thread>
@@ -19,7 +19,7 @@ constexpr auto kLookTime = std::chrono::milliseconds(20);
 int live_without_job(const LiveCall& call) {
     const auto files = live_page(call);
     if (!files) return report(files.error());
-    // Answers that the server's thread leaves here: it may have clients before this one has the server.
+    // Answers from the thread of the server: clients may connect before this thread has the server object.
     std::mutex mutex;
     struct Answer {
         net::ClientId client;

@@ -32,9 +32,9 @@ ForceBuilder::Built ForceBuilder::take() {
 
 void ForceBuilder::work(const std::function<Result<session::MillSetup>()>& make_setup) {
     auto setup = make_setup();
-    // What cannot be set up was refused where it is shown.
+    // Errors of the setup are reported by the live view.
     if (!setup) return;
-    // One thread: the others are the picture's.
+    // One thread: the other threads work for the picture.
     session::ForceLookAhead ahead(*std::move(setup), serial_for);
     const auto has_time = [this] {
         const std::lock_guard lock(mutex_);

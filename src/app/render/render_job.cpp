@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-// What a run holds whatever it does, bytes, measured: the program itself; the report's picture and page; the
-// sound's tables.
+// Memory of every run, bytes, measured: the program itself; picture and page of the report; the tables of the
+// sound.
 constexpr double kProgramBytes = 15 * kMegabyte, kReportBytes = 58 * kMegabyte, kSoundBytes = 10 * kMegabyte;
-constexpr double kReportVertexBytes = 80;  // of the whole mesh, while the report thins it out
-// Of a comparison with a design: a sample with its copy, a point of the machined surface; of the design, a
-// triangle in trees and tables.
+constexpr double kReportVertexBytes = 80;  // of the whole mesh, while it is reduced for the report
+// For a comparison with a design: a sample with its copy; a point of the machined surface; a triangle of the
+// design in trees and tables.
 constexpr double kSampleBytes = 150, kPointBytes = 40, kTriangleBytes = 300;
 
-// The most that the run may hold at once, bytes, at a spacing of the grid.
+// Returns the peak memory of the run, bytes, at a grid spacing.
 double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
                 const session::MemoryEstimate& estimate, double cell) {
     double mesh = 0, kept = 0, comparison = 0, after = 0;

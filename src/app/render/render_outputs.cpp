@@ -16,11 +16,11 @@
 namespace tribo::app {
 namespace {
 
-// A cut that is shallower than this looks like the blank's own face.
+// A shallower cut counts as the face of the blank.
 constexpr double kOnFaceMm = 1e-3;
 constexpr std::size_t kVerticesAtOnce = 4096;
 
-// What the sound is made of, and that not all of it is measured.
+// Returns a text about the sources of the sound. It says that not all of them are measured.
 std::string sound_of(const job::Job& job) {
     const sound::Workshop w = job::listening_to(job, {}).workshop;
     std::string what(sound::machines()[w.machine].what);
@@ -139,7 +139,7 @@ FileResult<void> RenderOutputs::compare(const session::MillSession& session, rep
         options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
     }
     options.blank = &session.stock().blank();
-    // Cusps are sharpened from the samples: a cell apart is enough to find them.
+    // The positions of cusps are refined from the samples, so a spacing of one cell is enough.
     options.spacing_mm = std::max(
         session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
     const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel_);
@@ -167,7 +167,8 @@ report::ReportPart RenderOutputs::report_part(const session::MillSession& sessio
     });
     part.mesh = report::with_fewer_vertices(mesh, report::kMostPartVertices, part.untouched);
     if (!designed_) return part;
-    // The colours end at what was found where passes were; what was never reached is beyond them.
+    // The colour scale ends at the largest deviation in machined areas. Areas that the tool never reached
+    // exceed it.
     const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));
     part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kOnFaceMm);
     part.deviation_mm = surface::deviations_of(part.mesh, *designed_, parallel_);

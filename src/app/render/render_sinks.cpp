@@ -14,9 +14,9 @@
 namespace tribo::app {
 namespace {
 
-// What the report lets one hear starts this long before the first chip.
+// The sound in the report starts this long before the first chip.
 constexpr double kLeadInS = 0.2;
-// Rows that end and start within this are one cut.
+// Rows with a smaller gap are one cut.
 constexpr double kSameCutS = 1e-6;
 // Length of the waveforms of figure 8, s.
 constexpr double kWaveS = 0.02;
@@ -100,7 +100,7 @@ void SoundFile::add(const milling::CutRow& row, const milling::RowForce& force, 
     const auto sink = [this](std::span<const float> block) { write(block); };
     const double start = row.start_s;
     if (start > last_end_s_ + kSameCutS) {
-        // The tool was in the air: no cut until it meets material again.
+        // The tool was in the air; the cut ends until the next contact.
         end_cut();
         if (heard_from_ < 0) {
             track_->play_to(session::contact_in_air(row, std::max(0.0, start - kLeadInS)), sink);
@@ -177,7 +177,7 @@ std::vector<report::ReportWave> ReportRows::waves(const session::MillSetup& setu
                                                   const sound::SoundtrackOptions& options) const {
     std::vector<report::ReportWave> waves;
     if (worst_force_n_ <= 0) return waves;
-    // The force's own wave: chips and machine would hide it.
+    // Only the wave of the force, without chips and machine, which would hide it.
     sound::SoundtrackOptions force_alone = options;
     sound::apply({}, force_alone);
     force_alone.chips.learned.reset();

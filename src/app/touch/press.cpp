@@ -21,11 +21,11 @@ namespace tribo::app {
 namespace {
 
 constexpr double kMostFrames = 100'000;
-// Rows that one thread draws at a time.
+// Number of rows that one thread draws at a time.
 constexpr int kBandRows = 16;
 
 struct Inputs {
-    TouchImage touch;  // at the size of the frames
+    TouchImage touch;  // in the size of the frames
     std::vector<readers::FingerPoint> stroke;
 };
 
@@ -41,12 +41,12 @@ FileResult<Inputs> read_inputs(const PressCall& call) {
     return Inputs{*std::move(touch), *std::move(stroke)};
 }
 
-// Where the finger is at a time, and whether it touches.
+// Position of the finger at a time, and whether it touches.
 class Finger {
   public:
     explicit Finger(const std::vector<readers::FingerPoint>& points) : points_(points) {}
 
-    // Times rise from call to call.
+    // Times must increase from call to call.
     readers::FingerPoint at(double t_s) {
         while (next_ + 1 < points_.size() && points_[next_].t_s < t_s) ++next_;
         const readers::FingerPoint &a = points_[next_ - 1], &b = points_[next_];
@@ -111,7 +111,7 @@ int press(const PressCall& call) {
     if (!inputs) return report(inputs.error());
     const std::vector<readers::FingerPoint>& stroke = inputs->stroke;
     const double begin_s = stroke.front().t_s, lasts_s = stroke.back().t_s - begin_s;
-    // A frame falls due a little before its time: 0.1 s at 30 fps are three intervals, however they round.
+    // Tolerance for rounding: 0.1 s at 30 fps are three intervals.
     const double intervals = std::floor(lasts_s * call.fps + 1e-6);
     if (intervals >= kMostFrames) {
         return report(Error{call.stroke, 0, 0, "the stroke gives more than 100000 frames",
@@ -132,7 +132,7 @@ int press(const PressCall& call) {
     Finger finger(stroke);
     Progress progress;
     Deepest deepest;
-    int touched_since = -1;  // the first frame of the contact, or none
+    int touched_since = -1;  // the first frame of the contact; -1: none
     for (int frame = 0; frame < frames; ++frame) {
         const readers::FingerPoint at = finger.at(begin_s + frame / call.fps);
         if (!(at.force_n > 0)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo devices`: which arms and sound cards there are, and why one is missing.
+// `tribo devices`: lists arms and sound cards, with the reasons why an arm is missing.
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The kernel's sound cards that play; empty: none.
+// Returns the playback devices of the kernel; empty: none.
 std::vector<std::string> playing_cards() {
     std::vector<std::string> cards;
     std::error_code error;

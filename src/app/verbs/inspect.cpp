@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo inspect FILE`: what a program, a model or a job holds.
+// `tribo inspect FILE`: facts about a program, a model, a job or a material.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -24,7 +24,7 @@
 namespace tribo::app {
 namespace {
 
-// Counts times where a program says no feed at all, so that it can be looked at without a job.
+// Feed for programs that state none, so that they can be inspected without a job.
 constexpr double kAssumedFeedMmPerMin = 1000;
 // Points along a curved move in a picture.
 constexpr int kPicturePoints = 16;
@@ -36,7 +36,7 @@ struct Call {
     std::string machine;
 };
 
-// What was found: facts to print and something to draw.
+// Results: facts to print, and geometry to draw.
 struct Found {
     report::Facts facts;
     TriangleMesh mesh;
@@ -44,7 +44,7 @@ struct Found {
     std::vector<readers::Rgb8> colours = {};  // of the triangles, or none
 };
 
-// Looks at moves as they go by: a long program is never held whole.
+// Examines moves while they are read: a long program is never held in memory.
 class PathWatcher final : public readers::MoveSink {
   public:
     explicit PathWatcher(bool draws) : draws_(draws) { line_.colours = {{0.12F, 0.44F, 0.55F}}; }
@@ -67,7 +67,7 @@ class PathWatcher final : public readers::MoveSink {
     report::PictureLine line_;
 };
 
-// Points without triangles: the picture leaves room for the lines that run through them.
+// Points without triangles: the picture leaves room for the lines through them.
 void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
     for (const Vec3 p : points) {
         mesh.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
@@ -94,7 +94,8 @@ FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job:
     PathWatcher path(draws);
     const Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
     if (program) return found_program(*program, path, kind, machine.rapid_mm_per_min);
-    // Perhaps nothing but the feed is missing, which a job would give; the reader then warns of it.
+    // Maybe only the feed is missing, which a job would give. Read again with a feed; the reader then adds a
+    // warning.
     options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
     PathWatcher again(draws);
     const Result<motion::Program> with_feed = job::parse_program(bytes, call.file, kind, options, again);

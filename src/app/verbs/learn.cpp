@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo learn --recording MM_PER_S:FILE ... --out M.json`: recordings of friction to a material.
+// `tribo learn --recording MM_PER_S:FILE ... --out M.json`: makes a material from recordings of friction.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +28,7 @@ namespace {
 struct Call {
     std::vector<std::string> recordings;
     std::string out, method = "yule-walker";
-    material::Material known;  // what is not learned; the images as they were given
+    material::Material known;  // values that are not learned; image paths as given
     double highpass_hz = noise::LearningOptions{}.highpass_hz;
     int order = 0;
     bool report = false;
@@ -88,7 +88,7 @@ FileResult<Sounds> read_sounds(const Call& call) {
     return sounds;
 }
 
-// `image` as seen from the material file.
+// Returns `image` relative to the material file.
 std::string image_beside(const std::string& image, const std::string& out) {
     std::error_code error;
     const auto folder = std::filesystem::absolute(out, error).parent_path();
@@ -116,7 +116,7 @@ void print(const material::Material& m, const noise::Learned& learned) {
                 m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
 }
 
-// One voice for each model, by the first recording that it was learned from.
+// Reports one voice per model, with the first recording of this model.
 FileResult<void> write_report(const Call& call, const material::Material& m, const noise::Learned& learned,
                               const Sounds& sounds) {
     std::vector<report::ReportedVoice> voices(m.voices.models.size());
@@ -170,7 +170,7 @@ int learn(const Call& call) {
     return kDone;
 }
 
-// CLI::Range lets NaN pass.
+// CLI::Range accepts NaN.
 CLI::Validator within(Range range) {
     return CLI::Range(range.min, range.max) &
            finite_number(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `tribo read-sofa FILE`: what the program asks of a copy of itself, where a crash harms nobody.
+// `tribo read-sofa FILE`: the program starts it as a child process, in which a crash is harmless.
 #include <memory>
 #include <string>
 

@@ -24,7 +24,7 @@ struct Call {
     bool as_published = false, gaussian = false;
 };
 
-// The rate at which the material was learned, where all its models agree and a file can have it.
+// Returns the sample rate of the learned models if all have the same one and a file can have it.
 int rate_of(const noise::MaterialVoices& voices) {
     const double rate = voices.models[0].spectrum.sample_rate_hz;
     const bool one = std::ranges::all_of(
@@ -59,7 +59,7 @@ FileResult<void> write_sound(const Call& call, const noise::MaterialVoices& voic
         wav->write(part);
         done += count;
     }
-    if (interrupted()) return {};  // the unfinished file goes
+    if (interrupted()) return {};  // the unfinished file is removed
     return wav->finish();
 }
 

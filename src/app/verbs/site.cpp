@@ -21,7 +21,7 @@ struct Call {
     std::string out, web_root;
 };
 
-// Files under `folder`, relative to it, in order.
+// Returns the files under `folder` by relative path, sorted.
 std::vector<std::string> files_of(const std::string& folder) {
     std::vector<std::string> files;
     std::error_code error;
