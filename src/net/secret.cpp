@@ -9,8 +9,8 @@ namespace tribo::net {
 
 std::string random_token() {
     std::array<unsigned char, 16> bytes{};
-    // It fails only where the kernel has no such call; to go on with a token that can be guessed would be
-    // worse.
+    // It fails only if the kernel does not have this call. A token that can be guessed would be worse than an
+    // end of the program.
     if (::getentropy(bytes.data(), bytes.size()) != 0) std::abort();
     constexpr std::string_view kDigits = "0123456789abcdef";
     std::string text;

@@ -20,7 +20,7 @@ std::string_view view(boost::string_view s) {
     return {s.data(), s.size()};
 }
 
-// One connection as long as it speaks HTTP.
+// One connection while it uses HTTP.
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
     HttpSession(Tcp::socket&& socket, Shared& shared) : connection_(std::move(socket)), shared_(shared) {
@@ -37,7 +37,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         beast::async_detect_ssl(connection_.next_layer(), buffer_,
                                 [self = shared_from_this()](error_code error, bool secure) {
                                     if (error) return;
-                                    // Who comes in the clear is told the way.
+                                    // A client without TLS is redirected.
                                     secure ? self->secure() : self->read();
                                 });
     }
@@ -107,12 +107,12 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
             response->set(http::field::content_encoding, {page.encoding.data(), page.encoding.size()});
         response->set(http::field::vary, "Accept-Encoding");
         response->set(http::field::cache_control, "no-cache");
-        // Nothing else may embed or read the page; shared memory between its workers is allowed.
+        // Other sites must not embed or read the page; shared memory between its workers is allowed.
         response->set("Cross-Origin-Opener-Policy", "same-origin");
         response->set("Cross-Origin-Embedder-Policy", "require-corp");
         response->set("Cross-Origin-Resource-Policy", "same-origin");
         response->set("X-Content-Type-Options", "nosniff");
-        response->set("Referrer-Policy", "no-referrer");  // the address may hold the token
+        response->set("Referrer-Policy", "no-referrer");  // the address may contain the token
         response->set("Content-Security-Policy",
                       "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' "
                       "'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; worker-src 'self' "
@@ -163,7 +163,7 @@ struct Server::Parts {
             if (!error && shared.connections < kMostConnections)
                 std::make_shared<HttpSession>(std::move(socket), shared)->begin();
             if (!error) return accept();
-            // The system has nothing left for another connection: not to ask it a million times a second.
+            // The system has no resources for another connection. Pause instead of retrying at once.
             pause.expires_after(kPause);
             pause.async_wait([this](error_code stopped) {
                 if (!stopped) accept();
@@ -180,11 +180,11 @@ struct Server::Parts {
         });
     }
 
-    // To all that have been greeted.
+    // Acts on all clients that have received their greeting.
     template <class Action>
     void to_all(Action action) {
         asio::post(context, [this, action = std::move(action)] {
-            // What is done to one may end it.
+            // The action on one client may end it.
             std::vector<std::shared_ptr<Client>> greeted;
             for (const auto& [id, weak] : shared.clients) {
                 if (auto client = weak.lock(); client && client->greeted())
@@ -208,7 +208,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Serv
     auto parts = std::make_unique<Parts>(options);
     parts->shared.handlers = std::move(handlers);
     if (options.tls) {
-        // Asio's context is one owner more.
+        // The context of Asio is another owner.
         SSL_CTX_up_ref(options.tls.get());
         parts->shared.tls.emplace(options.tls.get());
     }
@@ -221,7 +221,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Serv
     Tcp::acceptor& acceptor = parts->acceptor;
     acceptor.open(endpoint.protocol(), error);
     if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
-    // All addresses are those of IPv4 too.
+    // The IPv6 wildcard also accepts IPv4.
     if (!error && address.is_v6()) acceptor.set_option(asio::ip::v6_only(false), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);

@@ -26,7 +26,7 @@ using Owned = std::unique_ptr<T, Free>;
 
 constexpr const char* kRemake = "make both anew, with mkcert or 'openssl req -x509'";
 
-// OpenSSL's own words for what went wrong last.
+// Returns the text of the last OpenSSL error.
 std::string reason() {
     const unsigned long code = ERR_peek_last_error();
     ERR_clear_error();
@@ -35,12 +35,12 @@ std::string reason() {
 }
 
 Owned<BIO> reader(const std::string& text) {
-    // A longer one is no PEM file of anybody's.
+    // A longer text is not a valid PEM file.
     const int size = text.size() > INT_MAX ? 0 : static_cast<int>(text.size());
     return Owned<BIO>(BIO_new_mem_buf(text.data(), size));
 }
 
-// Never asks on the terminal; notes that it would have had to.
+// Never asks on the terminal. Records that a passphrase was required.
 int no_passphrase(char*, int, int, void* asked) {
     *static_cast<bool*>(asked) = true;
     return -1;
@@ -102,7 +102,7 @@ Result<Owned<X509>> use_certificates(SSL_CTX* context, const TlsKeys& keys) {
         if (SSL_CTX_add1_chain_cert(context, next.get()) != 1)
             return fail_at(file, 0, 0, "a certificate of the chain cannot be used" + reason(), kRemake);
     }
-    ERR_clear_error();  // that there was no further one
+    ERR_clear_error();  // removes the error "no further certificate"
     return own;
 }
 

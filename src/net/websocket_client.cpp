@@ -10,7 +10,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
 #include <chrono>
-#include <utility>  // before Beast: 1.74 leaves it out
+#include <utility>  // before Beast: 1.74 does not include it
 
 namespace tribo::net {
 
@@ -18,7 +18,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using tcp = asio::ip::tcp;
 
-// A read that is late goes on: the stream's state would be lost with it.
+// A read that exceeds its time continues: cancelling would lose the state of the stream.
 struct WebSocketClient::Connection {
     asio::io_context context;
     beast::websocket::stream<beast::tcp_stream> socket{context};
@@ -26,7 +26,7 @@ struct WebSocketClient::Connection {
     std::chrono::milliseconds timeout{0};
     bool reading = false, read = false, closed = false;
 
-    // Runs what is under way until `done` or the time is over.
+    // Runs the pending operations until `done` or until the time is over.
     bool run_until(const bool& done) {
         context.restart();
         const auto end = std::chrono::steady_clock::now() + timeout;
@@ -110,7 +110,7 @@ bool WebSocketClient::send(std::string_view text) {
         c.closed = c.closed || e;
     });
     if (!c.run_until(done)) {
-        // A service that takes nothing any more; the write refers to what is about to go.
+        // The service does not accept data any more. The write refers to data that is about to be destroyed.
         beast::get_lowest_layer(c.socket).close();
         c.closed = true;
         c.context.restart();
