@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * What a serial arm and Tribo say to each other (docs/devices.md). Plain C, no library, no allocation: an arm's
- * firmware includes this file as it is.
+ * The packets between a serial arm and Tribo (docs/devices.md). Plain C, no library, no allocation: the firmware
+ * of an arm can include this file unchanged.
  *
- * Tribo asks with the byte '?'; the arm answers with a line of text: "tribo-arm 1;" and facts as key=value;
- * Then the arm sends a place each tick, unasked, and Tribo a force each tick of its own.
+ * Tribo sends the byte '?'. The arm answers with a line of text: "tribo-arm 1;" and its data as key=value;
+ * Then the arm sends a position at each of its ticks without a request, and Tribo a force at each of its ticks.
  */
 #ifndef TRIBO_SERIAL_PACKETS_H
 #define TRIBO_SERIAL_PACKETS_H
@@ -13,7 +13,7 @@
 #define TRIBO_ARM_ASK '?'
 #define TRIBO_ARM_HELLO "tribo-arm 1;"
 
-/* A place: mark, sequence, x y z in steps (of `resolution_mm`; low byte first), buttons, check. */
+/* A position: mark, sequence, x y z in steps (of `resolution_mm`; low byte first), buttons, check. */
 #define TRIBO_PLACE_MARK 0xA5
 #define TRIBO_PLACE_BYTES 11
 /* A force: mark, x y z in mN (low byte first), check. */
@@ -36,8 +36,8 @@ static inline int16_t tribo_get16(const uint8_t* at) {
     return (int16_t)(uint16_t)(at[0] | ((uint16_t)at[1] << 8));
 }
 
-/* CRC-16/CCITT of a packet's bytes but the last two: a sum of one byte would take one place in 256 that is
- * none, and a hand would get a blow. */
+/* CRC-16/CCITT of all bytes of a packet except the last two. A sum of one byte would accept one damaged position in
+ * 256, and the hand would get a blow. */
 static inline int16_t tribo_check(const uint8_t* packet, int bytes) {
     uint16_t crc = 0xFFFF;
     for (int i = 0; i < bytes - 2; ++i) {
@@ -55,7 +55,7 @@ static inline void tribo_write_place(const struct tribo_place* place, uint8_t* p
     packet[8] = place->buttons;
     tribo_put16(packet + 9, tribo_check(packet, TRIBO_PLACE_BYTES));
 }
-/* 1: it is one. */
+/* Returns 1 if the bytes are a valid packet. */
 static inline int tribo_read_place(const uint8_t* packet, struct tribo_place* place) {
     if (packet[0] != TRIBO_PLACE_MARK || tribo_get16(packet + 9) != tribo_check(packet, TRIBO_PLACE_BYTES))
         return 0;

@@ -21,7 +21,7 @@ constexpr const char* kHaply = "haply";
 constexpr const char* kSerial = "serial";
 constexpr int kHaplySearchMs = 1000;
 
-// A Touch is a serial port or, newer, a raw HID device.
+// A Touch is a serial port or, in newer versions, a raw HID device.
 std::vector<std::string> touch_ports() {
     std::vector<std::string> ports;
     std::error_code error;
@@ -85,7 +85,7 @@ const std::vector<std::string>& arm_names() {
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting) {
     if (name == "auto") {
         for (const std::string& each : arm_names()) {
-            // What else may hang on a serial port is not asked.
+            // Other devices on serial ports are not opened.
             if (each == kSerial) continue;
             if (auto device = open_one(each, mounting, kHaplySearchMs)) return device;
         }

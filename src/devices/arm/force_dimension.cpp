@@ -11,17 +11,17 @@ namespace {
 
 using haptics::DeviceState;
 
-// Names and values as dhdc.h has them.
+// Names and values of dhdc.h.
 constexpr int DHD_TIMEGUARD = 1, DHD_MOTOR_SATURATED = 2;  // answers that are not errors
 constexpr int DHD_STATUS_RESET = 3, DHD_STATUS_FORCE = 5, DHD_STATUS_WRIST = 8,
               DHD_STATUS_FORCE_OFF_CAUSE = 14, DHD_STATUS_COUNT = 17;
-// Why the arm has switched its forces off.
+// Reasons why the arm has switched its forces off.
 constexpr int kByButton = 1, kBySpeed = 2, kByWatchdog = 3, kBySoftware = 4, kByCable = 5, kByDeadman = 6;
 constexpr int kOldestSdk = 3;
-// In units of 125 us: 5 ms without a command, and the firmware lets go.
+// In units of 125 us: after 5 ms without a command the firmware switches the force off.
 constexpr unsigned char kWatchdog = 40;
-// Commands between two looks at whether the forces are still on; looks after which an earlier failure is
-// over; and how often they are switched on again before the arm is given up.
+// Commands between two checks whether the forces are on; checks after which an earlier failure is forgotten;
+// number of attempts to switch the forces on again before the arm counts as gone.
 constexpr int kLookEvery = 64, kQuietLooks = 150, kMostRearmings = 3;
 constexpr double kMmPerM = 1e3;
 
@@ -39,7 +39,7 @@ struct Api {
     int (*set_watchdog)(unsigned char, char);
     int (*status)(int*, char);
     const char* (*last_error)();
-    // Not in every version.
+    // Not available in every version.
     int (*enable_expert)();
     int (*disable_expert)();
     int (*orientation)(double (*)[3], char);
@@ -116,7 +116,8 @@ class ForceDimension final : public haptics::Device {
             mounting_.origin_mm + mounting_.scale * kMmPerM * kNearRightUp.to_stock({p[0], p[1], p[2]});
         reading.velocity_mm_per_s = mounting_.scale * kMmPerM * kNearRightUp.to_stock({v[0], v[1], v[2]});
         if (double frame[3][3] = {}; wrist_ && api_.orientation(frame, id_) >= 0) {
-            // At rest the wrist's frame is the base's, the hand on the user's side of the tip: along its x.
+            // At rest the axes of the wrist are those of the base. The hand is on the user's side of the tip,
+            // along their x.
             reading.stylus =
                 normalized(kNearRightUp.to_stock({frame[0][0], frame[1][0], frame[2][0]}), reading.stylus);
         }
@@ -144,7 +145,7 @@ class ForceDimension final : public haptics::Device {
     }
 
   private:
-    // With the first command, so that the watchdog finds the loop running.
+    // Called with the first command, so that the watchdog finds a running loop.
     void arm() noexcept {
         armed_ = true;
         if (api_.enable_expert != nullptr) api_.enable_expert();
@@ -152,8 +153,8 @@ class ForceDimension final : public haptics::Device {
         if (api_.disable_expert != nullptr) api_.disable_expert();
         api_.enable_force(1, id_);
     }
-    // Are the forces on? What a late command has switched off is switched on again, and comes back by the
-    // servo's ramp; what a person or the arm's own safety has, is theirs to switch on.
+    // Checks whether the forces are on. After a late command they are switched on again, with the ramp of the
+    // servo. Forces switched off by a person or by the safety of the arm must be switched on there.
     void look() noexcept {
         std::array<int, DHD_STATUS_COUNT> status{};
         if (api_.status(status.data(), id_) < 0) return;
@@ -173,7 +174,7 @@ class ForceDimension final : public haptics::Device {
             api_.enable_force(1, id_);
         }
     }
-    // A call that fails now and then is late; one that keeps failing is gone.
+    // A single failed call counts as late. After repeated failures the arm is gone.
     DeviceState failed() noexcept {
         constexpr int kGone = 20;
         if (failures_ < kGone) ++failures_;

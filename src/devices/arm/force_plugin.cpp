@@ -19,7 +19,7 @@ Vec3 taken(const double (&v)[3]) {
 }  // namespace
 
 Result<std::unique_ptr<ForcePlugin>> ForcePlugin::open(const std::string& library, double rate_hz) {
-    // A plain name is a file of the user's, not one of the system's libraries.
+    // A plain name is a file of the user, not a library of the system.
     auto loaded = SharedLibrary::open({library.find('/') == std::string::npos ? "./" + library : library});
     if (!loaded) return fail(loaded.error().cause, "give the file that your compiler made, with its folder");
     std::unique_ptr<ForcePlugin> plugin(new ForcePlugin(std::move(*loaded)));

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 constexpr double kMmPerM = 1e3;
 constexpr std::uint64_t kServoSilentNs = 5'000'000;
-constexpr int kReplyMs = 100;  // that one reply may take before the loop looks whether it should end
+constexpr int kReplyMs = 100;  // time for one reply; then the loop checks whether it must end
 constexpr int kRepliesMissed = 50;
 
 bool read_triple(const Json& parent, const char* key, Vec3& out) {
@@ -36,7 +36,7 @@ bool read_triple(const Json& parent, const char* key, Vec3& out) {
     return true;
 }
 
-// The z axis of a unit quaternion's frame.
+// Returns the z axis of the frame of a unit quaternion.
 void read_grip(const Json& grip, HaplyState& state) {
     const auto inner = grip.find("state");
     if (inner == grip.end() || !inner->is_object()) return;
@@ -165,7 +165,7 @@ bool read_haply_state(std::string_view text, HaplyState& state) {
     if (!json.is_object()) return false;
     try {
         return read_state(json, state);
-    } catch (const Json::exception&) {  // a value of another type than documented
+    } catch (const Json::exception&) {  // the value has another type than documented
         return false;
     }
 }

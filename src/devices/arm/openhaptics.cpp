@@ -15,7 +15,7 @@ namespace {
 
 using haptics::DeviceState;
 
-// Names and values as the HD headers have them.
+// Names and values of the HD headers.
 using HHD = unsigned int;
 using HDenum = unsigned int;
 struct HDErrorInfo {
@@ -31,13 +31,13 @@ constexpr HDenum HD_CURRENT_BUTTONS = 0x2000, HD_CURRENT_POSITION = 0x2050, HD_C
 constexpr HDenum HD_CALIBRATION_OK = 0x5000, HD_CALIBRATION_NEEDS_UPDATE = 0x5001,
                  HD_CALIBRATION_NEEDS_MANUAL_INPUT = 0x5002;
 constexpr int HD_CALIBRATION_ENCODER_RESET = 1, HD_CALIBRATION_AUTO = 2, HD_CALIBRATION_INKWELL = 4;
-// An arm that calibrates itself takes a moment to do so.
+// Time for the automatic calibration of an arm.
 constexpr std::chrono::milliseconds kCalibrationTime{2000}, kCalibrationLook{10};
 constexpr unsigned int HD_WARM_MOTORS = 0x200, HD_FORCE_ERROR = 0x204, HD_DEVICE_FAULT = 0x300,
                        HD_COMM_ERROR = 0x302;
 constexpr unsigned int HD_CALLBACK_DONE = 0, HD_CALLBACK_CONTINUE = 1;
 constexpr unsigned short kPriority = 65535;
-// The servo must have said something new within this, ns.
+// A force older than this is not used, ns.
 constexpr std::uint64_t kServoSilentNs = 5'000'000;
 
 struct Api {
@@ -84,7 +84,7 @@ bool bind(SharedLibrary& library, Api& api) {
 }
 
 struct Command {
-    Vec3 force;  // the arm's axes
+    Vec3 force;  // in the axes of the arm
     std::uint64_t sent_ns = 0;
 };
 
@@ -96,7 +96,7 @@ class OpenHaptics final : public haptics::Device {
         model_ = model != nullptr ? model : "";
         limits_ = haptics::limits_of(model_);
         limits_.name = model_;
-        // The arm's own word, where it is lower.
+        // The value reported by the arm, if it is lower.
         double value = 0;
         api_.get_doublev(HD_NOMINAL_MAX_FORCE, &value);
         if (value > 0 && value < limits_.max_force_n) limits_.max_force_n = value;
@@ -113,7 +113,8 @@ class OpenHaptics final : public haptics::Device {
         api_.disable_device(handle_);
     }
 
-    // The way that this arm knows, once its scheduler runs. Whether its places are right then.
+    // Calibrates in the way of this arm while its scheduler runs. Returns true if its positions are then
+    // valid.
     bool calibrate() const {
         int styles = 0;
         api_.get_integerv(HD_CALIBRATION_STYLE, &styles);
@@ -160,7 +161,7 @@ class OpenHaptics final : public haptics::Device {
 
     static unsigned int callback(void* self) { return static_cast<OpenHaptics*>(self)->exchange(); }
 
-    // On HD's thread, once per tick of its scheduler.
+    // Runs on the HD thread, once per tick of its scheduler.
     unsigned int exchange() noexcept {
         if (closing_.load(std::memory_order_relaxed)) return HD_CALLBACK_DONE;
         std::array<double, 3> position{}, velocity{}, force{};

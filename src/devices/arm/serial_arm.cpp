@@ -23,11 +23,11 @@ namespace {
 using haptics::DeviceState;
 using Clock = std::chrono::steady_clock;
 
-// Asked again so often until the board has started.
+// Interval of the requests until the board has started.
 constexpr std::chrono::milliseconds kAskEvery{200};
 constexpr std::size_t kLongestLine = 400;
 constexpr double kMnPerN = 1e3, kMostMn = 32767;
-// The speed is taken over so many ticks of the arm.
+// Number of ticks of the arm for the speed.
 constexpr std::size_t kSpeedTicks = 8;
 
 struct Rate {
@@ -47,13 +47,13 @@ class Port {
         if (handle_ >= 0) ::close(handle_);
     }
 
-    // What has come: a count, 0 for nothing, -1 where the port is gone.
+    // Returns the number of received bytes, 0 if there are none, -1 if the port is gone.
     int read(std::span<std::uint8_t> into) noexcept {
         const ssize_t count = ::read(handle_, into.data(), into.size());
         if (count > 0) return static_cast<int>(count);
         return count < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : -1;
     }
-    // False where the port is gone. What does not fit is lost: the next force is newer.
+    // Returns false if the port is gone. Bytes that do not fit are lost: the next force is newer.
     bool write(std::span<const std::uint8_t> bytes) noexcept {
         return ::write(handle_, bytes.data(), bytes.size()) >= 0 || errno == EAGAIN || errno == EINTR;
     }
@@ -112,14 +112,14 @@ class SerialArm final : public haptics::Device {
     }
 
   private:
-    // The newest place among what has come. Whether there is one.
+    // Takes the newest position from the received bytes. Returns false if there is none.
     bool take_packets() noexcept {
         bool any = false;
         std::size_t at = 0;
         while (held_ - at >= TRIBO_PLACE_BYTES) {
             tribo_place place;
             if (tribo_read_place(&bytes_[at], &place) == 0) {
-                ++at;  // in the middle of one, or a damaged one: on to the next mark
+                ++at;  // a partial or damaged packet: search the next mark
                 continue;
             }
             at += TRIBO_PLACE_BYTES;
@@ -138,7 +138,7 @@ class SerialArm final : public haptics::Device {
         past_[taken_ % past_.size()] = {place_, place.sequence};
         ++taken_;
     }
-    // Over the ticks that the arm says have passed, so that a packet that was lost does not count as speed.
+    // Divides by the ticks counted by the arm, so that a lost packet does not change the speed.
     Vec3 speed() const noexcept {
         if (taken_ < 2) return {};
         const Past& last = past_[(taken_ - 1) % past_.size()];
@@ -184,7 +184,7 @@ Result<Port> open_port(const SerialArmOptions& options) {
         return fail(options.port + " is not a serial port", "name the arm's /dev/ttyACM* or /dev/ttyUSB*");
     ::cfmakeraw(&how);
     how.c_cflag |= CLOCAL | CREAD;
-    how.c_cc[VMIN] = 1;  // nothing there is not the end
+    how.c_cc[VMIN] = 1;  // no data does not mean the end of the file
     how.c_cc[VTIME] = 0;
     ::cfsetspeed(&how, rate->code);
     if (::tcsetattr(handle, TCSANOW, &how) != 0)
@@ -192,7 +192,7 @@ Result<Port> open_port(const SerialArmOptions& options) {
     return port;
 }
 
-// The line that begins with the hello, among what else may come.
+// Returns the line that begins with the hello, and skips other text.
 Result<std::string> ask(Port& port, const SerialArmOptions& options) {
     const auto end = Clock::now() + std::chrono::milliseconds(options.timeout_ms);
     auto next = Clock::now();
@@ -206,7 +206,7 @@ Result<std::string> ask(Port& port, const SerialArmOptions& options) {
         (void)port.wait(std::chrono::milliseconds(20));
         std::array<std::uint8_t, 256> bytes;
         const int count = port.read(bytes);
-        if (count < 0) continue;  // a board that starts anew
+        if (count < 0) continue;  // the board restarts
         for (int n = 0; n < count; ++n) text.push_back(static_cast<char>(bytes[static_cast<std::size_t>(n)]));
         const std::size_t from = text.find(TRIBO_ARM_HELLO);
         if (from != std::string::npos) {

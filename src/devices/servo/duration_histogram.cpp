@@ -6,7 +6,7 @@
 
 namespace tribo::devices {
 
-// The largest duration that falls into the bucket.
+// Returns the largest duration in the bucket.
 std::uint64_t DurationHistogram::end_of(std::uint32_t bucket) {
     if (bucket < kPerOctave) return bucket;
     const std::uint32_t octave = bucket / kPerOctave;

@@ -11,9 +11,9 @@
 namespace tribo::devices {
 namespace {
 
-// Below the kernel's own threads (50 and up by default), above everything ordinary.
+// Below the threads of the kernel (50 and up by default), above ordinary threads.
 constexpr int kPriority = 40;
-// The stack that is touched ahead, so that no tick meets a page for the first time.
+// Part of the stack that is touched in advance, so that no tick causes a page fault.
 constexpr std::size_t kStackBytes = 128 * 1024;
 
 [[gnu::noinline]] void touch_stack() {
@@ -73,7 +73,7 @@ void ServoThread::run() {
     ready_.notify_all();
     const auto period = static_cast<std::uint64_t>(1e9 / options_.rate_hz + 0.5);
     const std::uint64_t start = wall_ns();
-    std::uint64_t next = 0;  // the tick that comes, counted in periods
+    std::uint64_t next = 0;  // next tick, counted in periods
     bool more = true;
     while (more && !stop_.load(std::memory_order_relaxed)) {
         const std::uint64_t deadline = start + next * period;
@@ -83,7 +83,7 @@ void ServoThread::run() {
         clock_->begin();
         more = tick_(static_cast<double>(now - start) * 1e-9);
         clock_->end();
-        const std::uint64_t due = (wall_ns() - start) / period + 1;  // the first deadline still ahead
+        const std::uint64_t due = (wall_ns() - start) / period + 1;  // the first deadline in the future
         if (due > next + 1) {
             late_.fetch_add(1, std::memory_order_relaxed);
             skipped_.fetch_add(due - next - 1, std::memory_order_relaxed);

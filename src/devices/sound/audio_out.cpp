@@ -11,8 +11,7 @@ namespace {
 
 constexpr unsigned kStereo = 2;
 
-// While it lives, what anybody prints to stderr is lost: libasound and JACK complain there of cards that are
-// not.
+// Discards all output to stderr while it exists: libasound and JACK print errors about missing cards.
 class QuietStderr {
   public:
     QuietStderr() : kept_(dup(STDERR_FILENO)) {
@@ -57,7 +56,7 @@ AudioOut::~AudioOut() {
         if (stream_->audio.isStreamRunning()) stream_->audio.abortStream();
         if (stream_->audio.isStreamOpen()) stream_->audio.closeStream();
     } catch (const RtAudioError&) {
-        return;  // the device has gone already
+        return;  // the device is already gone
     }
 }
 
