@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What takes time but little code, begun while the page's script is on its way: the graphics, which the browser has to
-// start, and the line to the engine.
+// Starts slow work that needs little code while the script of the page is loading: the graphics of the browser, and
+// the connection to the engine.
 
 import { Connection } from "./sources/connection.js";
 import { element } from "@tribo/ui/dom";
@@ -10,12 +10,13 @@ export const canvas = element<HTMLCanvasElement>("scene");
 export const context = canvas.getContext("webgl2", { alpha: true, antialias: true }) ?? undefined;
 
 let connection: Connection | undefined;
-/** The line, opened when it is first asked for. */
+/** Returns the connection; it is opened at the first call. */
 export function line(): Connection {
   return (connection ??= new Connection());
 }
 
-// What the engine sends would hold up the script; once that is there, it has still to be compiled.
+// Frames of the engine would delay the script. Therefore the connection is opened when the script is loaded;
+// compiling it still takes time.
 const script = document.querySelector<HTMLLinkElement>('link[rel="modulepreload"]')?.href ?? "";
 if (hasEngine) {
   new PerformanceObserver((fetched) => {

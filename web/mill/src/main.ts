@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mill's page: frames to picture, sound and plots; hands to whoever mills.
+// The page of the mill: converts frames to picture, sound and plots, and sends input to the current source.
 
 import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
@@ -64,7 +64,7 @@ const scene = new Scene(canvas, context);
 const history = new History();
 const frameCache = new FrameCache();
 const sound = new Sound();
-// Whether the page sounds, and not the engine.
+// True when the page plays the sound, false when the engine does.
 let soundsHere = true;
 const seek = (t_s: number) => source?.send({ op: "seek", t_s });
 const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
@@ -126,7 +126,7 @@ function show(state: StateFrame): void {
   element("examples").hidden ||= begun;
   if (!scrubbing) time.value = String(state.time);
   element("clock").textContent = `${clock(state.time)} / ${clock(duration)}`;
-  // Speeds travel in single precision.
+  // Speeds are sent in single precision.
   const shown = [...speed.options].find((o) => Math.abs(Number(o.value) / state.speed - 1) < 1e-6);
   if (shown && document.activeElement !== speed) speed.value = shown.value;
   showState(state);
@@ -204,7 +204,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
   }
 }
 
-// What mills from now on; the picture begins anew with its first frames.
+// Changes the source. The picture restarts with its first frames.
 function change(to: () => Source): void {
   source?.close();
   showPlaying(false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What plots are drawn from: the rows, and the newest pieces of the cut.
+// Data of the plots: the rows, and the newest pieces of the cut.
 
 import type { Piece, Row } from "@tribo/protocol/frames";
 
@@ -23,7 +23,7 @@ export class History {
     for (const piece of pieces) this.pieces.push(piece);
     if (this.pieces.length > 2 * KEPT_PIECES) this.pieces = this.pieces.slice(-KEPT_PIECES);
   }
-  // The piece that is cut now, or was last.
+  // The current piece of the cut, or the last one.
   piece(): Piece | undefined {
     for (let n = this.pieces.length - 1; n >= 0; --n) if (this.pieces[n]!.time <= this.time) return this.pieces[n];
     return undefined;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The keyboard, while the picture has the focus (space and M wherever nothing else wants them).
+// Keyboard commands while the picture has the focus (space and M everywhere, unless another element uses them).
 
 import type { Finger } from "../touch/finger.js";
 import type { Scene } from "../sight/scene.js";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sliders for what can be changed while it mills; what is set everybody who watches shares.
+// Sliders for values that can change while milling. All viewers share these values.
 
 import { element } from "@tribo/ui/dom";
 import type { Command, ServerInfo, Setting, Settings } from "@tribo/protocol/messages";
@@ -10,7 +10,7 @@ interface Parameter {
   min: number;
   max: number;
   unit: string;
-  // The slider goes by the logarithm.
+  // The slider is logarithmic.
   log?: boolean;
   box: "parameters" | "feel-parameters";
 }

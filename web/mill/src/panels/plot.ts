@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Peak force over the program as columns, one per pixel: the whole at a glance, and a place to click.
+// Peak force over the program as columns, one per pixel: an overview, and a place to click.
 
 import type { Row } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
@@ -65,7 +65,7 @@ export class Plot {
       context.clearRect(0, 0, width, height);
       context.fillStyle = style.getPropertyValue("--accent");
       const ratio = height / Math.max(this.canvas.clientHeight, 1);
-      // Under the words.
+      // Behind the text.
       const scale = (height - 14 * ratio) / this.largest;
       this.columns.forEach((force, x) => context.fillRect(x, height - force * scale, 1, force * scale));
       context.fillStyle = style.getPropertyValue("--quiet");

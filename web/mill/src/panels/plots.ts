@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plots that people read, loaded when they are opened: force over time, over a turn, its spectrum,
-// engagement, and what is heard as a spectrogram.
+// Detailed plots, loaded when they are opened: force over time, force over a turn, its spectrum, engagement, and a
+// spectrogram of the sound.
 
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
@@ -13,7 +13,7 @@ import { spectrum, turn } from "./turn.js";
 
 const MOST_POINTS = 2000;
 const DEG = 180 / Math.PI;
-// The spectrogram goes up to here, Hz, and down to this level, dB.
+// Upper frequency of the spectrogram, Hz, and its lowest level, dB.
 const TOP_HZ = 8000;
 const FLOOR_DB = -100;
 const CEILING_DB = -20;
@@ -26,7 +26,7 @@ interface View {
   seek?: boolean;
 }
 
-// Of many rows the largest in each of MOST_POINTS stretches.
+// With many rows, shows the largest value in each of MOST_POINTS intervals.
 function overTime(history: History, ...values: ((row: Row) => number)[]): uPlot.AlignedData {
   const { rows } = history;
   const step = Math.max(1, Math.ceil(rows.length / MOST_POINTS));
@@ -145,7 +145,7 @@ export class Plots {
     this.choose(this.open);
   }
 
-  // Once a picture, while the plots are open.
+  // Called once per picture while the plots are open.
   update(): void {
     if (this.box.hidden) return;
     if (this.open === SOUND) {

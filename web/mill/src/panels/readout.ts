@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the tool does now in figures, places to look at, the servo, and what was assumed.
+// Current values of the tool, places to inspect, the state of the servo, and the assumptions.
 
 import type { ServoFrame, StateFrame } from "@tribo/protocol/frames";
 import { element } from "@tribo/ui/dom";
@@ -22,7 +22,7 @@ export function showState(state: StateFrame): void {
 
 const MOST_LISTED = 100;
 
-// Places in the program that ask for a look; a click goes there. What is beyond the first hundred is counted.
+// Places in the program that need attention; a click goes there. After the first hundred only their number is shown.
 export class LineList<Place extends { line: number }> {
   private readonly box: HTMLElement;
   private readonly list: HTMLOListElement;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The force over a spindle turn and its spectrum, summed from the harmonics of a piece of the cut.
+// The force over a spindle turn and its spectrum, from the harmonics of a piece of the cut.
 
 import type { Piece } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
@@ -11,7 +11,7 @@ export interface Turn {
   z: number[];
 }
 
-// F(angle) = mean + 2 Re sum h_n e^(i n step angle), in the tool's frame.
+// F(angle) = mean + 2 Re sum h_n e^(i n step angle), in the frame of the tool.
 export function turn(piece: Piece, steps = 360): Turn {
   const out: Turn = { degrees: [], x: [], y: [], z: [] };
   const h = piece.harmonics;
@@ -31,7 +31,7 @@ export function turn(piece: Piece, steps = 360): Turn {
   return out;
 }
 
-// Amplitudes of the force across the axis, N, over Hz; the mean left out.
+// Amplitudes of the force normal to the axis, N, over Hz, without the mean.
 export function spectrum(piece: Piece): { hz: number[]; newton: number[] } {
   const out = { hz: [] as number[], newton: [] as number[] };
   const h = piece.harmonics;

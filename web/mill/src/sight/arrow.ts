@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An arrow with a body, that is seen from every side.
+// An arrow with a body, visible from every side.
 
 import { Color, ConeGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3 } from "three";
 
@@ -26,7 +26,7 @@ export class Arrow extends Group {
     this.paint.color = new Color(colour);
   }
 
-  // From `at` along `force`; `longest` for the size `largest`, in mm.
+  // Draws the arrow from `at` along `force`; a force of magnitude `largest` gets the length `longest`, in mm.
   point(at: Vec3, force: Vec3, longest: number, largest: number): void {
     const size = Math.hypot(...force);
     const length = Math.min(Math.max((longest * size) / largest, 0.1 * longest), 1.5 * longest);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scale of colours that rises evenly in lightness and that colour-blind eyes can read: from deep blue over
-// green to yellow (five stops of Viridis; van der Walt & Smith 2015).
+// A colour scale with uniformly increasing lightness, readable for colour-blind users: from deep blue over green to
+// yellow (five stops of Viridis; van der Walt & Smith 2015).
 
 import type { Vec3 } from "@tribo/protocol/vec3";
 import { between } from "@tribo/ui/colours";
@@ -13,5 +13,5 @@ const STOPS: Vec3[] = [
   [0.993, 0.906, 0.144],
 ];
 
-/** share 0 to 1, clamped. */
+/** `share` 0 to 1, clamped. */
 export const heat = (share: number): Vec3 => between(STOPS, share);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a point of the machined surface is coloured by: the cut that made it (force, chip), or how far it is
-// off the designed surface.
+// Colours a point of the machined surface by the cut that made it (force, chip), or by its distance from the designed
+// surface.
 
 import type { ChipVerdict, Cutter, Row } from "@tribo/protocol/frames";
 import { heat } from "./heat.js";
@@ -18,7 +18,7 @@ export function diverging(share: number): Vec3 {
   return vec3((k) => 0.95 + Math.abs(s) * (end[k] - 0.95));
 }
 
-// A line of the program whose chips are out of range: its worst, and when that was cut.
+// A line of the program with chips out of range: its worst chip and the time of it.
 export interface ChipMark {
   line: number;
   verdict: Exclude<ChipVerdict, "">;
@@ -60,12 +60,12 @@ export class HeatMap {
     else this.cells.set(key, [cut]);
   }
 
-  // By line.
+  // Sorted by line.
   chipMarks(): ChipMark[] {
     return [...this.marks.values()].sort((a, b) => a.line - b.line);
   }
 
-  // `off`: of the point from the designed surface, mm; NaN where that is not known.
+  // `off`: distance of the point from the designed surface, mm; NaN if unknown.
   colour(mode: Colouring, p: Vec3, off: number): Vec3 | undefined {
     if (mode === "deviation" || mode === "scallop") {
       if (Number.isNaN(off)) return undefined;
@@ -90,7 +90,7 @@ export class HeatMap {
     if (worse) this.marks.set(key, { line, verdict, chip, time });
   }
 
-  // The latest cut whose cutter's surface passes nearest to the point.
+  // Returns the cut whose cutter surface is closest to the point; of equally close cuts the latest.
   private cutAt(p: Vec3): Cut | undefined {
     let best: Cut | undefined;
     let error = 0.25 * this.size;
@@ -117,7 +117,7 @@ export class HeatMap {
   }
 }
 
-// Distance of a point to the cutter, negative inside; the cutter without an upper end.
+// Returns the distance of a point to the cutter, negative inside. The cutter has no upper end.
 function clearance(cut: Cut, p: Vec3): number {
   const d: Vec3 = [p[0] - cut.row.tip[0], p[1] - cut.row.tip[1], p[2] - cut.row.tip[2]];
   const height = d[0] * cut.axis[0] + d[1] * cut.axis[1] + d[2] * cut.axis[2];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the colours of the part mean.
+// The legend of the colours of the part.
 
 import { heat } from "./heat.js";
 import { diverging, type Colouring, type HeatMap } from "./heat_map.js";
@@ -11,7 +11,7 @@ function css(c: Vec3): string {
   return `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
 }
 
-// Limits travel in single precision.
+// Limits are sent in single precision.
 function decimal(value: number): number {
   return Number(value.toPrecision(6));
 }

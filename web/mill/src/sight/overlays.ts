@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is laid over the part: the force as an arrow, the finger and where the force has pushed it, the eight
-// textured triangles with their force vectors (figures 3 and 5 of the milling paper), a measured distance, a
-// marked place.
+// Objects drawn over the part: the force as an arrow, the finger and its proxy, the eight textured triangles with
+// their force vectors (figures 3 and 5 of the milling paper), a measured distance, a marked place.
 
 import {
   BufferAttribute,
@@ -88,7 +87,7 @@ export class Overlays {
     if (this.force.visible) this.force.point(state.tip, state.force, 0.25 * this.size, this.largest);
   }
 
-  // Solid where the part lets it be, pale where the hand wants it.
+  // Opaque at the position allowed by the part, transparent at the position of the hand.
   showFinger(finger: FingerFrame): void {
     const radius = 0.022 * this.size;
     const away = new Vector3(...finger.force);
@@ -155,7 +154,7 @@ export class Overlays {
     }
   }
 
-  // A place to look at: a collision.
+  // A place to inspect: a collision.
   setMark(at: Vec3 | undefined): void {
     this.mark.visible = at !== undefined;
     if (at) this.mark.position.set(...at);

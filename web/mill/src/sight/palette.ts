@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours of what is seen: the milling paper's, and a set that eyes without red or green tell apart (after
-// Okabe and Ito 2008).
+// Colours of the scene: those of the milling paper, and a set for colour-blind users (after Okabe and Ito 2008).
 
 export interface Palette {
   machined: number;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The tool path: thin where nothing is known yet, coloured where it was cut.
+// The tool path: thin where there are no rows yet, coloured where it was cut.
 
 import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments } from "three";
 
 import type { PathFrame, Row } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
-// Rows whose time is this near follow one another, s.
+// Largest gap between consecutive rows, s.
 const SAME_CUT_S = 1e-6;
 
 export class PathLines {
@@ -17,7 +17,7 @@ export class PathLines {
   private largest = 0;
   private colourOf: (row: Row) => Vec3 = () => [0, 0, 0];
 
-  // Another job.
+  // A new job.
   begin(): void {
     for (const line of this.group.children as (Line | LineSegments)[]) line.geometry.dispose();
     this.group.clear();
@@ -38,7 +38,7 @@ export class PathLines {
     this.cut?.geometry.setDrawRange(0, 0);
   }
 
-  // `largest` is what the scale goes by: where it grew, everything changes its colour.
+  // `largest` is the end of the scale. When it grows, all colours change.
   add(rows: Row[], colourOf: (row: Row) => Vec3, largest: number): void {
     for (const row of rows) this.rows.push(row);
     this.colourOf = colourOf;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is seen: the stock chunk by chunk, the designed surface, the tool and where it was, the path, and what
-// is laid over them (overlays.ts).
+// The scene: the stock in chunks, the designed surface, the tool and its latest positions, the path, and the overlays
+// (overlays.ts).
 
 import {
   BoxGeometry,
@@ -33,9 +33,9 @@ import { Tool } from "./tool.js";
 import { vec3, type Axis, type Vec3 } from "@tribo/protocol/vec3";
 
 const PIXEL_RATIO_CAP = 2;
-// A point this near to a side of the blank is on it; of the cell.
+// A point closer to a side of the blank counts as on it; in cells.
 const ON_BLANK = 1e-3;
-// Colouring of a large part goes on piece by piece, ms each, and is shown every so often, ms.
+// A large part is coloured in pieces, ms each, and drawn at intervals, ms.
 const COLOURING_MS = 8;
 const SHOWN_EVERY_MS = 200;
 
@@ -49,7 +49,7 @@ export class Scene {
   readonly three = new ThreeScene();
   readonly camera = new PerspectiveCamera(40, 1, 0.1, 10000);
   readonly controls: OrbitControls;
-  // All that belongs to the job, in its millimetres: VR sets it on a bench.
+  // All objects of the job, in its millimetres. VR places them on a bench.
   readonly world = new Group();
   readonly overlays: Overlays;
   readonly heatMap = new HeatMap();
@@ -58,7 +58,7 @@ export class Scene {
   private readonly stock = new Group();
   private readonly designed = new Group();
   private readonly chunks = new Map<string, Mesh>();
-  // Of their vertices, by chunk.
+  // Of the vertices, by chunk.
   private readonly deviations = new Map<string, Float32Array>();
   private readonly material = new MeshStandardMaterial({
     vertexColors: true,
@@ -77,7 +77,7 @@ export class Scene {
     polygonOffsetFactor: 4,
     polygonOffsetUnits: 64,
   });
-  // What of it is still inside the stock.
+  // The part of the designed surface that is still inside the stock.
   private readonly hiddenPink = new MeshBasicMaterial({
     color: PALETTES.paper.designed,
     transparent: true,
@@ -86,7 +86,7 @@ export class Scene {
     depthWrite: false,
     depthFunc: GreaterDepth,
   });
-  // The blank's box, until the part itself is there; of its material, so that one shader does for both.
+  // The box of the blank, shown until the part arrives. It uses the same material, so that one shader is enough.
   private readonly box = new Mesh(new BoxGeometry(), this.material);
   private readonly tool: Tool;
   private readonly path = new PathLines();
@@ -105,7 +105,7 @@ export class Scene {
     context?: WebGL2RenderingContext,
   ) {
     this.renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
-    // To ask for errors is to wait for every shader, one after the other.
+    // Checking for errors would wait for every shader, one after the other.
     this.renderer.debug.checkShaderErrors = false;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO_CAP));
     this.camera.up.set(0, 0, 1);
@@ -128,7 +128,7 @@ export class Scene {
     this.box.visible = false;
     this.world.add(this.box, this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
     this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
-    // The browser's graphics make room and the shader while the job is on its way.
+    // Prepares graphics memory and shader while the job is loading.
     this.resize();
     this.renderer.compile(this.box, this.camera, this.three);
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -203,7 +203,7 @@ export class Scene {
     this.draw();
   }
 
-  // The cut is told anew: feed, speed or material were changed.
+  // Feed, speed or material have changed: all rows are sent again.
   forgetRows(): void {
     if (!this.job) return;
     this.heatMap.begin(this.job.cutters);
@@ -213,7 +213,7 @@ export class Scene {
 
   show(state: StateFrame): void {
     if (!this.job) return;
-    // A state comes after the part.
+    // The state frame follows the frames of the part.
     this.box.visible = false;
     this.axis = state.axis;
     this.cutter = state.cutter;
@@ -246,7 +246,7 @@ export class Scene {
     this.colourLater(this.chunks.keys());
   }
 
-  // What stands at a place of the canvas (css pixels from its corner), of the part only.
+  // Returns the point of the part at a position of the canvas (CSS pixels from its corner).
   pick(x: number, y: number): Hit | undefined {
     const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
     this.rays.setFromCamera(at, this.camera);
@@ -258,7 +258,7 @@ export class Scene {
     return { point: this.world.worldToLocal(first.point.clone()).toArray(), normal: first.face.normal.toArray() };
   }
 
-  // The highest place of the part under a point, or nothing.
+  // Returns the highest point of the part below a point, or undefined.
   surfaceBelow(x: number, y: number): number | undefined {
     if (!this.job) return undefined;
     const from = this.world.localToWorld(new Vector3(x, y, this.job.blank.max[2] + this.extent()));
@@ -267,15 +267,15 @@ export class Scene {
     return this.hit()?.point[2];
   }
 
-  // The whole part in view, from the front right.
+  // Shows the whole part from the front right.
   fit(): void {
     if (!this.job) return;
     const { min, max } = this.job.blank;
     const centre = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
     const size = this.extent();
-    // A tall window sees less to the sides.
+    // A tall window shows less at the sides.
     const narrow = Math.max(1, 1.05 / Math.max(this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1), 0.2));
-    // The tool stands on the part.
+    // The tool is above the part.
     centre.z += 0.12 * size;
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.8).multiplyScalar(1.22 * size * narrow));
@@ -285,7 +285,7 @@ export class Scene {
     this.draw();
   }
 
-  // Turns about the part, rad, and nears by a factor.
+  // Turns the view about the part, rad, and moves it closer by a factor.
   orbit(right: number, up: number, nearer = 1): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     offset.applyAxisAngle(this.camera.up, -right);
@@ -296,7 +296,7 @@ export class Scene {
     this.controls.update();
   }
 
-  // Draws with the next picture, once however often it is asked.
+  // Draws with the next picture, once for any number of calls.
   draw(): void {
     if (this.wanted || !this.job || this.renderer.xr.isPresenting) return;
     this.wanted = true;
@@ -304,15 +304,15 @@ export class Scene {
       this.wanted = false;
       this.render();
     };
-    // The first picture waits for its shaders long enough.
+    // The first picture must already wait for its shaders.
     if (this.seen) requestAnimationFrame(go);
     else queueMicrotask(go);
   }
 
-  // Now; VR calls it for each of its pictures.
+  // Draws immediately. VR calls it for each of its pictures.
   render(): void {
     if (!this.renderer.xr.isPresenting) this.resize();
-    // The part at once; the shaders of what stands around it are made for the next picture.
+    // Draw the part first. The shaders of the other objects are made for the next picture.
     const around = this.seen
       ? []
       : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);

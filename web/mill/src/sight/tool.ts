@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tool, and the row of its latest positions (figure 2 of the milling paper).
+// The tool and its latest positions (figure 2 of the milling paper).
 
 import {
   Color,
@@ -20,7 +20,7 @@ const CORNER_STEPS = 12;
 const POSITIONS = 10;
 const UP = new Vector3(0, 0, 1);
 
-// Points (radius, height above the tip) from the axis at the bottom to the axis at the top.
+// Points (radius, height above the tip) from the bottom of the axis to its top.
 export function outline(cutter: Cutter): [number, number][] {
   const { radius, corner, length, holder } = cutter;
   const points: [number, number][] = [[0, 0]];
@@ -82,7 +82,7 @@ export class Tool {
     this.last.set(Infinity, 0, 0);
     for (const cutter of cutters) {
       const mesh = new Mesh(lathe(cutter, 40), this.steel);
-      // Only the part that cuts.
+      // Only the cutting part.
       const row = new InstancedMesh(
         lathe({ ...cutter, length: Math.min(cutter.length, 2.2 * cutter.radius), holder: [] }, 20),
         this.ghost,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ear of the page: frames and the picture's clock go to mill_sound.wasm in an AudioWorklet. Begins with
-// the first gesture, as browsers demand.
+// The sound of the page: passes frames and the clock of the picture to mill_sound.wasm in an AudioWorklet. Begins
+// with the first gesture, as browsers require.
 
 import type { MillSoundExports } from "@tribo/wasm/exports";
 import { openAudio } from "@tribo/ui/audio";
@@ -18,14 +18,14 @@ export class Sound {
   private node: AudioWorkletNode | undefined;
   private gain: GainNode | undefined;
   private opening: Promise<void> | undefined;
-  // What the ear must have even if it is opened late.
+  // Frames that the worklet needs even if it starts late.
   private job: ArrayBuffer | undefined;
   private listening: ArrayBuffer | undefined;
   private sounds: ArrayBuffer[] = [];
   private isMuted = false;
   analyser: AnalyserNode | undefined;
 
-  // Whether a page may sound here at all: AudioWorklet needs https or this very machine.
+  // True if this page may play sound: AudioWorklet requires https or localhost.
   static get possible(): boolean {
     return typeof AudioContext !== "undefined" && "audioWorklet" in AudioContext.prototype && isSecureContext;
   }
@@ -41,7 +41,7 @@ export class Sound {
     if (this.gain && this.context) this.gain.gain.setTargetAtTime(on ? 0 : 1, this.context.currentTime, 0.02);
   }
 
-  // From a gesture.
+  // Must be called in a gesture.
   wake(): Promise<void> {
     if (!Sound.possible) return Promise.resolve();
     this.opening ??= this.open();
@@ -60,7 +60,7 @@ export class Sound {
     } else {
       return;
     }
-    // The job's path is long, and of no interest to an ear.
+    // The path of the job is long and not needed for sound.
     this.post({ kind: "frame", bytes: kind === "job" ? bytes.slice(0, 16) : bytes });
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The audio thread's side of sound.ts.
+// The part of sound.ts on the audio thread.
 
 import type { MillSoundExports } from "@tribo/wasm/exports";
 import { bytesAt, floatsAt } from "@tribo/wasm/memory";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The line to the engine: frames in, commands out; found again when it is lost.
+// The connection to the engine: frames in, commands out. It reconnects after a loss.
 
 import { decodeFrame } from "@tribo/protocol/frames";
 import { SUBPROTOCOL, type Command, type EngineMessage } from "@tribo/protocol/messages";
@@ -13,7 +13,7 @@ export class Connection implements Source {
   private closed = false;
   private resume: string | undefined;
   private listener: Listener | undefined;
-  // What came before anybody listened.
+  // Messages received before there was a listener.
   private waiting: ((to: Listener) => void)[] = [];
 
   constructor(private readonly url = liveUrl(location)) {
@@ -37,7 +37,7 @@ export class Connection implements Source {
   private open(): void {
     if (this.closed) return;
     const url = new URL(this.url);
-    // Good for once, in place of the page's own token.
+    // Valid once, instead of the token of the page.
     if (this.resume) {
       url.searchParams.delete("token");
       url.searchParams.set("resume", this.resume);
@@ -80,7 +80,7 @@ export class Connection implements Source {
   }
 }
 
-// Beside the page, with the page's token.
+// At the address of the page, with its token.
 export function liveUrl(page: { protocol: string; host: string; search: string }): string {
   const token = new URLSearchParams(page.search).get("token");
   const scheme = page.protocol === "https:" ? "wss:" : "ws:";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Files that are dropped or chosen: what is to be milled out of them, or why nothing can be.
+// Dropped or chosen files: returns what to mill, or the reason why nothing can be milled.
 
 import type { JobFile, Order } from "./workshop.js";
 
-// A page holds what it reads several times over; the program takes longer ones.
+// A page holds its input several times in memory; the program accepts longer files.
 export const LARGEST_FILE = 64 << 20;
 
 const MODELS = /\.(wrl|vrml|stl|obj|ply)(\.gz)?$/i;
@@ -19,7 +19,8 @@ function lastName(path: string): string {
   return path.slice(path.lastIndexOf("/") + 1);
 }
 
-// Of several jobs those whose stock no other one begins with (`[stock] from`): the last of a chain of set-ups.
+// With several jobs, returns those whose stock no other job begins with (`[stock] from`): the last of a chain of
+// set-ups.
 function lastJobs(jobs: JobFile[]): JobFile[] {
   const earlier = new Set<string>();
   for (const job of jobs) {
@@ -29,7 +30,7 @@ function lastJobs(jobs: JobFile[]): JobFile[] {
   return jobs.filter((job) => !earlier.has(lastName(job.name)));
 }
 
-// Of files with folders in their names ("bowl/bowl.toml"), the files of one drop or choice.
+// The files of one drop or choice, with folders in their names ("bowl/bowl.toml").
 export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const [first] = files;
   if (!first) return { refused: "there was no file in it" };
@@ -64,7 +65,7 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
     return { order: { ...before, files: [...before.files, model], part: model.name } };
   }
   if (model) return { refused: "a model alone says no path: drop it together with a program" };
-  // A name without a known ending: the module looks into it.
+  // Unknown extension: the module examines the contents.
   return { order: { files, job: first.name, part: "", cell } };
 }
 
@@ -78,7 +79,7 @@ export async function read(files: { name: string; file: File }[]): Promise<JobFi
   return Promise.all(files.map(async ({ name, file }) => ({ name, bytes: await file.arrayBuffer() })));
 }
 
-// The files of a drop, folders walked through.
+// Returns the files of a drop, including those in folders.
 export async function dropped(data: DataTransfer): Promise<{ name: string; file: File }[]> {
   const entries = [...data.items].flatMap((item) => item.webkitGetAsEntry?.() ?? []);
   if (entries.length === 0) return [...data.files].map((file) => ({ name: file.name, file }));

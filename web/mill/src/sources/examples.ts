@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The examples that stand beside a static page.
+// The examples beside a static page.
 
 import type { JobFile, Order } from "./workshop.js";
 
 export interface Example {
-  name: string; // for people
+  name: string; // for display
   job: string;
   files: string[]; // beside the page, under examples/
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The frames that a new viewer needs: a recording begins with them.
+// The frames that a new viewer needs. A recording begins with them.
 
 import type { Frame } from "@tribo/protocol/frames";
 
-/** Frames of sound: the engine keeps as many. */
+/** Number of sound frames kept, as in the engine. */
 export const KEPT_SOUNDS = 64;
 
 export class FrameCache {

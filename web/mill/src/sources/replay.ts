@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A recording played again as if an engine sent it.
+// Plays a recording as if an engine sent it.
 
 import { decodeFrame, type StateFrame } from "@tribo/protocol/frames";
 import type { Command } from "@tribo/protocol/messages";
 import type { Recorded } from "@tribo/protocol/recording";
 import type { Listener, Source } from "./source.js";
 
-// Play, pause, speed and seek work on the time in which it was made.
+// Play, pause, speed and seek refer to the time of the recording.
 export class Replay implements Source {
   private next = 0;
   private clock = 0;
@@ -33,7 +33,7 @@ export class Replay implements Source {
     } else if (command.op === "speed") {
       this.speed = command.value;
     } else if (command.op === "seek") {
-      // To the state whose program time is the one asked for; all before it counts.
+      // Go to the first state with at least this program time, with all frames before it.
       const at = this.frames.findIndex(({ bytes }) => {
         const view = new DataView(bytes);
         return view.getUint8(0) === 3 && view.getFloat64(8, true) >= command.t_s;
@@ -73,7 +73,7 @@ export class Replay implements Source {
     this.tellState();
   }
 
-  // Whether it plays, and how fast, is for this page to say and not for the one that recorded it.
+  // This page sets play state and speed; those of the recording are ignored.
   private tellState(): void {
     if (!this.last) return;
     const { state, bytes } = this.last;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Where frames come from and commands go to: an engine, the module in this page, or a recording. The page
-// behind it is the same.
+// A source of frames that takes commands: an engine, the module in this page, or a recording. The page is the same
+// for all.
 
 import type { Frame } from "@tribo/protocol/frames";
 import type { Command, ServerInfo, Settings } from "@tribo/protocol/messages";
 
 export interface Listener {
-  // `bytes` are the frame as it came; they may be kept.
+  // `bytes` is the undecoded frame; it may be kept.
   frame(frame: Frame, bytes: ArrayBuffer): void;
   info(info: ServerInfo): void;
   settings(settings: Settings): void;
-  // Whether there is a line; `why` is for people.
+  // Reports whether the source is connected; `why` is a text for users.
   line(open: boolean, why: string): void;
-  // What was asked for is not done, and why.
+  // Reports a refused command with the reason.
   refused(why: string): void;
 }
 

@@ -10,12 +10,12 @@ export interface JobFile {
   bytes: ArrayBuffer;
 }
 
-// What is to be milled: a job or a program among the files, and perhaps a model as its designed surface.
+// The job or program among the files, and optionally a model as its designed surface.
 export interface Order {
   files: JobFile[];
   job: string;
   part: string;
-  cell: number; // mm; 0: as fine as the job needs
+  cell: number; // mm; 0: the default spacing of the job
 }
 
 export type ToWorker = { kind: "open"; order: Order } | { kind: "command"; command: Command };
@@ -37,7 +37,7 @@ export class Workshop implements Source {
     this.worker.onerror = (event) => this.listener.line(false, event.message || "the page's own mill failed");
   }
 
-  // Gives why it was refused, or nothing.
+  // Returns the reason of a refusal, or undefined.
   open(order: Order): Promise<string> {
     this.post({ kind: "open", order });
     return new Promise((resolve) => this.waiting.push(resolve));

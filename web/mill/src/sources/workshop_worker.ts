@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The worker's side of workshop.ts: the module, its clock, and its frames handed over as they come.
+// The worker of workshop.ts: the module, its clock, and its frames, which are passed on at once.
 
 import type { MillExports } from "@tribo/wasm/exports";
 import { lend, lendText, textAt } from "@tribo/wasm/memory";
@@ -9,12 +9,12 @@ import type { Command, Settings } from "@tribo/protocol/messages";
 import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
 
 const TICK_MS = 1000 / 60;
-// Of a tick, how much may go into milling.
+// Largest part of a tick for milling.
 const MILLING_MS = 12;
-// Where a tick takes longer than that, the next one waits: half as many pictures cost half as much.
+// If a tick takes longer, the next one waits: half the number of pictures needs half the time.
 const BUSY_TICK_MS = 30;
 const MOST_LOOKS = 4096;
-// A clock that did not run for longer than this (a laptop asleep) jumps no further, s.
+// If the clock stood still for longer (a sleeping laptop), it advances by this only, s.
 const LONGEST_STEP_S = 0.1;
 
 function post(message: FromWorker, transfer: Transferable[] = []): void {
@@ -30,9 +30,9 @@ async function unpacked(file: JobFile): Promise<Uint8Array> {
 
 class Mill {
   private looks = 64;
-  private took = 0; // ms, of the last tick
+  private took = 0; // ms, in the last tick
   private before = performance.now();
-  private told = ""; // settings
+  private told = ""; // settings sent last
 
   constructor(private readonly x: MillExports) {}
 
@@ -106,7 +106,7 @@ async function fresh(): Promise<Mill> {
   return new Mill(await instantiate(await compiled));
 }
 
-// A module that trapped (memory, as a rule) is of no more use.
+// After a trap (usually out of memory) the module cannot be used any more.
 function broken(error: unknown): void {
   mill = undefined;
   post({
@@ -121,7 +121,7 @@ function broken(error: unknown): void {
 self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
   try {
     if (data.kind === "open") {
-      // A fresh one: memory never shrinks.
+      // Start a new one: memory never shrinks.
       const next = await fresh();
       mill = undefined;
       await next.open(data.order);

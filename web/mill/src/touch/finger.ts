@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The finger: mouse, touch or pen on the part, a gamepad, or keys. What presses on the picture presses into
-// the part; what hovers is above it.
+// The finger: mouse, touch or pen on the part, a gamepad, or keys. A press on the picture presses into the part; a
+// hovering pointer is above it.
 
 import { rumble } from "@tribo/ui/gamepad";
 import type { Scene } from "../sight/scene.js";
 import type { Source } from "../sources/source.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
-// How deep the hand wants to go where it presses, and how high it hovers; shares of the part's size.
+// Depth of a press and height of hovering, as shares of the part size.
 const PRESS = 0.012;
 const HOVER = 0.01;
 const GAMEPAD_DEADZONE = 0.15;
 
 export class Finger {
   enabled = false;
-  // An arm leads the finger itself.
+  // An arm moves the finger itself.
   arm = false;
   private down: number | undefined;
   private at: Vec3 | undefined;
@@ -27,7 +27,7 @@ export class Finger {
     private readonly source: () => Source | undefined,
   ) {
     const { canvas } = scene;
-    // Before the camera's own listeners: what begins on the part is a touch, else a turn of the camera.
+    // Before the listeners of the camera: a drag that begins on the part is a touch, any other turns the camera.
     canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event), { capture: true });
     for (const kind of ["pointerup", "pointercancel"] as const)
@@ -41,7 +41,7 @@ export class Finger {
     return this.down !== undefined || this.keys || this.padDown;
   }
 
-  // By keys: Shift and arrows move it in the plane of the picture.
+  // By keys: Shift and arrows move the finger in the plane of the picture.
   nudge(right: number, up: number): void {
     if (!this.enabled || !this.scene.job) return;
     this.keys = true;
@@ -53,12 +53,12 @@ export class Finger {
     this.leave();
   }
 
-  // From a controller in VR: a place in the part's frame.
+  // From a controller in VR: a position in the frame of the part.
   place(at: Vec3, down: boolean): void {
     if (this.enabled) this.tell(at, down);
   }
 
-  // Once a picture: the first gamepad's left stick moves, its right trigger presses.
+  // Called once per picture: the left stick of the first gamepad moves the finger, its right trigger presses.
   pollGamepad(): void {
     const pad = navigator.getGamepads?.().find((g) => g?.connected);
     if (!pad || !this.enabled || !this.scene.job) return;
@@ -70,7 +70,7 @@ export class Finger {
     }
   }
 
-  // What the hand feels as rumble, where a gamepad can.
+  // Plays the force on the hand as rumble, if a gamepad supports it.
   rumble(force: number, limit: number): void {
     if (!this.padDown) return;
     const pad = navigator.getGamepads?.().find((g) => g?.connected);
@@ -104,7 +104,7 @@ export class Finger {
   private follow(event: PointerEvent): void {
     const hit = this.scene.pick(event.offsetX, event.offsetY);
     if (!hit) return;
-    // A pen that knows its pressure presses by it; a mouse says 0.5.
+    // A pen reports its pressure, which sets the depth; a mouse reports 0.5.
     const depth = PRESS * this.scene.extent() * (event.pressure > 0 ? 2 * event.pressure : 1);
     this.tell(along(hit.point, hit.normal, -depth), true);
   }
@@ -128,19 +128,19 @@ export class Finger {
     const step = 0.02 * this.scene.extent();
     const start: Vec3 = this.at ?? vec3((k) => (job.blank.min[k] + job.blank.max[k]) / 2);
     const m = this.scene.camera.matrixWorld.elements;
-    // Right and away from the eye, as they lie on the table.
+    // Directions to the right and away from the eye, in the table plane.
     const side = flat([m[0], m[1], 0]);
     const ahead = flat([-m[8] + m[4], -m[9] + m[5], 0]);
     const next = vec3((k) => start[k] + step * (right * side[k] + up * ahead[k]));
     for (const k of [0, 1] as const) next[k] = Math.min(Math.max(next[k], job.blank.min[k]), job.blank.max[k]);
-    // The part keeps it out; it presses from above.
+    // The part stops the finger; it presses from above.
     next[2] = down ? (job.blank.min[2] + job.blank.max[2]) / 2 : job.blank.max[2] + HOVER * this.scene.extent();
     const top = this.scene.surfaceBelow(next[0], next[1]);
     if (top !== undefined) next[2] = top + (down ? -PRESS : HOVER) * this.scene.extent();
     this.tell(next, down);
   }
 
-  // At most once a picture: hands move more often than that.
+  // Sends at most once per picture: pointers move more often.
   private tell(at: Vec3, down: boolean): void {
     this.at = at;
     if (this.telling) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// VR: the part at its true size on a bench, the right controller as the finger, and a pulse from the force.
+// VR: the part at its true size on a bench, the right controller as the finger, and pulses from the force.
 
 import { BoxGeometry, Color, Group, Mesh, MeshStandardMaterial, Vector3, type XRTargetRaySpace } from "three";
 
@@ -10,7 +10,7 @@ import type { Scene } from "../sight/scene.js";
 const BENCH_HEIGHT_M = 0.95;
 const BENCH_AWAY_M = 0.5;
 const MM = 0.001;
-// A force of this many newtons is the strongest pulse.
+// Force of the strongest pulse, in newtons.
 const FULL_N = 3;
 const PULSE_MS = 24;
 
@@ -42,7 +42,7 @@ export class Headset {
     await renderer.xr.setSession(session);
     const background = three.background;
     three.background = new Color(0x1c222b);
-    // Stock z is up; a headset's is y.
+    // z is up in the stock, y in a headset.
     const { min, max } = job.blank;
     world.scale.setScalar(MM);
     world.rotation.x = -Math.PI / 2;
@@ -74,7 +74,7 @@ export class Headset {
     });
   }
 
-  // What the finger feels now, on the controllers.
+  // Plays the force on the finger on the controllers.
   pulse(frame: FingerFrame): void {
     if (!this.session || !frame.contact) return;
     const strength = Math.min(Math.hypot(...frame.force) / FULL_N, 1);
@@ -87,7 +87,7 @@ export class Headset {
     }
   }
 
-  // The finger is a little before the controller; the trigger makes no difference: it touches where it is.
+  // The finger is slightly in front of the controller. The trigger has no effect: the finger touches where it is.
   private feel(): void {
     const hand = this.hands.find((h) => h.visible);
     if (!hand) return;
