@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the program writes into the page (src/report/report_html.cpp): JSON, and the part's bytes.
+// The data that the program writes into the page (src/report/report_html.cpp): JSON, and the bytes of the part.
 
 import { element } from "@tribo/ui/dom";
 
 type Pair = [number, number];
 export type Triple = [number, number, number];
 
-/** A stretch of the cut has one number in each list. Units: mm, N, s, degrees, rpm, mm/min. */
+/** Each list has one number per piece of the cut. Units: mm, N, s, degrees, rpm, mm/min. */
 export interface Rows {
   t: number[];
   dt: number[];
@@ -35,7 +35,7 @@ export interface Turn {
   amplitude: number[];
 }
 
-/** Least and largest sound pressure in equal steps over the whole; `heard`: where the played stretch begins, s. */
+/** Smallest and largest sound pressure in equal steps over the whole sound; `heard`: start of the played part, s. */
 export interface Envelope {
   seconds: number;
   heard: number;
@@ -49,7 +49,7 @@ export interface Wave {
   samples: number[];
 }
 
-/** How the part's bytes are to be read. */
+/** Layout of the bytes of the part. */
 export interface Part {
   vertices: number;
   triangles: number;
@@ -61,7 +61,7 @@ export interface Part {
 
 interface ReportData {
   schema: "tribo.report/1";
-  /** The largest force may be as low and as high as these factors say. */
+  /** Factors on the largest force, for its lower and upper estimate. */
   band: Pair;
   rows: Rows;
   turn?: Turn;

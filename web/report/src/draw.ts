@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What plots are drawn of.
+// Common drawing functions of the plots.
 
 import type { Plot } from "./plot.js";
 
 export type Context = CanvasRenderingContext2D;
 
-/** A colour of the style sheet, as it is by day or by night. */
+/** Returns a colour of the style sheet for the current colour scheme. */
 export const css = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 export function line(c: Context, x0: number, y0: number, x1: number, y1: number): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Force over time, with the band in which the largest may lie. Drag to zoom, double-click to see all again.
+// Force over time, with the uncertainty band of the largest force. Drag to zoom, double-click to see all again.
 
 import { count, data, rows } from "./data.js";
 import { css, curve, legend, line } from "./draw.js";
@@ -7,7 +7,7 @@ import { clamp } from "./numbers.js";
 import { Plot } from "./plot.js";
 import { follow, rowAt, runs, select, selected } from "./selection.js";
 
-// A mouse that went less far, in pixels, has clicked.
+// A shorter movement of the mouse is a click, pixels.
 const LEAST_DRAG = 6;
 
 export function forcePlot(): void {

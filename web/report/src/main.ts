@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The report's page: what the program measured becomes plots. The part in 3D is a script of its own (part_view.ts), which a
-// page without a part is spared.
+// The page of the report: makes plots of the results. The part in 3D has its own script (part_view.ts), which a page
+// without a part does not contain.
 
 import { element } from "@tribo/ui/dom";
 import { count, data, rows } from "./data.js";

@@ -3,14 +3,14 @@
 export const clamp = (v: number, low: number, high: number) => Math.min(Math.max(v, low), high);
 export const largest = (list: number[]) => list.reduce((m, v) => Math.max(m, v), 0);
 
-/** Three significant digits, without exponents where a person would not use one. */
+/** Rounds to three significant digits, without exponents for numbers of usual size. */
 export function short(v: number): string {
   const size = Math.abs(v);
   if (size >= 1e6 || (size > 0 && size < 1e-3)) return v.toExponential(2);
   return String(Number(v.toPrecision(size >= 1000 ? 4 : 3)));
 }
 
-/** Round steps, so that between four and nine ticks cover the range. */
+/** Returns round steps, so that four to nine ticks cover the range. */
 export function ticks(low: number, high: number, wanted: number): number[] {
   const raw = (high - low) / wanted;
   if (!(raw > 0)) return [low];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Where the part is seen from: an eye that goes around a target, z up.
+// The camera of the part: an eye that moves around a target, z up.
 
 import type { Vec3 } from "@tribo/protocol/vec3";
 import { clamp, vec3 } from "./shared.js";
 
 const HALF_VIEW = Math.tan((0.5 * 27 * Math.PI) / 180);
-// Around the part at the start.
+// Start direction around the part.
 const ROOM = 1.06;
 
 const add = (a: Vec3, b: Vec3, s = 1): Vec3 => vec3((k) => a[k] + s * b[k]);
@@ -17,14 +17,14 @@ const cross = (a: Vec3, b: Vec3): Vec3 => [
 ];
 
 interface Eye {
-  /** About z and above the plane, rad. */
+  /** About z, and above the horizontal plane, rad. */
   turn: number;
   rise: number;
   near: number;
   target: Vec3;
 }
 
-/** Unit vectors: out of the picture, to its right, up in it. */
+/** Unit vectors: out of the picture, to its right, upwards. */
 function axes({ turn, rise }: Eye): { back: Vec3; right: Vec3; up: Vec3 } {
   const back: Vec3 = [Math.cos(rise) * Math.cos(turn), Math.cos(rise) * Math.sin(turn), Math.sin(rise)];
   const right: Vec3 = [-Math.sin(turn), Math.cos(turn), 0];
@@ -37,7 +37,7 @@ export class Camera {
   readonly #centre: Vec3;
   readonly #half: Vec3;
 
-  /** Of a box: its middle and half its sides. */
+  /** The centre of a box and half of its size. */
   constructor(centre: Vec3, half: Vec3) {
     this.#centre = centre;
     this.#half = half;
@@ -63,12 +63,12 @@ export class Camera {
     this.#eye.target = add(add(this.#eye.target, right, -dx * mm), up, dy * mm);
   }
 
-  /** The place of the eye, and the matrix to clip space, column by column. */
+  /** The position of the eye, and the matrix to clip space, by columns. */
   view(aspect: number): { from: Vec3; matrix: Float32Array } {
     const far = this.#distance(aspect);
     const { back, right, up } = axes(this.#eye);
     const from = add(this.#eye.target, back, far);
-    // Everything of the part lies between these, from wherever it is seen.
+    // The whole part is between these distances, from every direction.
     const radius = Math.max(Math.hypot(...this.#half), 1e-6);
     const deep = radius + Math.hypot(...add(this.#centre, this.#eye.target, -1));
     const n = Math.max(far - deep, 1e-3 * radius);
@@ -86,7 +86,7 @@ export class Camera {
     };
   }
 
-  /** So far away that the whole part is seen at the start. */
+  /** The distance at which the whole part is visible at the start. */
   #distance(aspect: number): number {
     const { back, right, up } = axes(this.#start);
     let far = 0;

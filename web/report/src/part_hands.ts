@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mouse, touch, pen and keys on the part: one pointer turns it, two shift it and bring it nearer.
+// Mouse, touch, pen and keys on the part: one pointer rotates it, two shift and zoom it.
 
 import type { Camera } from "./part_camera.js";
 
@@ -55,7 +55,7 @@ export function listenToHands(canvas: HTMLCanvasElement, camera: Camera, redraw:
     canvas.addEventListener(end, (e) => down.delete(e.pointerId));
   }
   canvas.addEventListener("contextmenu", (e) => e.preventDefault());
-  // The wheel scrolls the page until the view was clicked.
+  // The wheel scrolls the page until the view is clicked.
   canvas.addEventListener(
     "wheel",
     (e) => {

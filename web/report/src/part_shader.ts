@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part's surface, flat shaded by its triangles, and the mark at the tool's tip.
+// Shaders of the surface of the part, with flat triangles, and of the mark at the tool tip.
 
 export const kPartVertex = `#version 300 es
 in vec3 place;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part in 3D: WebGL 2 by hand, drawn only when something changes. Without it the picture stays.
+// The part in 3D: WebGL 2 without a library, drawn only after changes. Without WebGL 2 the picture stays.
 
 import type { Part } from "./data.js";
 import { Camera } from "./part_camera.js";
@@ -27,7 +27,10 @@ function link(gl: WebGL2RenderingContext, vertex: string, fragment: string): Web
   return gl.getProgramParameter(made, gl.LINK_STATUS) ? made : undefined;
 }
 
-/** Fills the buffers of the program with the bytes (report_part.hpp says how they lie). Gives the greatest coordinates, in steps. */
+/**
+ * Fills the buffers of the program with the bytes (layout: report_part.hpp). Returns the largest coordinates, in
+ * steps.
+ */
 function load(gl: WebGL2RenderingContext, program: WebGLProgram, part: Part): [number, number, number] {
   const bytes = Uint8Array.from(atob(element("part").textContent.trim()), (c) => c.charCodeAt(0));
   let at = 0;

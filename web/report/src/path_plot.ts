@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tool path from above, coloured by what is chosen.
+// The tool path from above, coloured by a chosen value.
 
 import type { Vec3 } from "@tribo/protocol/vec3";
 import { between } from "@tribo/ui/colours";
@@ -17,12 +17,12 @@ const SCALE: Vec3[] = [
   [200, 45, 30],
 ];
 const UNITS = { peak: "N", mean: "N", depth: "mm", feed: "mm/min" };
-// A pointer selects a row that is at most this far from it, in pixels.
+// A pointer selects a row within this distance, in pixels.
 const REACH = 30;
 
 const colour = (share: number) => `rgb(${between(SCALE, share).map(Math.round).join()})`;
 
-/** Middle and width of what a list covers. */
+/** Centre and width of the range of a list. */
 function span(list: number[]): { middle: number; width: number } {
   const low = list.reduce((m, v) => Math.min(m, v), Infinity);
   const high = list.reduce((m, v) => Math.max(m, v), -Infinity);
@@ -38,7 +38,7 @@ export function pathPlot(): void {
     yLabel: "y, mm",
     right: 92,
     extent(aspect) {
-      // As many pixels to a millimetre both ways.
+      // The scale is equal in both directions.
       const half = 0.54 * Math.max(y.width, x.width / aspect, 1e-3);
       return { x: [x.middle - half * aspect, x.middle + half * aspect], y: [y.middle - half, y.middle + half] };
     },

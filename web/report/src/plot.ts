@@ -11,11 +11,11 @@ type Range = [low: number, high: number];
 export interface PlotOptions {
   xLabel: string;
   yLabel: string;
-  /** Room at the right side, in CSS pixels. */
+  /** Margin at the right side, in CSS pixels. */
   right?: number;
-  /** What the axes cover; `aspect` is width over height of the frame. */
+  /** Ranges of the axes; `aspect` is width over height of the frame. */
   extent(aspect: number): { x: Range; y: Range };
-  /** Draws inside the frame. The picture is kept, so that cursors cost nothing. */
+  /** Draws inside the frame. The picture is kept, so that moving a cursor needs no redrawing of it. */
   paint(c: Context): void;
   cursor?(c: Context): void;
 }
@@ -37,7 +37,7 @@ export class Plot {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
 
-  // The frame, in CSS pixels, and places in it.
+  // The frame, in CSS pixels, and positions in it.
   get width(): number {
     return this.canvas.clientWidth - this.left - (this.#options.right ?? 16);
   }
@@ -79,7 +79,7 @@ export class Plot {
     this.overlay();
   }
 
-  /** Draws the cursor anew. */
+  /** Draws the cursor again. */
   overlay(): void {
     const c = this.#context;
     const kept = this.#kept;

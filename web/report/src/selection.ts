@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The row that every plot and the part point at.
+// The selected row, shared by all plots and the part.
 
 import { element } from "@tribo/ui/dom";
 import { count, data, rows } from "./data.js";
@@ -8,10 +8,10 @@ import { short } from "./numbers.js";
 const slider = element<HTMLInputElement>("row");
 const linked: (() => void)[] = [];
 
-/** Its number, or -1. */
+/** Index of the row, or -1. */
 export let selected = -1;
 
-/** `redraw` is called whenever another row is selected. */
+/** `redraw` is called when another row is selected. */
 export function follow(redraw: () => void): void {
   linked.push(redraw);
 }
@@ -29,7 +29,7 @@ export function select(i: number): void {
   for (const redraw of linked) redraw();
 }
 
-/** The last row that begins no later than a time. */
+/** Returns the last row that begins at or before a time. */
 export function rowAt(t: number): number {
   let low = 0;
   let high = count - 1;
@@ -46,7 +46,7 @@ export function listenToSlider(): void {
   slider.addEventListener("input", () => select(Number(slider.value)));
 }
 
-/** Rows that follow each other without a gap: [first, end) pairs. */
+/** Returns the runs of rows without a gap as [first, end) pairs. */
 export const runs: [first: number, end: number][] = [];
 for (let i = 0, first = 0; i < count; ++i) {
   if (i + 1 === count || rows.t[i + 1]! > rows.t[i]! + 1.5 * rows.dt[i]! + 1e-6) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the script of the part's view takes from the page's script instead of having it twice.
+// Functions of the page script that the script of the part view uses, so that they exist only once.
 export { vec3 } from "@tribo/protocol/vec3";
 export { fitToScreen } from "@tribo/ui/canvas";
 export { element } from "@tribo/ui/dom";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The loudness of the whole sound, which leads the player, and the form of a few milliseconds.
+// The envelope of the whole sound, which controls the player, and the waveform of a few milliseconds.
 
 import { element } from "@tribo/ui/dom";
 import { count, type Envelope, type Wave } from "./data.js";
