@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A worker that learns: learn.wasm is loaded for the first recordings that come, and the page stays free
-// meanwhile.
+// A worker for learning. It loads learn.wasm for the first recordings, so that the page stays responsive.
 import { wordsOf } from "@tribo/ui/dom";
 import type { LearnExports } from "@tribo/wasm/exports";
 import { doublesAt, lendText, textAt } from "@tribo/wasm/memory";
@@ -14,7 +13,7 @@ export interface Lesson {
   force: number;
   sound: Sound;
 }
-/** A material file as `tribo learn` writes it, without a name and a picture. */
+/** A material file as written by `tribo learn`, without a name and a picture. */
 export type Learned = Pick<
   Material,
   "schema" | "stiffness_n_per_mm" | "viscosity_n_s_per_mm" | "method" | "highpass_hz" | "level_law" | "voices"
@@ -43,7 +42,7 @@ let module: Promise<Compiled<LearnExports>> | undefined;
 
 async function answer(lessons: Lesson[]): Promise<Answer> {
   module ??= compile<LearnExports>("learn.wasm", import.meta.url);
-  // A new instance each time: the memory of long recordings goes with it.
+  // A new instance each time, so that the memory of long recordings is freed.
   return learn(await instantiate(await module), lessons);
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// "Make your own": gathers a picture and recordings, has them learned from, and gives the material file.
+// "Make your own": collects a picture and recordings, learns a material from them, and returns the material file.
 import { download, element, wordsOf } from "@tribo/ui/dom";
 import type { Answer, Learned, Lesson } from "./learner.js";
 import { record } from "./microphone.js";
 import { readSound, type Sound } from "./sound.js";
 
-/** What the page does with a material: `file` is an address that can be loaded at once. */
+/** Shows a material in the page; `file` is an address that can be loaded at once. */
 export interface Show {
   (made: { file: string; name: string }): void;
 }
@@ -40,7 +40,7 @@ async function takePicture(file: File): Promise<void> {
   picture = file;
 }
 
-/** The number in a file's name, such as paper-120.wav, or the next of the usual ones. */
+/** Returns the number in a file name, for example in paper-120.wav, or the next default. */
 function guessedSpeed(name: string): number {
   const number = Number(/(\d+(?:\.\d+)?)(?!.*\d)/.exec(name.replace(/\.\w+$/, ""))?.[1] ?? 0);
   if (number >= 5 && number <= 2000) return number;
@@ -126,7 +126,7 @@ function learn(lessons: Lesson[]): Promise<Answer> {
   });
 }
 
-/** A material file as `tribo learn` writes it. */
+/** A material file as written by `tribo learn`. */
 function material(name: string, image: string, width: number, k: number, nu: number, learned: Learned): object {
   const { schema, method, highpass_hz, level_law, voices } = learned;
   return {
@@ -190,14 +190,14 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
   }
 }
 
-/** Brings the form to life; `present` tells the stiffness and the viscosity that the page is set to. */
+/** Starts the form. `present` returns the stiffness and viscosity set in the page. */
 export function start(show: Show, present: () => { stiffness: number; damping: number }): void {
   const own = element("own");
   const form = element<HTMLFormElement>("make");
   for (const id of ["make-image", "make-sounds"]) {
     const input = element<HTMLInputElement>(id);
     input.addEventListener("change", () => void take([...(input.files ?? [])]));
-    // What was chosen before this ran.
+    // Files that were chosen before this script ran.
     if (input.files?.length) void take([...input.files]);
   }
   own.addEventListener("dragover", (event) => {

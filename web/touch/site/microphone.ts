@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A recording from the microphone as it comes: no echo, noise or gain control of the browser's, no
+// An unchanged recording from the microphone: without echo, noise or gain control of the browser, and without
 // compression.
 import type { Sound } from "./sound.js";
 
@@ -7,7 +7,7 @@ const kCapture = `registerProcessor("capture", class extends AudioWorkletProcess
   process([[samples]]) { if (samples) this.port.postMessage(samples.slice()); return true; }
 })`;
 
-/** Waits `wait` seconds, in which hands find their place, then records; throws where there is no microphone. */
+/** Waits `wait` seconds, so that the user can get ready, then records. Throws if there is no microphone. */
 export async function record(seconds: number, wait: number): Promise<Sound> {
   if (navigator.mediaDevices === undefined)
     throw new Error("a page that is not secure may not use the microphone; open it by https");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The touch page: chooses the material, turns K and nu, says what they mean.
+// The touch page: selects the material, sets K and nu, explains their meaning.
 import { element } from "@tribo/ui/dom";
 import type { ContactDetail, TriboErrorDetail, TriboTouch } from "../src/element.js";
 
@@ -14,7 +14,7 @@ const pictures = [element<TriboTouch>("ours"), element<TriboTouch>("published")]
 const stiffness = element<HTMLInputElement>("stiffness");
 const damping = element<HTMLInputElement>("damping");
 
-/** Two digits, never as a power of ten. */
+/** Rounds to two digits, never as a power of ten. */
 const rounded = (value: number) => String(Number(value.toPrecision(2)));
 
 function show(): void {
@@ -50,7 +50,7 @@ function choose(material: Listed): void {
   for (const picture of pictures) {
     picture.removeAttribute("stiffness");
     picture.removeAttribute("damping");
-    // Fetched while the material is.
+    // Loaded at the same time as the material.
     picture.poster = material.image ?? "";
     picture.src = material.file;
     picture.alt = `${material.name}, ${picture.asPublished ? "as published" : "by Tribo"}`;
@@ -59,7 +59,7 @@ function choose(material: Listed): void {
   element("note").textContent = material.note;
 }
 
-/** One more choice among the materials. */
+/** Adds a choice to the materials. */
 function offer(material: Listed, chosen: boolean): void {
   const label = document.createElement("label");
   const input = document.createElement("input");
@@ -96,7 +96,7 @@ async function start(): Promise<void> {
   });
   const list = (await (await fetch("materials.json")).json()) as Listed[];
   list.forEach((material, i) => offer(material, i === 0));
-  // Learning and what belongs to it is loaded for those who want it.
+  // The learning code is loaded only on request.
   element("own").addEventListener("toggle", () => void learnHere(), { once: true });
   element("own").addEventListener("dragenter", () => element("own").setAttribute("open", ""));
 }

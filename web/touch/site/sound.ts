@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Recordings as they lie in a file: WAV sample by sample at its own rate; what else the browser decodes. As
-// `tribo learn` does, of several channels the loudest is taken.
+// Reads sound files: WAV sample by sample at its own rate; the browser decodes other formats. Of several channels the
+// loudest is used, as in `tribo learn`.
 
 export interface Sound {
   rate: number;
   samples: Float64Array;
   channels: number;
-  /** Of a sample; 0: not integers. */
+  /** Bits per sample; 0: not integers. */
   bits: number;
 }
 
@@ -19,7 +19,7 @@ function loudest(channels: Float64Array[]): Float64Array {
   return channels[energies.indexOf(Math.max(...energies))] ?? channels[0]!;
 }
 
-/** One sample at a byte, full scale 1. */
+/** Returns one sample at a byte position, full scale 1. */
 function reader(view: DataView, floating: boolean, bytes: number): ((at: number) => number) | undefined {
   if (floating) {
     if (bytes === 4) return (at) => view.getFloat32(at, true);
@@ -31,7 +31,7 @@ function reader(view: DataView, floating: boolean, bytes: number): ((at: number)
   return bytes === 4 ? (at) => view.getInt32(at, true) / 2147483648 : undefined;
 }
 
-/** A RIFF WAV file, PCM or floating point; one that ends too early is read as far as it goes. */
+/** Reads a RIFF WAV file, PCM or floating point. A truncated file is read to its end. */
 export function readWav(bytes: ArrayBuffer): Sound {
   const view = new DataView(bytes);
   const word = (at: number) => String.fromCharCode(...new Uint8Array(bytes, at, 4));
@@ -48,7 +48,7 @@ export function readWav(bytes: ArrayBuffer): Sound {
       channels = view.getUint16(from + 2, true);
       rate = view.getUint32(from + 4, true);
       bits = view.getUint16(from + 14, true);
-      // The extensible format says in its GUID what it really is.
+      // The extensible format has the real format in its GUID.
       if (format === 0xfffe && length >= 40 && from + 26 <= bytes.byteLength) format = view.getUint16(from + 24, true);
     } else if (kind === "data") {
       const size = bits / 8;
@@ -70,14 +70,14 @@ export function readWav(bytes: ArrayBuffer): Sound {
   throw new Error("is a WAV file without sound in it; record it anew");
 }
 
-/** Any sound file; throws an Error that says what is wrong with it. */
+/** Reads any sound file. Throws an Error that explains the problem. */
 export async function readSound(file: Blob): Promise<Sound> {
   const bytes = await file.arrayBuffer();
   const head = new Uint8Array(bytes, 0, Math.min(32, bytes.byteLength));
   if (bytes.byteLength === 0) throw new Error("is empty; give a recording of friction");
   const name = String.fromCharCode(...head);
   if (name.startsWith("RIFF") && name.startsWith("WAVE", 8)) return readWav(bytes);
-  // The browser converts to the rate of the context: that of the file, where its head is known.
+  // The browser resamples to the rate of the context; use the rate of the file if its header is known.
   const flac =
     name.startsWith("fLaC") && head.length >= 21 ? (head[18]! << 12) | (head[19]! << 4) | (head[20]! >> 4) : 0;
   const rate = flac >= 8000 && flac <= 96000 ? flac : 48000;

@@ -3,7 +3,7 @@
 import type { Material } from "./material.js";
 import { kFields } from "./material_schema.js";
 
-// On a server there are no elements; the class is never made there.
+// On a server there is no HTMLElement; the class is never instantiated there.
 // oxlint-disable-next-line typescript/no-extraneous-class -- it stands in for HTMLElement
 const Base = typeof HTMLElement === "undefined" ? (class {} as typeof HTMLElement) : HTMLElement;
 
@@ -58,14 +58,14 @@ export abstract class AttributeElement extends Base {
   set asPublished(value: boolean) {
     this.toggleAttribute("as-published", value);
   }
-  /** K in N/mm: the attribute, or the material's. */
+  /** K in N/mm: from the attribute, else from the material. */
   get stiffness(): number {
     return this.#number("stiffness", "stiffness_n_per_mm") ?? this.material?.stiffness_n_per_mm ?? Number.NaN;
   }
   set stiffness(value: number) {
     this.setAttribute("stiffness", String(value));
   }
-  /** nu in N s/mm: the attribute, or the material's. */
+  /** nu in N s/mm: from the attribute, else from the material. */
   get damping(): number {
     return this.#number("damping", "viscosity_n_s_per_mm") ?? this.material?.viscosity_n_s_per_mm ?? Number.NaN;
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Friction sound for all elements of a page: one AudioContext, one AudioWorkletNode. It is made ready while
-// nothing is touched yet and begins with the first gesture, as browsers demand.
+// Friction sound for all elements of a page: one AudioContext, one AudioWorkletNode. They are prepared before the
+// first touch and start with the first gesture, as browsers require.
 import { openAudio } from "@tribo/ui/audio";
 import { engine } from "./engine.js";
 import { voiceNumbers, type Material } from "./material.js";
 
-/** What the worklet is told. */
+/** Messages to the worklet. */
 export type VoiceMessage =
   | { kind: "add"; id: number; numbers: Float64Array; published: boolean }
   | { kind: "target"; id: number; speed: number; force: number; pan: number; gain: number }
   | { kind: "remove"; id: number };
 
-/** What the worklet says of a voice that the module refuses. */
+/** Message of the worklet about a voice that the module refuses. */
 export interface VoiceRefusal {
   id: number;
   wrong: string;
@@ -23,7 +23,7 @@ let nextId = 1;
 
 class Sound {
   readonly context: AudioContext;
-  /** Of each voice. */
+  /** By voice. */
   readonly fails = new Map<number, Fail>();
   #node: AudioWorkletNode;
 
@@ -39,7 +39,7 @@ class Sound {
     this.#node.port.postMessage(message);
   }
 
-  /** Call from a gesture. */
+  /** Must be called in a gesture. */
   resume(): Promise<void> {
     return this.context.state === "running" ? Promise.resolve() : this.context.resume();
   }
@@ -62,7 +62,7 @@ function sound(): Promise<Sound> {
   return loading;
 }
 
-/** Begins to make sound ready; what goes wrong is told to the first voice. */
+/** Starts the preparation of the sound. Errors are reported to the first voice. */
 export function warmSound(): void {
   sound().catch(() => undefined);
 }
@@ -74,7 +74,7 @@ export class Voice {
   #freed = false;
   #ready: Promise<void>;
 
-  /** `fail` is told what keeps it silent. */
+  /** `fail` receives the reason if the voice stays silent. */
   constructor(material: Material, published: boolean, fail: Fail) {
     this.#ready = sound().then((made) => {
       if (this.#freed) return;
@@ -85,12 +85,12 @@ export class Voice {
     this.#ready.catch(fail);
   }
 
-  /** Call from a gesture: browsers let sound begin there only. */
+  /** Must be called in a gesture: browsers start sound only there. */
   wake(): void {
     void this.#ready.then(() => this.#sound?.resume()).catch(() => undefined);
   }
 
-  /** Speed in mm/s, force in N, pan -1 (left) to 1, gain 1 for the level as it was recorded. */
+  /** Speed in mm/s, force in N, pan -1 (left) to 1, gain 1 for the recorded level. */
   target(speed: number, force: number, pan: number, gain = 1): void {
     this.#sound?.send({ kind: "target", id: this.id, speed, force, pan, gain });
   }
@@ -102,7 +102,7 @@ export class Voice {
     this.#sound = undefined;
   }
 
-  /** Seconds that the system adds between the worklet and the ear, as far as it says. */
+  /** Latency between the worklet and the ear in seconds, as stated by the system. */
   get latency(): number {
     const context = this.#sound?.context;
     return context === undefined ? 0 : context.baseLatency + (context.outputLatency ?? 0);

@@ -14,9 +14,9 @@ import { renderer, type Picture, type Renderer } from "./renderer.js";
 import { build, type Parts } from "./shadow.js";
 import { Vibration } from "./vibration.js";
 
-/** Of contact-start, contact-move and contact-end. */
+/** Detail of contact-start, contact-move and contact-end. */
 export interface ContactDetail {
-  /** Place in the image, 0 to 1 from its top left corner. */
+  /** Position in the image, 0 to 1 from its top left corner. */
   u: number;
   v: number;
   depth_mm: number;
@@ -27,17 +27,20 @@ export interface ContactDetail {
   timeStamp: number;
 }
 
-/** Of error. Without `material` and `image` nothing can be shown; the others leave the plain image or silence. */
+/**
+ * Detail of error. After an error of `material` or `image` nothing can be shown; other errors leave the plain image,
+ * or silence.
+ */
 export interface TriboErrorDetail {
   type: "material" | "image" | "wasm" | "webgl" | "audio";
   message: string;
 }
 
-/** idle: not asked for yet; plain: the image alone, nothing yields; failed: not even that. */
+/** idle: not requested yet; plain: only the image, which does not yield; failed: not even the image. */
 export type State = "idle" | "loading" | "ready" | "plain" | "failed";
 
 const kNodes = 512;
-// Equations 1 and 2 as printed reach over the whole image at every frame.
+// As printed, equations 1 and 2 act on the whole image at every frame.
 const kPublishedNodes = 256;
 const kMostPixelRatio = 2;
 const kKeyboardStep = 0.02;
@@ -89,7 +92,7 @@ export class TriboTouch extends AttributeElement {
   get material(): Material | undefined {
     return this.#material;
   }
-  /** Seconds from the worklet to the ear, as far as the system says. */
+  /** Latency from the worklet to the ear in seconds, as stated by the system. */
   get audioLatency(): number {
     return this.#voice?.latency ?? 0;
   }
@@ -109,7 +112,7 @@ export class TriboTouch extends AttributeElement {
     if (this.loading === "eager" || this.#near()) void this.#load();
   }
 
-  /** In view or nearly, without waiting for a frame that tells. */
+  /** True if the element is in or near the view, without waiting for an observer. */
   #near(): boolean {
     const box = this.getBoundingClientRect();
     return (
@@ -155,7 +158,7 @@ export class TriboTouch extends AttributeElement {
     surface.addEventListener("pointermove", (event) => this.#move(event));
     surface.addEventListener("pointerup", (event) => {
       this.#lift(event.pointerId, event.timeStamp);
-      // To a browser a touch is a gesture only once it ends.
+      // Browsers count a touch as a gesture only when it ends.
       this.#voice?.wake();
     });
     surface.addEventListener("pointercancel", (event) => this.#lift(event.pointerId, event.timeStamp));
@@ -199,7 +202,8 @@ export class TriboTouch extends AttributeElement {
     const stale = () => attempt !== this.#attempt || !this.isConnected;
     this.#state = "loading";
     const image = this.#parts!.image;
-    // The engine loads while the material and its image do; shader and sound are made while the image comes.
+    // The engine is loaded together with the material and its image; shader and sound are prepared while the image is
+    // loading.
     const engineReady = engine();
     engineReady.catch(() => undefined);
     try {
@@ -215,7 +219,7 @@ export class TriboTouch extends AttributeElement {
       return;
     }
     try {
-      // Of the page's own images the one that is the poster as well is fetched once.
+      // An image of the same site that is also the poster is loaded only once.
       if (new URL(this.#material.image).origin !== location.origin) image.crossOrigin = "anonymous";
       else image.removeAttribute("crossorigin");
       image.src = this.#material.image;
@@ -223,7 +227,7 @@ export class TriboTouch extends AttributeElement {
       try {
         renderer();
       } catch {
-        // Without it the plain image stays; that is said once the image is there.
+        // Without WebGL 2 the plain image stays. The error is reported when the image is loaded.
       }
       if (this.#sounds) warmSound();
       await decoded;
@@ -259,7 +263,7 @@ export class TriboTouch extends AttributeElement {
     if (stale()) return;
     this.#end("ready");
     if (this.#voice === undefined) this.#makeVoice();
-    // A first touch is lit as if the image were smooth.
+    // The first touch is lit as if the image were smooth.
     const { height_map, relief_slope } = this.#material;
     whenIdle(() => {
       if (stale()) return;
@@ -267,7 +271,7 @@ export class TriboTouch extends AttributeElement {
     });
   }
 
-  /** Finds the small relief in the image, or in a map of its heights. */
+  /** Computes the small relief from the image, or from a height map. */
   async #relieve(address: string, rmsSlope: number): Promise<void> {
     const picture = this.#picture;
     const made = await engine();
@@ -318,13 +322,13 @@ export class TriboTouch extends AttributeElement {
       if (this.#voice === voice) this.#fail("audio", error);
     });
     this.#voice = voice;
-    // A first rub sounds without it.
+    // The first rub may sound without it.
     whenIdle(() => {
       if (this.#voice !== voice) return;
       try {
         this.#relief = new Relief(this.#parts!.image);
       } catch {
-        // An image of another site that may not be read.
+        // An image of another site that must not be read.
       }
     });
   }
@@ -379,7 +383,7 @@ export class TriboTouch extends AttributeElement {
     animate(this);
   }
 
-  /** Called by the page's animation loop. */
+  /** Called by the animation loop of the page. */
   frame(now: number, seconds: number): boolean {
     const sheet = this.#sheet;
     const picture = this.#picture;
@@ -441,7 +445,7 @@ export class TriboTouch extends AttributeElement {
     const box = this.#parts!.surface.getBoundingClientRect();
     const { nodesX, spacingMm } = this.#picture!;
     const mmPerPixel = (nodesX * spacingMm) / Math.max(1, box.width);
-    // A mouse and a screen that does not measure say one pixel.
+    // A mouse, and a screen that does not measure, report one pixel.
     const size = (pixels: number) => (pixels > 1 ? pixels * mmPerPixel : 0);
     return {
       x: (event.clientX - box.left) * mmPerPixel,
@@ -470,7 +474,7 @@ export class TriboTouch extends AttributeElement {
     try {
       this.#parts!.surface.setPointerCapture(event.pointerId);
     } catch {
-      // The pointer is gone already, or made by a script.
+      // The pointer is already gone, or a script made it.
     }
     this.#showProbe(false);
     this.#touch(event.pointerId, event.pointerType, this.#report(event));
@@ -501,7 +505,7 @@ export class TriboTouch extends AttributeElement {
     for (const id of ids) this.#lift(id, performance.now());
   }
 
-  // The keyboard's finger, number -1 ----------------------------------------------------------------------------
+  // The keyboard finger, number -1 ------------------------------------------------------------------------------
 
   #showProbe(shown: boolean): void {
     const { probe } = this.#parts!;
@@ -573,7 +577,7 @@ export class TriboTouch extends AttributeElement {
 
   // Methods -----------------------------------------------------------------------------------------------------
 
-  /** Takes the poster away; happens by itself after loading unless reveal is "manual". */
+  /** Removes the poster. Done automatically after loading, unless reveal is "manual". */
   dismissPoster(): void {
     if (this.#posterDismissed) return;
     this.#posterDismissed = true;
@@ -586,7 +590,7 @@ export class TriboTouch extends AttributeElement {
     if (this.#parts !== undefined) this.#parts.cover.hidden = false;
   }
 
-  /** The picture as it is now, as a PNG; null before there is one. */
+  /** The current picture as a PNG; null if there is none yet. */
   toBlob(): Promise<Blob | null> {
     const canvas = this.#parts?.canvas;
     if (canvas === undefined || canvas.width === 0) return Promise.resolve(null);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// touch.wasm on the page: one instance for all elements, loaded once, when the first element needs it.
+// touch.wasm in the page: one instance for all elements, loaded when the first element needs it.
 import type { TouchExports } from "@tribo/wasm/exports";
 import { bytesAt, doublesAt, floatsAt, lend } from "@tribo/wasm/memory";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 
-/** What touches the sheet; mm from the image's top left corner, newton, seconds. */
+/** Contacts on the sheet; mm from the top left corner of the image, newton, seconds. */
 export interface Contact {
   x: number;
   y: number;
@@ -19,9 +19,9 @@ export interface Changes {
   y: number;
   width: number;
   height: number;
-  /** Floats from row to row. */
+  /** Number of floats from row to row. */
   stride: number;
-  /** From the first changed node on; valid until the next call of the engine. */
+  /** Starts at the first changed node; valid until the next call of the engine. */
   values: Float32Array;
 }
 
@@ -52,7 +52,7 @@ export class Sheet {
     this.#x.sheet_set_material(this.#handle, stiffness, viscosity);
   }
 
-  /** Levels: a byte a node; palette: stiffness and viscosity of each level. */
+  /** Levels: one byte per node; palette: stiffness and viscosity of each level. */
   setMaterials(levels: Uint8Array, palette: Float64Array): void {
     lend(this.#x, levels, (levelsAt) =>
       lend(this.#x, palette, (paletteAt) => this.#x.sheet_set_materials(this.#handle, levelsAt, paletteAt)),
@@ -69,7 +69,7 @@ export class Sheet {
     this.#x.sheet_press(this.#handle, count, Number(point), Number(published));
   }
 
-  /** Lets time pass; false: nothing moves any more. */
+  /** Advances the time. Returns false when nothing moves any more. */
   step(seconds: number, published: boolean): boolean {
     return this.#x.sheet_step(this.#handle, seconds, Number(published)) !== 0;
   }
@@ -78,7 +78,7 @@ export class Sheet {
     this.#x.sheet_reset(this.#handle);
   }
 
-  /** What moved since the last call, or null. */
+  /** Region that moved since the last call, or null. */
   changes(): Changes | null {
     const at = this.#x.sheet_changes(this.#handle);
     const [x, y, width, height] = new Int32Array(this.#x.memory.buffer, at, 4) as unknown as [
@@ -111,9 +111,9 @@ export class Sheet {
 export interface Engine {
   module: Compiled<TouchExports>;
   sheet(width: number, height: number, spacingMm: number): Sheet;
-  /** Writes the slopes of the pixels' small relief over their red and green. */
+  /** Writes the slopes of the small relief to the red and green of the pixels. */
   smallRelief(pixels: ImageData, rmsSlope: number): void;
-  /** Bytes of the module's memory. */
+  /** Memory of the module in bytes. */
   memoryBytes(): number;
 }
 
@@ -135,7 +135,7 @@ async function load(): Promise<Engine> {
   };
 }
 
-/** The engine; a failed load is tried again by the next call. */
+/** Returns the engine. After a failed load the next call tries again. */
 export function engine(): Promise<Engine> {
   loading ??= load().catch((error: unknown) => {
     loading = undefined;

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// From what a screen tells of fingers to what a sheet and a voice need: an ellipse, a force, a speed.
+// Converts pointer reports of a screen to input for a sheet and a voice: an ellipse, a force, a speed.
 import type { Contact } from "./engine.js";
 
 /** One report about one finger, in mm of the image and seconds. */
 export interface FingerReport {
   x: number;
   y: number;
-  /** Size of the touch in mm; 0: the screen does not say. */
+  /** Size of the touch in mm; 0: the screen does not report it. */
   width: number;
   height: number;
-  /** 0 to 1, or NaN where the screen does not measure it. */
+  /** 0 to 1, or NaN if the screen does not measure it. */
   pressure: number;
   time: number;
 }
 
-// A finger that presses as hard as it is asked to, and how long it takes to where nothing measures it.
+// Force of a full press, and the time to reach it if the pressure is not measured.
 const kFullForceN = 2;
 const kGrowthS = 0.25;
 const kMeasuredForceN = 3;
 const kDefaultRadiusMm = 6;
 const kLeastRadiusMm = 1;
 const kMostRadiusMm = 15;
-// Speed is the way of the last reports over their time; a finger that reports nothing stands still.
+// The speed is the distance of the last reports over their time. A finger without reports stands still.
 const kSpeedWindowS = 0.03;
 const kStandsStillS = 0.05;
-// A finger that did not move within the window moved in this time alone: a report of a 60 Hz screen.
+// For a finger without motion in the window, a new motion took only this time: one report of a 60 Hz screen.
 const kReportS = 0.016;
 
 interface Place {
@@ -34,7 +34,7 @@ interface Place {
 }
 
 export class Finger {
-  /** Where it was last reported. */
+  /** Position of the last report. */
   x = 0;
   y = 0;
   #since: number;
@@ -42,9 +42,9 @@ export class Finger {
   #halfWidth = kDefaultRadiusMm;
   #halfHeight = kDefaultRadiusMm;
   #trail: Place[] = [];
-  // Where the browser expects the finger next.
+  // Position predicted by the browser.
   #ahead: Place | undefined;
-  /** Times the usual force; the keyboard changes it. */
+  /** Factor on the usual force; the keyboard changes it. */
   firmness = 1;
 
   constructor(report: FingerReport) {
@@ -52,7 +52,7 @@ export class Finger {
     this.move(report);
   }
 
-  /** `ahead`: where it is expected to be soon, if anybody knows. */
+  /** `ahead`: predicted position, if available. */
   move(report: FingerReport, ahead?: Place): void {
     this.#ahead = ahead && ahead.time > report.time ? ahead : undefined;
     this.x = report.x;
@@ -79,7 +79,7 @@ export class Finger {
     return firm * kMeasuredForceN * this.#pressure;
   }
 
-  /** mm/s along the surface: over the last reports and the way expected next, so that it lags little behind. */
+  /** mm/s along the surface, over the last reports and the predicted distance, so that the delay is small. */
   speed(now: number): number {
     const last = this.#trail.at(-1)!;
     if (now - last.time > kStandsStillS) return 0;
@@ -93,7 +93,7 @@ export class Finger {
   contact(now: number): Contact {
     const last = this.#trail.at(-1)!;
     const ahead = this.#ahead ?? last;
-    // A report is some milliseconds old once it is drawn: the dent is to be under the finger.
+    // A report is some milliseconds old when it is drawn, but the dent should be under the finger.
     const part = Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time || 1)));
     return {
       x: last.x + part * (ahead.x - last.x),
@@ -110,7 +110,7 @@ export class Finger {
   }
 }
 
-/** The pressure that a pointer measures, or NaN: a mouse says 0.5, a screen without the sense 0, 0.5 or 1. */
+/** The measured pressure of a pointer, or NaN: a mouse reports 0.5, a screen without a sensor 0, 0.5 or 1. */
 export function measuredPressure(event: PointerEvent): number {
   if (event.pointerType === "mouse") return Number.NaN;
   const p = event.pressure;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// One animation loop for all elements; it runs only while one of them moves.
+// One animation loop for all elements. It runs only while one of them moves.
 
 export interface Animated {
-  /** Draws the frame at `now` (seconds); false: nothing moves any more. */
+  /** Draws the frame at `now` (seconds). Returns false when nothing moves any more. */
   frame(now: number, seconds: number): boolean;
 }
 
 const running = new Map<Animated, number>();
 let request = 0;
-// After a pause the sheet need not make up for all of it: it has long come to rest.
+// Limit of the time step after a pause: the sheet is then at rest anyway.
 const kLongestFrameS = 0.25;
 const kLongestWaitMs = 200;
 
 function tick(milliseconds: number): void {
   const now = milliseconds / 1000;
-  // One that is added meanwhile waits for the next frame.
+  // Elements added during the loop wait for the next frame.
   const before = [...running];
   for (const [element, last] of before) {
     if (!running.has(element)) continue;
@@ -34,11 +34,11 @@ export function stop(element: Animated): void {
   running.delete(element);
 }
 
-/** After the next frame, once the page is idle or has not been for a while. */
+/** Runs after the next frame, when the page is idle or after a time limit. */
 export function whenIdle(work: () => void): void {
   requestAnimationFrame(() =>
     setTimeout(() => {
-      // Not every browser tells when it is idle.
+      // Not every browser reports when it is idle.
       if (typeof requestIdleCallback === "function") requestIdleCallback(work, { timeout: kLongestWaitMs });
       else setTimeout(work, kLongestWaitMs);
     }),

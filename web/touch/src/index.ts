@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Importing this registers <tribo-touch>. Without a page (on a server) it does nothing.
+// Importing this file registers <tribo-touch>. Without a page (on a server) it does nothing.
 import { TriboTouch } from "./element.js";
 
 export { TriboTouch };

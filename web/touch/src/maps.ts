@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that say of each place of a material how steep its grain is and how stiff it is.
+// Images with the slope of the grain and the stiffness at each position of a material.
 import type { Engine, Sheet } from "./engine.js";
 import { grey, pixelsOf } from "./relief.js";
 import type { Picture } from "./renderer.js";
@@ -14,7 +14,7 @@ async function fetched(address: string): Promise<HTMLImageElement> {
   return image;
 }
 
-/** The small relief of a picture, by its own image or, where `address` is not "", by a map of its heights. */
+/** The small relief of a picture, from the image or, if `address` is not "", from a height map. */
 export async function smallRelief(
   { image, nodesX, nodesY }: Picture,
   address: string,
@@ -42,7 +42,7 @@ export async function stiffnessLevels(address: string, sheet: Sheet): Promise<Ui
   return Uint8Array.from({ length: sheet.width * sheet.height }, (_, pixel) => Math.round(grey(data, pixel)));
 }
 
-/** K and nu of each grey: white has the material's stiffness, black eight times as much. */
+/** K and nu of each grey: white has the stiffness of the material, black eight times as much. */
 export function stiffnessPalette(stiffness: number, damping: number): Float64Array {
   return Float64Array.from({ length: 512 }, (_, n) =>
     n % 2 === 0 ? stiffness * kStrongestFactor ** (1 - n / 510) : damping,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Material files (docs/material.md) as the page reads them. What may stand in one is in material_schema.ts.
+// Reads material files (docs/material.md) in the page. The valid contents are in material_schema.ts.
 import { kFields, kSchema, type Field, type Fields, type Material } from "./material_schema.js";
 
 export type { Material, Voice } from "./material_schema.js";
@@ -45,8 +45,8 @@ function readField(value: unknown, path: string, field: Field): unknown {
 }
 
 /**
- * Reads what a material file holds; throws an Error that says what is wrong. Addresses become absolute, a width
- * that the file leaves out 100 mm. What is wrong between the fields of a voice, touch.wasm says.
+ * Reads the contents of a material file. Throws an Error with a text if they are invalid. Addresses become absolute;
+ * an absent width becomes 100 mm. touch.wasm checks the rules between the fields of a voice.
  */
 export function parseMaterial(json: unknown, base: string): Material {
   const read = readObject(json, "", kFields) as unknown as Material;
@@ -59,7 +59,7 @@ export function parseMaterial(json: unknown, base: string): Material {
   return read;
 }
 
-/** A number as it is, a list after its length, an object after a 1; 0 for one that is absent. */
+/** A number is stored as it is, a list after its length, an object after a 1; a 0 means an absent object. */
 function put(to: number[], value: unknown, fields: Fields = {}): void {
   if (Array.isArray(value)) {
     to.push(value.length);
@@ -75,7 +75,7 @@ function put(to: number[], value: unknown, fields: Fields = {}): void {
   }
 }
 
-/** The numbers that voice_create of touch.wasm takes (src/material/voice_numbers.hpp). */
+/** Returns the numbers for voice_create of touch.wasm (src/material/voice_numbers.hpp). */
 export function voiceNumbers(material: Material): Float64Array {
   const to: number[] = [];
   for (const key of ["level_law", "voices"] as const) put(to, material[key], kFields[key]!.fields);

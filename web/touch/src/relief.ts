@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Relief estimated from an image: where neighbouring brightness changes much, a finger meets an edge. It makes
-// the friction sound louder there, so that a pattern is heard where it is seen.
+// Relief estimated from an image: at a large change of brightness the finger meets an edge. There the friction sound
+// is louder, so that a visible pattern can be heard.
 
 const kSide = 128;
 
-/** The image at another size. */
+/** Returns the image at another size. */
 export function pixelsOf(image: HTMLImageElement, width: number, height: number): ImageData {
   const canvas = document.createElement("canvas");
   canvas.width = width;
@@ -14,7 +14,7 @@ export function pixelsOf(image: HTMLImageElement, width: number, height: number)
   return context.getImageData(0, 0, width, height);
 }
 
-/** Brightness of a pixel, 0 to 255. */
+/** Returns the brightness of a pixel, 0 to 255. */
 export function grey(data: Uint8ClampedArray, pixel: number): number {
   return 0.3 * data[4 * pixel]! + 0.59 * data[4 * pixel + 1]! + 0.11 * data[4 * pixel + 2]!;
 }
@@ -45,7 +45,7 @@ export class Relief {
     for (let i = 0; i < this.#steepness.length; ++i) this.#steepness[i] = mean > 1 ? this.#steepness[i]! / mean : 1;
   }
 
-  /** Factor of the sound's level at a place (0 to 1 from the top left): 1 on average, within 6 dB. */
+  /** Factor on the sound level at a position (0 to 1 from the top left): 1 on average, within 6 dB. */
   gain(u: number, v: number): number {
     const x = Math.min(this.#width - 1, Math.max(0, Math.floor(u * this.#width)));
     const y = Math.min(this.#height - 1, Math.max(0, Math.floor(v * this.#height)));

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// One WebGL2 context for all elements of a page (browsers give only about sixteen): each element's image and
-// heights are textures of it, each frame is drawn into its corner and copied to the element's own canvas.
+// One WebGL2 context for all elements of a page (browsers allow only about sixteen). Image and heights of each
+// element are textures of this context. Each frame is drawn into a corner of it and copied to the canvas of the
+// element.
 import type { Changes } from "./engine.js";
 import { kFragment, kVertex } from "./shader.js";
 
-/** What an element shows; its textures live in the shared context until free() is called. */
+/** Data that an element shows. Its textures are in the shared context until free() is called. */
 export interface Picture {
   image: HTMLImageElement;
   /** Nodes of the sheet. */
   nodesX: number;
   nodesY: number;
   spacingMm: number;
-  /** Share of the light that is mirrored, and how wide it is spread; absent: as published, smooth and dull. */
+  /** Share of the light reflected as in a mirror, and its spread; absent: as published, smooth and matt. */
   finish: { gloss: number; roughness: number } | undefined;
-  /** Slopes of the small relief in red and green, once they are known. */
+  /** Slopes of the small relief in red and green, when they are known. */
   relief?: ImageData;
 }
 
@@ -113,7 +114,7 @@ export class Renderer extends EventTarget {
     this.relieve(picture);
   }
 
-  /** Takes the picture's small relief; it is smooth until then. */
+  /** Sets the small relief of the picture; until then it is smooth. */
   relieve(picture: Picture): void {
     const textures = this.#textures.get(picture);
     if (textures === undefined) return;
@@ -140,7 +141,7 @@ export class Renderer extends EventTarget {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
   }
 
-  /** The image, made smaller where it is larger than a texture may be. */
+  /** Returns the image, reduced if it is larger than the maximum texture. */
   #fitting(image: HTMLImageElement): TexImageSource {
     const most = Math.min(this.#largest, 4096);
     const scale = most / Math.max(image.naturalWidth, image.naturalHeight);
@@ -214,7 +215,7 @@ export class Renderer extends EventTarget {
     return true;
   }
 
-  /** For tests: takes the context away and gives it back, as a browser under pressure does. */
+  /** For tests: loses the context and restores it, as a browser may do. */
   get loseContext(): WEBGL_lose_context | null {
     return this.#gl.getExtension("WEBGL_lose_context");
   }
@@ -222,7 +223,7 @@ export class Renderer extends EventTarget {
 
 let shared: Renderer | undefined;
 
-/** The page's renderer; throws where there is no WebGL2. */
+/** Returns the renderer of the page. Throws if there is no WebGL2. */
 export function renderer(): Renderer {
   shared ??= new Renderer();
   return shared;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The picture of a pressed image: the mathematics of src/elastic/picture.cpp, one fragment a pixel. Lengths in
-// the image's longer side but heights, which are in mm; texture coordinates from the top left.
+// Renders a pressed image with the equations of src/elastic/picture.cpp, one fragment per pixel. The unit of length
+// is the longer side of the image, but heights are in mm. Texture coordinates start at the top left.
 
 export const kVertex = `#version 300 es
 out vec2 at;

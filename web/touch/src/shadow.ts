@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an element is made of inside.
+// The shadow tree of an element.
 
 const kStyle = `
 :host { display: block; position: relative; contain: content; }
@@ -49,7 +49,7 @@ export function build(host: HTMLElement): Parts {
   const surface = make("div", "surface", root);
   surface.className = "surface";
   surface.tabIndex = 0;
-  // Screen readers hand the arrow keys to an application, and to nothing else.
+  // Screen readers pass arrow keys only to an application.
   surface.setAttribute("role", "application");
   surface.setAttribute("aria-roledescription", "touchable surface");
   surface.setAttribute("aria-describedby", "help");

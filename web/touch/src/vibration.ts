@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a device can shake: navigator.vibrate (phones with Chromium) and a gamepad's actuator. A rub is short
-// pulses, one every few millimetres, stronger and denser the faster and firmer it is.
+// Vibration of the device: navigator.vibrate (phones with Chromium) and the actuator of a gamepad. A rub gives short
+// pulses, one every few millimetres. They are stronger and denser if the rub is faster and firmer.
 import { rumble } from "@tribo/ui/gamepad";
 
 const kMillimetresPerPulse = 4;
@@ -11,14 +11,14 @@ export class Vibration {
   #way = 0;
   #last = 0;
 
-  /** Call once a frame while touched; speed in mm/s, force in N. */
+  /** Called once per frame during a touch; speed in mm/s, force in N. */
   rub(speed: number, force: number, seconds: number, now: number): void {
     this.#way += speed * seconds;
     if (this.#way < kMillimetresPerPulse || now - this.#last < kLeastPauseS) return;
     this.#way = 0;
     this.#last = now;
     const strength = Math.min(1, force / 2);
-    // Refused without a gesture, and where vibration is off.
+    // The browser refuses it without a gesture, or if vibration is off.
     navigator.vibrate?.(Math.max(2, Math.round(kLongestPulseMs * strength)));
     for (const pad of navigator.getGamepads?.() ?? []) rumble(pad, 2 * kLongestPulseMs, strength, 0);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The audio side: touch.wasm in an instance of its own, a friction voice for each element that has sound.
+// The audio thread: a separate instance of touch.wasm, with a friction voice for each element that has sound.
 import type { TouchExports } from "@tribo/wasm/exports";
 import { bytesAt, floatsAt, lend } from "@tribo/wasm/memory";
 import { instantiateNow, type Compiled } from "@tribo/wasm/module";
@@ -8,7 +8,7 @@ import type { VoiceMessage, VoiceRefusal } from "./audio.js";
 interface Playing {
   voice: number;
   moving: boolean;
-  /** Quanta to play on after the last target was silence, so that it fades. */
+  /** Quanta to play after the last target was silence, for the decay. */
   tail: number;
   pan: number;
   panTarget: number;
@@ -18,7 +18,7 @@ interface Playing {
 
 const kMostFrames = 1024;
 const kTailQuanta = 40;
-/** With the zero at its end. */
+/** With a terminating zero. */
 const kMostRefusalBytes = 128;
 
 class Friction extends AudioWorkletProcessor {
@@ -42,7 +42,7 @@ class Friction extends AudioWorkletProcessor {
         this.#x.voice_create(at, numbers.length, sampleRate, message.id, Number(message.published)),
       );
       if (voice === 0) {
-        // TextDecoder is missing here.
+        // TextDecoder is not available here.
         const bytes = bytesAt(this.#x, this.#x.voice_refusal(), kMostRefusalBytes);
         const wrong = String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
         this.port.postMessage({ id: message.id, wrong } satisfies VoiceRefusal);
@@ -71,7 +71,7 @@ class Friction extends AudioWorkletProcessor {
     if (left === undefined || right === undefined) return true;
     const frames = Math.min(left.length, kMostFrames);
     for (const p of this.#voices.values()) {
-      // A voice that nobody hears costs nothing.
+      // A silent voice is not rendered.
       if (p.tail === 0) continue;
       if (!p.moving) --p.tail;
       this.#x.voice_render(p.voice, this.#out, frames);
@@ -81,7 +81,7 @@ class Friction extends AudioWorkletProcessor {
       for (let i = 0; i < frames; ++i) {
         p.pan += panStep;
         p.gain += gainStep;
-        // Constant power, 1 on both sides in the middle.
+        // Constant power, 1 on both sides in the centre.
         const sample = mono[i]! * p.gain;
         const angle = ((p.pan + 1) * Math.PI) / 4;
         left[i] = left[i]! + sample * Math.SQRT2 * Math.cos(angle);
