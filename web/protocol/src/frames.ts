@@ -23,11 +23,11 @@ export interface JobFrame {
   chipLimits: ChipLimits | undefined;
 }
 
-// What a chip is judged by. An earlier engine does not tell it.
+// Limits for chips. Earlier engines do not send them.
 export interface ChipLimits {
-  // Below this the edge rubs, mm.
+  // A thinner chip rubs, mm.
   rubbing: number;
-  // Above this share of the cutter's diameter a tooth is overloaded.
+  // A larger share of the cutter diameter overloads a tooth.
   overloadShare: number;
 }
 
@@ -43,7 +43,8 @@ export interface ChunkFrame {
   chunk: Vec3;
   positions: Float32Array;
   indices: Uint16Array;
-  // Of each vertex from the designed surface, mm, negative in a gouge; NaN far from it. Empty: there is none.
+  // Distance of each vertex from the designed surface, mm, negative in a gouge; NaN far from it. Empty: no designed
+  // surface.
   deviations: Float32Array;
 }
 
@@ -82,14 +83,14 @@ export interface Row {
   depth: number;
   feedPerTooth: number;
   line: number;
-  // The thickest. An earlier engine does not tell it: 0, and no verdict.
+  // The thickest chip. Earlier engines do not send it: then 0, and no verdict.
   chip: number;
   chipVerdict: ChipVerdict;
 }
 
 export interface RowsFrame {
   kind: "rows";
-  // All rows before are void.
+  // All earlier rows are invalid.
   anew: boolean;
   rows: Row[];
 }
@@ -102,18 +103,18 @@ export interface CollisionFrame {
   tip: Vec3;
 }
 
-// A piece of the cut as the ear and the plots of a turn need it.
+// A piece of the cut, for the sound and the plots of a turn.
 export interface Piece {
   time: number;
   duration: number;
   tip: Vec3;
   angle: number;
   radPerS: number;
-  // Seconds of the program as written per second.
+  // Program seconds per second of the unchanged program.
   pace: number;
   chips: number;
   orderStep: number;
-  // The mean first; each re x, im x, re y, im y, re z, im z, in N, in the tool's frame.
+  // The mean first. Each has re x, im x, re y, im y, re z, im z, in N, in the frame of the tool.
   harmonics: Float32Array;
 }
 
@@ -132,7 +133,7 @@ export interface FingerFrame {
   on: boolean;
   cutMode: boolean;
   stopped: boolean;
-  // Whether there is a hand.
+  // True if a hand holds the probe.
   present: boolean;
 }
 
@@ -146,7 +147,7 @@ export interface ServoFrame {
   rate: number;
   limit: number;
   largest: number;
-  // Median, 99 %, 99.9 %, most; in microseconds.
+  // Median, 99 %, 99.9 %, maximum; in microseconds.
   lateness: Quantiles;
   cpu: Quantiles;
 }
@@ -168,7 +169,7 @@ export interface DesignedFrame {
   indices: Uint16Array;
 }
 
-// A kind that this page does not know; a newer engine may send some.
+// An unknown kind; newer engines may send others.
 export interface OtherFrame {
   kind: "other";
 }
@@ -229,7 +230,7 @@ class Reader {
   }
 }
 
-// Throws a RangeError on a frame that is cut off, an Error on one of another version.
+// Throws a RangeError for a truncated frame, an Error for another version.
 export function decodeFrame(buffer: ArrayBuffer): Frame {
   const view = new DataView(buffer);
   const kind = view.getUint8(0);

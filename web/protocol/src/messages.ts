@@ -5,7 +5,7 @@ export const SUBPROTOCOL = "tribo.live.1";
 
 export type Mode = "cut" | "inspect";
 
-/** What a slider sets. */
+/** Values of the sliders. */
 export type Setting = "feed_percent" | "spindle_percent" | "helix_deg" | "force_scale" | "jnd";
 
 export type Command =
@@ -21,18 +21,18 @@ export type Command =
 export interface ServerInfo {
   op: "serverInfo";
   version: string;
-  /** None: the page mills what is dropped into it. */
+  /** Absent: the page mills the files dropped into it. */
   job?: string;
   warnings: string[];
   materials?: string[];
-  /** Who sounds; without a word, the page. */
+  /** Absent: the page plays the sound. */
   audio?: "browser" | "native" | "off";
   device?: { name: string; max_force_n: number; rate_hz: number; arm: boolean };
-  /** Good for one return, in place of the page's own token. */
+  /** Valid for one reconnection, instead of the token of the page. */
   resume?: string;
 }
 
-/** What is set, as all who watch share it. */
+/** The settings, shared by all viewers. */
 export interface Settings extends Record<Setting, number> {
   op: "settings";
   material: string;
@@ -47,7 +47,7 @@ export interface Refused {
   remedy?: string;
 }
 
-/** Frames were dropped: `resync` brings them again. */
+/** Frames were dropped; `resync` requests them again. */
 export interface Lost {
   op: "lost";
 }

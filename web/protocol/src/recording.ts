@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames kept in a file: "TRIBOREC", u32 1 (the version), u32 0; then of each frame u32 length, u32 0, f64 seconds
-// since the first, its bytes, zeros to a multiple of 8. Little-endian.
+// Recorded frames in a file: "TRIBOREC", u32 1 (the version), u32 0; then for each frame u32 length, u32 0, f64
+// seconds since the first frame, its bytes, zeros to a multiple of 8. Little-endian.
 
 const MAGIC = "TRIBOREC";
 const VERSION = 1;
@@ -40,7 +40,7 @@ function isRecording(bytes: ArrayBuffer): boolean {
   return new TextDecoder("latin1").decode(bytes.slice(0, MAGIC.length)) === MAGIC;
 }
 
-// Throws an Error in words on what is no recording or was cut off.
+// Throws an Error with a text if the bytes are not a recording or are truncated.
 export function readRecording(bytes: ArrayBuffer): Recorded[] {
   if (bytes.byteLength < HEADER || !isRecording(bytes)) throw new Error("this is no recording of Tribo's");
   const view = new DataView(bytes);

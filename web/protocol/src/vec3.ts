@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three numbers, one an axis.
+// Three numbers, one per axis.
 
 export type Vec3 = [number, number, number];
 export type Axis = 0 | 1 | 2;

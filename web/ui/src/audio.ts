@@ -6,7 +6,7 @@ export interface Audio {
   node: AudioWorkletNode;
 }
 
-/** A stereo processor, made of `script`, that gets the module; it sounds once the context was resumed by a gesture. */
+/** Makes a stereo processor from `script` with the module. It sounds after a gesture has resumed the context. */
 export async function openAudio(
   processor: string,
   script: string | URL,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What AudioWorkletGlobalScope has and TypeScript's page library does not know.
+// Declarations of AudioWorkletGlobalScope that the DOM library of TypeScript does not contain.
 
 declare const sampleRate: number;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
-/** Between two colours or more, evenly spaced; share 0 to 1, clamped. */
+/** Interpolates between two or more evenly spaced colours; share 0 to 1, clamped. */
 export function between(stops: readonly Vec3[], share: number): Vec3 {
   const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
   const n = Math.min(Math.floor(at), stops.length - 2);

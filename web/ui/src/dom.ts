@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small things that every page asks for.
+// Small helpers for all pages.
 
 export function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -7,7 +7,7 @@ export function element<T extends HTMLElement>(id: string): T {
   return found as T;
 }
 
-/** What went wrong, for people. */
+/** The text of an error, for users. */
 export function wordsOf(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }
@@ -15,7 +15,7 @@ export function wordsOf(error: unknown): string {
 // A browser may still read from the address after the click.
 const ADDRESS_LASTS_MS = 60_000;
 
-/** Gives the visitor a file. */
+/** Offers a file for download. */
 export function download(content: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the modules export (src/wasm/*.cpp has the contracts). Flags are 0 or 1; a handle of 0 is none.
+// The exports of the modules (contracts: src/wasm/*.cpp). Flags are 0 or 1; a handle of 0 is none.
 
-/** A place in a module's memory. */
+/** An address in the memory of a module. */
 export type Address = number;
 
 export interface AnyExports {
@@ -9,9 +9,9 @@ export interface AnyExports {
   _initialize(): void;
 }
 
-/** Of every module that takes data in. */
+/** Exports of every module that takes data. */
 export interface CommonExports extends AnyExports {
-  /** Text, ended by a zero. */
+  /** Text with a terminating zero. */
   tribo_version(): Address;
   /** A multiple of 16. */
   tribo_allocate(bytes: number): Address;
@@ -23,22 +23,22 @@ export interface TouchExports extends CommonExports {
   sheet_create(width: number, height: number, spacingMm: number): number;
   sheet_destroy(sheet: number): void;
   sheet_set_material(sheet: number, stiffness: number, viscosity: number): void;
-  /** Levels: a byte a node; palette: 256 pairs of doubles, stiffness and viscosity. */
+  /** Levels: one byte per node; palette: 256 pairs of doubles, stiffness and viscosity. */
   sheet_set_materials(sheet: number, levels: Address, palette: Address): void;
-  /** Where contacts are written before sheet_press: 7 doubles each. */
+  /** Address for contacts before sheet_press: 7 doubles each. */
   sheet_contacts(sheet: number): Address;
   sheet_press(sheet: number, count: number, point: number, published: number): void;
   /** 1 while anything moves. */
   sheet_step(sheet: number, seconds: number, published: number): number;
   sheet_reset(sheet: number): void;
-  /** x, y, width and height of what moved since the last call, as int32. */
+  /** x, y, width and height of the region that moved since the last call, as int32. */
   sheet_changes(sheet: number): Address;
   sheet_heights(sheet: number): Address;
-  /** Floats from row to row. */
+  /** Number of floats from row to row. */
   sheet_stride(sheet: number): number;
   sheet_normals(sheet: number, axis: number): Address;
   sheet_small_relief(rgba: Address, width: number, height: number, rmsSlope: number): void;
-  /** 0: voice_refusal() says why. */
+  /** 0: refused; voice_refusal() gives the reason. */
   voice_create(numbers: Address, length: number, rate: number, seed: number, published: number): number;
   voice_refusal(): Address;
   voice_destroy(voice: number): void;
@@ -47,11 +47,11 @@ export interface TouchExports extends CommonExports {
   voice_gain(voice: number): number;
 }
 
-/** learn.wasm: voices out of recordings. */
+/** learn.wasm: voices from recordings. */
 export interface LearnExports extends CommonExports {
   learn_create(): number;
   learn_destroy(learning: number): void;
-  /** Where the samples, doubles, are to be written before any other call. */
+  /** Address for the samples, doubles, to be written before any other call. */
   learn_add(
     learning: number,
     name: Address,
@@ -63,7 +63,7 @@ export interface LearnExports extends CommonExports {
     channels: number,
     bits: number,
   ): Address;
-  /** 1: learn_text() is the material file; 0: it says what is wrong. */
+  /** 1: learn_text() is the material file; 0: learn_text() is the error. */
   learn_run(learning: number): number;
   learn_text(learning: number): Address;
   learn_warnings(learning: number): Address;
@@ -76,7 +76,7 @@ export interface MillExports extends CommonExports {
   /** 1: opened; 0: refused. mill_text() has the warnings or the reason. */
   mill_open(name: Address, nameLength: number, part: Address, partLength: number, cell: number): number;
   mill_text(): Address;
-  /** An operation and what it brings along. 1: obeyed; 0: refused, mill_text() says why. */
+  /** An operation and its values. 1: executed; 0: refused, mill_text() has the reason. */
   mill_command(
     op: Address,
     opLength: number,
@@ -88,26 +88,26 @@ export interface MillExports extends CommonExports {
     word: Address,
     wordLength: number,
   ): number;
-  /** What is set, as an engine tells a page, as JSON; of an open mill. */
+  /** The settings of the open mill as JSON, as sent by an engine. */
   mill_settings(): Address;
-  /** All materials that are known, one a line. */
+  /** All known materials, one per line. */
   mill_materials(): Address;
-  /** Bytes of frames at mill_frames(); -1: mill_text() says what is wrong. */
+  /** Number of bytes at mill_frames(); -1: failed, mill_text() has the reason. */
   mill_tick(seconds: number, looks: number): number;
   mill_frames(): Address;
 }
 
-/** mill_sound.wasm: what is heard of a cut. */
+/** mill_sound.wasm: the sound of a cut. */
 export interface MillSoundExports extends CommonExports {
   sound_open(rate: number): number;
   sound_take(frame: Address, length: number): void;
   sound_follow(time: number, speed: number, playing: number, lead: number): void;
-  /** At most 1024 frames: floats, left and right by turns. */
+  /** At most 1024 frames: floats, left and right interleaved. */
   sound_render(frames: number): Address;
   sound_program_s(): number;
 }
 
-/** golden.wasm: the hashes that all builds agree on (tests/golden). */
+/** golden.wasm: the hashes that are equal in all builds (tests/golden). */
 export interface GoldenExports extends AnyExports {
   golden_count(): number;
   golden_name(index: number): Address;

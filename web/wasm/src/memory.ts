@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data into a module's memory and out of it. A memory that grows detaches all views of it: none is kept here,
-// and none may be kept over a call of the module.
+// Copies data into and out of the memory of a module. A growing memory detaches all its views. Therefore no view is
+// kept here, and callers must not keep one across a call of the module.
 
 import type { Address, AnyExports, CommonExports } from "./exports.js";
 
@@ -8,13 +8,13 @@ export const bytesAt = (x: AnyExports, at: Address, length: number) => new Uint8
 export const floatsAt = (x: AnyExports, at: Address, length: number) => new Float32Array(x.memory.buffer, at, length);
 export const doublesAt = (x: AnyExports, at: Address, length: number) => new Float64Array(x.memory.buffer, at, length);
 
-/** UTF-8 up to a zero. */
+/** Reads UTF-8 up to a zero. */
 export function textAt(x: AnyExports, at: Address): string {
   const bytes = new Uint8Array(x.memory.buffer, at);
   return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
 }
 
-/** Puts data where `use` can point a function of the module at them. */
+/** Copies data to the module and passes its address to `use`. */
 export function lend<Result>(
   x: CommonExports,
   data: ArrayBufferView,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page's commands (docs/live-protocol.md) to its own mill, as an engine gets them in JSON.
+// Commands of a page (docs/live-protocol.md) to its own mill, the same as the JSON commands of an engine.
 
 import type { MillExports } from "./exports.js";
 import { lendText } from "./memory.js";
@@ -13,7 +13,7 @@ export interface MillCommand {
   key?: string;
 }
 
-/** Whether it was obeyed; mill_text() says why not. */
+/** Returns true if the command was executed; else mill_text() has the reason. */
 export function obey(x: MillExports, { op, value, t_s, position_mm, down, key }: MillCommand): boolean {
   const number = typeof value === "number" ? value : (t_s ?? NaN);
   const on = value === true || down === true;
