@@ -13,8 +13,7 @@ namespace tribo::files {
 namespace {
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kFallbackBytes = std::uint64_t{2}
-                                         << 30;  // assumed memory if the system does not state it
+constexpr std::uint64_t kFallbackBytes = std::uint64_t{2} << 30;  // if the system does not state its memory
 constexpr std::uint64_t kSystemFileBytes = std::uint64_t{1} << 20;
 
 // Returns the number at the start of `text`, after blanks; kNoLimit if there is none ("max").

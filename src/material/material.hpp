@@ -33,8 +33,7 @@ struct Material {
     std::string image;                  // relative to the material file; empty: none
 
     // Optical properties of the image (elastic/picture.hpp).
-    std::string
-        height_map;  // relative to the material file, same size as the image; empty: brightness of the image
+    std::string height_map;     // relative to the material file, size of the image; empty: its brightness
     double relief_slope = 0.2;  // RMS slope of the small relief, 0..1
     double gloss = 0.04;        // share of the light that is reflected like in a mirror, 0..1
     double roughness = 0.5;     // spread of this reflection, 0.05 (polished) .. 1 (matt)

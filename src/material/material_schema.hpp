@@ -46,8 +46,7 @@ struct Absent {
 inline constexpr Range kStiffness{1e-3, 1e6}, kViscosity{0, 1e6};
 inline constexpr Range kWidth{0, 1e5}, kShare{0, 1}, kRoughness{0.05, 1}, kHighpass{0, 1e5};
 inline constexpr Range kLevel{-200, 60}, kModelRate{1000, 384'000};
-inline constexpr Range kBand{0, 0.5 * kModelRate.max,
-                             true};  // in addition below half of the sample rate of the model
+inline constexpr Range kBand{0, 0.5 * kModelRate.max, true};  // also below half the rate of the model
 inline constexpr Range kReflection{-noise::kLargestReflection, noise::kLargestReflection};
 
 template <class Visitor>

@@ -43,10 +43,9 @@ struct ReportWave {
 };
 
 struct ReportSound {
-    double seconds = 0;  // of the whole sound
-    std::vector<std::pair<float, float>>
-        envelope_pascal;            // least and largest value in equal steps over the whole sound
-    std::vector<ReportWave> waves;  // two, as in figure 8 of the paper
+    double seconds = 0;                                    // of the whole sound
+    std::vector<std::pair<float, float>> envelope_pascal;  // minimum and maximum in equal steps, whole sound
+    std::vector<ReportWave> waves;                         // two, as in figure 8 of the paper
     // Sound played by the page: from heard_from_s on, interleaved stereo samples, full scale 1, at most
     // kReportSoundS (the rest is left out).
     double heard_from_s = 0, rate_hz = 48000;

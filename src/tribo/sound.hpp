@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The sound of a cut in 3D, from its contact samples: stereo, as the job's [sound] says who listens where.
+// The sound of a cut in 3D, from its contact samples: stereo. [sound] of the job defines the listener.
 //
 //     auto sound = tribo::CutSound::of(*mill, {.ears = tribo::Ears::sphere});
 //     sound->excite(mill->contact(row, force, row.start_s));

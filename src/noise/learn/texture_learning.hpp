@@ -5,9 +5,8 @@
 // - Measure the level of bands of the rest, frame by frame, as a process over the distance of the finger.
 // - Subtract the values of Gaussian noise of the same model under the same analysis, so that a Gaussian
 //   recording gets no texture.
-// - Play the texture and fit it until it has the modulation of the recording from 4 to 64 Hz, in each band
-// and
-//   as a whole, and its kurtosis.
+// - Play the texture and fit it until it has the kurtosis of the recording and its modulation from 4 to
+//   64 Hz, in each band and as a whole.
 // Allocates; any thread.
 #pragma once
 

@@ -24,8 +24,8 @@ struct GrainModel {
 
 // A level process: Gaussian numbers g with a given correlation over distance, mapped to dB by a table.
 struct TextureModel {
-    // Limits between neighbouring bands; ascending, below half the sample rate of the model. n limits make n
-    // + 1 bands.
+    // Limits between neighbouring bands; ascending, below half the sample rate of the model. There is one
+    // band more than limits.
     std::vector<double> crossovers_hz;
     // For each band the level in dB at g = -4, -3.5 ... 4, linear between. The mean power over g is 1.
     std::vector<std::vector<double>> levels_db;

@@ -81,8 +81,7 @@ std::vector<std::vector<double>> without_slow_level(std::span<const std::span<co
         }
         for (const double v : low_passed(piece, 2 * kSlowHz)) octave_more += (v - mean) * (v - mean);
     }
-    // If the density of the fluctuation below kSlowHz equals that of the octave above, octave_more = 2 *
-    // below.
+    // octave_more = 2 below, if the fluctuation per hertz below kSlowHz equals that in the octave above.
     const double excess = below > 0 ? std::clamp(2 - octave_more / below, 0.0, 1.0) : 0;
     // A small excess is chance. A large excess comes from the hand and is removed completely.
     const double share = excess * excess * (3 - 2 * excess);

@@ -64,9 +64,8 @@ struct ModelPart {
 
 struct Model {
     TriangleMesh mesh;  // mm; no unused and no non-finite position; no triangle with two equal corners
-    std::vector<ModelPart> parts;  // VRML only: in order; together they contain all triangles
-    std::vector<Rgb8> colours =
-        {};  // one per triangle, the mean of its corners; empty: the file has none
+    std::vector<ModelPart> parts;    // VRML only: in order; together they contain all triangles
+    std::vector<Rgb8> colours = {};  // one per triangle, the mean of its corners; empty: the file has none
     ModelFormat format = ModelFormat::stl;
     Warnings warnings;
 };

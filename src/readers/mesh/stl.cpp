@@ -86,8 +86,7 @@ class StlTextReader {
 
     Result<void> read_facet() {
         if (auto ok = expect("normal"); !ok) return ok;
-        for (int i = 0; i < 3;
-             ++i) {  // ignored: normals are computed from the corners, as exporters write nan here
+        for (int i = 0; i < 3; ++i) {  // not used: computed from the corners, as exporters write nan here
             if (cursor_.word().empty()) return expected("a normal", {});
         }
         if (auto ok = expect("outer"); !ok) return ok;

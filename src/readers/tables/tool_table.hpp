@@ -18,8 +18,7 @@ struct ToolTableOptions {
 };
 
 struct ToolTable {
-    std::vector<motion::DeclaredTool>
-        tools;  // different numbers; diameter and corner, flutes, length if given
+    std::vector<motion::DeclaredTool> tools;  // different numbers; diameter, corner, flutes, length if given
     Warnings warnings;
 };
 

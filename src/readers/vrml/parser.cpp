@@ -140,8 +140,7 @@ class Parser {
 
     // Adds a finished node to its parent.
     Result<void> deliver(VrmlNodeId node, std::string_view defined_name) {
-        if (!defined_name.empty())
-            scopes_.back().nodes[defined_name] = node;  // only now, so that no node can contain itself
+        if (!defined_name.empty()) scopes_.back().nodes[defined_name] = node;  // now: none contains itself
         if (open_.empty()) {
             top_.roots.push_back(node);
             return {};
