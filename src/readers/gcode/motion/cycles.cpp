@@ -171,7 +171,7 @@ class Run {
         return dwell(seconds, command_, state_, output_);
     }
 
-    // Moves from the retract level to the bottom, and back if the cycle returns at feed.
+    // Moves from the retract level to the bottom, and back as far as the cycle returns at feed.
     Result<void> bottom_and_back() {
         if (pecks()) {
             const double peck = *state_.cycle.peck_mm;
