@@ -61,11 +61,11 @@ long_play() {
 }
 
 # Tests that are named DISABLED_, as they take minutes: the whole grid of strokes of a probe over milled stock, ten
-# million points of five-axis sweeps.
+# million points of five-axis sweeps, ten thousand rounds of two writers of one file.
 long_tests() {
-    configure_and_build release --target test_haptics test_milling || return 1
+    configure_and_build release --target test_files test_haptics test_milling || return 1
     local room
-    for room in haptics milling; do
+    for room in files haptics milling; do
         "build/release/tests/test_$room" --gtest_also_run_disabled_tests --gtest_filter='*DISABLED_*' --gtest_brief=1 || return 1
     done
 }

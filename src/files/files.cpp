@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "files/file_beside.hpp"
+#include "files/pending_file.hpp"
 
 namespace tribo::files {
 namespace {
@@ -123,34 +123,24 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
     return bytes;
 }
 
-FileWriter::FileWriter(std::string path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {
+FileWriter::FileWriter(std::string path, PendingFile file)
+    : path_(std::move(path)), file_(std::make_unique<PendingFile>(std::move(file))) {
     buffer_.reserve(kWriteBufferBytes);
 }
 
-FileWriter::FileWriter(FileWriter&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      removable_(other.removable_),
-      error_number_(other.error_number_),
-      buffer_(std::move(other.buffer_)) {}
+FileWriter::FileWriter(FileWriter&& other) noexcept = default;
 
-FileWriter::~FileWriter() {
-    if (descriptor_ < 0) return;
-    ::close(descriptor_);
-    if (removable_) ::unlink(name_beside(path_).c_str());
-}
+FileWriter::~FileWriter() = default;
 
 FileResult<FileWriter> FileWriter::create(const std::string& path) {
-    const FileResult<FileBeside> file = open_beside(path);
-    if (!file) return std::unexpected(file.error());
-    FileWriter writer(path, file->descriptor);
-    writer.removable_ = file->beside;
-    return writer;
+    FileResult<PendingFile> file = PendingFile::open(path);
+    if (!file) return std::unexpected(std::move(file).error());
+    return FileWriter(path, *std::move(file));
 }
 
 void FileWriter::flush(std::string_view bytes) {
     while (!bytes.empty() && error_number_ == 0) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+        const ssize_t written = ::write(file_->descriptor(), bytes.data(), bytes.size());
         if (written < 0) {
             if (errno != EINTR) error_number_ = errno;
         } else if (written == 0) {
@@ -173,11 +163,9 @@ void FileWriter::write(std::string_view bytes) {
 FileResult<void> FileWriter::finish() {
     flush(buffer_);
     buffer_.clear();
-    const int descriptor = std::exchange(descriptor_, -1);
-    if (::close(descriptor) != 0 && error_number_ == 0 && errno != EINTR) error_number_ = errno;
-    if (error_number_ == 0 && removable_) error_number_ = take_name(path_);
+    if (error_number_ == 0) error_number_ = file_->commit();
+    file_.reset();
     if (error_number_ == 0) return {};
-    if (removable_) ::unlink(name_beside(path_).c_str());
     return system_failure(path_, "write", error_number_);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,9 +22,11 @@ inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 // Returns the bytes of a regular file or of a pipe.
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
 
+class PendingFile;
+
 // Writes a new file in pieces through one buffer. After a failure later pieces are dropped, and finish()
-// returns the first error. The file is written beside the file of that name, and replaces it at the end. An
-// unfinished file leaves nothing.
+// returns the first error. A file of that name is replaced at the end (PendingFile). An unfinished file
+// leaves nothing.
 class FileWriter {
   public:
     static FileResult<FileWriter> create(const std::string& path);
@@ -32,16 +35,15 @@ class FileWriter {
     ~FileWriter();
 
     void write(std::string_view bytes);
-    // Passes all data to the system and closes the file.
+    // Sends everything to the disk and gives the file its name.
     FileResult<void> finish();
 
   private:
-    FileWriter(std::string path, int descriptor);
+    FileWriter(std::string path, PendingFile file);
     void flush(std::string_view bytes);
 
     std::string path_;
-    int descriptor_ = -1;
-    bool removable_ = false;  // written beside the old file; a device is written directly
+    std::unique_ptr<PendingFile> file_;
     int error_number_ = 0;
     std::string buffer_;
 };

@@ -6,43 +6,33 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <stdio.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+
+#include "files/folder_list.hpp"
+#include "files/sibling.hpp"
 
 namespace tribo::files {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPartialNames = 1000;  // names tried; each is free unless this process uses it
+constexpr int kPartialNames = 100;  // tried before giving up: a run that cleans may take a new one
 
 std::string partial_prefix(const std::string& base) {
-    return "." + base + ".tribo-partial-";
+    return sibling_prefix(base, "partial");
 }
 std::string older_prefix(const std::string& base) {
-    return "." + base + ".tribo-older-";
+    return sibling_prefix(base, "older");
 }
 
 std::unexpected<FileFailure> refuse(const std::string& shown, std::string cause, std::string remedy) {
     return std::unexpected(FileFailure({shown, 0, 0, std::move(cause), std::move(remedy)}));
 }
 
-// True when the mark in the folder says that Tribo made it.
-bool is_marked(const std::string& dir, const FolderMark& mark) {
-    const FileResult<std::string> text = read_file(dir + "/" + mark.file);
-    if (!text) return false;
-    const std::size_t key = text->find("\"schema\"");
-    if (key == std::string::npos) return false;
-    const std::size_t value = text->find_first_not_of(" \t\r\n:", key + 8);
-    return value != std::string::npos &&
-           text->compare(value, mark.schema.size() + 1, "\"" + mark.schema) == 0;
-}
-
-// Checks the current content of `target`. Nothing, an empty folder, or a folder of Tribo may be replaced.
-FileResult<void> check_replaceable(const std::string& target, const std::string& shown,
-                                   const FolderMark& mark) {
+// Checks what stands at `target` now: nothing, an empty folder or a folder of an earlier run.
+FileResult<void> check_replaceable(const std::string& target, const std::string& shown) {
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
         if (errno == ENOENT) return {};
@@ -57,33 +47,33 @@ FileResult<void> check_replaceable(const std::string& target, const std::string&
     std::error_code error;
     const bool empty = fs::is_empty(target, error);
     if (error) return system_failure(shown, "look at the output folder", error.value());
-    if (empty || is_marked(target, mark)) return {};
-    return refuse(shown,
-                  "the folder exists and is not one that tribo wrote (no " + mark.file + " of its own in it)",
-                  "name a new folder, or remove this one first");
+    if (empty || !read_folder_list(target).empty()) return {};
+    return refuse(
+        shown,
+        std::string("the folder exists and is not one that tribo wrote (no list ") + kFolderList + " in it)",
+        "name a new folder, or remove this one first");
 }
 
-// True when no running process holds the folder.
-bool is_orphan(const std::string& dir) {
-    const int descriptor = ::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (descriptor < 0) return false;
-    const bool free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-    ::close(descriptor);
-    return free;
+// Refuses a file of the user's that the run would replace.
+FileResult<void> check_names(const std::string& target, const std::string& shown,
+                             const OutputFolder::Writes& writes) {
+    std::error_code error;
+    if (!fs::is_directory(fs::symlink_status(target, error))) return {};
+    const FileResult<std::vector<std::string>> others = files_of_others(target, read_folder_list(target));
+    if (!others) return std::unexpected(others.error());
+    for (const std::string& name : *others) {
+        if (!writes(name)) continue;
+        return refuse(shown + "/" + name, "tribo did not write this file and would replace it",
+                      "move it, or name another folder");
+    }
+    return {};
 }
 
 // Removes the folders that killed runs left beside the target. A folder that was moved aside and not replaced
 // is moved back.
 void clean_siblings(const std::string& parent, const std::string& base, const std::string& target) {
     std::error_code error;
-    std::vector<std::string> partial, older;
-    for (fs::directory_iterator it(parent, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
-        if (name.starts_with(partial_prefix(base))) partial.push_back(it->path().string());
-        if (name.starts_with(older_prefix(base))) older.push_back(it->path().string());
-    }
-    for (const std::string& dir : older) {
-        if (!is_orphan(dir)) continue;
+    for (const std::string& dir : abandoned_siblings(parent, older_prefix(base))) {
         struct stat status = {};
         if (::lstat(target.c_str(), &status) != 0 && errno == ENOENT) {
             fs::rename(dir, target, error);
@@ -91,9 +81,8 @@ void clean_siblings(const std::string& parent, const std::string& base, const st
             fs::remove_all(dir, error);
         }
     }
-    for (const std::string& dir : partial) {
-        if (is_orphan(dir)) fs::remove_all(dir, error);
-    }
+    for (const std::string& dir : abandoned_siblings(parent, partial_prefix(base)))
+        fs::remove_all(dir, error);
 }
 
 // Creates the missing parent folders of `dir` and lists them in `made`, outermost first.
@@ -122,20 +111,17 @@ FileResult<void> make_folders(const fs::path& dir, const std::string& shown, std
 int sync_path(const std::string& path, int flags) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | flags);
     if (descriptor < 0) return errno;
-    // A file system without sync (EINVAL, ENOTSUP) offers nothing more durable.
-    int error = ::fsync(descriptor) == 0 ? 0 : errno;
-    if (error == EINVAL || error == ENOTSUP) error = 0;
+    const int error = sync_descriptor(descriptor);
     ::close(descriptor);
     return error;
 }
 
 }  // namespace
 
-FileResult<OutputFolder> OutputFolder::open(const std::string& dir, FolderMark mark) {
+FileResult<OutputFolder> OutputFolder::open(const std::string& dir, const Writes& writes) {
     if (dir.empty()) return refuse("", "the output folder's name is empty", "name a folder after --out");
     OutputFolder folder;
     folder.shown_ = dir;
-    folder.mark_ = std::move(mark);
 
     std::error_code error;
     fs::path path = fs::absolute(dir, error).lexically_normal();
@@ -152,29 +138,24 @@ FileResult<OutputFolder> OutputFolder::open(const std::string& dir, FolderMark m
     folder.target_ = (fs::path(parent) / base).string();
 
     clean_siblings(parent, base, folder.target_);
-    if (auto free = check_replaceable(folder.target_, dir, folder.mark_); !free) {
+    if (auto free = check_replaceable(folder.target_, dir); !free)
         return std::unexpected(std::move(free).error());
-    }
+    if (auto free = check_names(folder.target_, dir, writes); !free)
+        return std::unexpected(std::move(free).error());
     if (auto made = folder.make_partial(parent, base); !made) return std::unexpected(std::move(made).error());
     return folder;
 }
 
 FileResult<void> OutputFolder::make_partial(const std::string& parent, const std::string& base) {
     for (int i = 0; i < kPartialNames; ++i) {
-        const std::string candidate =
-            (fs::path(parent) / (partial_prefix(base) + std::to_string(::getpid()) + "-" + std::to_string(i)))
-                .string();
+        const std::string candidate = (fs::path(parent) / random_sibling(partial_prefix(base))).string();
         if (::mkdir(candidate.c_str(), 0777) != 0) {
             if (errno == EEXIST) continue;
             return system_failure(shown_, "make the output folder", errno);
         }
         const int descriptor = ::open(candidate.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-        if (descriptor < 0) continue;  // a cleaning run took it for an orphan
-        const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-        struct stat held = {}, seen = {};
-        const bool same = ::fstat(descriptor, &held) == 0 && ::lstat(candidate.c_str(), &seen) == 0 &&
-                          held.st_ino == seen.st_ino && held.st_dev == seen.st_dev;
-        if (!taken && same) {
+        if (descriptor < 0) continue;  // a run that was cleaning took it for abandoned
+        if (hold_sibling(descriptor, candidate)) {
             partial_ = candidate;
             lock_ = descriptor;
             return {};
@@ -188,7 +169,6 @@ OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : shown_(std::move(other.shown_)),
       target_(std::move(other.target_)),
       partial_(std::move(other.partial_)),
-      mark_(std::move(other.mark_)),
       made_parents_(std::move(other.made_parents_)),
       lock_(std::exchange(other.lock_, -1)) {
     other.partial_.clear();
@@ -203,6 +183,7 @@ OutputFolder::~OutputFolder() {
 }
 
 FileResult<void> OutputFolder::commit() {
+    if (auto listed = write_folder_list(partial_); !listed) return listed;
     std::error_code error;
     for (fs::recursive_directory_iterator it(partial_, error), end; !error && it != end;
          it.increment(error)) {
@@ -211,39 +192,60 @@ FileResult<void> OutputFolder::commit() {
             return system_failure(shown_, "write", number);
     }
     if (error) return system_failure(shown_, "write", error.value());
-    if (const int number = sync_path(partial_, O_DIRECTORY)) return system_failure(shown_, "write", number);
 
-    // The target may have changed during the run.
-    if (auto free = check_replaceable(target_, shown_, mark_); !free)
-        return std::unexpected(std::move(free).error());
-    std::string left_over;  // the older folder, moved aside
+    // The folder may have changed during the run.
+    if (auto free = check_replaceable(target_, shown_); !free) return free;
+    if (const int number = sync_path(partial_, O_DIRECTORY)) return system_failure(shown_, "write", number);
     if (::rename(partial_.c_str(), target_.c_str()) != 0) {
         if (errno != ENOTEMPTY && errno != EEXIST)
             return system_failure(shown_, "put the output folder in place", errno);
-        if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
-            left_over = partial_;
-        } else {
-            // Without the exchange in the file system there is no folder for a moment; clean_siblings()
-            // handles this state.
-            const fs::path target(target_);
-            left_over = (target.parent_path() /
-                         (older_prefix(target.filename().string()) + std::to_string(::getpid())))
-                            .string();
-            if (::rename(target_.c_str(), left_over.c_str()) != 0) {
-                return system_failure(shown_, "move the older output folder away", errno);
-            }
-            if (::rename(partial_.c_str(), target_.c_str()) != 0) {
-                const int number = errno;
-                ::rename(left_over.c_str(), target_.c_str());
-                return system_failure(shown_, "put the output folder in place", number);
-            }
-        }
+        if (auto replaced = replace_target(); !replaced) return replaced;
     }
     partial_.clear();
     made_parents_.clear();
-    sync_path(fs::path(target_).parent_path().string(),
-              O_DIRECTORY);  // the new name exists even if this fails
-    if (!left_over.empty()) fs::remove_all(left_over, error);
+    // The new name is there even if this fails.
+    sync_path(fs::path(target_).parent_path().string(), O_DIRECTORY);
+    return {};
+}
+
+// At every moment each file of the user's stands in the old folder, the new one, or both.
+FileResult<void> OutputFolder::replace_target() {
+    const std::set<std::string> listed = read_folder_list(target_);
+    const auto keep = [&](const std::string& from, const std::string& to) -> FileResult<void> {
+        const FileResult<std::vector<std::string>> others = files_of_others(from, listed);
+        if (!others) return std::unexpected(others.error());
+        return keep_files(*others, from, to);
+    };
+    if (auto kept = keep(target_, partial_); !kept) return kept;
+    struct stat status = {};
+    if (::stat(target_.c_str(), &status) == 0) (void)::chmod(partial_.c_str(), status.st_mode & 07777);
+    if (const int number = sync_path(partial_, O_DIRECTORY)) return system_failure(shown_, "write", number);
+
+    std::string older;  // the older folder, out of the way
+    if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
+        older = std::exchange(partial_, {});
+    } else {
+        // A file system without the exchange: for a moment there is no folder, and clean_siblings() knows.
+        const fs::path target(target_);
+        older = (target.parent_path() / random_sibling(older_prefix(target.filename().string()))).string();
+        if (::rename(target_.c_str(), older.c_str()) != 0) {
+            return system_failure(shown_, "move the older output folder away", errno);
+        }
+        if (::rename(partial_.c_str(), target_.c_str()) != 0) {
+            const int number = errno;
+            ::rename(older.c_str(), target_.c_str());
+            return system_failure(shown_, "put the output folder in place", number);
+        }
+        partial_.clear();
+    }
+    // What came into the older folder since it was looked through.
+    std::set<std::string> there = listed;
+    if (const auto kept = files_of_others(target_, {})) there.insert(kept->begin(), kept->end());
+    const FileResult<std::vector<std::string>> late = files_of_others(older, there);
+    if (!late) return std::unexpected(late.error());
+    if (auto kept = keep_files(*late, older, target_); !kept) return kept;
+    std::error_code error;
+    fs::remove_all(older, error);
     return {};
 }
 

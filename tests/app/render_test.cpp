@@ -41,10 +41,12 @@ class Render : public ::testing::Test {
         write(folder_ / "slot.toml", kJob);
         write(folder_ / "slot.nc", kProgram);
     }
+    // Without the list of the run.
     std::set<std::string> files_in(const std::string& name) const {
         std::set<std::string> names;
         for (const auto& entry : fs::directory_iterator(folder_ / name))
             names.insert(entry.path().filename());
+        names.erase(".tribo-files");
         return names;
     }
     Outcome render(std::vector<std::string> more) const {
@@ -72,10 +74,21 @@ TEST_F(Render, writes_only_what_is_asked_for_and_the_summary) {
               (std::set<std::string>{"summary.json", "forces.csv", "published_forces.csv", "sound.wav"}));
 }
 
-TEST_F(Render, replaces_an_older_folder_whole_and_no_other) {
+TEST_F(Render, replaces_the_files_of_an_older_run_and_no_other) {
     ASSERT_EQ(render({"--out", "out"}).code, 0);
+    write(folder_ / "out" / "notes.txt", "try 8000 rpm");
     ASSERT_EQ(render({"--out", "out", "--only", "summary"}).code, 0);
-    EXPECT_EQ(files_in("out"), std::set<std::string>{"summary.json"});
+    EXPECT_EQ(files_in("out"), (std::set<std::string>{"summary.json", "notes.txt"}));
+    // A file of the user's that a render may write is never replaced.
+    write(folder_ / "out" / "machined.stl", "mine");
+    const Outcome refused = render({"--out", "out"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("out/machined.stl"), std::string::npos) << refused.err;
+    EXPECT_EQ(files_in("out"), (std::set<std::string>{"summary.json", "notes.txt", "machined.stl"}));
+    // A copied summary makes no folder one of Tribo's.
+    fs::create_directory(folder_ / "thesis");
+    fs::copy(folder_ / "out" / "summary.json", folder_ / "thesis" / "summary.json");
+    EXPECT_EQ(render({"--out", "thesis"}).code, 2);
     fs::create_directory(folder_ / "mine");
     write(folder_ / "mine" / "letter.txt", "dear");
     EXPECT_EQ(render({"--out", "mine"}).code, 2);

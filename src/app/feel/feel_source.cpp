@@ -8,7 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "files/disk_source.hpp"
-#include "files/mapped_file.hpp"
+#include "files/files.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "readers/tables/force_bake.hpp"
 #include "tribo/threads.hpp"
@@ -42,9 +42,10 @@ FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
 
 std::optional<contact::ForceTable> FeelSource::baked(std::uint64_t key) const {
     if (call_.bake.empty()) return std::nullopt;
-    auto file = files::MappedFile::open(call_.bake);
-    if (!file) return std::nullopt;  // not baked so far
-    auto bake = readers::read_force_bake((*file)->bytes(), *file, call_.bake);
+    auto file = files::read_file(call_.bake);
+    if (!file) return std::nullopt;  // not baked yet
+    const auto bytes = std::make_shared<const std::string>(*std::move(file));
+    auto bake = readers::read_force_bake(*bytes, bytes, call_.bake);
     if (!bake) {
         report(Warnings{{call_.bake, 0, bake.error().cause + "; it is baked again"}});
         return std::nullopt;
@@ -149,7 +150,7 @@ FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<sessio
             figures_->uniform_knots = contact::uniform_knots(function.dense, error, options->most_jnd);
         }
         if (!call_.bake.empty()) {
-            auto written = files::replace_file(call_.bake, readers::write_force_bake(*table, key));
+            auto written = files::write_file(call_.bake, readers::write_force_bake(*table, key));
             if (!written) return std::unexpected(written.error());
         }
     }

@@ -82,7 +82,7 @@ int render(const RenderCall& call) {
     const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound")};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
         return report(fits.error());
-    auto folder = files::OutputFolder::open(call.out);
+    auto folder = files::OutputFolder::open(call.out, RenderOutputs::writes);
     if (!folder) return report(folder.error());
     const auto& sources = loaded->stock_folders;
     if (std::find(sources.begin(), sources.end(), folder->path()) != sources.end()) {

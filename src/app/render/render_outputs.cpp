@@ -2,6 +2,7 @@
 #include "app/render/render_outputs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -52,6 +53,13 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
 }
 
 }  // namespace
+
+bool RenderOutputs::writes(const std::string& name) {
+    static constexpr std::array<std::string_view, 7> names{
+        "summary.json", "forces.csv",   "published_forces.csv", "sound.wav",
+        "machined.stl", "machined.glb", "report.html"};
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
     if (call_.wants("forces")) {

@@ -21,6 +21,9 @@ class RenderOutputs {
                   const ParallelFor& parallel)
         : call_(call), loaded_(loaded), folder_(folder), parallel_(parallel) {}
 
+    // True for the names of all files that a render may write.
+    static bool writes(const std::string& name);
+
     // Call before the session runs.
     FileResult<void> open(double duration_s, const Box3& blank);
     bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }

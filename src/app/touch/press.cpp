@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
 #include "files/image/image_file.hpp"
+#include "files/image/png.hpp"
 #include "files/json/json.hpp"
 #include "files/output_folder.hpp"
 #include "readers/tables/stroke_csv.hpp"
@@ -118,7 +119,9 @@ int press(const PressCall& call) {
                             "give a lower --fps or a shorter stroke"});
     }
     const int frames = static_cast<int>(intervals) + 1;
-    auto folder = files::OutputFolder::open(call.out);
+    auto folder = files::OutputFolder::open(call.out, [](const std::string& name) {
+        return name == "summary.json" || name.starts_with("frame_");
+    });
     if (!folder) return report(folder.error());
     report(inputs->touch.warnings);
 

@@ -40,9 +40,11 @@ int site(const Call& call) {
             Error{from, 0, 0, "the pages of the site are not there",
                   "run 'make build' with Node.js 20.19 or newer, or name their folder with --web-root"});
     }
-    auto folder = files::OutputFolder::open(call.out, {"site.json", "tribo."});
-    if (!folder) return report(folder.error());
     const std::vector<std::string> files = files_of(from);
+    auto folder = files::OutputFolder::open(call.out, [&](const std::string& name) {
+        return std::binary_search(files.begin(), files.end(), name);
+    });
+    if (!folder) return report(folder.error());
     for (const std::string& file : files) {
         const FileResult<std::string> bytes = files::read_file(from + "/" + file);
         if (!bytes) return report(bytes.error());

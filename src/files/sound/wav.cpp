@@ -6,12 +6,13 @@
 #include <cassert>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <sndfile.h>
 #include <unistd.h>
 #include <utility>
 
 #include "base/noise_hash.hpp"
-#include "files/file_beside.hpp"
+#include "files/pending_file.hpp"
 
 namespace tribo::files {
 namespace {
@@ -76,7 +77,7 @@ struct WavWriter::State {
     WavFormat format;
     std::int64_t longest_frames = 0;
     OpenFile file;
-    bool beside = false;
+    std::optional<PendingFile> pending;
     SF_VIRTUAL_IO io = callbacks();
     SNDFILE* container = nullptr;
     CounterNoise dither{0};
@@ -86,9 +87,6 @@ struct WavWriter::State {
 
     ~State() {
         if (container != nullptr) ::sf_close(container);
-        if (file.descriptor < 0) return;
-        ::close(file.descriptor);
-        if (beside) ::unlink(name_beside(path).c_str());
     }
 
     template <class Sample, class Convert>
@@ -131,10 +129,10 @@ FileResult<WavWriter> WavWriter::create(const std::string& path, const WavFormat
     state->format = format;
     state->longest_frames = std::min(longest_frames, longest_wav_frames(format));
     state->dither = CounterNoise(format.dither_seed);
-    const FileResult<FileBeside> file = open_beside(path);
-    if (!file) return std::unexpected(file.error());
-    state->file.descriptor = file->descriptor;
-    state->beside = file->beside;
+    FileResult<PendingFile> file = PendingFile::open(path);
+    if (!file) return std::unexpected(std::move(file).error());
+    state->pending.emplace(*std::move(file));
+    state->file.descriptor = state->pending->descriptor();
 
     SF_INFO info = {};
     info.samplerate = format.sample_rate_hz;
@@ -203,13 +201,7 @@ FileResult<void> WavWriter::finish() {
     }
     if (s.file.error_number == 0 && (s.broken || closed != 0)) s.file.error_number = EIO;
     if (s.file.error_number != 0) return system_failure(s.path, "write", s.file.error_number);
-    int error_number = 0;
-    if (::close(std::exchange(s.file.descriptor, -1)) != 0 && errno != EINTR) error_number = errno;
-    if (s.beside && error_number == 0) {
-        error_number = take_name(s.path);
-    } else if (s.beside) {
-        ::unlink(name_beside(s.path).c_str());
-    }
+    const int error_number = s.pending->commit();
     if (error_number != 0) return system_failure(s.path, "write", error_number);
     return {};
 }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "files/pending_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+#include "files/sibling.hpp"
+
+namespace tribo::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNames = 100;  // tried before giving up: a run that cleans may take a new one for abandoned
+constexpr mode_t kModeBits = 07777;
+
+}  // namespace
+
+FileResult<PendingFile> PendingFile::open(const std::string& path) {
+    PendingFile file;
+    struct stat status = {};
+    const bool there = ::stat(path.c_str(), &status) == 0;
+    struct stat link = {};
+    const bool dangling = !there && ::lstat(path.c_str(), &link) == 0;
+    // A folder, and a file that may not be written, are refused as the system refuses them.
+    const bool replaces = there ? S_ISREG(status.st_mode) && ::access(path.c_str(), W_OK) == 0 : !dangling;
+    if (!replaces || path.empty() || path.ends_with('/')) {
+        file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        if (file.descriptor_ < 0) return system_failure(path, "write", errno);
+        return file;
+    }
+    std::error_code error;
+    const fs::path target = there ? fs::canonical(path, error) : fs::path(path);
+    if (error) return system_failure(path, "write", error.value());
+    file.target_ = target.string();
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const std::string prefix = sibling_prefix(target.filename().string(), "part");
+    for (const std::string& left : abandoned_siblings(folder.string(), prefix)) ::unlink(left.c_str());
+    for (int n = 0; n < kNames; ++n) {
+        file.sibling_ = (folder / random_sibling(prefix)).string();
+        file.descriptor_ =
+            ::open(file.sibling_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (file.descriptor_ < 0 && errno == EEXIST) continue;
+        if (file.descriptor_ < 0) {
+            file.sibling_.clear();
+            return system_failure(path, "write", errno);
+        }
+        if (hold_sibling(file.descriptor_, file.sibling_)) {
+            // The new file may be read by those who may read the old one.
+            if (there) (void)::fchmod(file.descriptor_, status.st_mode & kModeBits);
+            return file;
+        }
+        file.discard();
+    }
+    return system_failure(path, "write", EEXIST);
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      sibling_(std::exchange(other.sibling_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+PendingFile::~PendingFile() {
+    discard();
+}
+
+void PendingFile::discard() {
+    if (!sibling_.empty()) ::unlink(std::exchange(sibling_, {}).c_str());
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+}
+
+int PendingFile::commit() {
+    int error_number = sibling_.empty() ? 0 : sync_descriptor(descriptor_);
+    if (error_number == 0 && !sibling_.empty()) {
+        // Renamed while the lock is held: nobody takes it for abandoned.
+        if (std::rename(sibling_.c_str(), target_.c_str()) == 0) {
+            sibling_.clear();
+        } else {
+            error_number = errno;
+        }
+    }
+    if (::close(std::exchange(descriptor_, -1)) != 0 && error_number == 0 && errno != EINTR)
+        error_number = errno;
+    discard();
+    return error_number;
+}
+
+}  // namespace tribo::files
