@@ -11,6 +11,7 @@
 #include "base/hash.hpp"
 #include "elastic/colour_difference.hpp"
 #include "files/image/image_file.hpp"
+#include "files/image/png.hpp"
 
 namespace tribo::test {
 namespace {

@@ -5,23 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-#include <stb/stb_image.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include "files/image/jpeg.hpp"
+#include "files/image/png.hpp"
 
 namespace tribo::files {
 namespace {
@@ -57,30 +42,26 @@ std::vector<Cover> covers(int from, int to) {
 
 }  // namespace
 
+std::string too_large_image(std::uint32_t width, std::uint32_t height) {
+    return "the image has " + std::to_string(width) + " x " + std::to_string(height) +
+           " pixels, more than the " + std::to_string(kMostImagePixels >> 20) + " million, or " +
+           std::to_string(kMostImageSide) + " a side, that are read";
+}
+
 Result<Image> parse_image(std::string_view bytes, const std::string& source_name) {
     const auto refuse = [&](const std::string& cause) -> Result<Image> {
         return fail_at(source_name, 0, 0, cause, "give a PNG or JPEG image");
     };
-    if (bytes.size() > kLargestInputBytes) return refuse("the image is too large");
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
-    const int size = static_cast<int>(bytes.size());
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
+    std::expected<Image, std::string> image;
+    if (bytes.starts_with("\x89PNG")) {
+        image = parse_png(bytes);
+    } else if (bytes.starts_with("\xff\xd8")) {
+        image = parse_jpeg(bytes);
+    } else {
         return refuse("is not an image that can be read");
     }
-    if (width < 1 || height < 1 || width > kMostImageSide || height > kMostImageSide ||
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > kMostImagePixels) {
-        return refuse("the image has " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
-    }
-    stbi_uc* pixels = stbi_load_from_memory(data, size, &width, &height, &channels, 4);
-    if (pixels == nullptr) return refuse("the image is damaged");
-    Image image;
-    image.width = width;
-    image.height = height;
-    image.rgba.assign(
-        pixels, pixels + std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    stbi_image_free(pixels);
-    return image;
+    if (!image) return refuse(image.error());
+    return *std::move(image);
 }
 
 FileResult<Image> read_image(const std::string& path) {

@@ -5,13 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "files/image/png.hpp"
+#include "files/files.hpp"
+#include "files/image/image.hpp"
 
 namespace tribo::files {
-
-// Larger images are refused before memory is allocated for them, pixels.
-inline constexpr int kMostImageSide = 16'384;
-inline constexpr std::uint64_t kMostImagePixels = std::uint64_t{64} << 20;
 
 FileResult<Image> read_image(const std::string& path);
 // Reads heights for the pixels of a picture. Refuses heights of another size.

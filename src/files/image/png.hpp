@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Writes pictures.
+// Pictures as PNG, by libpng.
 #pragma once
 
-#include <cstdint>
+#include <expected>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "files/files.hpp"
+#include "files/image/image.hpp"
 
 namespace tribo::files {
 
-// Rows from the top, four bytes a pixel: red, green, blue (sRGB) and opacity, not premultiplied.
-struct Image {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  // 4 width height
-};
+// Every kind of PNG as eight bits a channel; of sixteen bits the upper eight. Chunks that are not needed for
+// the pixels (texts, profiles) are skipped, not unpacked. An error is the cause, without file and remedy.
+std::expected<Image, std::string> parse_png(std::string_view bytes);
 
 // Returns the bytes of a PNG file, always the same for the same image. Empty for an image without pixels.
 std::string png_bytes(const Image& image);
