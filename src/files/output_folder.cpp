@@ -12,6 +12,7 @@
 
 #include "files/folder_list.hpp"
 #include "files/sibling.hpp"
+#include "files/unfinished.hpp"
 
 namespace tribo::files {
 namespace {
@@ -101,6 +102,7 @@ FileResult<void> make_folders(const fs::path& dir, const std::string& shown, std
     for (auto at = missing.rbegin(); at != missing.rend(); ++at) {
         if (::mkdir(at->c_str(), 0777) == 0) {
             made.push_back(at->string());
+            note_unfinished(made.back(), Removal::if_empty);
         } else if (errno != EEXIST) {
             return system_failure(shown, "make the output folder", errno);
         }
@@ -149,18 +151,21 @@ FileResult<OutputFolder> OutputFolder::open(const std::string& dir, const Writes
 FileResult<void> OutputFolder::make_partial(const std::string& parent, const std::string& base) {
     for (int i = 0; i < kPartialNames; ++i) {
         const std::string candidate = (fs::path(parent) / random_sibling(partial_prefix(base))).string();
-        if (::mkdir(candidate.c_str(), 0777) != 0) {
-            if (errno == EEXIST) continue;
-            return system_failure(shown_, "make the output folder", errno);
+        note_unfinished(candidate, Removal::with_contents);
+        const int error_number = ::mkdir(candidate.c_str(), 0777) == 0 ? 0 : errno;
+        if (error_number == 0) {
+            // Without a descriptor or a lock, a run that was cleaning took it for abandoned.
+            const int descriptor = ::open(candidate.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+            if (descriptor >= 0 && hold_sibling(descriptor, candidate)) {
+                partial_ = candidate;
+                lock_ = descriptor;
+                return {};
+            }
+            if (descriptor >= 0) ::close(descriptor);
         }
-        const int descriptor = ::open(candidate.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-        if (descriptor < 0) continue;  // a run that was cleaning took it for abandoned
-        if (hold_sibling(descriptor, candidate)) {
-            partial_ = candidate;
-            lock_ = descriptor;
-            return {};
-        }
-        ::close(descriptor);
+        forget_unfinished(candidate);
+        if (error_number != 0 && error_number != EEXIST)
+            return system_failure(shown_, "make the output folder", error_number);
     }
     return system_failure(shown_, "make the output folder", EEXIST);
 }
@@ -179,7 +184,13 @@ OutputFolder::~OutputFolder() {
     std::error_code error;
     if (!partial_.empty()) fs::remove_all(partial_, error);
     for (auto at = made_parents_.rbegin(); at != made_parents_.rend(); ++at) ::rmdir(at->c_str());
+    forget();
     if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::forget() {
+    if (!partial_.empty()) files::forget_unfinished(partial_);
+    for (const std::string& made : made_parents_) files::forget_unfinished(made);
 }
 
 FileResult<void> OutputFolder::commit() {
@@ -201,6 +212,7 @@ FileResult<void> OutputFolder::commit() {
             return system_failure(shown_, "put the output folder in place", errno);
         if (auto replaced = replace_target(); !replaced) return replaced;
     }
+    forget();
     partial_.clear();
     made_parents_.clear();
     // The new name is there even if this fails.
@@ -221,6 +233,8 @@ FileResult<void> OutputFolder::replace_target() {
     if (::stat(target_.c_str(), &status) == 0) (void)::chmod(partial_.c_str(), status.st_mode & 07777);
     if (const int number = sync_path(partial_, O_DIRECTORY)) return system_failure(shown_, "write", number);
 
+    // From here on the partial name may stand for the older folder.
+    forget();
     std::string older;  // the older folder, out of the way
     if (::renameat2(AT_FDCWD, partial_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
         older = std::exchange(partial_, {});

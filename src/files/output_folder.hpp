@@ -44,6 +44,7 @@ class OutputFolder {
     OutputFolder() = default;
     FileResult<void> make_partial(const std::string& parent, const std::string& base);
     FileResult<void> replace_target();
+    void forget();
 
     std::string shown_, target_, partial_;
     std::vector<std::string> made_parents_;  // outermost first

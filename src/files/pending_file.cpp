@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "files/sibling.hpp"
+#include "files/unfinished.hpp"
 
 namespace tribo::files {
 namespace {
@@ -42,14 +43,18 @@ FileResult<PendingFile> PendingFile::open(const std::string& path) {
     const std::string prefix = sibling_prefix(target.filename().string(), "part");
     for (const std::string& left : abandoned_siblings(folder.string(), prefix)) ::unlink(left.c_str());
     for (int n = 0; n < kNames; ++n) {
-        file.sibling_ = (folder / random_sibling(prefix)).string();
+        const std::string sibling = (folder / random_sibling(prefix)).string();
+        // Noted first: a signal may come between the two.
+        note_unfinished(sibling, Removal::with_contents);
         file.descriptor_ =
-            ::open(file.sibling_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (file.descriptor_ < 0 && errno == EEXIST) continue;
+            ::open(sibling.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file.descriptor_ < 0) {
-            file.sibling_.clear();
-            return system_failure(path, "write", errno);
+            const int error_number = errno;
+            forget_unfinished(sibling);
+            if (error_number == EEXIST) continue;
+            return system_failure(path, "write", error_number);
         }
+        file.sibling_ = sibling;
         if (hold_sibling(file.descriptor_, file.sibling_)) {
             // The new file may be read by those who may read the old one.
             if (there) (void)::fchmod(file.descriptor_, status.st_mode & kModeBits);
@@ -70,7 +75,10 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::discard() {
-    if (!sibling_.empty()) ::unlink(std::exchange(sibling_, {}).c_str());
+    if (!sibling_.empty()) {
+        ::unlink(sibling_.c_str());
+        forget_unfinished(std::exchange(sibling_, {}));
+    }
     if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
 }
 
@@ -79,7 +87,7 @@ int PendingFile::commit() {
     if (error_number == 0 && !sibling_.empty()) {
         // Renamed while the lock is held: nobody takes it for abandoned.
         if (std::rename(sibling_.c_str(), target_.c_str()) == 0) {
-            sibling_.clear();
+            forget_unfinished(std::exchange(sibling_, {}));
         } else {
             error_number = errno;
         }

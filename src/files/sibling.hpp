@@ -11,7 +11,7 @@ namespace tribo::files {
 // `.BASE.tribo-KIND-`: all siblings of one kind begin so.
 std::string sibling_prefix(const std::string& base, const char* kind);
 
-// A name nobody can foresee: `prefix` and 16 hexadecimal digits.
+// A name that nobody can foresee: `prefix` and 16 hexadecimal digits.
 std::string random_sibling(const std::string& prefix);
 
 // Locks the file or folder that `descriptor` has open. False: another process holds it, or `path` names
