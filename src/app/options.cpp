@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/text/nearest.hpp"
+#include "base/text/printable.hpp"
 
 namespace tribo::app {
 namespace {
@@ -65,11 +66,11 @@ std::string explain_usage(const CLI::App& program, const CLI::ParseError& error)
         const std::string bare = unknown.substr(0, unknown.find('='));
         const std::vector<std::string> known = known_words(app, flag);
         const std::vector<std::string_view> views(known.begin(), known.end());
-        if (views.empty()) return "error: '" + unknown + "' is one argument too many; " + help;
-        return std::string("error: unknown ") + (flag ? "option" : "verb") + " '" + bare + "'; " +
-               suggestion(bare, views);
+        if (views.empty()) return printable("error: '" + unknown + "' is one argument too many; " + help);
+        return printable(std::string("error: unknown ") + (flag ? "option" : "verb") + " '" + bare + "'; " +
+                         suggestion(bare, views));
     }
-    return std::string("error: ") + error.what() + "; " + help;
+    return printable(std::string("error: ") + error.what() + "; " + help);
 }
 
 }  // namespace tribo::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "base/result.hpp"
 
+#include "base/text/printable.hpp"
+
 namespace tribo {
 namespace {
 
@@ -15,11 +17,11 @@ std::string place(const std::string& file, int line, int column) {
 }  // namespace
 
 std::string Error::text() const {
-    return place(file, line, column) + "error: " + cause + (remedy.empty() ? "" : "; " + remedy);
+    return printable(place(file, line, column) + "error: " + cause + (remedy.empty() ? "" : "; " + remedy));
 }
 
 std::string Warning::message() const {
-    return place(file, line, 0) + "warning: " + text;
+    return printable(place(file, line, 0) + "warning: " + text);
 }
 
 }  // namespace tribo

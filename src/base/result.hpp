@@ -17,7 +17,7 @@ struct Error {
     std::string cause;   // the fault, as a clause without a full stop
     std::string remedy;  // the remedy, as an imperative clause; may be empty
 
-    // `file:line:column: error: cause; remedy`, without the unknown parts.
+    // `file:line:column: error: cause; remedy`, without the unknown parts, as printable().
     std::string text() const;
 };
 
@@ -38,7 +38,7 @@ struct Warning {
     int line = 0;  // from 1; 0: no specific line
     std::string text;
 
-    // `file:line: warning: text`
+    // `file:line: warning: text`, as printable().
     std::string message() const;
 };
 using Warnings = std::vector<Warning>;

@@ -8,6 +8,7 @@
 
 #include "base/math.hpp"
 #include "base/mesh_edges.hpp"
+#include "base/text/printable.hpp"
 #include "files/json/json.hpp"
 #include "milling/sweep/scallop.hpp"
 #include "motion/path/close_passes.hpp"
@@ -354,7 +355,7 @@ std::string aligned(const std::vector<std::pair<std::string, std::string>>& line
     for (const auto& [name, text] : lines) width = std::max(width, name.size());
     std::string out;
     for (const auto& [name, text] : lines) {
-        out += "  " + name + std::string(width - name.size() + 2, ' ') + text + "\n";
+        out += "  " + name + std::string(width - name.size() + 2, ' ') + printable(text) + "\n";
     }
     return out;
 }
