@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <mutex>
+#include <set>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -21,6 +23,17 @@ struct Closing {
     int descriptor;
     ~Closing() { ::close(descriptor); }
 };
+
+// The regular files that were read: device and number.
+struct FilesRead {
+    std::mutex mutex;
+    std::set<std::pair<dev_t, ino_t>> files;
+};
+
+FilesRead& files_read() {
+    static FilesRead& all = *new FilesRead;
+    return all;
+}
 
 const char* remedy_for(int error_number, bool reading) {
     switch (error_number) {
@@ -40,6 +53,19 @@ const char* remedy_for(int error_number, bool reading) {
                    "--resolution";
         case EROFS:
             return "try a place that can be written to";
+        case ELOOP:
+            return "its links lead in a circle; name the file itself";
+        case ENAMETOOLONG:
+            return "give it a shorter name: 255 bytes at most, 4095 with its folders";
+        case EISDIR:
+            return "name a file, not a folder";
+        case EIO:
+            return "the disk or the connection to it failed; check it, or try another one";
+        case EMFILE:
+        case ENFILE:
+            return "raise the limit on open files (ulimit -n), or end other programs";
+        case EPIPE:
+            return "the program at the other end of the pipe has ended; let it read to the end";
         default:
             return "";
     }
@@ -120,7 +146,18 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
         if (filled < bytes.size()) break;
     }
     bytes.resize(filled);
+    if (S_ISREG(status.st_mode)) {
+        const std::lock_guard lock(files_read().mutex);
+        files_read().files.emplace(status.st_dev, status.st_ino);
+    }
     return bytes;
+}
+
+bool was_read(const std::string& path) {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) != 0) return false;
+    const std::lock_guard lock(files_read().mutex);
+    return files_read().files.contains({status.st_dev, status.st_ino});
 }
 
 FileWriter::FileWriter(std::string path, PendingFile file)

@@ -22,6 +22,9 @@ inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 // Returns the bytes of a regular file or of a pipe.
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
 
+// True if this process has read the regular file, under whatever name. Any thread.
+bool was_read(const std::string& path);
+
 class PendingFile;
 
 // Writes a new file in pieces through one buffer. After a failure later pieces are dropped, and finish()

@@ -15,8 +15,10 @@
 #include "app/exit.hpp"
 #include "app/feel/feel_source.hpp"
 #include "app/interrupt.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/render/render_job.hpp"
+#include "base/text/printable.hpp"
 #include "devices/arm/device_search.hpp"
 #include "devices/arm/force_plugin.hpp"
 #include "devices/servo/servo_thread.hpp"
@@ -272,7 +274,7 @@ void print(const report::FeelStats& s, const std::vector<readers::FeelTraceRow>&
     for (const report::FeelStats::FaultCount& f : s.faults)
         std::printf("%-16s %s, %u times\n", "fault", f.name.c_str(), f.count);
     for (const std::string& note : s.notes) std::printf("%-16s %s\n", "note", note.c_str());
-    std::printf("%-16s %s\n", "trace", out.c_str());
+    std::printf("%-16s %s\n", "trace", printable(out).c_str());
 }
 
 }  // namespace
@@ -293,6 +295,11 @@ int feel(const FeelCall& call) {
     Part part;
     if (auto read = is_model(call.job) ? read_model(call, part) : read_job(call, part); !read)
         return report(read.error());
+    const std::string& profile = call.profile.empty() ? part.job.haptics.profile : call.profile;
+    if (const auto checked = check_outputs({call.out, call.stats, call.bake}, {profile, call.source});
+        !checked) {
+        return report(checked.error());
+    }
     auto device = open_device(call, std::move(*stroke), part.bounds_mm);
     if (!device) {
         report(device.error());

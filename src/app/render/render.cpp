@@ -8,8 +8,10 @@
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/render/render_outputs.hpp"
+#include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
 #include "session/cut/job_stock.hpp"
@@ -69,7 +71,7 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
         std::printf("%-16s %llu triangles\n", "part", static_cast<unsigned long long>(*s.triangles));
     std::printf("%-16s %zu collisions, %zu warnings\n", "findings", s.collisions.size(), s.warnings.size());
     std::printf("%-16s %.2f s, %.0f MB\n", "took", s.seconds, s.peak_memory_mb);
-    std::printf("%-16s %s\n", "files", folder.path().c_str());
+    std::printf("%-16s %s\n", "files", printable(folder.path()).c_str());
 }
 
 }  // namespace
@@ -90,6 +92,7 @@ int render(const RenderCall& call) {
                             "the job begins with the stock of this folder, which it would replace",
                             "name another folder, or let [stock] from name the earlier job itself"});
     }
+    if (auto checked = check_output_folder(*folder); !checked) return report(checked.error());
     report(loaded->warnings);
 
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());

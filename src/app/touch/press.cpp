@@ -9,7 +9,9 @@
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/outputs.hpp"
 #include "app/progress.hpp"
+#include "base/text/printable.hpp"
 #include "files/image/image_file.hpp"
 #include "files/image/png.hpp"
 #include "files/json/json.hpp"
@@ -123,6 +125,7 @@ int press(const PressCall& call) {
         return name == "summary.json" || name.starts_with("frame_");
     });
     if (!folder) return report(folder.error());
+    if (const auto checked = check_output_folder(*folder); !checked) return report(checked.error());
     report(inputs->touch.warnings);
 
     elastic::Sheet sheet(inputs->touch.sheet_size());
@@ -179,7 +182,7 @@ int press(const PressCall& call) {
     if (auto done = folder->commit(); !done) return report(done.error());
     std::printf("%-16s %d at %g a second\n", "frames", frames, call.fps);
     std::printf("%-16s %.3f mm in frame %d\n", "deepest", deepest.mm, deepest.frame);
-    std::printf("%-16s %s\n", "files", folder->path().c_str());
+    std::printf("%-16s %s\n", "files", printable(folder->path()).c_str());
     return kDone;
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "app/exit.hpp"
+#include "app/outputs.hpp"
 #include "app/verbs/verbs.hpp"
+#include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
 #include "files/gzip.hpp"
@@ -155,6 +157,7 @@ int inspect(const Call& call) {
     const FileResult<Found> found = inspect_file(call);
     if (!found) return report(found.error());
     if (!call.picture.empty()) {
+        if (const auto checked = check_outputs({call.picture}); !checked) return report(checked.error());
         report::PictureOptions options;
         options.triangle_colours = found->colours;
         const files::Image image = report::draw_part(found->mesh, found->lines, options);
@@ -164,7 +167,7 @@ int inspect(const Call& call) {
     if (call.json) {
         std::fputs(found->facts.json.c_str(), stdout);
     } else {
-        std::printf("%s\n%s", call.file.c_str(), report::aligned(found->facts.lines).c_str());
+        std::printf("%s\n%s", printable(call.file).c_str(), report::aligned(found->facts.lines).c_str());
         for (const Warning& warning : found->facts.warnings) std::printf("%s\n", warning.message().c_str());
     }
     return std::fflush(stdout) == 0

@@ -12,8 +12,10 @@
 
 #include "app/exit.hpp"
 #include "app/options.hpp"
+#include "app/outputs.hpp"
 #include "app/verbs/verbs.hpp"
 #include "base/text/decimal.hpp"
+#include "base/text/printable.hpp"
 #include "files/image/image_file.hpp"
 #include "files/sound/sound_file.hpp"
 #include "material/learned_material.hpp"
@@ -107,13 +109,17 @@ material::Material material_of(const Call& call, const noise::Learned& learned,
 }
 
 void print(const material::Material& m, const noise::Learned& learned) {
-    std::printf("%s: %zu voice%s of order %d\n", m.name.c_str(), m.voices.models.size(),
+    std::printf("%s: %zu voice%s of order %d\n", printable(m.name).c_str(), m.voices.models.size(),
                 m.voices.models.size() == 1 ? "" : "s", learned.order);
     for (const noise::VoiceModel& v : m.voices.models) {
         std::printf("  %8.4g mm/s  %5.3g N  %6.1f dB\n", v.speed_mm_per_s, v.force_n, v.level_db);
     }
     std::printf("  level law %.1f dB at 100 mm/s and 1 N, %+.1f dB per decade of speed, %+.1f of force\n",
                 m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
+}
+
+std::string report_file(const Call& call) {
+    return std::filesystem::path(call.out).replace_extension(".html").string();
 }
 
 // Reports one voice per model, with the first recording of this model.
@@ -128,8 +134,7 @@ FileResult<void> write_report(const Call& call, const material::Material& m, con
         voices[model] = {sounds.recordings[n].name, m.voices.models[model],
                          noise::quality_of(m.voices.models[model], *prepared, call.highpass_hz)};
     }
-    const std::string file = std::filesystem::path(call.out).replace_extension(".html").string();
-    return files::write_file(file, report::learning_report(m, learned, voices));
+    return files::write_file(report_file(call), report::learning_report(m, learned, voices));
 }
 
 FileResult<void> check_height_map(const Call& call) {
@@ -148,6 +153,11 @@ int learn(const Call& call) {
     }
     if (!call.known.height_map.empty()) {
         if (const auto checked = check_height_map(call); !checked) return report(checked.error());
+    }
+    if (const auto checked =
+            check_outputs({call.out, call.report ? report_file(call) : ""}, {call.known.image});
+        !checked) {
+        return report(checked.error());
     }
     noise::LearningOptions options;
     options.method = call.method == "burg" ? noise::Method::burg : noise::Method::yule_walker;

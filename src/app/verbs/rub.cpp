@@ -9,6 +9,7 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/options.hpp"
+#include "app/outputs.hpp"
 #include "app/verbs/verbs.hpp"
 #include "files/sound/wav.hpp"
 #include "material/material_json.hpp"
@@ -76,6 +77,7 @@ int rub(const Call& call) {
     options.source_name = call.stroke;
     const auto points = readers::read_finger_stroke(*bytes, options);
     if (!points) return report(points.error());
+    if (const auto checked = check_outputs({call.out}); !checked) return report(checked.error());
     const auto written = write_sound(call, material->voices, *points);
     if (!written) return report(written.error());
     return interrupted() ? interrupted_exit_code() : kDone;

@@ -10,6 +10,7 @@
 #include "app/exit.hpp"
 #include "app/live/web_files.hpp"
 #include "app/verbs/verbs.hpp"
+#include "base/text/printable.hpp"
 #include "files/output_folder.hpp"
 
 namespace tribo::app {
@@ -45,15 +46,19 @@ int site(const Call& call) {
         return std::binary_search(files.begin(), files.end(), name);
     });
     if (!folder) return report(folder.error());
+    std::error_code error;
+    if (fs::equivalent(from, folder->path(), error) && !error) {
+        return report(Error{call.out, 0, 0, "holds the pages that are to be copied",
+                            "name another folder for the site"});
+    }
     for (const std::string& file : files) {
         const FileResult<std::string> bytes = files::read_file(from + "/" + file);
         if (!bytes) return report(bytes.error());
-        std::error_code error;
         fs::create_directories(fs::path(folder->file(file)).parent_path(), error);
         if (auto done = files::write_file(folder->file(file), *bytes); !done) return report(done.error());
     }
     if (auto done = folder->commit(); !done) return report(done.error());
-    std::printf("%-16s %zu files in %s\n", "site", files.size(), folder->path().c_str());
+    std::printf("%-16s %zu files in %s\n", "site", files.size(), printable(folder->path()).c_str());
     std::printf("%-16s any web server will do; sound needs https or localhost\n", "serve");
     return kDone;
 }
