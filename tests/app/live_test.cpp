@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 // `tribo live` as a program: what it says, how it ends. What it shows: web/mill/test/live.test.ts.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <thread>
 #include <unistd.h>
 
 #include "app/run/program.hpp"
@@ -91,6 +95,41 @@ TEST_F(Live, serves_an_empty_bench_without_a_job) {
          {"/../../../../../../etc/passwd", "/..%2f..%2fetc%2fpasswd", "//etc/passwd", "/etc/passwd"})
         EXPECT_TRUE(RawClient(at.port).get(path).starts_with("HTTP/1.1 404")) << path;
     EXPECT_EQ(engine.stop().code, 130);
+}
+
+TEST_F(Live, shows_its_token_to_no_list_of_processes) {
+    // What would start a browser keeps what it was given.
+    scratch_.put("bin/xdg-open", "#!/bin/sh\nprintf '%s' \"$*\" > " + scratch_ / "given.new" + " && mv " +
+                                     scratch_ / "given.new" + " " + scratch_ / "given" + "\n");
+    std::filesystem::permissions(scratch_ / "bin/xdg-open", std::filesystem::perms::owner_all);
+    std::filesystem::create_directory(scratch_ / "session");
+    const std::string path = std::string(std::getenv("PATH"));
+    ::setenv("PATH", (scratch_ / "bin" + ":" + path).c_str(), 1);
+    ::setenv("DISPLAY", ":99", 1);
+    ::setenv("XDG_RUNTIME_DIR", (scratch_ / "session").c_str(), 1);
+    RunningTribo engine({"live", "--port", "0", "--web-root", ".", "--listen", "0.0.0.0", "--open"},
+                        scratch_.path());
+    ::setenv("PATH", path.c_str(), 1);
+    ::unsetenv("DISPLAY");
+    ::unsetenv("XDG_RUNTIME_DIR");
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    ASSERT_GT(at.token.size(), 20u);
+    std::string given;
+    for (int n = 0; n < 500 && given.empty(); ++n) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        given = scratch_.get("given");
+    }
+    ASSERT_TRUE(given.starts_with(scratch_ / "session/")) << given;
+    EXPECT_EQ(given.find(at.token), std::string::npos);
+    std::ifstream page(given);
+    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    EXPECT_NE(text.find("url=http://127.0.0.1:" + std::to_string(at.port) + "/?token=" + at.token),
+              std::string::npos)
+        << text;
+    const auto others = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
+    EXPECT_EQ(std::filesystem::status(given).permissions() & others, std::filesystem::perms::none);
+    EXPECT_EQ(engine.stop().code, 130);
+    EXPECT_FALSE(std::filesystem::exists(given));
 }
 
 TEST_F(Live, comes_back_whole_after_a_resume) {

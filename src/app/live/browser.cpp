@@ -3,11 +3,14 @@
 
 #include <cstdio>
 #include <fcntl.h>
+#include <optional>
 #include <spawn.h>
 #include <string_view>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+
+#include "app/live/opening_page.hpp"
 
 namespace tribo::app {
 namespace {
@@ -29,8 +32,10 @@ void say_by_hand() {
 
 }  // namespace
 
-void open_browser(const std::string& url) {
+void open_browser(const std::string& url, bool secret) {
     if (!has_screen()) return say_by_hand();
+    const std::optional<std::string> place = secret ? write_opening_page(url) : url;
+    if (!place) return say_by_hand();
     posix_spawn_file_actions_t quiet;
     ::posix_spawn_file_actions_init(&quiet);
     ::posix_spawn_file_actions_addopen(&quiet, 0, "/dev/null", O_RDONLY, 0);
@@ -40,7 +45,7 @@ void open_browser(const std::string& url) {
     posix_spawnattr_t apart;
     ::posix_spawnattr_init(&apart);
     ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
-    std::string program = "xdg-open", argument = url;
+    std::string program = "xdg-open", argument = *place;
     char* const arguments[] = {program.data(), argument.data(), nullptr};
     pid_t child = 0;
     const int failed = ::posix_spawnp(&child, program.c_str(), &quiet, &apart, arguments, environ);

@@ -6,6 +6,7 @@
 
 #include "app/exit.hpp"
 #include "app/live/browser.hpp"
+#include "base/text/printable.hpp"
 #include "net/addresses.hpp"
 #include "net/secret.hpp"
 #include "net/tls.hpp"
@@ -105,11 +106,11 @@ std::unique_ptr<net::Server> open_live_server(const LiveCall& call, const std::s
         return nullptr;
     }
     const std::vector<std::string> urls = live_urls(*options, (*server)->port());
-    std::printf("%s is live at %s (Ctrl-C ends it)\n", what.c_str(), urls.front().c_str());
+    std::printf("%s is live at %s (Ctrl-C ends it)\n", printable(what).c_str(), urls.front().c_str());
     for (std::size_t n = 1; n < urls.size(); ++n) std::printf("  also at %s\n", urls[n].c_str());
     std::fflush(stdout);
     warn_of(*options);
-    if (call.open) open_browser(urls.front());
+    if (call.open) open_browser(urls.front(), !options->token.empty());
     return *std::move(server);
 }
 
