@@ -51,6 +51,7 @@ bool PolygonTriangulator::is_ear(std::uint32_t corner) {
     const Corner& b = corners_[corner];
     const Corner& a = corners_[b.before];
     const Corner& c = corners_[b.after];
+    ++tests_;
     if (turn(a, b, c) <= flat_) return false;
     for (std::uint32_t i = c.after; i != b.before; i = corners_[i].after) {
         const Corner& p = corners_[i];
@@ -68,9 +69,9 @@ bool PolygonTriangulator::clip_ears(std::vector<Triangle>& out) {
     std::size_t refused = 0;
     bool forced = false;
     while (left >= 3) {
+        if (tests_ > kMaxTests) return false;
         const Corner corner = corners_[at];
         if (left > 3 && refused < left && !is_ear(at)) {
-            if (tests_ > kMaxTests) return false;
             ++refused;
             at = corner.after;
             continue;
@@ -80,6 +81,7 @@ bool PolygonTriangulator::clip_ears(std::vector<Triangle>& out) {
             // there is one.
             forced = true;
             for (std::size_t i = 0; i < left; ++i, at = corners_[at].after) {
+                ++tests_;
                 if (turn(corners_[corners_[at].before], corners_[at], corners_[corners_[at].after]) > flat_) {
                     break;
                 }

@@ -15,9 +15,16 @@ namespace tribo::readers {
 // One object per file. Allocates only when a face is longer than all faces before it.
 class PolygonTriangulator {
   public:
-    // Upper limit of corner-in-triangle tests for all concave faces of a file (one to two seconds), against
-    // files made to be slow.
+    // Upper limit of corner tests for all concave faces of a file (one to two seconds), against files made to
+    // be slow.
     static constexpr std::uint64_t kMaxTests = 40'000'000;
+    // A face of n corners takes n^3 / 3 tests at most: a single face of this many is always cut.
+    static constexpr std::uint64_t kAlwaysCut = 480;
+    // What a reader says where the tests are used up.
+    static constexpr const char* kTooConcave =
+        "the concave faces are too many and too long to be cut into triangles";
+    static constexpr const char* kTooConcaveRemedy =
+        "export the model as triangles, or in faces of at most 480 corners";
 
     // Appends the triangles of the face whose corner i has index corners[i] and position points[i]. Uses a
     // fan from the first corner if it is correct, else ear clipping (Meisters 1975) in the plane of the

@@ -123,8 +123,7 @@ class ObjReader {
             return fail_here("more than 20 million triangles", "simplify the model");
         }
         if (!triangulator_.append(corners_, points_, model_.mesh.triangles)) {
-            return fail_here("the concave faces are too many and too long to be cut into triangles",
-                             "export the model as triangles");
+            return fail_here(PolygonTriangulator::kTooConcave, PolygonTriangulator::kTooConcaveRemedy);
         }
         return {};
     }

@@ -245,7 +245,9 @@ class PlyReader {
         }
         if (corners_.size() < 3) return fail_in(element, row, "a face needs three corners");
         if (!triangulator_.append(corners_, points_, model_.mesh.triangles)) {
-            return fail_in(element, row, "the concave faces are too many and too long to be cut");
+            return fail_at(options_.source_name, values_.line(), values_.column(),
+                           "face " + std::to_string(row) + ": " + PolygonTriangulator::kTooConcave,
+                           PolygonTriangulator::kTooConcaveRemedy);
         }
         return {};
     }

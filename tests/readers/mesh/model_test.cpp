@@ -153,5 +153,24 @@ TEST(PolygonTriangulator, combs_of_many_corners_end_at_the_limit) {
     EXPECT_FALSE(going);
 }
 
+// Whatever its shape: three points over and over, a line to and fro, and a comb, whose teeth are no ears.
+TEST(PolygonTriangulator, always_cuts_a_face_of_the_corners_that_its_remedy_names) {
+    const std::uint32_t count = PolygonTriangulator::kAlwaysCut;
+    std::vector<Vec3> repeated, line, comb;
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        corners.push_back(i);
+        repeated.push_back({i % 3 == 1 ? 1.0 : 0.0, i % 3 == 2 ? 1.0 : 0.0, 0});
+        line.push_back({i % 7 + 1.0, 0, 0});
+        comb.push_back({count - i - 0.5, i % 2 != 0 ? 1.0 : 0.0, 0});
+    }
+    for (const std::vector<Vec3>& points : {repeated, line, comb}) {
+        std::vector<Triangle> out;
+        PolygonTriangulator triangulator;
+        EXPECT_TRUE(triangulator.append(corners, points, out));
+        EXPECT_EQ(out.size(), count - 2);
+    }
+}
+
 }  // namespace
 }  // namespace tribo::readers

@@ -2,6 +2,7 @@
 // OBJ: indices of every kind, faces of every shape, and each refusal's message.
 #include "readers/mesh/obj.hpp"
 
+#include "readers/mesh/model_polygon.hpp"
 #include "readers/mesh/model_samples.hpp"
 
 namespace tribo::readers {
@@ -83,6 +84,21 @@ TEST(Obj, refuses_what_it_cannot_place_and_says_where) {
         {"zero bytes", std::string("v 0 0 0\n\0\0", 10), 2, "'?\?' is not an OBJ statement"},
     };
     for (const BadInput& bad : table) expect_refused(bad, ModelFormat::obj);
+}
+
+// Cutting a face is quadratic in its corners at best. A file of 700 kB must not take half a minute.
+TEST(Obj, refuses_a_face_of_too_many_corners) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\n";
+    for (const char* repeated : {" 1 2 3", " 1 2 4", " 1 2 4 5 4 2"}) {
+        std::string face = "f";
+        for (int i = 0; i < 40'000; ++i) face += repeated;
+        const auto model = read_model(vertices + face + "\n", ModelFormat::obj, {.source_name = "long.obj"});
+        ASSERT_FALSE(model) << repeated;
+        EXPECT_EQ(model.error().line, 6);
+        EXPECT_NE(model.error().cause.find("too long"), std::string::npos) << model.error().text();
+        EXPECT_NE(model.error().remedy.find(std::to_string(PolygonTriangulator::kAlwaysCut)),
+                  std::string::npos);
+    }
 }
 
 }  // namespace

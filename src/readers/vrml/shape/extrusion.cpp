@@ -174,7 +174,7 @@ class ExtrusionReader {
             if (!triangulator_.append(numbers, points, surface_.triangles)) {
                 return tree_.refuse(tree_.nodes[node_].place,
                                     "the caps of the Extrusion are too long to be cut into triangles",
-                                    "export the model as triangles");
+                                    PolygonTriangulator::kTooConcaveRemedy);
             }
         }
         return {};

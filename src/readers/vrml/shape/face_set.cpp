@@ -86,9 +86,8 @@ class FaceSetReader {
             }
             first = i + 1;
             if (numbers.size() >= 3 && !triangulator_.append(numbers, points, surface_.triangles)) {
-                return tree_.refuse(tree_.nodes[node_].place,
-                                    "the concave faces are too many and too long to be cut into triangles",
-                                    "export the model as triangles");
+                return tree_.refuse(tree_.nodes[node_].place, PolygonTriangulator::kTooConcave,
+                                    PolygonTriangulator::kTooConcaveRemedy);
             }
             face_ends_.push_back(surface_.triangles.size());
         }
