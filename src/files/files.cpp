@@ -153,6 +153,17 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
     return bytes;
 }
 
+FileResult<std::string> first_bytes(const std::string& path, std::size_t most) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return system_failure(path, "read", errno);
+    const Closing closing{descriptor};
+    std::string bytes(most, '\0');
+    std::size_t filled = 0;
+    if (const int error = read_some(descriptor, bytes, filled)) return system_failure(path, "read", error);
+    bytes.resize(filled);
+    return bytes;
+}
+
 bool was_read(const std::string& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) return false;

@@ -22,7 +22,10 @@ inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 // Returns the bytes of a regular file or of a pipe.
 FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
 
-// True if this process has read the regular file, under whatever name. Any thread.
+// Returns the first bytes of a file, at most so many. The file does not count as read.
+FileResult<std::string> first_bytes(const std::string& path, std::size_t most);
+
+// True if this process has read the regular file with read_file(), under whatever name. Any thread.
 bool was_read(const std::string& path);
 
 class PendingFile;

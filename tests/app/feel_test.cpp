@@ -188,6 +188,35 @@ TEST_F(Feel, gives_the_cutting_force_of_the_program_at_the_time_of_the_stroke) {
     EXPECT_NEAR(trace()[1300].fy, 2 * rows[1300].fy, 1e-5);
 }
 
+// A table that a full disk or a kill has cut short costs a warning and a new table.
+TEST_F(Feel, bakes_again_what_was_cut_short) {
+    put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,-5,10,-2\n0.1,-4,10,-2\n");
+    const std::vector<std::string> call{"--mode",    "cut", "--device", "playback",
+                                        "--texture", "off", "--bake",   "cut.bake"};
+    ASSERT_EQ(feel(call).code, 0);
+    const std::string whole = text_of("cut.bake");
+    ASSERT_GT(whole.size(), 200U);
+    for (const std::size_t left : {whole.size() - 1, whole.size() / 2, std::size_t{64}, std::size_t{5}}) {
+        put("cut.bake", whole.substr(0, left));
+        const Outcome run = feel(call);
+        ASSERT_EQ(run.code, 0) << run.err;
+        EXPECT_NE(run.err.find("cut.bake: warning: "), std::string::npos) << run.err;
+        EXPECT_EQ(text_of("cut.bake"), whole) << left;
+    }
+}
+
+TEST_F(Feel, refuses_to_bake_over_what_is_no_table) {
+    // Before anything else: the stroke is missing too.
+    fs::remove(folder_ / "stroke.csv");
+    put("notes.txt", "Remember the milk.\n");
+    const Outcome run = feel({"--mode", "cut", "--bake", "notes.txt"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("notes.txt: error: this is not a baked force table"), std::string::npos)
+        << run.err;
+    EXPECT_EQ(text_of("notes.txt"), "Remember the milk.\n");
+    EXPECT_EQ(feel({"--mode", "cut", "--bake", "."}).code, 2);
+}
+
 TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
     const auto force_at = [&](double y) {
         put("stroke.csv",

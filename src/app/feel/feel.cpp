@@ -280,6 +280,7 @@ void print(const report::FeelStats& s, const std::vector<readers::FeelTraceRow>&
 }  // namespace
 
 int feel(const FeelCall& call) {
+    if (auto good = check_bake_file(call.bake); !good) return report(good.error());
     auto stroke = read_stroke(call);
     if (!stroke) return report(stroke.error());
     const double start_s = stroke->start_s(), end_s = stroke->end_s();

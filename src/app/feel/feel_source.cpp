@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
@@ -20,6 +21,23 @@ namespace {
 constexpr double kFingerMm = 8;
 
 }  // namespace
+
+FileResult<void> check_bake_file(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = path.empty() ? fs::file_status() : fs::status(path, error);
+    if (!fs::exists(status)) return {};
+    const auto refuse = [&](const char* cause) {
+        return std::unexpected(
+            FileFailure({path, 0, 0, cause, "give --bake another name, or delete this first"}));
+    };
+    if (!fs::is_regular_file(status)) return refuse("this is no file that a force table could be kept in");
+    const auto bytes = files::first_bytes(path, readers::kForceBakeMagicBytes);
+    if (!bytes) return std::unexpected(bytes.error());
+    if (!readers::is_force_bake(*bytes))
+        return refuse("this is not a baked force table, and a new table would replace it");
+    return {};
+}
 
 FeelSource::FeelSource(const FeelCall& call, const job::Job& job, double surface_n_per_mm, double start_s,
                        const haptics::DeviceLimits& limits)

@@ -15,6 +15,9 @@
 
 namespace tribo::app {
 
+// Refuses a file of --bake that is there and is no baked table: a new table would replace it.
+FileResult<void> check_bake_file(const std::string& path);
+
 class FeelSource {
   public:
     // `surface_n_per_mm`: stable stiffness of the device. `start_s`: start of the stroke.

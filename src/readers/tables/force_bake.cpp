@@ -110,6 +110,11 @@ std::string write_force_bake(const contact::ForceTable& table, std::uint64_t key
     return bytes + payload;
 }
 
+bool is_force_bake(std::string_view first_bytes) {
+    static_assert(kMagic.size() == kForceBakeMagicBytes);
+    return kMagic.starts_with(first_bytes.substr(0, kMagic.size()));
+}
+
 Result<ForceBake> read_force_bake(std::string_view bytes, std::shared_ptr<const void> owner,
                                   const std::string& source_name) {
     const auto refuse = [&](const char* cause) {

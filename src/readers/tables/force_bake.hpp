@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A force table as a file: written once, then memory-mapped and used in place.
+// A force table as a file: written once, then read and used in place.
 //
 // All numbers little-endian, every block begins at a multiple of 8 bytes:
 //   64 bytes   "TRIBOFT\n", version u32, channels u32, pieces u64, knots u64, key u64, checksum u64, 16 zero
@@ -23,6 +23,11 @@ namespace tribo::readers {
 inline constexpr std::uint32_t kForceBakeVersion = 1;
 
 std::string write_force_bake(const contact::ForceTable& table, std::uint64_t key);
+
+// True if the first kForceBakeMagicBytes are those of a baked table of any version, damaged or cut short,
+// down to no byte at all. Nothing else may be replaced by a new table.
+inline constexpr std::size_t kForceBakeMagicBytes = 8;
+bool is_force_bake(std::string_view first_bytes);
 
 struct ForceBake {
     contact::ForceTable table;

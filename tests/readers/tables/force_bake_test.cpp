@@ -76,6 +76,16 @@ TEST(ForceBake, comes_back_the_same_in_place_and_from_any_address) {
     }
 }
 
+TEST(ForceBake, tells_a_table_from_other_files_by_its_first_bytes) {
+    const std::string bytes = write_force_bake(small_table(), 1);
+    for (const std::size_t left : {bytes.size(), std::size_t{64}, std::size_t{8}, std::size_t{3}}) {
+        EXPECT_TRUE(is_force_bake(std::string_view(bytes).substr(0, left))) << left;
+    }
+    EXPECT_TRUE(is_force_bake({}));
+    for (const char* text : {"TR\n", "TRIBOFT ", "t_s,x_mm\n", "\n"})
+        EXPECT_FALSE(is_force_bake(text)) << text;
+}
+
 // What the fuzzer begins from (fuzz/corpus/force_bake).
 TEST(ForceBake, writes_the_seeds_of_its_fuzzer) {
     const std::pair<const char*, contact::ForceTable> seeds[] = {{"cut.bake", small_table()},
