@@ -325,6 +325,54 @@ TEST(Keyframes, bad_ones_are_refused_with_their_line_and_a_remedy) {
     refused({}, 0, "two different");
 }
 
+// The spline takes seven hundred bytes a keyframe, and its time grows with their number, not with its square.
+TEST(Keyframes, one_spline_takes_a_stated_number_of_keyframes) {
+    std::vector<Keyframe> keys(kMostSplineKeyframes + 1);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const double x = static_cast<double>(i);
+        keys[i].pose.tip_mm = {x, std::sin(0.01 * x), 0};
+        keys[i].line = static_cast<int>(i) + 2;
+    }
+    const Result<std::vector<Move>> refused = keyframe_moves(keys, 900);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().line, keys.back().line);
+    EXPECT_NE(refused.error().cause.find("more than 250000"), std::string::npos) << refused.error().cause;
+    keys.pop_back();
+    const Result<std::vector<Move>> moves = keyframe_moves(keys, 900);
+    ASSERT_TRUE(moves);
+    EXPECT_GE(moves->size(), keys.size() - 1);
+    EXPECT_EQ(moves->back().end.tip_mm, keys.back().pose.tip_mm);
+    keys.resize(keys.size() + 2);
+    KeyframeOptions linear;
+    linear.interpolation = Interpolation::linear;
+    EXPECT_TRUE(keyframe_moves(keys, 900, linear));
+}
+
+// A kilometre of path on which the axis turns is cut into pieces of 10 mm.
+TEST(Keyframes, refuses_a_motion_of_too_many_moves_at_its_keyframe) {
+    std::vector<Keyframe> keys(3);
+    keys[1].pose = {{1e6, 0, 0}, normalized(Vec3{0.1, 0, 1})};
+    keys[2].pose = {{1e6, 1e6, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; ++i) keys[static_cast<std::size_t>(i)].line = i + 2;
+    for (const Interpolation interpolation : {Interpolation::spline, Interpolation::fit}) {
+        KeyframeOptions options;
+        options.interpolation = interpolation;
+        options.max_moves = 1000;
+        const Result<std::vector<Move>> refused = keyframe_moves(keys, 900, options);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().line, 3);
+        EXPECT_NE(refused.error().cause.find("more than 1000 moves"), std::string::npos);
+        options.max_moves = 10'000'000;
+        EXPECT_TRUE(keyframe_moves(keys, 900, options));
+    }
+    KeyframeOptions options;
+    options.interpolation = Interpolation::linear;
+    options.max_moves = 1;
+    const Result<std::vector<Move>> refused = keyframe_moves(keys, 900, options);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().line, 4);
+}
+
 TEST(Keyframes, moves_of_the_spline_join_and_carry_the_words_of_the_keyframe_they_run_to) {
     std::vector<Keyframe> keys = wave(9);
     keys[4].feed_mm_per_min = 123;

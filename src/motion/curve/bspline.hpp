@@ -103,20 +103,25 @@ struct BezierPiece {
     std::vector<T> control;
 };
 
+// Returns the piece over span k, knots[k] < knots[k + 1].
+template <class T>
+BezierPiece<T> bezier_piece(const BSpline<T>& s, std::size_t k) {
+    const double a = s.knots[k], b = s.knots[k + 1];
+    BezierPiece<T> piece{a, b, {}};
+    piece.control.reserve(s.degree + 1);
+    std::array<double, kMaxDegree> arguments{};
+    for (std::size_t j = 0; j <= s.degree; ++j) {
+        for (std::size_t i = 0; i < s.degree; ++i) arguments[i] = i < s.degree - j ? a : b;
+        piece.control.push_back(blossom(s, k, std::span<const double>(arguments.data(), s.degree)));
+    }
+    return piece;
+}
+
 template <class T>
 std::vector<BezierPiece<T>> bezier_pieces(const BSpline<T>& s) {
     std::vector<BezierPiece<T>> pieces;
-    std::array<double, kMaxDegree> arguments{};
-    for (std::size_t k = s.degree; k < s.control.size(); ++k) {
-        const double a = s.knots[k], b = s.knots[k + 1];
-        if (a == b) continue;
-        BezierPiece<T> piece{a, b, {}};
-        for (std::size_t j = 0; j <= s.degree; ++j) {
-            for (std::size_t i = 0; i < s.degree; ++i) arguments[i] = i < s.degree - j ? a : b;
-            piece.control.push_back(blossom(s, k, std::span<const double>(arguments.data(), s.degree)));
-        }
-        pieces.push_back(std::move(piece));
-    }
+    for (std::size_t k = s.degree; k < s.control.size(); ++k)
+        if (s.knots[k] != s.knots[k + 1]) pieces.push_back(bezier_piece(s, k));
     return pieces;
 }
 

@@ -2,6 +2,7 @@
 #include "motion/curve/bspline_motion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tribo::motion {
 
@@ -15,6 +16,11 @@ BSplineMotion with_knot(const BSplineMotion& motion, double u) {
 
 BSplineMotion elevated(const BSplineMotion& motion) {
     return {elevated(motion.spline)};
+}
+
+MotionPiece bezier_piece(const BSplineMotion& motion, std::size_t k) {
+    BezierPiece<DualQuaternion> piece = bezier_piece(motion.spline, k);
+    return {piece.start, piece.end, {std::move(piece.control)}};
 }
 
 std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion) {

@@ -31,6 +31,8 @@ struct MotionPiece {
     double start = 0, end = 1;
     BezierMotion motion;
 };
+// Returns the piece over span k of the spline, knots[k] < knots[k + 1].
+MotionPiece bezier_piece(const BSplineMotion& motion, std::size_t k);
 std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion);
 
 // Returns the path of a point of the tool as a rational B-spline of degree 2 n over the knots of the motion:

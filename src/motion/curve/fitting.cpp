@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 #include "motion/algebra/direction.hpp"
 
 namespace tribo::motion {
@@ -220,14 +221,20 @@ Result<MotionFit> fit_motion(std::span<const ToolPose> poses, const FitOptions& 
     const double corner_rad = options.corner_deg * math::kRadPerDeg;
     const Limits limits{options.position_tolerance_mm, options.angle_tolerance_deg * math::kRadPerDeg};
     MotionFit fit;
+    std::size_t cubic_points = 0;
     for (std::size_t a = 0, b = 1; b < distinct.size(); ++b) {
         const bool at_end = b + 1 == distinct.size();
         if (!at_end && !is_corner(distinct[b - 1], distinct[b], distinct[b + 1], corner_rad)) continue;
         const Run run = run_of(std::span(distinct).subspan(a, b - a + 1), options.curve);
-        FittedRun fitted{motion_of(run, fitted_spline(run, limits)),
-                         first_of[a],
-                         at_end ? poses.size() - 1 : first_of[b],
-                         {}};
+        const BSpline<Sample> spline = fitted_spline(run, limits);
+        cubic_points += spline.control.size();
+        if (cubic_points > kMostSplineKeyframes) {
+            return fail("smooth motions within " + format_decimal(options.position_tolerance_mm) +
+                            " mm of the poses up to number " + std::to_string(first_of[b] + 1) +
+                            " need more than " + std::to_string(kMostSplineKeyframes) + " control points",
+                        "write interpolation = \"linear\", or split the motion");
+        }
+        FittedRun fitted{motion_of(run, spline), first_of[a], at_end ? poses.size() - 1 : first_of[b], {}};
         for (std::size_t i = fitted.first; i <= fitted.last; ++i)
             fitted.parameters.push_back(run.u[which[i] - a]);
         measure(run, fitted.motion, fit);

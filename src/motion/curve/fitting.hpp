@@ -39,8 +39,8 @@ struct MotionFit {
     std::size_t control_points = 0;
 };
 
-// Refuses fewer than two different poses, numbers that are not finite, axes without direction and tolerances
-// <= 0. Axes need not be unit.
+// Refuses fewer than two different poses, numbers that are not finite, axes without direction, tolerances <=
+// 0 and poses that need more than kMostSplineKeyframes control points of cubics. Axes need not be unit.
 Result<MotionFit> fit_motion(std::span<const ToolPose> poses, const FitOptions& options = {});
 
 }  // namespace tribo::motion

@@ -33,6 +33,12 @@ Result<void> check(std::span<const Keyframe> keyframes) {
     return {};
 }
 
+std::unexpected<Error> refuse_more_than(std::size_t max_moves, const Keyframe& keyframe) {
+    return refuse(keyframe,
+                  "with this keyframe the motion has more than " + std::to_string(max_moves) + " moves",
+                  "split the motion, or check the unit of its coordinates");
+}
+
 ToolPose with_unit_axis(ToolPose pose) {
     pose.axis = normalized(pose.axis);
     return pose;
@@ -101,7 +107,10 @@ Move move_to(const Keyframe& k, double feed_mm_per_min) {
 // Refuses a motion that runs to infinity. The error names the keyframe after the pole.
 Result<void> check_poles(const BSplineMotion& motion, std::span<const double> parameters,
                          std::span<const Keyframe> keyframes) {
-    for (const MotionPiece& piece : bezier_pieces(motion)) {
+    const BSpline<DualQuaternion>& spline = motion.spline;
+    for (std::size_t k = spline.degree; k < spline.control.size(); ++k) {
+        if (spline.knots[k] == spline.knots[k + 1]) continue;
+        const MotionPiece piece = bezier_piece(motion, k);
         if (!has_pole(piece.motion)) continue;
         const auto after = std::upper_bound(parameters.begin(), parameters.end(), piece.start);
         const std::size_t i =
@@ -115,14 +124,19 @@ Result<void> check_poles(const BSplineMotion& motion, std::span<const double> pa
 struct MoveMaker {
     double feed_mm_per_min;
     const PieceTolerance& tolerance;
+    std::size_t max_moves;
     std::vector<Move> moves = {};
 
-    void add(const BSplineMotion& motion, std::span<const double> parameters,
-             std::span<const Keyframe> keyframes) {
-        const std::vector<MotionPiece> pieces = bezier_pieces(motion);
-        for (std::size_t i = 1; i < keyframes.size(); ++i)
-            append_moves(pieces, parameters[i - 1], parameters[i], move_to(keyframes[i], feed_mm_per_min),
-                         tolerance, moves);
+    Result<void> add(const BSplineMotion& motion, std::span<const double> parameters,
+                     std::span<const Keyframe> keyframes) {
+        for (std::size_t i = 1; i < keyframes.size(); ++i) {
+            const double from = parameters[i - 1], to = parameters[i];
+            if (!(from < to)) continue;
+            if (!append_moves(motion, from, to, move_to(keyframes[i], feed_mm_per_min), tolerance,
+                              max_moves - moves.size(), moves))
+                return refuse_more_than(max_moves, keyframes[i]);
+        }
+        return {};
     }
 };
 
@@ -136,7 +150,8 @@ Result<std::vector<Move>> fitted_moves(std::span<const Keyframe> keyframes, Move
         const auto keys = keyframes.subspan(run.first, run.last - run.first + 1);
         if (const Result<void> good = check_poles(run.motion, run.parameters, keys); !good)
             return std::unexpected(good.error());
-        maker.add(run.motion, run.parameters, keys);
+        if (const Result<void> added = maker.add(run.motion, run.parameters, keys); !added)
+            return std::unexpected(added.error());
     }
     return std::move(maker.moves);
 }
@@ -149,6 +164,12 @@ double pose_chord(const ToolPose& a, const ToolPose& b) {
 
 Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes,
                                              const KeyframeOptions& options) {
+    if (keyframes.size() > kMostSplineKeyframes) {
+        return refuse(keyframes[kMostSplineKeyframes],
+                      "one spline through " + std::to_string(keyframes.size()) + " keyframes, more than " +
+                          std::to_string(kMostSplineKeyframes),
+                      "write interpolation = \"fit\" or \"linear\", or split the motion");
+    }
     if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
     const Stations s = stations_of(keyframes, options.spacing);
     if (s.poses.size() < 2)
@@ -162,7 +183,7 @@ Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes
 Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, double feed_mm_per_min,
                                          const KeyframeOptions& options, const PieceTolerance& tolerance) {
     if (options.interpolation == Interpolation::fit)
-        return fitted_moves(keyframes, {feed_mm_per_min, tolerance});
+        return fitted_moves(keyframes, {feed_mm_per_min, tolerance, options.max_moves});
     if (options.interpolation == Interpolation::linear) {
         std::vector<Move> moves;
         if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
@@ -172,14 +193,17 @@ Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, do
             Move m = move_to(keyframes[i], feed_mm_per_min);
             m.start = with_unit_axis(keyframes[i - 1].pose);
             m.end = with_unit_axis(keyframes[i].pose);
-            if (pose_chord(m.start, m.end) >= kSamePose) moves.push_back(m);
+            if (pose_chord(m.start, m.end) < kSamePose) continue;
+            if (moves.size() == options.max_moves) return refuse_more_than(options.max_moves, keyframes[i]);
+            moves.push_back(m);
         }
         return moves;
     }
     const Result<KeyframeMotion> curve = interpolate_keyframes(keyframes, options);
     if (!curve) return std::unexpected(curve.error());
-    MoveMaker maker{feed_mm_per_min, tolerance};
-    maker.add(curve->motion, curve->parameters, keyframes);
+    MoveMaker maker{feed_mm_per_min, tolerance, options.max_moves};
+    if (const Result<void> added = maker.add(curve->motion, curve->parameters, keyframes); !added)
+        return std::unexpected(added.error());
     return std::move(maker.moves);
 }
 

@@ -35,6 +35,7 @@ struct KeyframeOptions {
     Curve curve = Curve::tip;
     Spacing spacing = Spacing::chord;
     EndCondition ends = EndCondition::natural;
+    std::size_t max_moves = 10'000'000;  // of keyframe_moves(); more are refused
 };
 
 // Where the tip stands still and only the axis turns, one radian counts as this chord, mm. It is small beside
@@ -43,14 +44,18 @@ inline constexpr double kChordPerRadian = 1.0;
 // Returns the larger of the distance of the tips and the turn of the unit axes in that measure, mm.
 double pose_chord(const ToolPose& a, const ToolPose& b);
 
+// Largest number of keyframes of one spline: at about 700 bytes each it takes 180 MB. fit_motion() may use as
+// many control points in all.
+inline constexpr std::size_t kMostSplineKeyframes = 250'000;
+
 struct KeyframeMotion {
     BSplineMotion motion;            // over 0..sum of chords; passes through every keyframe to rounding
     std::vector<double> parameters;  // of each keyframe, ascending; equal for a repeated pose
 };
 
 // Computes one C2 motion through all keyframes (options.interpolation is ignored). Refuses fewer than two
-// poses, numbers that are not finite, an axis without direction, a weight <= 0, and keyframes between which
-// the motion would have a pole (axes too far apart). The error names the line.
+// poses, more than kMostSplineKeyframes, numbers that are not finite, an axis without direction, a weight <=
+// 0, and keyframes between which the motion would have a pole (axes too far apart). The error names the line.
 Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes,
                                              const KeyframeOptions& options = {});
 
@@ -58,7 +63,7 @@ Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes
 // keyframe to keyframe; or (fit) fit_motion() with its own options, cut into pieces likewise: within 0.01 mm
 // and 0.05 degrees of each keyframe, exact at corners and ends, without weights. Each move has the line of
 // the keyframe at its end, and the feed of that keyframe, or `feed_mm_per_min` if it gives none. Repeated
-// poses make no move.
+// poses make no move. Refuses what interpolate_keyframes() refuses, and too many moves.
 Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, double feed_mm_per_min,
                                          const KeyframeOptions& options = {},
                                          const PieceTolerance& tolerance = {});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
@@ -34,20 +35,20 @@ bool is_nothing(const Move& m) {
 
 class Cutting {
   public:
-    Cutting(const Move& like, const PieceTolerance& tolerance, std::vector<Move>& moves)
-        : like_(like), tolerance_(tolerance), moves_(moves), first_(moves.size()) {}
+    Cutting(const Move& like, const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves)
+        : like_(like), tolerance_(tolerance), most_(most), moves_(moves), first_(moves.size()) {}
 
-    void append(const BezierMotion& motion) {
+    // Returns false if the moves are too many.
+    bool append(const BezierMotion& motion) {
         ToolPose start = motion.pose(0);
         if (!moves_.empty()) {
             const ToolPose& before = moves_.back().end;
             if (is_same_pose(before, start)) start = before;
         }
         const ToolPose end = motion.pose(1);
-        if (is_straight(motion))
-            append_straight(with_ends(like_, start, end));
-        else
-            cut(motion, start, end);
+        if (!is_straight(motion)) return cut(motion, start, end);
+        append_straight(with_ends(like_, start, end));
+        return fits();
     }
 
   private:
@@ -89,17 +90,20 @@ class Cutting {
         moves_.push_back(next);
     }
 
-    void cut(const BezierMotion& motion, const ToolPose& start, const ToolPose& end) {
+    bool cut(const BezierMotion& motion, const ToolPose& start, const ToolPose& end) {
         const auto pose_of = [&](double u) { return motion.pose(u); };
         const auto sink = [&](const Move& piece, double, double) {
             moves_.push_back(piece);
-            return true;
+            return fits();
         };
-        QuadraticCut(pose_of, like_, tolerance_, sink).cut(0, start, 1, end);
+        return QuadraticCut(pose_of, like_, tolerance_, sink).cut(0, start, 1, end);
     }
+
+    bool fits() const { return moves_.size() - first_ <= most_; }
 
     const Move& like_;
     const PieceTolerance& tolerance_;
+    std::size_t most_;
     std::vector<Move>& moves_;
     std::size_t first_;
 };
@@ -177,21 +181,26 @@ std::vector<Move> equal_quadratics(const Move& move, const PieceTolerance& toler
 
 }  // namespace
 
-void append_moves(std::span<const MotionPiece> pieces, double u0, double u1, const Move& like,
-                  const PieceTolerance& tolerance, std::vector<Move>& moves) {
-    Cutting cutting(like, tolerance, moves);
-    for (const MotionPiece& piece : pieces) {
+bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move& like,
+                  const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves) {
+    const BSpline<DualQuaternion>& spline = motion.spline;
+    Cutting cutting(like, tolerance, most, moves);
+    for (std::size_t k = find_span(spline, u0); k < spline.control.size() && spline.knots[k] < u1; ++k) {
+        if (spline.knots[k] == spline.knots[k + 1]) continue;
+        const MotionPiece piece = bezier_piece(motion, k);
         const double a = std::max(u0, piece.start), b = std::min(u1, piece.end);
-        if (!(a < b)) continue;
         const double width = piece.end - piece.start;
-        cutting.append(part_of(piece.motion, a == piece.start ? 0 : (a - piece.start) / width,
-                               b == piece.end ? 1 : (b - piece.start) / width));
+        const BezierMotion part = part_of(piece.motion, a == piece.start ? 0 : (a - piece.start) / width,
+                                          b == piece.end ? 1 : (b - piece.start) / width);
+        if (!cutting.append(part)) return false;
     }
+    return true;
 }
 
 std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like, const PieceTolerance& tolerance) {
     std::vector<Move> moves;
-    append_moves(bezier_pieces(motion), motion.start(), motion.end(), like, tolerance, moves);
+    append_moves(motion, motion.start(), motion.end(), like, tolerance,
+                 std::numeric_limits<std::size_t>::max(), moves);
     return moves;
 }
 

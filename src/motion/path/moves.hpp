@@ -2,7 +2,7 @@
 // Converts motions to moves, and moves to the elementary moves of the cutting computation. Any thread.
 #pragma once
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "motion/curve/bspline_motion.hpp"
@@ -28,9 +28,10 @@ inline constexpr double kMaxTurningPieceMm = 10;
 std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like,
                            const PieceTolerance& tolerance = {});
 
-// Appends the moves of the part of the motion from parameter u0 to u1 > u0; `pieces` are all its pieces.
-void append_moves(std::span<const MotionPiece> pieces, double u0, double u1, const Move& like,
-                  const PieceTolerance& tolerance, std::vector<Move>& moves);
+// Appends the moves of the part of the motion from parameter u0 to u1 > u0. Returns false if they are more
+// than `most`; some are then appended.
+bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move& like,
+                  const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves);
 
 // Returns one move as pieces of the four kinds that have sweeps: straight with one axis, arc of at most a
 // quarter turn about a line parallel to the axis without rise, quadratic, dwell. Times are divided in

@@ -32,11 +32,7 @@ motion::Move turned(const motion::Move& move, double degrees) {
 }
 
 Result<void> Output::append(const motion::Move& move) {
-    if (moves >= options.max_moves) {
-        return refuse(move.line, 1,
-                      "the program has more than " + std::to_string(options.max_moves) + " moves",
-                      "split it");
-    }
+    if (moves >= options.max_moves) return refuse_more_moves(move.line);
     ++moves;
     if (sink_ != nullptr) {
         sink_->take(move);
@@ -47,19 +43,15 @@ Result<void> Output::append(const motion::Move& move) {
 }
 
 std::optional<double> Output::tool_diameter_mm(int number) const {
-    for (const auto* tools : {&options.tools, &declared_}) {
-        for (auto tool = tools->rbegin(); tool != tools->rend(); ++tool) {
-            if (tool->number == number) return tool->diameter_mm;
-        }
+    for (const auto* tools : {&given_, &declared_}) {
+        if (const auto tool = tools->find(number); tool != tools->end()) return tool->second.diameter_mm;
     }
     return std::nullopt;
 }
 
 std::optional<double> Output::tool_length_mm(int number) const {
-    for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
-        if (tool->number == number && tool->length_mm) return tool->length_mm;
-    }
-    return std::nullopt;
+    const auto tool = given_.find(number);
+    return tool == given_.end() ? std::nullopt : tool->second.length_mm;
 }
 
 bool Output::first(Note note) {
@@ -72,6 +64,11 @@ void Output::warn(int line, std::string text) {
 
 std::unexpected<Error> Output::refuse(int line, int column, std::string cause, std::string remedy) const {
     return fail_at(options.source_name, line, column, std::move(cause), std::move(remedy));
+}
+
+std::unexpected<Error> Output::refuse_more_moves(int line) const {
+    return refuse(line, 1, "the program has more than " + std::to_string(options.max_moves) + " moves",
+                  "split it");
 }
 
 }  // namespace tribo::readers::gcode

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -196,6 +197,10 @@ class Output {
     Output(const GcodeOptions& options, MoveSink* sink) : options(options), sink_(sink) {
         program.source = options.source_name;
         program.dialect = name_of(options.dialect);
+        for (const GcodeTool& tool : options.tools) {
+            GcodeTool& known = given_[tool.number];
+            known = {tool.number, tool.diameter_mm, tool.length_mm ? tool.length_mm : known.length_mm};
+        }
         if (options.machine != nullptr) {
             machine.emplace(*options.machine);
             program.machine = options.machine->name;
@@ -212,16 +217,17 @@ class Output {
     // From the options or the program; absent: neither gives it.
     std::optional<double> tool_diameter_mm(int number) const;
     std::optional<double> tool_length_mm(int number) const;
-    void declare_tool(const GcodeTool& tool) { declared_.push_back(tool); }
+    void declare_tool(const GcodeTool& tool) { declared_[tool.number] = tool; }
 
     // Returns true at the first call for a note.
     bool first(Note note);
     void warn(int line, std::string text);
     std::unexpected<Error> refuse(int line, int column, std::string cause, std::string remedy) const;
+    std::unexpected<Error> refuse_more_moves(int line) const;
 
   private:
     MoveSink* sink_;
-    std::vector<GcodeTool> declared_;
+    std::map<int, GcodeTool> given_, declared_;  // by number: of the options, of the program
     std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
 };
 

@@ -14,7 +14,7 @@ namespace {
 using motion::HomogeneousPoint;
 
 constexpr std::size_t kHighestOrder = 10;
-constexpr std::size_t kMostControlPoints = 1'000'000;
+constexpr std::size_t kMostControlPoints = 100'000;
 constexpr double kLargestWeight = 1e6;
 constexpr double kLargestKnot = 1e9;
 // Largest distance of the first control point of a G6.2 from the tip, mm: the rounding of three decimals.
@@ -68,7 +68,10 @@ Result<void> append_curve(const motion::BSpline<HomogeneousPoint>& curve, motion
     for (const HomogeneousPoint& p : curve.control) motion.spline.control.push_back(translation(p));
     const double duration = like.duration_s;
     like.duration_s = 0;
-    std::vector<motion::Move> moves = motion::to_moves(motion, like);
+    std::vector<motion::Move> moves;
+    const std::size_t most = output.options.max_moves - output.moves;
+    if (!motion::append_moves(motion, motion.start(), motion.end(), like, {}, most, moves))
+        return output.refuse_more_moves(like.line);
     if (moves.empty()) return {};
     moves.front().start.tip_mm = state.tip_mm;
     moves.back().end.tip_mm = end_mm;
@@ -155,8 +158,7 @@ Result<void> add_control_point(Command& command, char weight_letter, State& stat
         if (*coordinate) point[axis] = **coordinate + state.origin_mm()[axis];
     }
     if (nurbs.control.size() == kMostControlPoints) {
-        return output.refuse(command.line(), 1, "a B-spline has more than a million control points",
-                             "split it");
+        return output.refuse(command.line(), 1, "a B-spline has more than 100000 control points", "split it");
     }
     if (nurbs.has_knots && nurbs.control.empty()) {
         const double gap = distance(point, state.tip_mm);
