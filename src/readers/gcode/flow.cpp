@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace tribo::readers::gcode {
 namespace {
@@ -17,8 +18,13 @@ std::string called_label(const std::string& label) {
 
 }  // namespace
 
-Flow::Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters)
-    : bytes_(bytes), options_(options), lexer_(lexer), parameters_(parameters) {}
+Flow::Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters,
+           const std::size_t& moves)
+    : bytes_(bytes),
+      options_(options),
+      lexer_(lexer),
+      parameters_(parameters),
+      limit_(options, bytes.size(), moves) {}
 
 std::unexpected<Error> Flow::refuse(int line, int column, std::string cause, std::string remedy) const {
     return fail_at(options_.source_name, line, column, std::move(cause), std::move(remedy));
@@ -41,12 +47,9 @@ std::unexpected<Error> Flow::refuse_unclosed(int index) const {
 }
 
 Result<void> Flow::count_step(int line) {
-    // A program without loops and calls runs each of its lines once and never reaches the limit.
-    if (++steps_ <= options_.max_steps || steps_ <= bytes_.size()) return {};
-    return refuse(line, 1,
-                  "more than " + std::to_string(options_.max_steps) +
-                      " blocks have run: a loop around this line does not seem to end",
-                  "correct its condition");
+    auto cause = limit_.count(lexer_.cursor().line.size());
+    if (!cause) return {};
+    return refuse(line, 1, *std::move(cause), RunLimit::kRemedy);
 }
 
 Result<std::optional<double>> Flow::read_condition(Block& block, Keyword keyword, bool required) {
@@ -136,6 +139,7 @@ Result<void> Flow::branch(int index, Block& block) {
         }
         lexer_.go_to(next.at);
         if (auto given = lexer_.next(block); !given) return std::unexpected(given.error());
+        if (auto counted = count_step(block.line); !counted) return counted;
         if (auto word = read_o_word(lexer_.cursor(), nullptr); !word) return std::unexpected(word.error());
     }
 }

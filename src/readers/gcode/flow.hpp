@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "readers/control/run_limit.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/gcode/text/labels.hpp"
 #include "readers/gcode/text/lexer.hpp"
@@ -17,8 +18,9 @@ namespace tribo::readers::gcode {
 
 class Flow {
   public:
-    // All arguments must outlive the object.
-    Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters);
+    // All arguments must outlive the object. `moves`: the number of moves so far.
+    Flow(std::string_view bytes, const GcodeOptions& options, Lexer& lexer, Parameters& parameters,
+         const std::size_t& moves);
 
     // Runs an o_word block that the lexer has just read. Returns true if the block is a program number at the
     // outermost level.
@@ -32,7 +34,7 @@ class Flow {
     Result<void> end_text(int line) const;
     bool is_outermost() const { return calls_.empty(); }
 
-    // Counts a block. Refuses a program that seems to run forever.
+    // Counts the block that the lexer has just read. Refuses a program that seems to run forever.
     Result<void> count_step(int line);
 
   private:
@@ -70,7 +72,7 @@ class Flow {
     std::optional<Labels> labels_;  // of the whole text, made at the first use
     std::vector<Call> calls_;
     std::vector<Repeat> repeats_;
-    std::size_t steps_ = 0;
+    RunLimit limit_;
 };
 
 }  // namespace tribo::readers::gcode

@@ -29,7 +29,7 @@ class ProgramReader {
         : output_(options, sink),
           parameters_(state_, output_),
           lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
-          flow_(bytes, options, lexer_, parameters_) {
+          flow_(bytes, options, lexer_, parameters_, output_.moves) {
         state_.unit_mm = mm_per(options.default_unit);
         state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
     }
@@ -55,6 +55,7 @@ class ProgramReader {
   private:
     // Returns false at the end of the program.
     Result<bool> run(Block& block) {
+        if (auto counted = flow_.count_step(block.line); !counted) return std::unexpected(counted.error());
         for (const std::string_view comment : block.comments) read_comment(comment, block.line);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
@@ -64,7 +65,6 @@ class ProgramReader {
             return true;
         }
         if (block.kind == BlockKind::percent) return !has_words_ && !std::exchange(has_percent_, true);
-        if (auto counted = flow_.count_step(block.line); !counted) return std::unexpected(counted.error());
         if (block.kind == BlockKind::o_word) return run_o_word(block);
         for (const Assignment& assignment : block.assignments) {
             if (auto done = assign(assignment, block.line); !done) return std::unexpected(done.error());

@@ -3,10 +3,11 @@
 // splines, canned cycles, cutter compensation, offsets, feed modes, tool changes; parameters, expressions,
 // subroutines, loops and branches. Unknown codes are refused with line and column; the reader never guesses.
 // Blocks with '/' are skipped; arc centres are incremental until G90.1. Any thread; allocates; time linear in
-// the bytes, or in the blocks that loops run.
+// the bytes, or in the blocks that loops run, which are limited.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,7 +45,10 @@ struct GcodeOptions {
     std::vector<GcodeTool> tools;              // for G41 and G42; they override the tools of the program
     const motion::Machine* machine = nullptr;  // for rotary words; motion::check accepts it
     std::size_t max_moves = 10'000'000;        // more are refused: at 300 bytes each they take 3 GB
-    std::size_t max_steps = 20'000'000;  // limit of the blocks run by loops and calls; more count as endless
+    // Loops and calls that run longer count as endless (control/run_limit.hpp).
+    std::size_t max_steps = 20'000'000;  // blocks
+    double max_loop_s = 3;
+    std::function<double()> clock_s{};  // seconds from any start, for max_loop_s; absent: no clock
 };
 
 // Receives the moves of a program while they are read, so that a long program need not be held in memory.

@@ -75,12 +75,19 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
 
 // Reads Q200=2 ... on this line and on the lines joined by '~'.
 Result<void> Interpreter::read_parameters(LineReader& in, DrillingCycle& cycle) {
+    if (auto done = read_parameters_of_line(in, cycle); !done) return done;
+    for (;;) {
+        const auto more = goes_on();
+        if (!more) return std::unexpected(more.error());
+        if (!*more) return {};
+        LineReader next(line_, source_name_, parameters_);
+        if (auto done = read_parameters_of_line(next, cycle); !done) return done;
+    }
+}
+
+Result<void> Interpreter::read_parameters_of_line(LineReader& in, DrillingCycle& cycle) {
     std::vector<Item> items;
     if (auto done = in.items(items); !done) return done;
-    while (goes_on()) {
-        LineReader next(line_, source_name_, parameters_);
-        if (auto done = next.items(items); !done) return done;
-    }
     for (const Item& item : items) {
         const int q = item.parameter;
         if (q < 0) continue;

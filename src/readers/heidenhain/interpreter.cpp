@@ -21,7 +21,9 @@ constexpr long kMostRepeats = 65534;
 }  // namespace
 
 Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, MoveSink* sink)
-    : source_name_(options.source_name), path_(options, sink) {
+    : source_name_(options.source_name),
+      path_(options, sink),
+      limit_(path_.options, bytes.size(), path_.moves) {
     path_.program.dialect = "Heidenhain";
     TextLines text(bytes);
     while (const auto line = text.next()) lines_.push_back(*line);
@@ -36,23 +38,33 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
 
 Result<motion::Program> Interpreter::run() {
     for (; at_ < lines_.size() && !ended_; ++at_) {
-        line_ = line_of(lines_[at_], static_cast<int>(at_) + 1);
+        if (auto taken = take_line(); !taken) return std::unexpected(taken.error());
         if (line_.text.empty()) continue;
-        if (++steps_ > path_.options.max_steps) {
-            return path_.refuse(place(1), "the program seems to run for ever",
-                                "correct its jumps and repeats");
-        }
         LineReader in(line_, source_name_, parameters_);
         if (auto done = execute(in); !done) return std::unexpected(done.error());
     }
     return finish();
 }
 
+// Makes the line at at_ the running line, and counts it.
+Result<void> Interpreter::take_line() {
+    const std::string_view text = lines_[at_];
+    const int number = static_cast<int>(at_) + 1;
+    if (text.size() > kLongestBlock) {
+        return path_.refuse({number, static_cast<int>(kLongestBlock) + 1}, too_long_block(text.size()),
+                            "write it on several lines");
+    }
+    line_ = line_of(text, number);
+    auto cause = limit_.count(text.size());
+    if (!cause) return {};
+    return path_.refuse(place(1), *std::move(cause), RunLimit::kRemedy);
+}
+
 // Moves to the line joined by '~'. Returns false if there is none.
-bool Interpreter::goes_on() {
+Result<bool> Interpreter::goes_on() {
     if (!line_.goes_on || at_ + 1 >= lines_.size()) return false;
     ++at_;
-    line_ = line_of(lines_[at_], static_cast<int>(at_) + 1);
+    if (auto taken = take_line(); !taken) return std::unexpected(taken.error());
     return true;
 }
 
@@ -142,9 +154,11 @@ Result<void> Interpreter::blank_form(LineReader& in) {
         if (path_.first(kCylinder)) {
             path_.warn(line_.number, "this BLK FORM is no box: the stock is taken from the job");
         }
-        while (goes_on()) {
+        for (;;) {
+            const auto more = goes_on();
+            if (!more) return std::unexpected(more.error());
+            if (!*more) return {};
         }
-        return {};
     }
     const int column = in.column();
     const auto which = in.number();
@@ -207,7 +221,7 @@ Result<void> Interpreter::define_tool(LineReader& in) {
             return in.refuse(item.column, item.name + " does not belong into TOOL DEF", "write L and R");
         }
     }
-    if (tool.number > 0 && tool.diameter_mm > 0) path_.program.tools.push_back(tool);
+    if (tool.number > 0 && tool.diameter_mm > 0) path_.declare(tool);
     return {};
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/control/run_limit.hpp"
 #include "readers/heidenhain/line.hpp"
 #include "readers/heidenhain/path.hpp"
 
@@ -47,7 +48,8 @@ class Interpreter {
 
   private:
     // Flow and data (interpreter.cpp)
-    bool goes_on();
+    Result<void> take_line();
+    Result<bool> goes_on();
     Result<void> execute(LineReader& in);
     Result<void> begin(LineReader& in);
     Result<void> blank_form(LineReader& in);
@@ -84,6 +86,7 @@ class Interpreter {
     Result<void> define_cycle(LineReader& in);
     Result<void> define_drilling(LineReader& in, int number);
     Result<void> read_parameters(LineReader& in, DrillingCycle& cycle);
+    Result<void> read_parameters_of_line(LineReader& in, DrillingCycle& cycle);
     Result<void> set_datum(LineReader& in);
     Result<void> shift_datum(LineReader& in);
     Result<void> call_cycle(Place place);
@@ -105,7 +108,7 @@ class Interpreter {
     std::size_t at_ = 0;                         // index of the running line
     Line line_;
     bool ended_ = false, begun_ = false, moved_ = false;
-    std::size_t steps_ = 0;
+    RunLimit limit_;
 
     Parameters parameters_;
     double unit_mm_ = 1;

@@ -10,6 +10,9 @@ namespace tribo::readers::heidenhain {
 
 Path::Path(const GcodeOptions& given, MoveSink* sink) : options(given), sink_(sink) {
     program.source = options.source_name;
+    for (const GcodeTool& known : options.tools) {
+        if (known.length_mm) given_lengths_mm_[known.number] = *known.length_mm;
+    }
     if (options.machine != nullptr) {
         machine.emplace(*options.machine);
         program.machine = options.machine->name;
@@ -141,14 +144,16 @@ Result<void> Path::dwell(double seconds, Place place) {
     return append(move);
 }
 
+void Path::declare(const motion::DeclaredTool& declared) {
+    if (declared.length_mm) declared_lengths_mm_[declared.number] = *declared.length_mm;
+    if (declaring_lines_.insert(declared.line).second) program.tools.push_back(declared);
+}
+
 void Path::measure_tool() {
     if (!machine) return;
     std::optional<double> length_mm;
-    for (const motion::DeclaredTool& known : program.tools) {
-        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
-    }
-    for (const GcodeTool& known : options.tools) {
-        if (known.number == tool && known.length_mm) length_mm = known.length_mm;
+    for (const auto* lengths : {&declared_lengths_mm_, &given_lengths_mm_}) {
+        if (const auto known = lengths->find(tool); known != lengths->end()) length_mm = known->second;
     }
     machine->set_tool_length(length_mm);
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "motion/machine/work_frame.hpp"
@@ -63,6 +65,8 @@ class Path {
     void aim(Vec3 axis) { aim_ = axis; }
     Vec3 axis() const { return aim_; }
 
+    // Adds a tool of TOOL DEF to the program; once for a line, which a loop may run again.
+    void declare(const motion::DeclaredTool& tool);
     // Takes the length of the tool in the spindle from the options, else from TOOL DEF of the program.
     void measure_tool();
 
@@ -86,6 +90,8 @@ class Path {
     bool in_stock() const { return !machine || tip_control || frame.is_tilted(); }
 
     MoveSink* sink_;
+    std::map<int, double> given_lengths_mm_, declared_lengths_mm_;  // by number of the tool
+    std::set<int> declaring_lines_;
     Vec3 place_mm_;  // tip in the frame of the stock; on a machine without tip control its X Y Z
     std::array<Known, 3> known_{Known::unstated, Known::unstated, Known::unstated};
     int lost_line_ = 0;

@@ -345,6 +345,10 @@ Result<std::string> siemens_to_gcode(std::string_view bytes, const std::string& 
     out.reserve(bytes.size() + bytes.size() / 16);
     TextLines lines(bytes);
     while (const auto line = lines.next()) {
+        if (line->size() > kLongestBlock) {
+            return fail_at(source_name, lines.number(), static_cast<int>(kLongestBlock) + 1,
+                           too_long_block(line->size()), "write it on several lines");
+        }
         if (auto done = Rewriter(*line, lines.number(), source_name, out).run(); !done) {
             return std::unexpected(done.error());
         }

@@ -42,6 +42,11 @@ std::optional<double> number_of(std::string_view text) {
     return negative ? -value : value;
 }
 
+std::string too_long_block(std::size_t characters) {
+    return "the block has " + std::to_string(characters) + " characters, more than " +
+           std::to_string(kLongestBlock);
+}
+
 std::string shown_character(char c) {
     if (c > ' ' && c <= '~') return std::string("'") + c + "'";
     constexpr std::string_view hex = "0123456789ABCDEF";

@@ -2,6 +2,7 @@
 // The lines of a text file with their numbers, and a character in a form for messages.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +26,10 @@ class TextLines {
     int number_ = 0;
 };
 
+// Longest block of a program, characters. Controls take 80 to 512; the work on a block may grow with the
+// square of its length.
+inline constexpr std::size_t kLongestBlock = 4096;
+
 constexpr bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
@@ -44,6 +49,9 @@ std::string_view trimmed(std::string_view text);
 // Returns the number if the whole text is one, with an optional sign. Returns none for other text, and for a
 // number too large for a double.
 std::optional<double> number_of(std::string_view text);
+
+// Returns the cause of the refusal of a longer block.
+std::string too_long_block(std::size_t characters);
 
 // Returns the character for messages: 'x', or byte 0xE9 if it is not plain ASCII.
 std::string shown_character(char c);

@@ -210,6 +210,64 @@ TEST(GcodeReader, RefusesLoopsWithoutEndAndNamesALineOfThem) {
     }
 }
 
+// Work that no count of blocks shows: long lines, chains of elseif, blocks that are skipped.
+TEST(GcodeReader, RefusesLoopsByTheCharactersThatTheyRun) {
+    std::string branches, skipped, comment;
+    for (int i = 0; i < 50'000; ++i) {
+        branches += "o2 elseif [0]\n";
+        skipped += "/ G1 X1\n";
+    }
+    for (int i = 0; i < 50; ++i) comment += "(" + std::string(4000, '-') + ")\n";
+    for (const std::string& body : {"o2 if [0]\n" + branches + "o2 endif\n", skipped, comment}) {
+        const auto program = read_gcode("o1 while [1]\n" + body + "o1 endwhile\n");
+        ASSERT_FALSE(program.has_value());
+        EXPECT_NE(program.error().cause.find("50000000 characters have run without a move"),
+                  std::string::npos)
+            << program.error().text();
+    }
+    // The same blocks once are a program.
+    EXPECT_TRUE(read_gcode("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X1\n" + skipped + comment).has_value());
+}
+
+TEST(GcodeReader, RefusesLoopsByTheClock) {
+    GcodeOptions options;
+    double now_s = 100;
+    options.clock_s = [&] { return now_s += 0.5; };
+    const std::string loop = "G21 M3 F100\nG0 X0 Y0 Z0\no1 while [1]\nG1 X1\nX2\no1 endwhile\n";
+    const auto program = read_gcode(loop, options);
+    ASSERT_FALSE(program.has_value());
+    EXPECT_NE(program.error().cause.find("have run for 3 s"), std::string::npos) << program.error().text();
+    EXPECT_GE(program.error().line, 3);
+    EXPECT_FALSE(program.error().remedy.empty());
+    // A program without loops may take its time.
+    std::string straight = "G21 M3 F100\nG0 X0 Y0 Z0\nG1\n";
+    for (int i = 0; i < 20'000; ++i) straight += i % 2 != 0 ? "X1\n" : "X2\n";
+    const auto read = read_gcode(straight, options);
+    ASSERT_TRUE(read.has_value()) << read.error().text();
+    EXPECT_EQ(read->moves.size(), 20'001U);
+}
+
+TEST(GcodeReader, RefusesABlockThatNoControlTakes) {
+    const std::string longest = "G1 X1 (" + std::string(kLongestBlock - 8, '-') + ")";
+    const auto read = read_gcode("G21 M3 F100\nG0 X0 Y0 Z0\n" + longest + "\n");
+    EXPECT_TRUE(read.has_value()) << read.error().text();
+    const auto refused = read_gcode("G21 M3 F100\nG0 X0 Y0 Z0\n" + longest + " \n");
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().line, 3);
+    EXPECT_NE(refused.error().cause.find("4097 characters, more than 4096"), std::string::npos);
+}
+
+// A spline a kilometre wide is cut into thousands of pieces.
+TEST(GcodeReader, RefusesMoreMovesThanAllowedWithinABlock) {
+    GcodeOptions options;
+    options.max_moves = 100;
+    const auto program =
+        read_gcode("G21 M3 F100\nG0 X0 Y0 Z0\nG5 I900000 J0 P0 Q900000 X900000 Y900000\n", options);
+    ASSERT_FALSE(program.has_value());
+    EXPECT_EQ(program.error().line, 3);
+    EXPECT_NE(program.error().cause.find("more than 100 moves"), std::string::npos);
+}
+
 TEST(GcodeReader, RefusesMoreMovesThanAllowed) {
     GcodeOptions options;
     options.max_moves = 2;

@@ -324,7 +324,7 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         {"3 Q1 = 2 +\n", "a number is missing"},
         {"3 Q2000 = 2\n", "there is no parameter beyond Q1999"},
         {"3 QL1 = 2\n", "parameters QL are not read yet"},
-        {"3 LBL 1\n4 FN 9: IF +1 EQU +1 GOTO LBL 1\n", "the program seems to run for ever"},
+        {"3 LBL 1\n4 FN 9: IF +1 EQU +1 GOTO LBL 1\n", "does not seem to end"},
         {"3 LBL 1\n4 CALL LBL 1\n", "subprograms are nested too deeply"},
         {"3 L X+10 M77\n", "M77 is not known"},
         {"3 HELLO\n", "p.h:4:3: error: the block 'HELLO' is not known"},
@@ -343,6 +343,30 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         EXPECT_NE(message.find("; "), std::string::npos) << message;
     }
     EXPECT_NE(fault("").find("no conversational program"), std::string::npos);
+}
+
+TEST(Heidenhain, RefusesLoopsOfLinesThatDoNothing) {
+    std::string comments, joined = "3 LBL 1\n4 CYCL DEF 247 ~\n";
+    for (int i = 0; i < 50'000; ++i) {
+        comments += "; nothing\n";
+        joined += "Q339=+1 ~\n";
+    }
+    const std::string again = "9 FN 9: IF +1 EQU +1 GOTO LBL 1\n";
+    for (const std::string& text : {"3 LBL 1\n" + comments + again, joined + "Q339=+1\n" + again}) {
+        const auto program = read_heidenhain(after_start(text), {});
+        ASSERT_FALSE(program.has_value());
+        EXPECT_NE(program.error().cause.find("have run without a move"), std::string::npos)
+            << program.error().text();
+        EXPECT_GT(program.error().line, 3);
+    }
+    EXPECT_TRUE(read_heidenhain(after_start(comments), {}).has_value());
+}
+
+TEST(Heidenhain, DeclaresAToolOncePerLine) {
+    const motion::Program program =
+        conversational(after_start("3 LBL 1\n4 TOOL DEF 5 L+40 R+6\n5 CALL LBL 1 REP 20\n"));
+    ASSERT_EQ(program.tools.size(), 1U);
+    EXPECT_EQ(program.tools[0].length_mm, 40);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(Siemens, ShiftsTheZeroWithTransAndCountsTurns) {
 
 TEST(Siemens, RefusesWithPlaceCauseAndRemedy) {
     const struct {
-        const char* text;
+        std::string text;
         const char* message;
     } cases[] = {
         {"N40 CYCLE800(1,\"TC\",0,57,0,0,0,30,0,0,0,0,0,1)\n",
@@ -96,6 +96,7 @@ TEST(Siemens, RefusesWithPlaceCauseAndRemedy) {
         {"N40 G1 X=\n", "a value is missing"},
         {"N40 R1=5 R2=R1\n", "p.mpf:4:13: error: R1 is used in the block that sets it"},
         {"N40 ROT Z30\n", "ROT (turned frames)"},
+        {"N40 R1=" + std::string(5000, '1') + "\n", "p.mpf:4:4097: error: the block has 5007 characters"},
     };
     for (const auto& c : cases) {
         const std::string message = fault(std::string(kStart) + c.text);

@@ -47,6 +47,8 @@ Result<bool> Lexer::next(Block& block) {
     block.words.clear();
     block.assignments.clear();
     block.comments.clear();
+    if (line->size() > kLongestBlock)
+        return cursor_.refuse(kLongestBlock, too_long_block(line->size()), "write it on several lines");
 
     if (cursor_.peek_after_blanks() == '%') {
         block.kind = BlockKind::percent;
