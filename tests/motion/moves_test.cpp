@@ -198,6 +198,22 @@ TEST(Elementary, a_helix_becomes_quadratics_that_keep_to_it_and_join_without_cor
     }
 }
 
+TEST(Elementary, are_counted_without_being_made) {
+    Move straight, tilting;
+    straight.end.tip_mm = {10, 2, 3};
+    tilting.end = {{3000, 0, 0}, {0.6, 0, 0.8}};
+    Move both = arc_move({10, 0, 0}, {}, {0, 0, 1}, 2, 3, {0, 0, 1});
+    both.end.axis = normalized(Vec3{1, 1, 2});
+    for (const Move& move : {straight, tilting, both, arc_move({5, 0, 0}, {}, {0, 0, 1}, 9, 0, {0, 0, 1}),
+                             arc_move({5, 0, 0}, {}, {0, 1, 0}, 9, 0, {0, 0, 1}),
+                             arc_move({12, 0, 1}, {2, 0, 0}, {0, 0, 1}, 5 * kPi, 40, {0, 0, 1})}) {
+        EXPECT_EQ(count_elementary(move), to_elementary(move).size());
+    }
+    // A kilometre wide, ten thousand turns.
+    const Move wide = arc_move({1e6, 0, 0}, {}, {0, 0, 1}, 2e4 * kPi, 40, {0, 0, 1});
+    EXPECT_GT(count_elementary(wide), 1'000'000u);
+}
+
 TEST(Elementary, an_arc_across_the_axis_becomes_quadratics) {
     const Move arc = arc_move({5, 0, 0}, {}, {0, 1, 0}, -kPi / 2, 0, {0, 0, 1});
     const std::vector<Move> pieces = to_elementary(arc);

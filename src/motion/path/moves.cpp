@@ -116,10 +116,14 @@ BezierMotion part_of(const BezierMotion& motion, double a, double b) {
     return part;
 }
 
-std::vector<Move> quarter_arcs(const Move& move) {
+int quarters_of(const Arc& arc) {
     // An excess over a multiple of a quarter turn that is only rounding does not start a new piece.
-    const double quarters = std::abs(move.arc->turn_rad) / math::kHalfPi;
-    const int count = std::max(1, static_cast<int>(std::ceil(quarters - 1e-9)));
+    const double quarters = std::abs(arc.turn_rad) / math::kHalfPi;
+    return std::max(1, static_cast<int>(std::ceil(quarters - 1e-9)));
+}
+
+std::vector<Move> quarter_arcs(const Move& move) {
+    const int count = quarters_of(*move.arc);
     std::vector<Move> pieces;
     for (int i = 0; i < count; ++i) {
         Move piece = move;
@@ -179,6 +183,19 @@ std::vector<Move> equal_quadratics(const Move& move, const PieceTolerance& toler
     return pieces;
 }
 
+// The elementary moves that a move becomes.
+enum class Pieces { whole, arcs, quadratics };
+
+Pieces pieces_of(const Move& move, const PieceTolerance& tolerance) {
+    if (move.kind == MoveKind::dwell || move.quadratic) return Pieces::whole;
+    const bool turns = angle_rad(move.start.axis, move.end.axis) > kStraightShare * tolerance.axis_rad;
+    if (!move.arc) return turns ? Pieces::quadratics : Pieces::whole;
+    const ArcFrame frame(move);
+    const bool upright = length(cross(frame.normal, move.start.axis)) <= kStraightShare * tolerance.axis_rad;
+    const bool flat = std::abs(frame.rise_mm) <= kStraightShare * tolerance.tip_mm;
+    return !turns && upright && flat ? Pieces::arcs : Pieces::quadratics;
+}
+
 }  // namespace
 
 bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move& like,
@@ -205,13 +222,28 @@ std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like, const 
 }
 
 std::vector<Move> to_elementary(const Move& move, const PieceTolerance& tolerance) {
-    if (move.kind == MoveKind::dwell || move.quadratic) return {move};
-    const bool turns = angle_rad(move.start.axis, move.end.axis) > kStraightShare * tolerance.axis_rad;
-    if (!move.arc) return turns ? equal_quadratics(move, tolerance) : std::vector<Move>{move};
-    const ArcFrame frame(move);
-    const bool upright = length(cross(frame.normal, move.start.axis)) <= kStraightShare * tolerance.axis_rad;
-    const bool flat = std::abs(frame.rise_mm) <= kStraightShare * tolerance.tip_mm;
-    return !turns && upright && flat ? quarter_arcs(move) : equal_quadratics(move, tolerance);
+    switch (pieces_of(move, tolerance)) {
+        case Pieces::arcs:
+            return quarter_arcs(move);
+        case Pieces::quadratics:
+            return equal_quadratics(move, tolerance);
+        case Pieces::whole:
+            break;
+    }
+    return {move};
+}
+
+std::size_t count_elementary(const Move& move, const PieceTolerance& tolerance) {
+    switch (pieces_of(move, tolerance)) {
+        case Pieces::arcs:
+            return static_cast<std::size_t>(quarters_of(*move.arc));
+        case Pieces::quadratics:
+            return static_cast<std::size_t>(
+                quadratics_needed(move, tolerance, angle_rad(move.start.axis, move.end.axis)));
+        case Pieces::whole:
+            break;
+    }
+    return 1;
 }
 
 }  // namespace tribo::motion

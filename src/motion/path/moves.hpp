@@ -38,5 +38,7 @@ bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move&
 // proportion to path; feeds stay. Helices, arcs about another line and turning axes become quadratics within
 // the tolerance (a helix as a curve: its pieces join without corners). A straight rapid stays whole.
 std::vector<Move> to_elementary(const Move& move, const PieceTolerance& tolerance = {});
+// Returns their number without making them: a helix of ten thousand turns has millions.
+std::size_t count_elementary(const Move& move, const PieceTolerance& tolerance = {});
 
 }  // namespace tribo::motion

@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "base/text/decimal.hpp"
 #include "base/text/nearest.hpp"
+#include "readers/text/csv_fields.hpp"
+#include "readers/text/model_text.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -27,7 +30,8 @@ struct Field {
 std::vector<Field> fields_of(std::string_view line) {
     std::vector<Field> fields;
     for (std::size_t at = 0;;) {
-        const std::size_t end = std::min(line.find_first_of(",;", at), line.size());
+        const bool is_last = fields.size() + 1 == kMostFields;
+        const std::size_t end = is_last ? line.size() : std::min(line.find_first_of(",;", at), line.size());
         const std::string_view text = trimmed(line.substr(at, end - at));
         fields.push_back(
             {text,
@@ -79,7 +83,7 @@ class ToolTableReader {
             if (known == kColumns.end()) {
                 table_.warnings.push_back(
                     {options_.source_name, lines_.number(),
-                     "the column '" + name + "' is not read; " + suggestion(name, kColumns)});
+                     "the column " + quoted(name) + " is not read; " + suggestion(name, kColumns)});
             }
             columns_.push_back(static_cast<std::size_t>(known - kColumns.begin()));
         }
@@ -185,8 +189,7 @@ class ToolTableReader {
             return refuse(1, "the corner radius is more than half the diameter", "correct one of them");
         }
         if (tool.number == 0) return {};  // entry of tool.tbl for the empty spindle
-        for (const motion::DeclaredTool& other : table_.tools) {
-            if (other.number != tool.number) continue;
+        if (!numbers_.insert(tool.number).second) {
             return refuse(1, "tool " + std::to_string(tool.number) + " stands in the table twice",
                           "delete one of the lines");
         }
@@ -197,6 +200,7 @@ class ToolTableReader {
     TextLines lines_;
     const ToolTableOptions& options_;
     std::vector<std::size_t> columns_;  // of CSV: content of each column
+    std::set<int> numbers_;
     ToolTable table_;
 };
 

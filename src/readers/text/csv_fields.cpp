@@ -12,7 +12,8 @@ void split(std::string_view line, std::vector<CsvField>& fields) {
     fields.clear();
     std::size_t start = 0;
     for (;;) {
-        const std::size_t comma = line.find(',', start);
+        const std::size_t comma =
+            fields.size() + 1 < kMostFields ? line.find(',', start) : std::string_view::npos;
         const std::string_view raw =
             line.substr(start, comma == std::string_view::npos ? comma : comma - start);
         std::size_t blanks = 0;

@@ -11,6 +11,9 @@
 
 namespace tribo::readers {
 
+// Fields of a line. The last one takes the rest of a longer line, which no table of Tribo has.
+inline constexpr std::size_t kMostFields = 1000;
+
 struct CsvField {
     std::string_view text;  // without blanks around it
     int column = 1;         // of its first character, from 1

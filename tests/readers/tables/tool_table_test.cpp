@@ -61,5 +61,22 @@ TEST(ToolTable, RefusesWithPlaceCauseAndRemedy) {
     EXPECT_NE(fault("number,diameter_mm,flutes\n1,6,2.5\n").find("number of flutes"), std::string::npos);
 }
 
+// Tables of machine makers have a few hundred tools; comparing each with all others would take hours here.
+TEST(ToolTable, ReadsAsManyToolsAsHaveNumbers) {
+    std::string text;
+    for (int number = 1; number <= 300'000; ++number) text += "T" + std::to_string(number) + " D6\n";
+    const auto table = read_tool_table(text);
+    ASSERT_TRUE(table) << table.error().text();
+    EXPECT_EQ(table->tools.size(), 300'000u);
+    EXPECT_EQ(fault(text + "T7 D8\n"),
+              "t.tbl:300001:1: error: tool 7 stands in the table twice; delete one of the lines");
+}
+
+TEST(ToolTable, TakesNoMemoryForALineOfCommas) {
+    const auto table = read_tool_table("number,diameter_mm" + std::string(3'000'000, ',') + "\n1,6\n");
+    ASSERT_TRUE(table) << table.error().text();
+    EXPECT_LT(table->warnings.size(), 1000u);
+}
+
 }  // namespace
 }  // namespace tribo::readers
