@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "job/memory_source.hpp"
+#include "job/toml/toml_section.hpp"
 
 namespace tribo::job {
 namespace {
@@ -410,6 +411,83 @@ RC_GTEST_PROP(JobFile, with_any_damage_is_read_or_refused_but_never_worse, ()) {
     } else {
         RC_ASSERT(!job.error().cause.empty());
         RC_ASSERT(job.error().line >= 1);
+    }
+}
+
+TEST(JobFile, has_a_stated_number_of_tables_of_one_kind) {
+    const auto fault = [](const std::string& text) {
+        const FileResult<Job> job = parse_job(text, "jobs/bowl.toml", MemorySource());
+        return job ? "" : job.error().text();
+    };
+    std::string fixtures;
+    for (std::size_t n = 0; n < kMostTables; ++n) fixtures += "[[fixture]]\nbox_mm=[[0,0,0],[1,1,1]]\n";
+    EXPECT_EQ(job_of(kBowl + fixtures).fixtures.size(), kMostTables);
+    EXPECT_EQ(
+        fault(kBowl + fixtures + "[[fixture]]\nmesh = \"a.stl\"\n"),
+        "jobs/bowl.toml:2024:1: error: 1001 tables 'fixture', more than 1000; leave out what is not used, "
+        "or join several into one");
+    std::string cutters;
+    for (std::size_t n = 1; n <= kMostTables + 1; ++n) {
+        cutters += "[[cutter]]\nnumber = " + std::to_string(n) + "\nkind = \"flat\"\ndiameter_mm = 6\n";
+    }
+    EXPECT_NE(fault(cutters).find("1001 tables 'cutter', more than 1000"), std::string::npos);
+    std::string steps = "1";
+    for (int n = 0; n < 100; ++n) steps += ",1";
+    EXPECT_NE(fault(kBowl + ("[holder]\ndiameter_mm = [" + steps + "]\nlength_mm = [" + steps + "]\n"))
+                  .find("a holder of 101 steps, more than 100"),
+              std::string::npos);
+}
+
+TEST(JobFile, is_written_by_hand) {
+    const FileResult<Job> job =
+        parse_job(kBowl + std::string(kLargestJobBytes, '#'), "jobs/bowl.toml", MemorySource());
+    ASSERT_FALSE(job);
+    EXPECT_NE(job.error().cause.find("bytes, more than 1048576"), std::string::npos) << job.error().text();
+}
+
+// toml++ goes down its tables by recursion; half a million of them end the stack.
+TEST(JobFile, has_keys_of_few_parts) {
+    const auto refused = [](const std::string& text) {
+        const FileResult<Job> job = parse_job(text, "deep.toml", MemorySource());
+        return job ? "" : job.error().text();
+    };
+    std::string parts;
+    for (int n = 0; n < 250'000; ++n) parts += "a .";
+    const std::string cause = ": error: a key has more than 16 parts; write [section] and key = value";
+    EXPECT_EQ(refused(parts + "b = 1\n"), "deep.toml:1:48" + cause);
+    EXPECT_EQ(refused("# . . .\n[" + parts + "b]\n"), "deep.toml:2:49" + cause);
+    EXPECT_EQ(refused("x = \"\"\"\n\\\"\"\"\n\"\"\"\ny = {" + parts + "b = 1}\n"), "deep.toml:4:53" + cause);
+    EXPECT_EQ(refused(" = 1\n'x' . " + parts + "b = 1\n"), "deep.toml:2:51" + cause);
+    EXPECT_EQ(refused("x = {y = \"\"\"a\"\"\"\"," + parts + "b = 1}\n"), "deep.toml:1:66" + cause);
+    // In comments and strings dots are plain text, and numbers have one.
+    const std::string dots(100, '.');
+    EXPECT_EQ(job_of(replaced(kBowl, "kind = \"flat\"", "kind = \"flat\"  # " + dots)).cutters.size(), 1u);
+    EXPECT_EQ(job_of(replaced(kBowl, "bowl.csv", "bowl" + dots + ".csv")).path.file,
+              "jobs/bowl" + dots + ".csv");
+    EXPECT_EQ(job_of(replaced(kBowl, "[0,0,0]", "[0.0,0.0,\n0.0]")).sound.listener_mm.value(), Vec3{});
+    std::string nested;
+    for (int n = 0; n < 400'000; ++n) nested += "[";
+    EXPECT_NE(refused("x = " + nested).find("not valid TOML"), std::string::npos);
+}
+
+// Names and comments may be in any language. Elsewhere a letter beyond ASCII is an error with its place.
+TEST(JobFile, takes_utf8_in_strings_and_comments) {
+    const std::string greek = "\xCE\xBC\xCE\xAD\xCF\x84\xCE\xB1\xCE\xBB\xCE\xBB\xCE\xBF",
+                      umlaut = "W\xC3\xA4rme", euro = "\xE2\x82\xAC", emoji = "\xF0\x9F\x94\xA9";
+    for (const std::string& word : {greek, umlaut, euro, emoji}) {
+        const Job job = job_of("# " + word + "\n" +
+                               replaced(kBowl, "bowl.csv\"", word + ".csv\"  # " + word) + "# " + word);
+        EXPECT_EQ(job.path.file, "jobs/" + word + ".csv");
+        for (const std::string& text :
+             {word + " = 1\n", "x = " + word + "\n", "x " + word + " = 1\n", "[" + word + "]\n",
+              "x = 1 " + word + "\n", "x = [1, " + word + "]\n", "x = 1" + word + "\n",
+              "x = tru" + word + "\n", "x = {" + word + " = 1}\n",
+              "x = \"\"\"a \\\n " + word + "\"\"\"\n" + word}) {
+            const FileResult<Job> bad = parse_job(text, "bad.toml", MemorySource());
+            ASSERT_FALSE(bad) << text;
+            EXPECT_NE(bad.error().cause.find("not valid TOML"), std::string::npos) << bad.error().text();
+            EXPECT_GE(bad.error().line, 1);
+        }
     }
 }
 

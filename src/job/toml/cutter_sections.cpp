@@ -14,6 +14,7 @@ constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv,
 constexpr std::array kKindWords{"flat"sv, "ball"sv, "bull"sv};
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr int kLargestToolNumber = 999'999;
+constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
 
 // Steps from the bottom up: [[holder]] tables with one step each, or one [holder] whose keys are lists.
 std::vector<milling::HolderStep> read_holder(TomlSection& owner) {
@@ -31,6 +32,13 @@ std::vector<milling::HolderStep> read_holder(TomlSection& owner) {
                         "a holder of " + std::to_string(diameters->size()) + " diameters has " +
                             std::to_string(lengths->size()) + " lengths",
                         "give each step one of both, from the bottom up");
+            continue;
+        }
+        if (steps.size() + diameters->size() > kMostHolderSteps) {
+            holder.fail("diameter_mm",
+                        "a holder of " + std::to_string(steps.size() + diameters->size()) +
+                            " steps, more than " + std::to_string(kMostHolderSteps),
+                        "join steps that differ little");
             continue;
         }
         for (std::size_t i = 0; i < diameters->size(); ++i) steps.push_back({(*diameters)[i], (*lengths)[i]});

@@ -6,6 +6,7 @@
 
 #include "base/text/decimal.hpp"
 #include "base/text/file_names.hpp"
+#include "job/toml/toml_key_parts.hpp"
 
 namespace tribo::job {
 namespace {
@@ -235,6 +236,13 @@ std::vector<const toml::table*> TomlSection::tables(std::string_view key) {
     if (const toml::table* table = node->as_table()) return {table};
     std::vector<const toml::table*> found;
     if (const toml::array* array = node->as_array()) {
+        if (array->size() > kMostTables) {
+            file_.fail(array->get(kMostTables)->source(),
+                       std::to_string(array->size()) + " tables " + in_quotes(key) + ", more than " +
+                           std::to_string(kMostTables),
+                       "leave out what is not used, or join several into one");
+            return {};
+        }
         for (const toml::node& item : *array) {
             if (const toml::table* table = item.as_table()) {
                 found.push_back(table);
@@ -255,6 +263,13 @@ const toml::table* TomlSection::only_table(std::string_view key) {
 }
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& file) {
+    if (text.size() > kLargestJobBytes) {
+        return fail_at(file, 0, 0,
+                       "the file has " + std::to_string(text.size()) + " bytes, more than " +
+                           std::to_string(kLargestJobBytes),
+                       "check that it is the right one: jobs, machines and profiles are written by hand");
+    }
+    if (auto good = check_key_parts(text, file); !good) return std::unexpected(good.error());
     toml::parse_result parsed = toml::parse(text, file);
     if (parsed) return std::move(parsed).table();
     const toml::parse_error& error = parsed.error();
