@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text/decimal.hpp"
+#include "job/program_tools.hpp"
 
 namespace tribo::job {
 namespace {
@@ -13,12 +14,6 @@ constexpr double kSpindleRpm = 10000, kFeedMmPerMin = 600, kDiameterMm = 6;
 constexpr const char* kMaterial = "al7075-t6";
 // Material beside and below the path, mm.
 constexpr double kBelowMm = 3;
-
-bool declared(const motion::Program& program, int number) {
-    return std::any_of(program.tools.begin(), program.tools.end(), [&](const motion::DeclaredTool& t) {
-        return (t.number == number || number == 0) && t.diameter_mm > 0;
-    });
-}
 
 // Around the feed moves. Where they reach below zero, zero is the top, as programs are mostly written; else
 // the top is what the highest feed move that is not a plunge touches.
@@ -56,17 +51,16 @@ Job job_of_program(const std::string& file, PathKind kind) {
     return job;
 }
 
-void assume_job(Job& job, const motion::Program& program, Warnings& warnings) {
-    std::vector<int> tools;
-    bool speed = false;
-    for (const motion::Move& move : program.moves) {
-        if (std::find(tools.begin(), tools.end(), move.tool) == tools.end()) tools.push_back(move.tool);
-        speed = speed || move.spindle_rpm > 0;
-    }
-    for (const int tool : tools) {
+Result<void> assume_job(Job& job, const motion::Program& program, Warnings& warnings) {
+    const auto tools = called_tools(program);
+    if (!tools) return std::unexpected(tools.error());
+    const bool speed = std::any_of(program.moves.begin(), program.moves.end(),
+                                   [](const motion::Move& move) { return move.spindle_rpm > 0; });
+    const DeclaredTools declared(program);
+    for (const int tool : *tools) {
         const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
                                            [&](const milling::Cutter& c) { return c.number == tool; });
-        if (described || declared(program, tool)) continue;
+        if (described || declared.find(tool) != nullptr) continue;
         milling::Cutter cutter;
         cutter.number = tool;
         cutter.diameter_mm = kDiameterMm;
@@ -93,6 +87,7 @@ void assume_job(Job& job, const motion::Program& program, Warnings& warnings) {
              "the program says no spindle speed: " + format_decimal(kSpindleRpm) + " rpm are assumed"});
     }
     warnings.push_back({program.source, 0, std::string("the material is assumed: ") + kMaterial});
+    return {};
 }
 
 }  // namespace tribo::job

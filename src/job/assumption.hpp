@@ -12,6 +12,7 @@ Job job_of_program(const std::string& file, PathKind kind);
 
 // Adds everything that complete_job() requires: a block around the path, with its top at zero if the path
 // goes below zero, and a cutter of 6 mm for each undescribed tool. Each assumption gives a warning.
-void assume_job(Job& job, const motion::Program& program, Warnings& warnings);
+// Refuses what called_tools() refuses.
+Result<void> assume_job(Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::job

@@ -3,20 +3,12 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 #include "base/text/decimal.hpp"
+#include "job/program_tools.hpp"
 
 namespace tribo::job {
 namespace {
-
-// The first that is declared: tables stand before what the program says itself.
-const motion::DeclaredTool* declared_tool(const motion::Program& program, int number) {
-    for (const motion::DeclaredTool& tool : program.tools) {
-        if ((tool.number == number || number == 0) && tool.diameter_mm > 0) return &tool;
-    }
-    return nullptr;
-}
 
 milling::Cutter cutter_of(const motion::DeclaredTool& tool, int number) {
     milling::Cutter cutter;
@@ -43,10 +35,11 @@ std::string description(const milling::Cutter& cutter, const motion::DeclaredToo
            format_decimal(cutter.length_mm) + " mm of edge are assumed";
 }
 
-void add_cutter(Job& job, const motion::Program& program, int number, Warnings& warnings) {
+void add_cutter(Job& job, const motion::Program& program, const DeclaredTools& declared, int number,
+                Warnings& warnings) {
     const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
                                        [&](const milling::Cutter& c) { return c.number == number; });
-    const motion::DeclaredTool* tool = described ? nullptr : declared_tool(program, number);
+    const motion::DeclaredTool* tool = described ? nullptr : declared.find(number);
     if (tool == nullptr) return;
     const milling::Cutter cutter = cutter_of(*tool, number);
     const std::string name = number > 0 ? "tool T" + std::to_string(number) : "the tool";
@@ -71,10 +64,10 @@ Result<void> complete_job(Job& job, const motion::Program& program, Warnings& wa
     }
     const bool one_for_all = job.cutters.size() == 1 && job.cutters[0].number == 0;
     if (!one_for_all) {
-        int last = -1;
-        for (const motion::Move& move : program.moves) {
-            if (std::exchange(last, move.tool) != move.tool) add_cutter(job, program, move.tool, warnings);
-        }
+        const auto tools = called_tools(program);
+        if (!tools) return std::unexpected(tools.error());
+        const DeclaredTools declared(program);
+        for (const int tool : *tools) add_cutter(job, program, declared, tool, warnings);
     }
     if (!job.cutters.empty()) return {};
     return fail_at(job.file, 0, 0,

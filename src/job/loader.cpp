@@ -2,6 +2,8 @@
 #include "job/loader.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "job/assumption.hpp"
@@ -16,34 +18,105 @@ void add(const Warnings& more, Warnings& warnings) {
     warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-FileResult<void> load_solid(const FileSource& files, const JobSolid& solid, Solid& loaded) {
-    if (!solid.model) {
-        loaded = box_solid(solid.box_mm);
-        return {};
+// A move, and its copies in vectors that grow and in the setup.
+constexpr std::uint64_t kMoveBytes = 3 * sizeof(motion::Move);
+// A triangle with its vertices, and with the tree and the normals of field::MeshDistance.
+constexpr std::uint64_t kTriangleBytes = 170;
+
+// What is left of LoadOptions::memory_bytes.
+class Budget {
+  public:
+    explicit Budget(std::uint64_t bytes)
+        : left_(bytes == 0 ? std::numeric_limits<std::uint64_t>::max() : bytes) {}
+
+    std::size_t moves() const {
+        return static_cast<std::size_t>(std::min<std::uint64_t>(readers::kMostMoves, left_ / kMoveBytes));
     }
-    auto model = files.read_model(*solid.model);
-    if (!model) return std::unexpected(model.error());
-    auto made = mesh_solid(std::move(model->mesh), solid.model->path);
-    if (!made) return std::unexpected(FileFailure(made.error()));
-    loaded = *std::move(made);
+    std::uint64_t triangles() const { return std::min(readers::kMaxTriangles, left_ / kTriangleBytes); }
+
+    void take(const motion::Program& program) { take(program.moves.size() * kMoveBytes); }
+    void take(const TriangleMesh& mesh) { take(mesh.triangles.size() * kTriangleBytes); }
+
+  private:
+    void take(std::uint64_t bytes) { left_ -= std::min(left_, bytes); }
+
+    std::uint64_t left_;
+};
+
+// Reads with a budget.
+struct Reading {
+    const FileSource& files;
+    const LoadOptions& options;
+    Budget budget{options.memory_bytes};
+    std::uint64_t solid_bytes = 0;
+
+    // `most`: of triangles, whatever the budget.
+    FileResult<readers::Model> model(const readers::ModelFile& file,
+                                     std::uint64_t most = readers::kMaxTriangles) {
+        readers::ModelFile limited = file;
+        limited.max_triangles = std::min(budget.triangles(), most);
+        auto read = files.read_model(limited);
+        if (read) budget.take(read->mesh);
+        return read;
+    }
+
+    FileResult<motion::Program> program(const Job& job) {
+        auto read = read_program(files, job, budget.moves(), options.clock_s);
+        if (read) budget.take(*read);
+        return read;
+    }
+
+    FileResult<Solid> solid(const JobSolid& solid, std::uint64_t most = readers::kMaxTriangles) {
+        if (!solid.model) return box_solid(solid.box_mm);
+        auto read = model(*solid.model, most);
+        if (!read) return std::unexpected(read.error());
+        auto made = mesh_solid(std::move(read->mesh), solid.model->path);
+        if (!made) return std::unexpected(FileFailure(made.error()));
+        solid_bytes += made->mesh->mesh().triangles.size() * kTriangleBytes;
+        return *std::move(made);
+    }
+};
+
+// `is_assumed`: what neither job nor program says is assumed.
+FileResult<void> read_path(Reading& reading, bool is_assumed, Job& job, motion::Program& program) {
+    auto read = reading.program(job);
+    if (!read) return std::unexpected(read.error());
+    program = *std::move(read);
+    if (is_assumed) {
+        if (auto done = assume_job(job, program, program.warnings); !done)
+            return std::unexpected(FileFailure(done.error()));
+    }
+    if (auto done = complete_job(job, program, program.warnings); !done)
+        return std::unexpected(FileFailure(done.error()));
     return {};
 }
 
-// `is_assumed`: what neither job nor program says is assumed.
-FileResult<void> read_path(const FileSource& files, bool is_assumed, Job& job, motion::Program& program) {
-    auto read = read_program(files, job);
-    if (!read) return std::unexpected(read.error());
-    program = *std::move(read);
-    if (is_assumed) assume_job(job, program, program.warnings);
-    if (auto done = complete_job(job, program, program.warnings); !done)
-        return std::unexpected(FileFailure(done.error()));
+// Reads each model of the fixtures once.
+FileResult<void> load_fixtures(Reading& reading, LoadedJob& loaded) {
+    std::map<std::pair<std::string, double>, std::size_t> read;  // by file and unit: number of the fixture
+    std::uint64_t left = kMostFixtureTriangles;
+    for (const JobSolid& fixture : loaded.job.fixtures) {
+        if (fixture.model) {
+            const std::pair key{reading.files.identity(fixture.model->path),
+                                fixture.model->unit_mm.value_or(0)};
+            const auto [known, is_new] = read.try_emplace(key, loaded.fixtures.size());
+            if (!is_new) {
+                loaded.fixtures.push_back(loaded.fixtures[known->second]);
+                continue;
+            }
+        }
+        auto solid = reading.solid(fixture, left);
+        if (!solid) return std::unexpected(solid.error());
+        if (solid->mesh) left -= solid->mesh->mesh().triangles.size();
+        loaded.fixtures.push_back(*std::move(solid));
+    }
     return {};
 }
 
 // The jobs that a job's stock comes from, from the last back to the first.
 class Chain {
   public:
-    Chain(const FileSource& files, LoadedJob& loaded) : files_(files), loaded_(loaded) {}
+    Chain(Reading& reading, LoadedJob& loaded) : reading_(reading), files_(reading.files), loaded_(loaded) {}
 
     FileResult<void> load() {
         const Job* job = &loaded_.job;
@@ -53,7 +126,10 @@ class Chain {
             loaded_.earlier.push_back(std::move(before));
             job = &loaded_.earlier.back().job;
         }
-        return load_solid(files_, job->stock, loaded_.blank);
+        auto blank = reading_.solid(job->stock);
+        if (!blank) return std::unexpected(blank.error());
+        loaded_.blank = *std::move(blank);
+        return {};
     }
 
   private:
@@ -93,11 +169,12 @@ class Chain {
         auto read = read_job(files_, file);
         if (!read) return std::unexpected(read.error());
         before.job = *std::move(read);
-        if (auto done = read_path(files_, false, before.job, before.program); !done) return done;
+        if (auto done = read_path(reading_, false, before.job, before.program); !done) return done;
         add(before.program.warnings, loaded_.warnings);
         return {};
     }
 
+    Reading& reading_;
     const FileSource& files_;
     LoadedJob& loaded_;
     std::vector<Link> links_;  // the jobs on the way back
@@ -107,15 +184,15 @@ class Chain {
 FileResult<void> load_all(const FileSource& files, bool is_assumed, const LoadOptions& options,
                           LoadedJob& loaded) {
     Job& job = loaded.job;
-    if (auto done = read_path(files, is_assumed, job, loaded.program); !done) return done;
+    Reading reading{files, options};
+    if (auto done = read_path(reading, is_assumed, job, loaded.program); !done) return done;
     loaded.warnings = loaded.program.warnings;
-    if (auto done = Chain(files, loaded).load(); !done) return done;
-    for (const JobSolid& fixture : job.fixtures) {
-        if (auto done = load_solid(files, fixture, loaded.fixtures.emplace_back()); !done) return done;
-    }
+    if (auto done = Chain(reading, loaded).load(); !done) return done;
+    if (auto done = load_fixtures(reading, loaded); !done) return done;
+    loaded.solid_bytes = reading.solid_bytes;
     if (!options.part.empty()) job.part = readers::ModelFile{options.part, {}};
     if (!job.part) return {};
-    auto part = files.read_model(*job.part);
+    auto part = reading.model(*job.part);
     if (!part) return std::unexpected(part.error());
     loaded.part = *std::move(part);
     add(loaded.part->warnings, loaded.warnings);
@@ -124,9 +201,10 @@ FileResult<void> load_all(const FileSource& files, bool is_assumed, const LoadOp
 
 }  // namespace
 
-FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job) {
+FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job, const LoadOptions& options) {
     motion::Program program;
-    if (auto done = read_path(files, false, job, program); !done) return std::unexpected(done.error());
+    Reading reading{files, options};
+    if (auto done = read_path(reading, false, job, program); !done) return std::unexpected(done.error());
     return program;
 }
 

@@ -3,6 +3,8 @@
 // the module of the page and by the tests. session::prepare_mill() makes a run from the result.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,16 +28,24 @@ struct LoadedJob {
     Solid blank;                      // of the first job, in its coordinates
     std::vector<EarlierJob> earlier;  // latest first; the stock of each is the result of the next entry
     std::vector<Solid> fixtures;
+    std::uint64_t solid_bytes = 0;       // memory of blank and fixtures that are meshes, about
     std::optional<readers::Model> part;  // the designed surface
     Warnings warnings;
 };
 
 struct LoadOptions {
-    std::string part;  // model of the designed surface in place of that of the job; empty: from the job
+    std::string part{};  // model of the designed surface in place of that of the job; empty: from the job
+    // Memory for moves and models, with all that is made of them before milling, bytes. More is refused
+    // before it is allocated. 0: only the limits of the readers.
+    std::uint64_t memory_bytes = 0;
+    std::function<double()> clock_s{};  // ends endless loops of programs; see readers::GcodeOptions
 };
 
 // Largest number of earlier jobs in a chain; more are probably a mistake.
 inline constexpr std::size_t kLongestChain = 100;
+
+// Largest number of triangles of all fixtures of a job; a model that several fixtures name is read once.
+inline constexpr std::uint64_t kMostFixtureTriangles = readers::kMaxTriangles;
 
 // Reads the job, its program, its blank or earlier jobs, fixtures and designed surface. Of earlier jobs only
 // the files that decide the stock are read, no designed surfaces, fixtures and sounds. Refuses cycles of
@@ -49,6 +59,7 @@ FileResult<LoadedJob> load_program(const FileSource& files, const std::string& n
 
 // Reads only the program of a job, and completes the job from it with complete_job(). Its warnings are added
 // to those of the program.
-FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job);
+FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job,
+                                              const LoadOptions& options = {});
 
 }  // namespace tribo::job

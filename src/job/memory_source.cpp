@@ -62,6 +62,7 @@ FileResult<readers::Model> MemorySource::read_model(const readers::ModelFile& fi
     readers::ModelOptions options;
     options.source_name = file.path;
     options.unit_mm = file.unit_mm;
+    options.max_triangles = file.max_triangles;
     options.neighbours = [this](std::string_view url, const std::string& from,
                                 std::uint64_t limit_bytes) -> Result<readers::ModelNeighbour> {
         std::string name = file_beside(from, url);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "base/text/file_names.hpp"
@@ -73,10 +74,14 @@ std::optional<PathKind> detect_by_content(std::string_view bytes) {
 
 Result<motion::Program> parse_keyframes(std::string_view bytes, const std::string& path,
                                         const ProgramFileOptions& options) {
-    const auto keyframes = readers::read_keyframes(bytes, {.source_name = path, .unit_mm = options.unit_mm});
+    readers::KeyframeOptions reading{.source_name = path, .unit_mm = options.unit_mm};
+    // Each keyframe after the first makes a move.
+    reading.max_keyframes = std::min(reading.max_keyframes, options.max_moves + 1);
+    const auto keyframes = readers::read_keyframes(bytes, reading);
     if (!keyframes) return std::unexpected(keyframes.error());
     motion::KeyframeOptions motion_options;
     motion_options.interpolation = options.interpolation;
+    motion_options.max_moves = options.max_moves;
     auto moves = motion::keyframe_moves(*keyframes, options.default_feed_mm_per_min, motion_options);
     if (!moves) {
         Error error = moves.error();
@@ -94,6 +99,7 @@ Result<motion::Program> parse_apt(std::string_view bytes, const std::string& pat
     readers::AptOptions apt;
     apt.source_name = path;
     apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
+    apt.max_moves = options.max_moves;
     return readers::read_apt(bytes, apt);
 }
 
@@ -104,6 +110,8 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     gcode.source_name = path;
     gcode.default_feed_mm_per_min = options.default_feed_mm_per_min;
     gcode.machine = options.machine;
+    gcode.max_moves = options.max_moves;
+    gcode.clock_s = options.clock_s;
     // The last of a number wins there, the first of it here.
     for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
@@ -159,10 +167,13 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
     return program;
 }
 
-FileResult<motion::Program> read_program(const FileSource& files, const Job& job) {
+FileResult<motion::Program> read_program(const FileSource& files, const Job& job, std::size_t max_moves,
+                                         const std::function<double()>& clock_s) {
     const FileResult<std::string> bytes = files.read(job.path.file, kLargestProgramBytes);
     if (!bytes) return std::unexpected(bytes.error());
     ProgramFileOptions options;
+    options.max_moves = max_moves;
+    options.clock_s = clock_s;
     options.default_feed_mm_per_min = job.process.feed_mm_per_min;
     options.unit_mm = job.path.unit_mm;
     options.interpolation = job.path.interpolation;
@@ -170,20 +181,21 @@ FileResult<motion::Program> read_program(const FileSource& files, const Job& job
     if (job.machine.kinematics) options.machine = &*job.machine.kinematics;
     readers::ToolTable table;
     if (!job.path.tools.empty()) {
-        const FileResult<std::string> text = files.read(job.path.tools, kLargestProgramBytes);
+        const FileResult<std::string> text = files.read(job.path.tools, kLargestToolTableBytes);
         if (!text) return std::unexpected(text.error());
         auto read = readers::read_tool_table(*text, {.source_name = job.path.tools});
         if (!read) return std::unexpected(FileFailure(read.error()));
         table = *std::move(read);
     }
+    std::map<int, std::optional<double>> length_mm;
+    for (const motion::DeclaredTool& tool : table.tools) length_mm[tool.number] = tool.length_mm;
     // The job's diameters before the table's.
     for (const milling::Cutter& cutter : job.cutters) {
         motion::DeclaredTool tool;
         tool.number = cutter.number;
         tool.diameter_mm = cutter.diameter_mm;
-        for (const motion::DeclaredTool& other : table.tools) {
-            if (other.number == tool.number) tool.length_mm = other.length_mm;
-        }
+        if (const auto known = length_mm.find(tool.number); known != length_mm.end())
+            tool.length_mm = known->second;
         options.tools.push_back(tool);
     }
     options.tools.insert(options.tools.end(), table.tools.begin(), table.tools.end());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,16 +17,20 @@
 
 namespace tribo::job {
 
-// Largest size of programs and tool tables; they are read into memory.
+// Largest size of programs; they are read into memory.
 inline constexpr std::uint64_t kLargestProgramBytes = std::uint64_t{2} << 30;
+// Largest size of tool tables: a quarter of a million tools.
+inline constexpr std::uint64_t kLargestToolTableBytes = std::uint64_t{16} << 20;
 
 struct ProgramFileOptions {
     double default_feed_mm_per_min = 0;  // if the program has none; 0: such G-code and APT is refused
     double unit_mm = 1;                  // of keyframes
     motion::Interpolation interpolation = motion::Interpolation::spline;  // of keyframes
-    std::optional<readers::Dialect> dialect{};  // of G-code; absent: detected from the text, else LinuxCNC
-    std::vector<motion::DeclaredTool> tools{};  // of tool table or job; they override those of the program
-    const motion::Machine* machine = nullptr;   // for the rotary words of G-code; motion::check accepts it
+    std::optional<readers::Dialect> dialect{};    // of G-code; absent: detected from the text, else LinuxCNC
+    std::vector<motion::DeclaredTool> tools{};    // of tool table or job; they override those of the program
+    const motion::Machine* machine = nullptr;     // for the rotary words of G-code; motion::check accepts it
+    std::size_t max_moves = readers::kMostMoves;  // more are refused
+    std::function<double()> clock_s{};            // ends endless loops; see GcodeOptions
 };
 
 // Detects the format by extension (.ngc .nc .gcode .tap ..., .apt .cls .cldata ..., .csv), else by content.
@@ -40,6 +45,8 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
 
 // Reads the program of a job, with the feed of the job as default. In Program::tools the tools of the tool
 // table come before those of the program.
-FileResult<motion::Program> read_program(const FileSource& files, const Job& job);
+FileResult<motion::Program> read_program(const FileSource& files, const Job& job,
+                                         std::size_t max_moves = readers::kMostMoves,
+                                         const std::function<double()>& clock_s = {});
 
 }  // namespace tribo::job

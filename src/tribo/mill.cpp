@@ -9,6 +9,7 @@
 #include "base/text/file_names.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
+#include "files/machine_limits.hpp"
 #include "files/memory.hpp"
 #include "session/cut/contact_of_cut.hpp"
 #include "session/cut/memory_estimate.hpp"
@@ -64,12 +65,16 @@ Mill::~Mill() = default;
 FileResult<Mill> Mill::open(const std::string& file, const MillOptions& options) {
     if (auto good = check(options); !good) return std::unexpected(FileFailure(good.error()));
     const auto load = extension_of(file) == ".toml" ? job::load_job : job::load_program;
-    auto loaded = load(files::DiskSource(), file, {});
+    const job::LoadOptions limits =
+        files::machine_limits(static_cast<std::uint64_t>(options.memory_mb.value_or(0) * kMegabyte));
+    auto loaded = load(files::DiskSource(), file, limits);
     if (!loaded) return std::unexpected(loaded.error());
     auto state = std::make_unique<State>();
     state->file = file;
     state->warnings = std::move(loaded->warnings);
-    auto setup = session::prepare_mill(*loaded, {options.cell_mm, options.until_s}, state->warnings);
+    session::MillOptions how{options.cell_mm, options.until_s};
+    how.memory_bytes = limits.memory_bytes;
+    auto setup = session::prepare_mill(*loaded, how, state->warnings);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
     if (auto fits = check_memory(*setup, options, file); !fits)
         return std::unexpected(FileFailure(fits.error()));

@@ -36,11 +36,15 @@ Result<void> check_memory(const session::MillSetup& setup, const std::string& na
 Result<LoadedMill> load_mill(const job::FileSource& files, const std::string& name, const std::string& part,
                              std::optional<double> cell_mm) {
     const auto load = extension_of(name) == ".toml" ? job::load_job : job::load_program;
-    auto loaded = load(files, name, {part});
+    job::LoadOptions limits;
+    limits.part = part;
+    limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
+    auto loaded = load(files, name, limits);
     if (!loaded) return std::unexpected(Error(loaded.error()));
     LoadedMill mill;
     mill.warnings = std::move(loaded->warnings);
-    auto setup = session::prepare_mill(*loaded, {cell_mm, {}, session::LiveMill::kPieceMm}, mill.warnings);
+    const session::MillOptions options{cell_mm, {}, session::LiveMill::kPieceMm, limits.memory_bytes};
+    auto setup = session::prepare_mill(*loaded, options, mill.warnings);
     if (!setup) return std::unexpected(setup.error());
     if (auto fits = check_memory(*setup, name); !fits) return std::unexpected(fits.error());
     mill.setup = std::move(*setup);

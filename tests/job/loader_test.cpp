@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "job/memory_source.hpp"
+#include "motion/path/program.hpp"
 
 namespace tribo::job {
 namespace {
@@ -159,6 +160,118 @@ TEST(Loader, reads_a_hundred_earlier_jobs_and_no_more) {
     ASSERT_TRUE(loaded) << loaded.error().text();
     EXPECT_EQ(loaded->earlier.size(), 100u);
     EXPECT_EQ(shelf.refusal_of("101.toml").substr(0, 44), "1.toml:3:8: error: more than 100 jobs begin ");
+}
+
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+// Counts the models that are read.
+class CountingShelf final : public FileSource {
+  public:
+    FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override {
+        return shelf.read(path, limit_bytes);
+    }
+    FileResult<readers::Model> read_model(const readers::ModelFile& file) const override {
+        ++models;
+        return shelf.read_model(file);
+    }
+    FileResult<StockSource> stock_source(const std::string& path) const override {
+        return shelf.stock_source(path);
+    }
+    std::string identity(const std::string& path) const override { return shelf.identity(path); }
+
+    Shelf shelf;
+    mutable int models = 0;
+};
+
+TEST(Loader, reads_a_model_once_for_all_fixtures_that_name_it) {
+    CountingShelf files;
+    files.shelf.memory.put("tetra.obj", kTetrahedron);
+    std::string text = std::string(kBox) + kRest;
+    for (int n = 0; n < 500; ++n)
+        text += std::string("[[fixture]]\nmesh = \"") + (n % 2 != 0 ? "./" : "") + "tetra.obj\"\n";
+    files.shelf.memory.put("a.toml", text + "[[fixture]]\nmesh = \"tetra.obj\"\nunit_mm = 2\n");
+    files.shelf.memory.put("./tetra.obj", kTetrahedron);
+    const auto loaded = load_job(files, "a.toml");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    ASSERT_EQ(loaded->fixtures.size(), 501u);
+    EXPECT_EQ(files.models, 2);
+    EXPECT_EQ(&loaded->fixtures[0].mesh->mesh(), &loaded->fixtures[499].mesh->mesh());
+    EXPECT_NEAR(loaded->fixtures[500].volume_mm3, 8.0 / 6, 1e-6);
+    // 170 bytes a triangle, of two meshes.
+    EXPECT_EQ(loaded->solid_bytes, 8u * 170);
+}
+
+TEST(Loader, keeps_to_the_memory_that_it_may_take) {
+    Shelf shelf;
+    shelf.memory.put("tetra.obj", kTetrahedron);
+    std::string moves = kSlot;
+    moves.resize(moves.size() - 4);  // without M30
+    for (int n = 0; n < 2000; ++n) moves += n % 2 != 0 ? "X0\n" : "X1\n";
+    shelf.memory.put("long.nc", moves);
+    std::string loop = kSlot;
+    loop.resize(loop.size() - 4);
+    shelf.memory.put("loop.nc", loop + "o1 while [1]\nX1\nX2\no1 endwhile\n");
+    std::string keyframes = "x,y,z,i,j,k\n";
+    for (int n = 0; n < 2000; ++n) keyframes += std::to_string(n) + ",0,0,0,0,1\n";
+    shelf.memory.put("keys.csv", keyframes);
+    const auto fault = [&](const std::string& text, std::uint64_t bytes, const std::string& name = "a.toml") {
+        shelf.memory.put("a.toml", text);
+        LoadOptions options;
+        options.memory_bytes = bytes;
+        const auto load = name == "a.toml" ? load_job : load_program;
+        const auto loaded = load(shelf, name, options);
+        return loaded ? "" : loaded.error().text();
+    };
+    const std::string rest = kRest;
+    const auto path = [&](const std::string& line) {
+        return rest.substr(0, rest.find("gcode =")) + line + "\n";
+    };
+    const std::uint64_t thousand_moves = 1000 * 3 * sizeof(motion::Move);
+    for (const char* file : {"long.nc", "loop.nc"}) {
+        const std::string message =
+            fault(kBox + path(std::string("gcode = \"") + file + "\""), thousand_moves);
+        EXPECT_TRUE(message.starts_with(std::string(file) + ":")) << message;
+        EXPECT_NE(message.find("the program has more than 1000 moves; split it, or allow more memory"),
+                  std::string::npos)
+            << message;
+    }
+    EXPECT_EQ(fault(kBox + path("gcode = \"long.nc\""), 3 * thousand_moves), "");
+    EXPECT_NE(fault(kBox + path("keyframes = \"keys.csv\"\ninterpolation = \"linear\""), thousand_moves)
+                  .find("keys.csv:1003:1: error: more than 1001 keyframes"),
+              std::string::npos);
+    EXPECT_NE(fault("", thousand_moves, "long.nc").find("more than 1000 moves"), std::string::npos);
+    // Fixtures, stock and part together.
+    const std::string solids = std::string("[stock]\nmesh = \"tetra.obj\"\n") + kRest +
+                               "[part]\nsurface = \"tetra.obj\"\n[[fixture]]\nmesh = \"tetra.obj\"\n";
+    EXPECT_EQ(fault(solids, 3 * sizeof(motion::Move) + 12 * 170), "");
+    EXPECT_EQ(fault(solids, 3 * sizeof(motion::Move) + 12 * 170 - 1),
+              "tetra.obj:8:9: error: more than 3 triangles; simplify the model, or allow more memory");
+}
+
+TEST(Loader, takes_as_many_different_tools_as_a_magazine_holds) {
+    Shelf shelf;
+    std::string text = "G21 G90 M3 F600\nG0 X-10 Y5 Z-2\n";
+    for (int n = 1; n <= 1001; ++n)
+        text += "T" + std::to_string(n) + " M6\nG1 X" + std::to_string(n % 2) + "\n";
+    shelf.memory.put("tools.nc", text + "M30\n");
+    const auto loaded = load_program(shelf, "tools.nc");
+    ASSERT_FALSE(loaded);
+    EXPECT_EQ(loaded.error().text(),
+              "tools.nc:2004: error: the program calls more than 1000 different tools; split it, or number "
+              "tools of one kind alike");
+}
+
+// The clock is the caller's.
+TEST(Loader, ends_loops_of_programs_by_the_clock) {
+    Shelf shelf;
+    shelf.memory.put("loop.nc", "G21 G90 M3 F600\nG0 X-10 Y5 Z-2\nG1\no1 while [1]\nX1\nX2\no1 endwhile\n");
+    LoadOptions options;
+    double now_s = 0;
+    options.clock_s = [&] { return now_s += 1; };
+    const auto loaded = load_program(shelf, "loop.nc", options);
+    ASSERT_FALSE(loaded);
+    EXPECT_NE(loaded.error().cause.find("have run for 3 s"), std::string::npos) << loaded.error().text();
 }
 
 }  // namespace

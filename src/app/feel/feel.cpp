@@ -25,6 +25,7 @@
 #include "field/mesh/mesh_field.hpp"
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
+#include "files/machine_limits.hpp"
 #include "files/model/model_file.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "job/loader.hpp"
@@ -227,10 +228,13 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
         return std::unexpected(FileFailure({call.job, 0, 0, "a job says the unit of its models itself",
                                             "set 'unit_mm' in the job, or give a model"}));
     }
-    auto loaded = job::load_job(files::DiskSource(), call.job);
+    const job::LoadOptions limits = files::machine_limits();
+    auto loaded = job::load_job(files::DiskSource(), call.job, limits);
     if (!loaded) return std::unexpected(loaded.error());
     part.warnings = std::move(loaded->warnings);
-    auto setup = session::prepare_mill(*loaded, {call.resolution_mm, call.until_s}, part.warnings);
+    session::MillOptions options{call.resolution_mm, call.until_s};
+    options.memory_bytes = limits.memory_bytes;
+    auto setup = session::prepare_mill(*loaded, options, part.warnings);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
     if (auto fits = check_memory(call.job, *setup, loaded->part, {}); !fits)
         return std::unexpected(FileFailure(fits.error()));
@@ -238,8 +242,8 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
     part.setup = std::move(*setup);
     if (call.mode == "cut") {
         Warnings said_before;
-        auto in_pieces = session::prepare_mill(
-            *loaded, {call.resolution_mm, call.until_s, session::LiveMill::kPieceMm}, said_before);
+        options.longest_piece_mm = session::LiveMill::kPieceMm;
+        auto in_pieces = session::prepare_mill(*loaded, options, said_before);
         if (!in_pieces) return std::unexpected(FileFailure(in_pieces.error()));
         part.in_time = std::move(*in_pieces);
     }

@@ -79,7 +79,9 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
 int render(const RenderCall& call) {
     const auto begin = std::chrono::steady_clock::now();
     const auto sound_rate_hz = call.wants("sound") ? std::optional(call.sample_rate_hz) : std::nullopt;
-    auto loaded = prepare_job(call.job, {call.resolution_mm, call.until_s}, sound_rate_hz);
+    session::MillOptions options{call.resolution_mm, call.until_s};
+    options.memory_bytes = static_cast<std::uint64_t>(call.memory_mb.value_or(0) * kMegabyte);
+    auto loaded = prepare_job(call.job, options, sound_rate_hz);
     if (!loaded) return report(loaded.error());
     const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound")};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "files/disk_source.hpp"
+#include "files/machine_limits.hpp"
 #include "files/memory.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "surface/deviation.hpp"
@@ -50,8 +51,11 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
 
 FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
                                     std::optional<int> sound_rate_hz) {
-    auto loaded = job::load_job(files::DiskSource(), file);
+    const job::LoadOptions limits = files::machine_limits(options.memory_bytes);
+    auto loaded = job::load_job(files::DiskSource(), file, limits);
     if (!loaded) return std::unexpected(loaded.error());
+    session::MillOptions limited = options;
+    limited.memory_bytes = limits.memory_bytes;
     PreparedJob prepared;
     prepared.warnings = std::move(loaded->warnings);
     if (sound_rate_hz) {
@@ -62,7 +66,7 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const session::Mill
         prepared.track.head = std::move(*head);
         if (auto read = read_voices(sound, prepared.track); !read) return std::unexpected(read.error());
     }
-    auto setup = session::prepare_mill(*loaded, options, prepared.warnings);
+    auto setup = session::prepare_mill(*loaded, limited, prepared.warnings);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
     prepared.setup = std::move(*setup);
     prepared.material = *session::job_material(loaded->job);

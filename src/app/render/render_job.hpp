@@ -27,7 +27,8 @@ struct PreparedJob {
     Warnings warnings;
 };
 
-// Loads from the disk. Reads sound files only if `sound_rate_hz` is set.
+// Loads from the disk, within options.memory_bytes or half of the machine's memory. Reads sound files only if
+// `sound_rate_hz` is set.
 FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
                                     std::optional<int> sound_rate_hz = {});
 

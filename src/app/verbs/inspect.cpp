@@ -14,6 +14,7 @@
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
 #include "files/gzip.hpp"
+#include "files/machine_limits.hpp"
 #include "files/model/model_file.hpp"
 #include "job/loader.hpp"
 #include "job/program_file.hpp"
@@ -92,6 +93,7 @@ FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job:
     }
     job::ProgramFileOptions options;
     if (machine.kinematics) options.machine = &*machine.kinematics;
+    options.clock_s = files::machine_limits().clock_s;
     const bool draws = !call.picture.empty();
     PathWatcher path(draws);
     const Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
@@ -116,7 +118,7 @@ FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
     const files::DiskSource disk;
     FileResult<job::Job> job = job::parse_job(bytes, file, disk);
     if (!job) return std::unexpected(job.error());
-    FileResult<motion::Program> program = job::read_and_complete(disk, *job);
+    FileResult<motion::Program> program = job::read_and_complete(disk, *job, files::machine_limits());
     if (!program) return std::unexpected(program.error());
     PathWatcher path(true);
     for (const motion::Move& move : program->moves) path.take(move);

@@ -135,8 +135,8 @@ struct Primitive {
 // Walks the nodes of a scene twice: first to count, then to copy.
 class GltfReader {
   public:
-    GltfReader(const tinygltf::Model& model, const std::string& file, double unit_mm)
-        : model_(model), file_(file), unit_mm_(unit_mm) {}
+    GltfReader(const tinygltf::Model& model, const readers::ModelOptions& options, double unit_mm)
+        : model_(model), options_(options), file_(options.source_name), unit_mm_(unit_mm) {}
 
     Result<TriangleMesh> read(const std::vector<int>& roots) {
         for (const bool copying : {false, true}) {
@@ -211,11 +211,9 @@ class GltfReader {
     Result<void> count(const Primitive& p, bool again) {
         triangles_ += p.triangles();
         if (!again) positions_ += p.points.count;
-        if (triangles_ > readers::kMaxTriangles || positions_ > 3 * readers::kMaxTriangles) {
-            return refused(
-                file_,
-                "the glTF scene shows more than " + std::to_string(readers::kMaxTriangles) + " triangles",
-                "simplify it");
+        if (triangles_ > options_.max_triangles || positions_ > 3 * options_.max_triangles) {
+            return fail_at(file_, 0, 0, "the glTF scene shows " + readers::too_many_triangles(options_),
+                           readers::fewer_triangles(options_));
         }
         return {};
     }
@@ -256,6 +254,7 @@ class GltfReader {
     }
 
     const tinygltf::Model& model_;
+    const readers::ModelOptions& options_;
     const std::string& file_;
     double unit_mm_;
     bool copying_ = false;
@@ -331,7 +330,7 @@ Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOpt
         const int scene = std::clamp(model.defaultScene, 0, static_cast<int>(model.scenes.size()) - 1);
         roots = model.scenes[static_cast<std::size_t>(scene)].nodes;
     }
-    auto mesh = GltfReader(model, file, unit_mm.value_or(1)).read(roots);
+    auto mesh = GltfReader(model, options, unit_mm.value_or(1)).read(roots);
     if (!mesh) return std::unexpected(mesh.error());
     readers::Model found;
     found.mesh = std::move(*mesh);

@@ -83,6 +83,7 @@ FileResult<readers::Model> read_model_file(const readers::ModelFile& file) {
     readers::ModelOptions options;
     options.source_name = file.path;
     options.unit_mm = file.unit_mm;
+    options.max_triangles = file.max_triangles;
     options.neighbours = Neighbours(file.path);
     const auto format = readers::detect_model_format(*bytes, file.path);
     auto model = format == readers::ModelFormat::gltf ? read_gltf(*bytes, options)

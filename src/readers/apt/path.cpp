@@ -78,11 +78,8 @@ motion::Move Path::new_move(motion::MoveKind kind, const Item& at) const {
 }
 
 Result<void> Path::append(motion::Move move) {
-    if (program_.moves.size() >= options_.max_moves) {
-        return fail_at(options_.source_name, move.line, 1,
-                       "the program has more than " + std::to_string(options_.max_moves) + " moves",
-                       "split it");
-    }
+    if (program_.moves.size() >= options_.max_moves)
+        return refuse_more_moves(options_.source_name, move.line, options_.max_moves);
     program_.moves.push_back(std::move(move));
     return {};
 }

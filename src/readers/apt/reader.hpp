@@ -12,6 +12,7 @@
 #include "base/result.hpp"
 #include "motion/path/program.hpp"
 #include "readers/text/length_unit.hpp"
+#include "readers/text/move_limit.hpp"
 
 namespace tribo::readers {
 
@@ -19,7 +20,7 @@ struct AptOptions {
     std::string source_name;                           // used in messages
     LengthUnit default_unit = LengthUnit::millimetre;  // without a UNITS statement, with a warning
     double default_feed_mm_per_min = 0;                // for feed moves before the first FEDRAT; 0: refused
-    std::size_t max_moves = 10'000'000;                // more are refused: at 300 bytes each they take 3 GB
+    std::size_t max_moves = kMostMoves;                // more are refused
 };
 
 // Returns the moves of a program in the frame of its points; with several MSYS, in the frame of the first

@@ -17,6 +17,7 @@
 #include "motion/machine/machine.hpp"
 #include "motion/path/program.hpp"
 #include "readers/text/length_unit.hpp"
+#include "readers/text/move_limit.hpp"
 
 namespace tribo::readers {
 
@@ -44,7 +45,7 @@ struct GcodeOptions {
     bool skip_deletable_blocks = true;         // blocks with a leading '/'
     std::vector<GcodeTool> tools;              // for G41 and G42; they override the tools of the program
     const motion::Machine* machine = nullptr;  // for rotary words; motion::check accepts it
-    std::size_t max_moves = 10'000'000;        // more are refused: at 300 bytes each they take 3 GB
+    std::size_t max_moves = kMostMoves;        // more are refused
     // Loops and calls that run longer count as endless (control/run_limit.hpp).
     std::size_t max_steps = 20'000'000;  // blocks
     double max_loop_s = 3;

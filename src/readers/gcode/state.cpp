@@ -67,8 +67,7 @@ std::unexpected<Error> Output::refuse(int line, int column, std::string cause, s
 }
 
 std::unexpected<Error> Output::refuse_more_moves(int line) const {
-    return refuse(line, 1, "the program has more than " + std::to_string(options.max_moves) + " moves",
-                  "split it");
+    return readers::refuse_more_moves(options.source_name, line, options.max_moves);
 }
 
 }  // namespace tribo::readers::gcode

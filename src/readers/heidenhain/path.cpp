@@ -56,11 +56,8 @@ void Path::note_machine_needed(int line, const std::string& what) {
 }
 
 Result<void> Path::append(const motion::Move& move) {
-    if (moves >= options.max_moves) {
-        return refuse({move.line, 1},
-                      "the program has more than " + std::to_string(options.max_moves) + " moves",
-                      "split it");
-    }
+    if (moves >= options.max_moves)
+        return refuse_more_moves(options.source_name, move.line, options.max_moves);
     ++moves;
     if (sink_ != nullptr) {
         sink_->take(move);

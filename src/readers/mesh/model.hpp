@@ -28,6 +28,7 @@ inline constexpr std::uint64_t kMaxTriangles = 20'000'000;
 struct ModelFile {
     std::string path;
     std::optional<double> unit_mm;  // millimetres per unit of the file, > 0; absent: see ModelOptions
+    std::uint64_t max_triangles = kMaxTriangles;  // more are refused; at most kMaxTriangles
 };
 
 // A file named by a model (VRML: Inline, EXTERNPROTO).
@@ -47,7 +48,8 @@ struct ModelOptions {
     // Length of one unit of the file, mm; finite, > 0. Absent: the unit stated in the file (only the glTF of
     // Tribo states one), else 1.
     std::optional<double> unit_mm = std::nullopt;
-    ModelNeighbours neighbours = {};  // absent: a model that needs another file is refused
+    ModelNeighbours neighbours = {};              // absent: a model that needs another file is refused
+    std::uint64_t max_triangles = kMaxTriangles;  // as in ModelFile
 
     double unit() const { return unit_mm.value_or(1); }
 };

@@ -62,6 +62,15 @@ std::optional<Point3f> to_position(double x, double y, double z, double unit_mm)
     return p;
 }
 
+std::string too_many_triangles(const ModelOptions& options) {
+    return "more than " + std::to_string(options.max_triangles) + " triangles";
+}
+
+std::string fewer_triangles(const ModelOptions& options) {
+    return options.max_triangles < kMaxTriangles ? "simplify the model, or allow more memory"
+                                                 : "simplify the model";
+}
+
 void warn_of_crossing_faces(Model& model, const ModelOptions& options, std::uint64_t faces) {
     if (faces == 0) return;
     model.warnings.push_back({options.source_name, 0,

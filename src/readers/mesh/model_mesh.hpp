@@ -2,6 +2,8 @@
 // Common last steps of all model readers.
 #pragma once
 
+#include <string>
+
 #include "base/mesh.hpp"
 #include "readers/mesh/model.hpp"
 
@@ -13,6 +15,10 @@ enum class Weld { no, exact };
 
 // Returns the point in mm; none if it is not finite or beyond single precision.
 std::optional<Point3f> to_position(double x, double y, double z, double unit_mm);
+
+// Cause and remedy of the refusal of a model with too many triangles.
+std::string too_many_triangles(const ModelOptions& options);
+std::string fewer_triangles(const ModelOptions& options);
 
 // Warns of faces that intersect themselves or have no area.
 void warn_of_crossing_faces(Model& model, const ModelOptions& options, std::uint64_t faces);

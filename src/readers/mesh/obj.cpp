@@ -119,8 +119,8 @@ class ObjReader {
             points_.push_back(model_.mesh.position(corners_.back()));
         }
         if (corners_.size() < 3) return fail_here("a face needs three corners", "export again");
-        if (model_.mesh.triangles.size() + corners_.size() - 2 > kMaxTriangles) {
-            return fail_here("more than 20 million triangles", "simplify the model");
+        if (model_.mesh.triangles.size() + corners_.size() - 2 > options_.max_triangles) {
+            return fail_here(too_many_triangles(options_), fewer_triangles(options_));
         }
         if (!triangulator_.append(corners_, points_, model_.mesh.triangles)) {
             return fail_here(PolygonTriangulator::kTooConcave, PolygonTriangulator::kTooConcaveRemedy);

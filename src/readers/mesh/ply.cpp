@@ -227,8 +227,9 @@ class PlyReader {
     Result<void> read_face(const PlyElement& element, std::uint64_t row, const PlyProperty& p) {
         const auto length = read_length(element, row, p);
         if (!length) return std::unexpected(length.error());
-        if (model_.mesh.triangles.size() + *length > kMaxTriangles) {
-            return fail_in(element, row, "more than 20 million triangles");
+        if (model_.mesh.triangles.size() + *length > options_.max_triangles + 2) {
+            return fail_at(options_.source_name, values_.line(), values_.column(),
+                           too_many_triangles(options_), fewer_triangles(options_));
         }
         corners_.clear();
         points_.clear();

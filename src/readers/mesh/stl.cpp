@@ -97,9 +97,9 @@ class StlTextReader {
         if (auto ok = expect("endloop"); !ok) return ok;
         if (auto ok = expect("endfacet"); !ok) return ok;
         auto& triangles = model_.mesh.triangles;
-        if (triangles.size() == kMaxTriangles) {
-            return fail_at(options_.source_name, cursor_.line(), 0, "more than 20 million triangles",
-                           "simplify the model");
+        if (triangles.size() == options_.max_triangles) {
+            return fail_at(options_.source_name, cursor_.line(), 0, too_many_triangles(options_),
+                           fewer_triangles(options_));
         }
         const auto end = static_cast<std::uint32_t>(model_.mesh.positions.size());
         triangles.push_back({end - 3, end - 2, end - 1});
@@ -144,8 +144,8 @@ Result<Model> read_binary(std::string_view bytes, const ModelOptions& options) {
                            " triangles, but there are bytes for " + std::to_string(there),
                        "the file is cut short or not STL; export it again");
     }
-    if (count > kMaxTriangles) {
-        return fail_at(options.source_name, 0, 0, "more than 20 million triangles", "simplify the model");
+    if (count > options.max_triangles) {
+        return fail_at(options.source_name, 0, 0, too_many_triangles(options), fewer_triangles(options));
     }
     Model model{.mesh = {}, .parts = {}, .format = ModelFormat::stl, .warnings = {}};
     model.mesh.positions.reserve(static_cast<std::size_t>(3 * count));

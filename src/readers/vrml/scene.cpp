@@ -158,9 +158,9 @@ class SceneReader {
         Summary all;
         for (const VrmlNodeId root : tree_.roots) {
             add(all, summary_[root]);
-            if (all.triangles > kMaxTriangles) {
-                return tree_.refuse(node(root).place, "the model unfolds to more than 20 million triangles",
-                                    "simplify the model");
+            if (all.triangles > options_.max_triangles) {
+                return tree_.refuse(node(root).place, "the model unfolds to " + too_many_triangles(options_),
+                                    fewer_triangles(options_));
             }
             if (all.visits > kMaxVisits) {
                 return tree_.refuse(node(root).place, "the model unfolds to more than 4 million nodes",

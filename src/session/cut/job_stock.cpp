@@ -51,8 +51,10 @@ std::uint64_t hash_of(const job::StockRecord& left, const motion::WorkFrame& fra
 }
 
 // Returns the cuts of an earlier job, in its own coordinates.
-Result<EarlierCuts> planned_cuts(const job::EarlierJob& earlier, Warnings& warnings) {
+Result<EarlierCuts> planned_cuts(const job::EarlierJob& earlier, Warnings& warnings,
+                                 std::uint64_t memory_bytes) {
     MillOptions options;
+    options.memory_bytes = memory_bytes;
     if (earlier.source.record) options.until_s = earlier.source.record->until_s;
     auto setup = prepare_moves(earlier.job, earlier.program, options, warnings);
     if (!setup) return std::unexpected(setup.error());
@@ -73,7 +75,7 @@ Result<void> check_record(const job::Job& next, const job::StockSource& source, 
 
 }  // namespace
 
-Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings) {
+Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings, std::uint64_t memory_bytes) {
     JobStock stock;
     stock.blank_volume_mm3 = loaded.blank.volume_mm3;
     stock.hash = loaded.blank.hash;
@@ -81,7 +83,7 @@ Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings) {
     std::vector<Link> links;
     for (std::size_t n = loaded.earlier.size(); n-- > 0;) {
         const job::Job& next = n > 0 ? loaded.earlier[n - 1].job : loaded.job;
-        auto cuts = planned_cuts(loaded.earlier[n], warnings);
+        auto cuts = planned_cuts(loaded.earlier[n], warnings, memory_bytes);
         if (!cuts) return std::unexpected(cuts.error());
         const job::StockRecord now = record_of(*cuts, stock.hash);
         if (auto same = check_record(next, loaded.earlier[n].source, now); !same)

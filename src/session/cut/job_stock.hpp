@@ -23,8 +23,8 @@ struct JobStock {
 
 // Refuses an earlier job that prepare_moves() refuses. Also refuses a render folder whose record differs from
 // its job file as it is now; the error is at the place of `from`. Assumptions about earlier jobs are added
-// to `warnings`.
-Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings);
+// to `warnings`. `memory_bytes`: as in MillOptions, for each earlier job.
+Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings, std::uint64_t memory_bytes = 0);
 
 // The record that a later job checks. The caller sets version and job file.
 job::StockRecord stock_record(const MillSetup& setup);

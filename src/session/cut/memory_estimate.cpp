@@ -151,7 +151,9 @@ double tests_at(const MillSetup& setup, double edge) {
 }  // namespace
 
 MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
-    : blank_(setup.blank->bounds_mm()), coarse_mm_(field::kBrickCells * cell_mm) {
+    : blank_(setup.blank->bounds_mm()),
+      coarse_mm_(field::kBrickCells * cell_mm),
+      solid_bytes_(static_cast<double>(setup.solid_bytes)) {
     const Vec3 size = blank_.size();
     const auto cells = [&] {
         return (size.x / coarse_mm_ + 1) * (size.y / coarse_mm_ + 1) * (size.z / coarse_mm_ + 1);
@@ -187,7 +189,8 @@ double MemoryEstimate::touched_bricks(double cell_mm) const {
 }
 
 double MemoryEstimate::session_bytes(double cell_mm) const {
-    return moves_ * (kMoveBytes + kSweepBytes) + curved_moves_ * (kCurvedSweepBytes - kSweepBytes) +
+    return solid_bytes_ + moves_ * (kMoveBytes + kSweepBytes) +
+           curved_moves_ * (kCurvedSweepBytes - kSweepBytes) +
            field::CarvedField::estimated_bytes(blank_, cell_mm, cut_bricks(cell_mm), touched_bricks(cell_mm));
 }
 

@@ -20,7 +20,7 @@ class MemoryEstimate {
     // `cell_mm`: the spacing for which the estimate is most accurate.
     MemoryEstimate(const MillSetup& setup, double cell_mm);
 
-    // Bytes of the session after the run: moves, sweeps and field.
+    // Bytes of the session after the run: blank and fixtures, moves, sweeps and field.
     double session_bytes(double cell_mm) const;
     // Additional bytes of field::contour, with its mesh.
     double mesh_bytes(double cell_mm) const;
@@ -35,7 +35,7 @@ class MemoryEstimate {
     Box3 blank_;
     double coarse_mm_ = 1;
     double surface_cells_ = 0, touched_cells_ = 0;
-    double moves_ = 0, curved_moves_ = 0;
+    double moves_ = 0, curved_moves_ = 0, solid_bytes_ = 0;
 };
 
 // A run over the memory budget, and a grid with which it fits.

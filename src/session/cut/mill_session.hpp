@@ -40,6 +40,7 @@ struct MillSetup {
     std::vector<EarlierCuts> earlier;  // carved before the run, in this order
     std::uint64_t stock_hash = 0;      // hash of blank, earlier cuts and frames
     std::vector<std::unique_ptr<const field::Shape>> fixtures;
+    std::uint64_t solid_bytes = 0;  // memory of blank and fixtures that are meshes, about
     std::optional<PrescribedEngagement> engagement;
     motion::TimingOptions timing;
     std::shared_ptr<const motion::Schedule> schedule;  // of the moves; null: schedule_of() computes it

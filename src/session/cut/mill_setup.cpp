@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
 #include "motion/path/close_passes.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
+#include "readers/text/move_limit.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/part_in_stock.hpp"
 
@@ -19,14 +21,14 @@ namespace {
 class ToolChoice {
   public:
     ToolChoice(const job::Job& job, const motion::Program& program, Warnings& warnings)
-        : job_(job), program_(program), warnings_(warnings) {}
+        : job_(job), program_(program), warnings_(warnings) {
+        for (std::size_t n = 0; n < job.cutters.size(); ++n) index_.emplace(job.cutters[n].number, n);
+    }
 
     Result<std::size_t> cutter_for(const motion::Move& move) {
         const auto& cutters = job_.cutters;
         if (move.tool == 0) return 0;
-        for (std::size_t n = 0; n < cutters.size(); ++n) {
-            if (cutters[n].number == move.tool) return n;
-        }
+        if (const auto known = index_.find(move.tool); known != index_.end()) return known->second;
         if (cutters.size() == 1 && cutters[0].number == 0) {
             if (!warned_) {
                 warnings_.push_back({program_.source, move.line,
@@ -45,8 +47,18 @@ class ToolChoice {
     const job::Job& job_;
     const motion::Program& program_;
     Warnings& warnings_;
+    std::map<int, std::size_t> index_;  // of the cutter, by its number
     bool warned_ = false;
 };
+
+// A move and its copies while vectors grow.
+constexpr std::uint64_t kMoveBytes = 3 * sizeof(motion::Move);
+
+std::size_t most_moves(const MillOptions& options) {
+    if (options.memory_bytes == 0) return readers::kMostMoves;
+    return static_cast<std::size_t>(
+        std::min<std::uint64_t>(readers::kMostMoves, options.memory_bytes / kMoveBytes));
+}
 
 void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& source, Warnings& warnings) {
     for (const milling::Cutter& cutter : setup.cutters) {
@@ -132,6 +144,12 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             PrescribedEngagement{job.engagement->entry_deg * math::kRadPerDeg,
                                  job.engagement->exit_deg * math::kRadPerDeg, job.engagement->axial_depth_mm};
     }
+    const std::size_t most = most_moves(options);
+    const auto refuse_more = [&](const motion::Move& move) {
+        return fail_at(program.source, move.line, 0,
+                       "up to here the moves are split into more than " + std::to_string(most) + " pieces",
+                       "split the program, check its unit, or allow more memory");
+    };
     ToolChoice tools(job, program, warnings);
     for (const motion::Move& move : program.moves) {
         const auto cutter = tools.cutter_for(move);
@@ -146,7 +164,12 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             setup.cutter_of_move.push_back(*cutter);
             setup.rpm_of_move.push_back(rpm);
         };
+        if (setup.moves.size() + motion::count_elementary(move) > most) return refuse_more(move);
         for (const motion::Move& piece : motion::to_elementary(move)) {
+            const double parts =
+                options.longest_piece_mm ? motion::path_length_mm(piece) / *options.longest_piece_mm : 1;
+            if (!(static_cast<double>(setup.moves.size()) + parts <= static_cast<double>(most)))
+                return refuse_more(move);
             if (!options.longest_piece_mm) {
                 add(piece);
                 continue;
@@ -165,7 +188,7 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
 }
 
 Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& options, Warnings& warnings) {
-    auto stock = stock_of(loaded, warnings);
+    auto stock = stock_of(loaded, warnings, options.memory_bytes);
     if (!stock) return std::unexpected(stock.error());
     auto prepared = prepare_moves(loaded.job, loaded.program, options, warnings);
     if (!prepared) return std::unexpected(prepared.error());
@@ -178,6 +201,7 @@ Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& 
     setup.blank_volume_mm3 = stock->blank_volume_mm3;
     setup.earlier = std::move(stock->earlier);
     setup.stock_hash = stock->hash;
+    setup.solid_bytes = loaded.solid_bytes;
     for (const job::Solid& fixture : loaded.fixtures) setup.fixtures.push_back(job::shape_of(fixture));
     return setup;
 }

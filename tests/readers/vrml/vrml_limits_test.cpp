@@ -101,7 +101,7 @@ const Trap kTraps[] = {
          return doubled(" Group { children " + many + "}\n", "DEF ", " Group { children [ USE @ USE @ ] }\n",
                         200);
      },
-     "20 million triangles"},
+     "20000000 triangles"},
     {"30 doublings by prototypes",
      [] {
          return doubled(" [ ] { " + kTriangle + "}\n", "PROTO ",
@@ -123,15 +123,15 @@ const Trap kTraps[] = {
          return kHeader +
                 "Shape { geometry ElevationGrid { xDimension 1000000 zDimension 1000000 height [ 0 ] } }";
      },
-     "20 million triangles"},
+     "20000000 triangles"},
     {"an extrusion of a hundred million sides",
      [] {
          return kHeader + "Shape { geometry Extrusion { crossSection [ " + repeated("0 1 1 0 ", 5'000) +
                 "] spine [ " + repeated("0 0 0 0 1 0 ", 5'000) + "] } }";
      },
-     "20 million triangles"},
+     "20000000 triangles"},
     {"10,000 spheres", [] { return kHeader + repeated("Shape { geometry Sphere { } }\n", 10'000); },
-     "20 million triangles"},
+     "20000000 triangles"},
 };
 
 // Ends the process with 0 where the reader did as it should.

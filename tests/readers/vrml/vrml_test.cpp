@@ -235,8 +235,7 @@ TEST(Vrml, doubling_by_use_fails_at_once) {
     forty.replace(forty.find("0 1 2 -1"), 8, faces);
     none.replace(none.find("0 1 2 -1"), 8, "0 1 -1");
     // All of N0 to N18 are seen: 40 (2^19 - 1) triangles are the first sum above the limit.
-    expect_refused({"triangles", doubled(forty, 200), 20, "more than 20 million triangles"},
-                   ModelFormat::vrml);
+    expect_refused({"triangles", doubled(forty, 200), 20, "more than 20000000 triangles"}, ModelFormat::vrml);
     expect_refused({"nodes", doubled(kTriangle, 200), 22, "more than 4 million nodes"}, ModelFormat::vrml);
     // Nothing to see unfolds to nothing, and costs nothing.
     expect_refused({"nothing", doubled(none, 200), 0, "no triangles"}, ModelFormat::vrml);
