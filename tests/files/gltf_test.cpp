@@ -177,6 +177,18 @@ TEST(Gltf, counts_a_mesh_once_for_every_node_before_it_is_copied) {
     EXPECT_NE(why(glb(json, binary)).find("more than 20000000 triangles"), std::string::npos);
 }
 
+TEST(Gltf, counts_the_primitives_that_its_nodes_show) {
+    // 200 kB: a thousand empty primitives, shown by two thousand nodes.
+    Json json = one_triangle();
+    for (int n = 0; n < 1000; ++n)
+        json["meshes"][0]["primitives"].push_back({{"attributes", Json::object()}});
+    for (int n = 1; n < 2000; ++n) {
+        json["nodes"].push_back({{"mesh", 0}});
+        json["scenes"][0]["nodes"].push_back(n);
+    }
+    EXPECT_NE(why(glb(json, bytes_of(kCorners))).find("more than a million primitives"), std::string::npos);
+}
+
 struct Bad {
     const char* name;
     void (*spoil)(Json&);

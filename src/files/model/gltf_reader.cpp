@@ -17,6 +17,8 @@ namespace {
 using Matrix = std::array<double, 16>;
 constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 constexpr int kMostNodes = 100'000;  // visited nodes; ends the walk of a graph that is not a tree
+// Visited primitives: a mesh of many empty ones may be shown by every node.
+constexpr int kMostPrimitives = 1'000'000;
 
 Matrix product(const Matrix& a, const Matrix& b) {
     Matrix c{};
@@ -141,7 +143,7 @@ class GltfReader {
     Result<TriangleMesh> read(const std::vector<int>& roots) {
         for (const bool copying : {false, true}) {
             copying_ = copying;
-            visited_ = 0;
+            visited_ = primitives_ = 0;
             if (copying) {
                 mesh_.positions.reserve(positions_);
                 mesh_.triangles.reserve(triangles_);
@@ -178,6 +180,10 @@ class GltfReader {
     }
 
     Result<void> primitive(const tinygltf::Primitive& p, const Matrix& here, int& copied) {
+        if (++primitives_ > kMostPrimitives) {
+            return refused(file_, "the glTF scene shows more than a million primitives",
+                           "join the primitives of each mesh, or simplify the scene");
+        }
         if (p.mode != TINYGLTF_MODE_TRIANGLES && p.mode != -1) {
             return refused(file_, "a glTF mesh is not made of plain triangles",
                            "export it as triangles, without strips, fans or compression");
@@ -258,7 +264,7 @@ class GltfReader {
     const std::string& file_;
     double unit_mm_;
     bool copying_ = false;
-    int visited_ = 0;
+    int visited_ = 0, primitives_ = 0;
     std::size_t positions_ = 0, triangles_ = 0;
     TriangleMesh mesh_;
 };
