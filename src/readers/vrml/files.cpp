@@ -47,7 +47,7 @@ Result<void> VrmlFiles::load(Known& known, ModelNeighbour file, const VrmlPlace&
     return {};
 }
 
-Result<const VrmlTop*> VrmlFiles::open(std::string_view url, const VrmlPlace& at) {
+Result<VrmlFiles::Known*> VrmlFiles::open(std::string_view url, const VrmlPlace& at) {
     const std::string remedy = "put the file beside the model, or export the model as one file";
     const auto key = std::pair(at.file, url);
     auto asked = asked_.find(key);
@@ -77,13 +77,29 @@ Result<const VrmlTop*> VrmlFiles::open(std::string_view url, const VrmlPlace& at
         asked = asked_.emplace(key, std::move(number)).first;
     }
     if (!asked->second) return std::unexpected(asked->second.error());
-    const Known& known = known_[*asked->second];
+    Known& known = known_[*asked->second];
     if (known.is_open) {
         return tree_.refuse(at, "the file " + quoted(url) + " names itself, directly or through others",
                             "break the circle");
     }
     if (!known.top) return std::unexpected(known.top.error());
-    return &*known.top;
+    if (!known.first_link) {
+        known.first_link = static_cast<std::uint32_t>(tree_.links.size());
+        tree_.links.insert(tree_.links.end(), known.top->roots.begin(), known.top->roots.end());
+        known.prototypes.insert(known.top->prototypes.begin(), known.top->prototypes.end());
+    }
+    return &known;
+}
+
+std::unexpected<Error> VrmlFiles::refuse_urls(const VrmlPlace& at) const {
+    return tree_.refuse(at, "a node names more than " + std::to_string(kMaxVrmlUrls) + " files",
+                        "name the file that it shows");
+}
+
+// Returns the number for VrmlNode::number.
+std::uint32_t VrmlFiles::refusal(Error error) {
+    tree_.refusals.push_back(std::move(error));
+    return static_cast<std::uint32_t>(tree_.refusals.size());
 }
 
 VrmlNodeId VrmlFiles::add_inline(const VrmlNodeType& type, const VrmlPlace& at,
@@ -96,40 +112,58 @@ VrmlNodeId VrmlFiles::add_inline(const VrmlNodeType& type, const VrmlPlace& at,
         urls.assign(given.begin(), given.end());
         children.value.start = field.value.start;
     }
+    if (++inlines_ > kMaxVrmlInlines) {
+        const VrmlNodeId node = tree_.add(type, at, {});
+        if (too_many_inlines_ == 0) {
+            too_many_inlines_ = refusal(
+                tree_
+                    .refuse(at,
+                            "the model has more than " + std::to_string(kMaxVrmlInlines) + " Inline nodes",
+                            "export it as one file")
+                    .error());
+        }
+        tree_.nodes[node].number = too_many_inlines_;
+        return node;
+    }
     std::optional<Error> first_error;
+    if (urls.size() > kMaxVrmlUrls) {
+        first_error = refuse_urls(children.value.start).error();
+        urls.clear();
+    }
     for (const std::string_view url : urls) {
-        const auto top = open(url, children.value.start);
-        if (!top) {
-            if (!first_error) first_error = top.error();
+        const auto file = open(url, children.value.start);
+        if (!file) {
+            if (!first_error) first_error = file.error();
             continue;
         }
-        const std::vector<VrmlNodeId>& roots = (*top)->roots;
-        if (roots.empty()) return tree_.add(type, at, {});
+        const std::size_t roots = (*file)->top->roots.size();
+        if (roots == 0) return tree_.add(type, at, {});
         children.value.kind = VrmlValue::Kind::nodes;
-        children.value.first = static_cast<std::uint32_t>(tree_.links.size());
-        children.value.count = static_cast<std::uint32_t>(roots.size());
-        tree_.links.insert(tree_.links.end(), roots.begin(), roots.end());
+        children.value.first = *(*file)->first_link;
+        children.value.count = static_cast<std::uint32_t>(roots);
         return tree_.add(type, at, std::span(&children, 1));
     }
     const VrmlNodeId node = tree_.add(type, at, {});
-    if (first_error) {
-        tree_.refusals.push_back(*std::move(first_error));
-        tree_.nodes[node].number = static_cast<std::uint32_t>(tree_.refusals.size());
-    }
+    if (first_error) tree_.nodes[node].number = refusal(*std::move(first_error));
     return node;
 }
 
 Result<std::uint32_t> VrmlFiles::read_external(std::span<const std::string_view> urls, const VrmlPlace& at) {
     std::optional<Error> first_error;
+    if (urls.size() > kMaxVrmlUrls) return refuse_urls(at);
     for (const std::string_view url : urls) {
         const std::size_t hash = url.find('#');
-        const auto top = open(url.substr(0, hash), at);
-        if (!top) {
-            if (!first_error) first_error = top.error();
+        const auto file = open(url.substr(0, hash), at);
+        if (!file) {
+            if (!first_error) first_error = file.error();
             continue;
         }
-        for (const auto& [name, number] : (*top)->prototypes) {
-            if (hash == std::string_view::npos || name == url.substr(hash + 1)) return number;
+        const auto& in_order = (*file)->top->prototypes;
+        if (hash == std::string_view::npos) {
+            if (!in_order.empty()) return in_order.front().second;
+        } else if (const auto named = (*file)->prototypes.find(url.substr(hash + 1));
+                   named != (*file)->prototypes.end()) {
+            return named->second;
         }
         if (!first_error) {
             first_error =

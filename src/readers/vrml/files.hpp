@@ -13,6 +13,8 @@ namespace tribo::readers {
 inline constexpr std::uint64_t kMaxVrmlText = 64 * 1024 * 1024;
 inline constexpr std::size_t kMaxVrmlFiles = 1000;
 inline constexpr int kMaxVrmlFileDepth = 8;
+// Limits of the files that one node names, and of Inline nodes.
+inline constexpr std::size_t kMaxVrmlUrls = 100, kMaxVrmlInlines = 100'000;
 
 // The top-level definitions of one text.
 struct VrmlTop {
@@ -40,8 +42,13 @@ class VrmlFiles {
         std::string name;
         bool is_open = false;  // being read: a request for it now comes from inside it
         Result<VrmlTop> top;
+        // Made at the first use: its roots among the links of the tree, its first prototype of each name.
+        std::optional<std::uint32_t> first_link{};
+        std::map<std::string_view, std::uint32_t> prototypes{};
     };
-    Result<const VrmlTop*> open(std::string_view url, const VrmlPlace& at);
+    Result<Known*> open(std::string_view url, const VrmlPlace& at);
+    std::uint32_t refusal(Error error);
+    std::unexpected<Error> refuse_urls(const VrmlPlace& at) const;
     Result<void> load(Known& known, ModelNeighbour file, const VrmlPlace& at);
 
     VrmlTree& tree_;
@@ -51,6 +58,8 @@ class VrmlFiles {
     std::map<std::pair<std::uint32_t, std::string_view>, Result<std::size_t>> asked_;  // by file and url
     std::uint64_t text_bytes_ = 0;
     int depth_ = 0;
+    std::size_t inlines_ = 0;
+    std::uint32_t too_many_inlines_ = 0;  // refusal; 0: not so far
 };
 
 // Checks the format by the first line of the file. Other formats are refused by name.

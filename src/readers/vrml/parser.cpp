@@ -276,6 +276,11 @@ class Parser {
         const auto name = take_word("the field's name");
         if (!name) return std::unexpected(name.error());
         Open& interface = open_.back();
+        if (interface.fields.size() == kMaxVrmlInterface) {
+            return fail_here("the prototype " + quoted(pending_.back().name) + " declares more than " +
+                                 std::to_string(kMaxVrmlInterface) + " fields",
+                             "export the model without prototypes");
+        }
         if (!has_value) {
             interface.fields.push_back({*name, {}});
             return {};

@@ -9,6 +9,8 @@ namespace tribo::readers {
 // Limit of the nodes, fields and links that prototypes unfold to in one model (a quarter of a gigabyte).
 inline constexpr std::uint64_t kMaxUnfolded = 4'000'000;
 inline constexpr int kMaxPrototypeDepth = 32;
+// Limit of the fields that a prototype declares; each field of an instance is compared with them.
+inline constexpr std::size_t kMaxVrmlInterface = 1000;
 
 struct VrmlPrototype {
     std::string_view name;

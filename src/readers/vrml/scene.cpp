@@ -13,6 +13,10 @@ namespace {
 
 // Largest number of nodes visited by the walk, with DEF and USE unfolded: about a second.
 constexpr std::uint64_t kMaxVisits = 4'000'000;
+// Largest number of children of all visible nodes; nodes may share one list of them (Inline, prototypes).
+constexpr std::uint64_t kMaxLinks = 20'000'000;
+// Largest numbers of indices and of colours of all face sets, which may share one list of them.
+constexpr std::uint64_t kMaxIndices = 50'000'000, kMaxColours = 60'000'000;
 // Default diffuseColor of a Material.
 constexpr Rgb8 kGrey{204, 204, 204};
 
@@ -110,15 +114,39 @@ class SceneReader {
                                      : "geometry belongs into the geometry field of a Shape");
     }
 
+    std::unexpected<Error> refuse_unfolding(VrmlNodeId id, std::uint64_t most, const char* what) const {
+        return tree_.refuse(node(id).place,
+                            "the model unfolds to more than " + std::to_string(most) + " " + what,
+                            "simplify the model");
+    }
+
+    // Returns how many numbers the fields of a node hold.
+    std::uint64_t count_numbers(VrmlNodeId id) const {
+        const VrmlNode& n = node(id);
+        std::uint64_t count = 0;
+        for (std::uint32_t i = n.first_field; i < n.first_field + n.fields; ++i)
+            count += tree_.numbers_of(tree_.fields[i].value).size();
+        return count;
+    }
+
+    std::uint64_t count_colours(VrmlNodeId surface) const {
+        const VrmlValue* colour = tree_.find(surface, "color");
+        const auto nodes = colour ? tree_.nodes_of(*colour) : std::span<const VrmlNodeId>{};
+        return nodes.empty() ? 0 : count_numbers(nodes[0]) / 3;
+    }
+
     // Returns for each node whether it can be visible. Goes down from the roots: parents are stored after
     // their children.
     Result<std::vector<bool>> reach() const {
         std::vector<bool> reached(tree_.nodes.size());
+        std::uint64_t links = 0;
         for (const VrmlNodeId root : tree_.roots) reached[root] = true;
         for (VrmlNodeId id = static_cast<VrmlNodeId>(reached.size()); id-- > 0;) {
             if (!reached[id]) continue;
             const auto children = seen(id);
             if (!children) return std::unexpected(children.error());
+            links += children->size();
+            if (links > kMaxLinks) return refuse_unfolding(id, kMaxLinks, "children of nodes");
             for (const VrmlNodeId child : *children) {
                 if (auto ok = check_place(child, role(id) == VrmlRole::shape); !ok)
                     return std::unexpected(ok.error());
@@ -136,10 +164,15 @@ class SceneReader {
         const auto reached = reach();
         if (!reached) return std::unexpected(reached.error());
         summary_.resize(tree_.nodes.size());
+        std::uint64_t indices = 0, colours = 0;
         for (VrmlNodeId id = 0; id < tree_.nodes.size(); ++id) {
             if (!(*reached)[id]) continue;
             Summary& s = summary_[id];
             if (is_surface(role(id))) {
+                indices += count_numbers(id);
+                if (indices > kMaxIndices) return refuse_unfolding(id, kMaxIndices, "indices");
+                colours += count_colours(id);
+                if (colours > kMaxColours) return refuse_unfolding(id, kMaxColours, "colours");
                 s.triangles = count_triangles(tree_, id);
                 // The walk skips nodes without triangles; therefore errors in them are reported here.
                 if (s.triangles == 0) {
@@ -174,7 +207,10 @@ class SceneReader {
     static void add(Summary& s, const Summary& child) {
         constexpr std::uint64_t enough = std::uint64_t{1} << 60;  // upper limit of the sum, against overflow
         if (s.refused == kNone) s.refused = child.refused;
-        if (child.triangles == 0) return;  // the walk skips it
+        if (child.triangles == 0) {  // the walk looks no further
+            s.visits = std::min(enough, s.visits + 1);
+            return;
+        }
         s.triangles = std::min(enough, s.triangles + child.triangles);
         s.visits = std::min(enough, s.visits + child.visits);
         s.depth = std::max(s.depth, 1 + child.depth);

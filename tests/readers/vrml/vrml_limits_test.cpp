@@ -46,6 +46,7 @@ struct Trap {
     const char* what;
     std::function<std::string()> make;
     const char* cause;
+    std::function<std::string()> other = {};  // the file that it names; absent: itself
 };
 
 const Trap kTraps[] = {
@@ -130,6 +131,61 @@ const Trap kTraps[] = {
                 "] spine [ " + repeated("0 0 0 0 1 0 ", 5'000) + "] } }";
      },
      "20000000 triangles"},
+    {"a prototype of 50,000 fields, all of them given",
+     [] {
+         std::string text = kHeader + "PROTO P [ ", given = "P { ";
+         for (int i = 0; i < 50'000; ++i) {
+             text += "field SFInt32 f" + std::to_string(i) + " 0 ";
+             given += "f" + std::to_string(i) + " 1 ";
+         }
+         return text + "] { " + kTriangle + "}\n" + given + "}";
+     },
+     "declares more than 1000 fields"},
+    {"20,000 instances that name 10,000 files each",
+     [] {
+         return kHeader + "PROTO P [ field MFString u [ " + repeated("\"a.wrl\" ", 10'000) +
+                "] ] { Inline { url IS u } }\n" + repeated("P { }\n", 20'000);
+     },
+     "names more than 100 files"},
+    {"200,000 Inline nodes that are refused",
+     [] { return kHeader + repeated("Inline { url \"self.wrl\" }\n", 200'000); }, "names itself"},
+    {"20,000 Inline nodes of 20,000 nodes",
+     [] { return kHeader + repeated("Inline { url \"b.wrl\" }\n", 20'000); },
+     "more than 20000000 children of nodes", [] { return kHeader + repeated("Group { }\n", 20'000); }},
+    {"20,000 instances with one list of 20,000 nodes",
+     [] {
+         return kHeader + "PROTO P [ field MFNode c [ " + repeated("Group { } ", 20'000) +
+                "] ] { Group { children IS c } }\n" + repeated("P { }\n", 20'000);
+     },
+     "more than 20000000 children of nodes"},
+    {"a triangle beside 20,000 empty nodes, used 20,000 times",
+     [] {
+         return kHeader + "DEF G Group { children [ " + kTriangle + repeated("Group { } ", 20'000) + "] }\n" +
+                repeated("USE G\n", 20'000);
+     },
+     "4 million nodes"},
+    {"10,000 instances with one list of 100,000 indices",
+     [] {
+         return kHeader + "PROTO P [ field MFInt32 i [ " + repeated("-1 ", 100'000) +
+                "] ] { Shape { geometry IndexedFaceSet { coordIndex IS i } } }\n" +
+                repeated("P { }\n", 10'000);
+     },
+     "more than 50000000 indices"},
+    {"50,000 shapes with a material of 100,000 colours",
+     [] {
+         return kHeader + "Group { children [ DEF S " + kTriangle +
+                "Shape { appearance Appearance { material DEF M Material { diffuseColor [ " +
+                repeated("1 0 0 ", 100'000) + "] } } geometry Box { } } ] }\n" +
+                repeated("Shape { appearance Appearance { material USE M } geometry Box { } }\n", 50'000);
+     },
+     kRead},
+    {"20,000 prototypes out of a file of 20,000",
+     [] { return kHeader + repeated("EXTERNPROTO X [ ] \"b.wrl#A19999\"\n", 20'000) + kTriangle; }, kRead,
+     [] {
+         std::string text = kHeader;
+         for (int i = 0; i < 20'000; ++i) text += "PROTO A" + std::to_string(i) + " [ ] { }\n";
+         return text;
+     }},
     {"10,000 spheres", [] { return kHeader + repeated("Shape { geometry Sphere { } }\n", 10'000); },
      "20000000 triangles"},
 };
@@ -145,6 +201,7 @@ const Trap kTraps[] = {
     ModelOptions options;
     options.source_name = "self.wrl";
     options.neighbours = [&](std::string_view, const std::string&, std::uint64_t) -> Result<ModelNeighbour> {
+        if (trap.other) return ModelNeighbour{"b.wrl", trap.other()};
         return ModelNeighbour{"self.wrl", {}};
     };
     const auto model = read_model(bytes, options);

@@ -43,7 +43,8 @@ std::vector<Rgb8> read_vrml_colours(const VrmlTree& tree, VrmlNodeId node, std::
     const VrmlRole role = tree.nodes[nodes[0]].type->role;
     if (role != VrmlRole::colour && role != VrmlRole::material) return {};
     const VrmlValue* list = tree.find(nodes[0], role == VrmlRole::colour ? "color" : "diffuseColor");
-    const auto numbers = list ? tree.numbers_of(*list) : std::span<const double>{};
+    auto numbers = list ? tree.numbers_of(*list) : std::span<const double>{};
+    if (role == VrmlRole::material) numbers = numbers.first(std::min<std::size_t>(numbers.size(), 3));
     std::vector<Rgb8> colours;
     colours.reserve(numbers.size() / 3);
     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
