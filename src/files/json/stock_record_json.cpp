@@ -12,6 +12,13 @@ namespace {
 constexpr const char* kKey = "stock_record";
 constexpr std::uint64_t kLargestSummaryBytes = std::uint64_t{64} << 20;
 
+// Keeps the few words that are wanted; a whole summary of this size would take gigabytes.
+bool is_wanted(int depth, Json::parse_event_t event, Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key && depth == 1) return parsed == "schema" || parsed == "version" || parsed == kKey;
+    return depth < 2 || (event != Event::object_start && event != Event::array_start);
+}
+
 // Sixteen hexadecimal digits.
 std::optional<std::uint64_t> hash_of(const Json& record, const char* key) {
     const auto found = record.find(key);
@@ -36,7 +43,7 @@ FileResult<job::StockRecord> read_stock_record(const std::string& folder) {
     };
     const auto text = read_file(folder + "/summary.json", kLargestSummaryBytes);
     if (!text && text.error().fault == FileFault::system) return std::unexpected(text.error());
-    const Json json = text ? Json::parse(*text, nullptr, false) : Json();
+    const Json json = text ? Json::parse(*text, is_wanted, false) : Json();
     if (!json.is_object() || !text_of(json, "schema").starts_with("tribo.summary/")) {
         return refuse("is no folder that tribo render wrote (no summary.json of its own in it)",
                       "name an earlier job (.toml) or the folder of its render");

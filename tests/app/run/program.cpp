@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -32,8 +33,14 @@ int start(std::vector<std::string> arguments, const std::string& folder, const S
 
 Outcome end_of(int child, const Scratch& scratch) {
     int status = 0;
-    ::waitpid(child, &status, 0);
+    struct rusage usage = {};
+    ::wait4(child, &status, 0, &usage);
     Outcome outcome;
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    outcome.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    outcome.peak_mb = static_cast<double>(usage.ru_maxrss) / 1000;
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = scratch.get("out");
     outcome.err = scratch.get("err");

@@ -12,6 +12,7 @@ namespace tribo::test {
 struct Outcome {
     int code = -1;  // as a shell counts: 128 + n after signal n
     std::string out, err;
+    double cpu_s = 0, peak_mb = 0;  // of the process
 };
 
 // Starts the program in `folder` with these arguments; stdin is empty. Where `interrupt_after_ms` is above 0
