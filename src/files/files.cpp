@@ -90,7 +90,8 @@ std::unexpected<FileFailure> too_long(const std::string& path, std::uint64_t lim
                                   ? std::to_string(limit_bytes >> 20) + " MB"
                                   : std::to_string(limit_bytes) + " bytes";
     return std::unexpected(
-        FileFailure({path, 0, 0, "is longer than the " + limit + " that this kind of file may have", ""}));
+        FileFailure({path, 0, 0, "is longer than the " + limit + " that this kind of file may have",
+                     "check that it is the right one"}));
 }
 
 // Reads to the end, or until `bytes` is full. Returns 0 or the error number.

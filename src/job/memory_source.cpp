@@ -13,7 +13,7 @@ std::string_view last_name(std::string_view path) {
     return path.substr(path.rfind('/') + 1);
 }
 
-std::unexpected<FileFailure> refuse(std::string file, std::string cause, std::string remedy = {}) {
+std::unexpected<FileFailure> refuse(std::string file, std::string cause, std::string remedy) {
     return std::unexpected(FileFailure({std::move(file), 0, 0, std::move(cause), std::move(remedy)}));
 }
 
@@ -48,7 +48,12 @@ FileResult<std::string_view> MemorySource::find(const std::string& path) const {
 FileResult<std::string> MemorySource::read(const std::string& path, std::uint64_t limit_bytes) const {
     const auto bytes = find(path);
     if (!bytes) return std::unexpected(bytes.error());
-    if (bytes->size() > limit_bytes) return refuse(path, "the file is too large for what it is");
+    if (bytes->size() > limit_bytes) {
+        return refuse(
+            path,
+            "is longer than the " + std::to_string(limit_bytes) + " bytes that this kind of file may have",
+            "check that it is the right one");
+    }
     return std::string(*bytes);
 }
 

@@ -32,7 +32,9 @@ TEST(MemorySource, refuses_what_is_longer_than_its_kind_may_be) {
     MemorySource files;
     files.put("a.toml", "12345");
     EXPECT_EQ(files.read("a.toml", 5).value(), "12345");
-    EXPECT_EQ(files.read("a.toml", 4).error().text(), "a.toml: error: the file is too large for what it is");
+    EXPECT_EQ(files.read("a.toml", 4).error().text(),
+              "a.toml: error: is longer than the 4 bytes that this kind of file may have; check that it is "
+              "the right one");
 }
 
 TEST(MemorySource, reads_models_with_their_neighbours) {
