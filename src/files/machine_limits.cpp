@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/machine_limits.hpp"
 
-#include <chrono>
+#include <time.h>
 
 #include "files/memory.hpp"
 
@@ -11,7 +11,9 @@ job::LoadOptions machine_limits(std::uint64_t memory_bytes) {
     job::LoadOptions options;
     options.memory_bytes = memory_bytes > 0 ? memory_bytes : default_memory_budget_bytes();
     options.clock_s = [] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+        struct timespec used = {};
+        ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+        return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
     };
     return options;
 }

@@ -8,7 +8,8 @@
 
 namespace tribo::files {
 
-// Returns options with so much memory, bytes (0: default_memory_budget_bytes()), and with a steady clock.
+// Returns options with so much memory, bytes (0: default_memory_budget_bytes()), and with the processor time
+// of the calling thread as clock: other programs do not make a loop endless.
 job::LoadOptions machine_limits(std::uint64_t memory_bytes = 0);
 
 }  // namespace tribo::files

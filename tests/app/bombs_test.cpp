@@ -63,7 +63,7 @@ const Bomb kBombs[] = {
          f.put("k.csv", text);
      },
      {"inspect", "k.csv"},
-     "k.csv:250002: error: one spline through 1000000 keyframes, more than 250000; write interpolation",
+     "k.csv:100002: error: one spline through 1000000 keyframes, more than 100000; write interpolation",
      400},
     {"a loop without end",
      [](const JobFolder& f) { f.put("p.nc", kMoves + "o1 while [1]\n#1=[#1+1]\no1 endwhile\n"); },

@@ -424,7 +424,7 @@ TEST(JobFile, has_a_stated_number_of_tables_of_one_kind) {
     EXPECT_EQ(job_of(kBowl + fixtures).fixtures.size(), kMostTables);
     EXPECT_EQ(
         fault(kBowl + fixtures + "[[fixture]]\nmesh = \"a.stl\"\n"),
-        "jobs/bowl.toml:2024:1: error: 1001 tables 'fixture', more than 1000; leave out what is not used, "
+        "jobs/bowl.toml:2023:1: error: 1001 tables 'fixture', more than 1000; leave out what is not used, "
         "or join several into one");
     std::string cutters;
     for (std::size_t n = 1; n <= kMostTables + 1; ++n) {

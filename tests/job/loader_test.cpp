@@ -246,7 +246,7 @@ TEST(Loader, keeps_to_the_memory_that_it_may_take) {
                                "[part]\nsurface = \"tetra.obj\"\n[[fixture]]\nmesh = \"tetra.obj\"\n";
     EXPECT_EQ(fault(solids, 3 * sizeof(motion::Move) + 12 * 170), "");
     EXPECT_EQ(fault(solids, 3 * sizeof(motion::Move) + 12 * 170 - 1),
-              "tetra.obj:8:9: error: more than 3 triangles; simplify the model, or allow more memory");
+              "tetra.obj:8:8: error: more than 3 triangles; simplify the model, or allow more memory");
 }
 
 TEST(Loader, takes_as_many_different_tools_as_a_magazine_holds) {

@@ -336,12 +336,12 @@ TEST(Keyframes, one_spline_takes_a_stated_number_of_keyframes) {
     const Result<std::vector<Move>> refused = keyframe_moves(keys, 900);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().line, keys.back().line);
-    EXPECT_NE(refused.error().cause.find("more than 250000"), std::string::npos) << refused.error().cause;
+    EXPECT_NE(refused.error().cause.find("more than 100000"), std::string::npos) << refused.error().cause;
     keys.pop_back();
     const Result<std::vector<Move>> moves = keyframe_moves(keys, 900);
     ASSERT_TRUE(moves);
     EXPECT_GE(moves->size(), keys.size() - 1);
-    EXPECT_EQ(moves->back().end.tip_mm, keys.back().pose.tip_mm);
+    EXPECT_LT(distance(moves->back().end.tip_mm, keys.back().pose.tip_mm), 1e-9);
     keys.resize(keys.size() + 2);
     KeyframeOptions linear;
     linear.interpolation = Interpolation::linear;

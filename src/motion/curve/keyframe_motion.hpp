@@ -44,9 +44,9 @@ inline constexpr double kChordPerRadian = 1.0;
 // Returns the larger of the distance of the tips and the turn of the unit axes in that measure, mm.
 double pose_chord(const ToolPose& a, const ToolPose& b);
 
-// Largest number of keyframes of one spline: at about 700 bytes each it takes 180 MB. fit_motion() may use as
-// many control points in all.
-inline constexpr std::size_t kMostSplineKeyframes = 250'000;
+// Largest number of keyframes of one spline: at 700 bytes each, and ten moves where it swings, it takes half
+// a gigabyte. fit_motion() may use as many control points in all.
+inline constexpr std::size_t kMostSplineKeyframes = 100'000;
 
 struct KeyframeMotion {
     BSplineMotion motion;            // over 0..sum of chords; passes through every keyframe to rounding

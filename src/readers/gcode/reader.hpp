@@ -49,7 +49,7 @@ struct GcodeOptions {
     // Loops and calls that run longer count as endless (control/run_limit.hpp).
     std::size_t max_steps = 20'000'000;  // blocks
     double max_loop_s = 3;
-    std::function<double()> clock_s{};  // seconds from any start, for max_loop_s; absent: no clock
+    std::function<double()> clock_s{};  // processor time from any start, for max_loop_s; absent: no clock
 };
 
 // Receives the moves of a program while they are read, so that a long program need not be held in memory.

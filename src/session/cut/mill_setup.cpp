@@ -60,6 +60,21 @@ std::size_t most_moves(const MillOptions& options) {
         std::min<std::uint64_t>(readers::kMostMoves, options.memory_bytes / kMoveBytes));
 }
 
+// Counts the pieces of all moves before any is made.
+Result<void> check_pieces(const motion::Program& program, const MillOptions& options) {
+    const std::size_t most = most_moves(options);
+    double pieces = 0;
+    for (const motion::Move& move : program.moves) {
+        pieces += static_cast<double>(motion::count_elementary(move));
+        if (options.longest_piece_mm) pieces += motion::path_length_mm(move) / *options.longest_piece_mm;
+        if (pieces <= static_cast<double>(most)) continue;
+        return fail_at(program.source, move.line, 0,
+                       "up to here the moves are split into more than " + std::to_string(most) + " pieces",
+                       "split the program, check its unit, or allow more memory");
+    }
+    return {};
+}
+
 void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& source, Warnings& warnings) {
     for (const milling::Cutter& cutter : setup.cutters) {
         if (cutter.diameter_mm < 4 * setup.cell_mm) {
@@ -133,6 +148,8 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
         return std::unexpected(error);
     }
 
+    if (auto fits = check_pieces(program, options); !fits) return std::unexpected(fits.error());
+
     MillSetup setup;
     setup.cutters = job.cutters;
     setup.coefficients = material->coefficients;
@@ -144,12 +161,6 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             PrescribedEngagement{job.engagement->entry_deg * math::kRadPerDeg,
                                  job.engagement->exit_deg * math::kRadPerDeg, job.engagement->axial_depth_mm};
     }
-    const std::size_t most = most_moves(options);
-    const auto refuse_more = [&](const motion::Move& move) {
-        return fail_at(program.source, move.line, 0,
-                       "up to here the moves are split into more than " + std::to_string(most) + " pieces",
-                       "split the program, check its unit, or allow more memory");
-    };
     ToolChoice tools(job, program, warnings);
     for (const motion::Move& move : program.moves) {
         const auto cutter = tools.cutter_for(move);
@@ -164,12 +175,7 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             setup.cutter_of_move.push_back(*cutter);
             setup.rpm_of_move.push_back(rpm);
         };
-        if (setup.moves.size() + motion::count_elementary(move) > most) return refuse_more(move);
         for (const motion::Move& piece : motion::to_elementary(move)) {
-            const double parts =
-                options.longest_piece_mm ? motion::path_length_mm(piece) / *options.longest_piece_mm : 1;
-            if (!(static_cast<double>(setup.moves.size()) + parts <= static_cast<double>(most)))
-                return refuse_more(move);
             if (!options.longest_piece_mm) {
                 add(piece);
                 continue;
