@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text/file_names.hpp"
-#include "files/files.hpp"
 #include "files/json/stock_record_json.hpp"
 #include "files/model/model_file.hpp"
 
@@ -25,11 +24,11 @@ fs::path resolved(const std::string& file) {
 }  // namespace
 
 FileResult<std::string> DiskSource::read(const std::string& path, std::uint64_t limit_bytes) const {
-    return read_file(path, limit_bytes);
+    return read_file(path, limit_bytes, pipes_);
 }
 
 FileResult<readers::Model> DiskSource::read_model(const readers::ModelFile& file) const {
-    return read_model_file(file);
+    return read_model_file(file, pipes_);
 }
 
 FileResult<job::StockSource> DiskSource::stock_source(const std::string& path) const {

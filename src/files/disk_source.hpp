@@ -4,12 +4,15 @@
 
 #include <string>
 
+#include "files/files.hpp"
 #include "job/file_source.hpp"
 
 namespace tribo::files {
 
 class DiskSource final : public job::FileSource {
   public:
+    explicit DiskSource(Pipes pipes = Pipes::read) : pipes_(pipes) {}
+
     FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override;
     // Models of every format; see model/model_file.hpp.
     FileResult<readers::Model> read_model(const readers::ModelFile& file) const override;
@@ -18,6 +21,9 @@ class DiskSource final : public job::FileSource {
     // Returns an absolute path with resolved links in its folders. A link to a job file is kept: the files
     // named by the job are searched relative to the link.
     std::string identity(const std::string& path) const override;
+
+  private:
+    Pipes pipes_;
 };
 
 // Returns `file` relative to `folder`.

@@ -116,16 +116,22 @@ std::unexpected<FileFailure> system_failure(const std::string& file, const char*
                     fault));
 }
 
-FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes) {
+FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes, Pipes pipes) {
     if (path.empty()) return std::unexpected(FileFailure({"", 0, 0, "a file name is empty", "name a file"}));
     if (path.find('\0') != std::string::npos) {
         return std::unexpected(FileFailure({"", 0, 0, "a file name holds a zero byte", "name a file"}));
     }
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // Without O_NONBLOCK the opening of a pipe waits for its writer.
+    const int descriptor =
+        ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (pipes == Pipes::refuse ? O_NONBLOCK : 0));
     if (descriptor < 0) return system_failure(path, "read", errno);
     const Closing closing{descriptor};
     struct stat status = {};
     if (::fstat(descriptor, &status) != 0) return system_failure(path, "read", errno);
+    if (S_ISFIFO(status.st_mode) && pipes == Pipes::refuse) {
+        return std::unexpected(
+            FileFailure({path, 0, 0, "is a pipe, which cannot be read again", "name a file"}));
+    }
     if (S_ISDIR(status.st_mode)) {
         return std::unexpected(FileFailure({path, 0, 0, "is a folder, not a file", "name a file in it"}));
     }

@@ -19,8 +19,12 @@ std::unexpected<FileFailure> system_failure(const std::string& file, const char*
 // Text formats are read whole. A larger file is refused before memory is allocated for it.
 inline constexpr std::uint64_t kLargestInputBytes = std::uint64_t{2} << 30;
 
+// A program that reads its files again and again refuses pipes: they can be read once, and they block.
+enum class Pipes { read, refuse };
+
 // Returns the bytes of a regular file or of a pipe.
-FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes);
+FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_bytes = kLargestInputBytes,
+                                  Pipes pipes = Pipes::read);
 
 // Returns the first bytes of a file, at most so many. The file does not count as read.
 FileResult<std::string> first_bytes(const std::string& path, std::size_t most);

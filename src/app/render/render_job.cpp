@@ -50,9 +50,9 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
 }  // namespace
 
 FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
-                                    std::optional<int> sound_rate_hz) {
+                                    std::optional<int> sound_rate_hz, files::Pipes pipes) {
     const job::LoadOptions limits = files::machine_limits(options.memory_bytes);
-    auto loaded = job::load_job(files::DiskSource(), file, limits);
+    auto loaded = job::load_job(files::DiskSource(pipes), file, limits);
     if (!loaded) return std::unexpected(loaded.error());
     session::MillOptions limited = options;
     limited.memory_bytes = limits.memory_bytes;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/file_result.hpp"
+#include "files/files.hpp"
 #include "job/loader.hpp"
 #include "milling/tool/materials.hpp"
 #include "session/cut/mill_setup.hpp"
@@ -30,7 +31,8 @@ struct PreparedJob {
 // Loads from the disk, within options.memory_bytes or half of the machine's memory. Reads sound files only if
 // `sound_rate_hz` is set.
 FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
-                                    std::optional<int> sound_rate_hz = {});
+                                    std::optional<int> sound_rate_hz = {},
+                                    files::Pipes pipes = files::Pipes::read);
 
 // Outputs of a run besides the milled part.
 struct RunOutputs {

@@ -41,7 +41,7 @@ FileResult<job::StockRecord> read_stock_record(const std::string& folder) {
     const auto refuse = [&](std::string cause, std::string remedy) {
         return std::unexpected(FileFailure({folder, 0, 0, std::move(cause), std::move(remedy)}));
     };
-    const auto text = read_file(folder + "/summary.json", kLargestSummaryBytes);
+    const auto text = read_file(folder + "/summary.json", kLargestSummaryBytes, Pipes::refuse);
     if (!text && text.error().fault == FileFault::system) return std::unexpected(text.error());
     const Json json = text ? Json::parse(*text, is_wanted, false) : Json();
     if (!json.is_object() || !text_of(json, "schema").starts_with("tribo.summary/")) {

@@ -52,7 +52,7 @@ class Neighbours {
             return fail("it lies outside of the model's folder");
         if (path == model_path_) return readers::ModelNeighbour{model_, {}};
         if (!fs::is_regular_file(path, error)) return fail("it is not a file");
-        auto bytes = read_file(path.string(), limit_bytes);
+        auto bytes = read_file(path.string(), limit_bytes, Pipes::refuse);
         if (!bytes) return fail(bytes.error().cause);
         if (is_gzip(*bytes)) {
             auto unpacked = gunzip(*bytes, limit_bytes, path.string());
@@ -72,8 +72,8 @@ class Neighbours {
 
 }  // namespace
 
-FileResult<readers::Model> read_model_file(const readers::ModelFile& file) {
-    FileResult<std::string> bytes = read_file(file.path);
+FileResult<readers::Model> read_model_file(const readers::ModelFile& file, Pipes pipes) {
+    FileResult<std::string> bytes = read_file(file.path, kLargestInputBytes, pipes);
     if (!bytes) return std::unexpected(bytes.error());
     if (is_gzip(*bytes)) {
         auto unpacked = gunzip(*bytes, kLargestUnpacked, file.path);

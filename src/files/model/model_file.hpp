@@ -7,6 +7,6 @@
 
 namespace tribo::files {
 
-FileResult<readers::Model> read_model_file(const readers::ModelFile& file);
+FileResult<readers::Model> read_model_file(const readers::ModelFile& file, Pipes pipes = Pipes::read);
 
 }  // namespace tribo::files
