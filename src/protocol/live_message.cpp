@@ -92,6 +92,20 @@ std::string live_refusal(const Error& error) {
     return files::dump(json);
 }
 
+std::string live_files(const std::optional<Error>& wrong) {
+    files::Json json;
+    json["op"] = "files";
+    json["wrong"] = nullptr;
+    if (wrong) {
+        json["wrong"] = {{"file", wrong->file},
+                         {"line", wrong->line},
+                         {"column", wrong->column},
+                         {"why", wrong->cause},
+                         {"remedy", wrong->remedy}};
+    }
+    return files::dump(json);
+}
+
 std::string live_lost() {
     return R"({"op":"lost"})";
 }

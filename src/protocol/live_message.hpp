@@ -3,6 +3,7 @@
 // library, which a page's own mill does without (live_command.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,9 @@ struct LiveServerInfo {
 std::string live_server_info(const LiveServerInfo& info);
 // That a command was refused.
 std::string live_refusal(const Error& error);
+// What is wrong with the files of the job, which was not read again: the cut before goes on. None: they were
+// read again and are good.
+std::string live_files(const std::optional<Error>& wrong);
 // That frames were dropped: the page asks for all of them with resync.
 std::string live_lost();
 

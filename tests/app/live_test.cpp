@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // `tribo live` as a program: what it says, how it ends. What it shows: web/mill/test/live.test.ts.
+#include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 
@@ -165,6 +169,119 @@ TEST_F(Live, comes_back_whole_after_a_resume) {
     RawClient third(at.port);
     EXPECT_TRUE(third.upgrade("/live?resume=" + resume, kProtocol, third.origin(), third.host())
                     .starts_with("HTTP/1.1 403"));
+}
+
+// What a viewer is told of the files after the clock was set forth and back, and the first state after it.
+class Viewer {
+  public:
+    explicit Viewer(std::uint16_t port) : client_(port) { EXPECT_TRUE(client_.join(kProtocol)); }
+
+    bool say(const std::string& text) { return client_.send_frame(1, text); }
+    // The next text with this word; empty if the engine has gone or does not say it for twenty seconds.
+    std::string text_with(const std::string& word) {
+        return next([&](const RawClient::Frame& frame) {
+            return frame.opcode == 1 && frame.payload.find(word) != std::string::npos;
+        });
+    }
+    // Waits for a state of at least, or at most, this time (docs/live-protocol.md).
+    bool state(bool at_least, double t_s) {
+        return !next([&](const RawClient::Frame& frame) {
+                    if (frame.opcode != 2 || frame.payload.front() != 3) return false;
+                    double now_s = 0;
+                    std::memcpy(&now_s, frame.payload.data() + 8, sizeof now_s);
+                    return at_least ? now_s >= t_s : now_s <= t_s;
+                }).empty();
+    }
+    bool step_back() {
+        return say(R"({"op":"seek","t_s":2})") && state(true, 2) && say(R"({"op":"seek","t_s":0})") &&
+               state(false, 0);
+    }
+
+  private:
+    template <class Wanted>
+    std::string next(const Wanted& wanted) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (std::chrono::steady_clock::now() < end) {
+            const auto frame = client_.frame();
+            if (!frame) break;
+            if (wanted(*frame)) return frame->payload;
+        }
+        return {};
+    }
+
+    RawClient client_;
+};
+
+TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
+    const std::string program = scratch_.get("p.nc"), job = scratch_.get("job.toml");
+    RunningTribo engine(
+        {"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", ".", "--memory", "500"},
+        scratch_.path());
+    Viewer viewer(address_in(engine.out_with("Ctrl-C")).port);
+    ASSERT_TRUE(viewer.step_back());
+    const auto remove = [&](const char* name) { std::filesystem::remove(scratch_ / name); };
+    const struct {
+        const char* what;
+        std::function<void()> spoil;
+        const char *file, *says;
+    } cases[] = {
+        {"a typo", [&] { scratch_.put("p.nc", "G21 G90\nG0 X-5 Y5 Z2\nG1 Zx-1\nG1 X25\n"); }, "p.nc",
+         R"("line":3)"},
+        {"an emptied program", [&] { scratch_.put("p.nc", ""); }, "p.nc", ""},
+        {"a deleted program", [&] { remove("p.nc"); }, "p.nc", "No such file"},
+        {"a pipe in its place",
+         [&] {
+             remove("p.nc");
+             ASSERT_EQ(::mkfifo((scratch_ / "p.nc").c_str(), 0600), 0);
+         },
+         "p.nc", "is a pipe"},
+        {"a folder in its place",
+         [&] {
+             remove("p.nc");
+             std::filesystem::create_directory(scratch_ / "p.nc");
+         },
+         "p.nc", "is a folder"},
+        {"a wrong job", [&] { scratch_.put("job.toml", "[stock]\nbox_mm = 5\n"); }, "job.toml",
+         R"("line":2)"},
+        {"a stock of 200 m",
+         [&] {
+             std::string wide = job;
+             wide.replace(wide.find("[20,10,0]"), 9, "[200000,200000,0]");
+             scratch_.put("job.toml", wide);
+         },
+         "job.toml", "MB are allowed"},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.what);
+        c.spoil();
+        ASSERT_TRUE(viewer.step_back());
+        // Who comes now is told too.
+        Viewer latecomer(address_in(engine.out_with("Ctrl-C")).port);
+        const std::string said = latecomer.text_with(R"("files")");
+        EXPECT_NE(said.find(c.file), std::string::npos) << said;
+        EXPECT_NE(said.find(c.says), std::string::npos) << said;
+        remove("p.nc");
+        scratch_.put("p.nc", program);
+        scratch_.put("job.toml", job);
+        ASSERT_TRUE(viewer.step_back());
+        EXPECT_NE(latecomer.text_with(R"("files")").find(R"("wrong":null)"), std::string::npos);
+    }
+    // A new program is milled as it is.
+    scratch_.put("p.nc", "G21 G90\nG0 X-5 Y5 Z2\nG1 Z-1\nG1 X25\nG1 Y8\nG1 X-5\n");
+    ASSERT_TRUE(viewer.step_back());
+    EXPECT_TRUE(viewer.say(R"({"op":"seek","t_s":5})") && viewer.state(true, 5));
+    const Outcome end = engine.stop();
+    EXPECT_EQ(end.code, 130);
+    EXPECT_NE(end.err.find("p.nc:3"), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find("the cut before goes on"), std::string::npos) << end.err;
+}
+
+TEST_F(Live, refuses_a_program_in_a_pipe) {
+    std::filesystem::remove(scratch_ / "p.nc");
+    ASSERT_EQ(::mkfifo((scratch_ / "p.nc").c_str(), 0600), 0);
+    const Outcome run = live({"--port", "0", "--web-root", "."});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("p.nc: error: is a pipe"), std::string::npos) << run.err;
 }
 
 TEST_F(Live, asks_for_a_token_and_warns_where_other_machines_may_come) {

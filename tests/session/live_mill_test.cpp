@@ -151,14 +151,14 @@ bool always() {
 TEST(LiveMill, ShowsThePartAsItIsCut) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer;
-    ASSERT_TRUE(live->tick(0, always, viewer.sink()));
+    live->tick(0, always, viewer.sink());
     EXPECT_EQ(viewer.jobs, 1);
     EXPECT_NEAR(viewer.part_volume_mm3(), kBlank.volume(), 1e-3 * kBlank.volume());
     EXPECT_NEAR(viewer.duration_s, 5 * 50.0 / 20, 1e-9);
     EXPECT_GT(viewer.path_points, 50u);
 
     live->play(true);
-    while (live->playing()) ASSERT_TRUE(live->tick(1.0 / 60, always, viewer.sink()));
+    while (live->playing()) live->tick(1.0 / 60, always, viewer.sink());
     EXPECT_EQ(viewer.jobs, 1);
     EXPECT_DOUBLE_EQ(viewer.state.t_s, viewer.duration_s);
     EXPECT_NEAR(viewer.part_volume_mm3() / live->session().totals().remaining_mm3, 1, 2e-3);
@@ -178,7 +178,7 @@ TEST(LiveMill, SaysWhatTheToolDoesNow) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer;
     live->set_clock(1.25);  // 25 mm on: in the middle of the first groove
-    ASSERT_TRUE(live->tick(0, always, viewer.sink()));
+    live->tick(0, always, viewer.sink());
     EXPECT_DOUBLE_EQ(viewer.state.t_s, 1.25);
     EXPECT_EQ(viewer.state.line, 7u);
     EXPECT_TRUE(viewer.state.cutting);
@@ -186,7 +186,7 @@ TEST(LiveMill, SaysWhatTheToolDoesNow) {
     // A full groove with a ball: the mean force of the rows there.
     EXPECT_GT(length(viewer.state.force_n), 1);
     live->set_clock(0.05);  // in the air before the blank
-    ASSERT_TRUE(live->tick(0, always, viewer.sink()));
+    live->tick(0, always, viewer.sink());
     EXPECT_EQ(viewer.jobs, 2);
     EXPECT_FALSE(viewer.state.cutting);
     EXPECT_EQ(length(viewer.state.force_n), 0);
@@ -200,14 +200,14 @@ TEST(LiveMill, WaitsForThePart) {
     live->set_speed(100);
     int asked = 0;
     const auto once = [&] { return ++asked % 2 == 0; };
-    ASSERT_TRUE(live->tick(1, once, viewer.sink()));
+    live->tick(1, once, viewer.sink());
     EXPECT_LT(viewer.state.t_s, live->duration_s());
     EXPECT_DOUBLE_EQ(viewer.state.t_s, std::min(live->session().milled_s(), live->duration_s()));
-    for (int n = 0; n < 1000 && live->playing(); ++n) ASSERT_TRUE(live->tick(1, once, viewer.sink()));
+    for (int n = 0; n < 1000 && live->playing(); ++n) live->tick(1, once, viewer.sink());
     EXPECT_FALSE(live->playing());
     EXPECT_DOUBLE_EQ(viewer.state.t_s, live->duration_s());
     live->play(true);
-    ASSERT_TRUE(live->tick(0, always, viewer.sink()));
+    live->tick(0, always, viewer.sink());
     EXPECT_EQ(viewer.state.t_s, 0);
 }
 
@@ -224,7 +224,7 @@ TEST(LiveMill, KeepsItsClockWhateverItIsTold) {
     live->set_speed(std::numeric_limits<double>::infinity());
     Viewer viewer;
     live->play(true);
-    ASSERT_TRUE(live->tick(0.5, always, viewer.sink()));
+    live->tick(0.5, always, viewer.sink());
     EXPECT_DOUBLE_EQ(viewer.state.t_s, 0.5);
 }
 
@@ -237,7 +237,7 @@ TEST(LiveMill, IsRememberedForALatecomer) {
         viewer.sink()(frame);
     };
     live->play(true);
-    for (int n = 0; n < 200; ++n) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    for (int n = 0; n < 200; ++n) live->tick(1.0 / 60, always, both);
     memory.replay(latecomer.sink());
     EXPECT_EQ(latecomer.jobs, 1);
     EXPECT_EQ(latecomer.row_times, viewer.row_times);
@@ -245,9 +245,9 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     EXPECT_DOUBLE_EQ(latecomer.part_volume_mm3(), viewer.part_volume_mm3());
     // Nothing moves, nothing is told.
     live->play(false);
-    ASSERT_TRUE(live->tick(1, always, both));
+    live->tick(1, always, both);
     bool told = false;
-    ASSERT_TRUE(live->tick(1, always, [&](std::span<const std::uint8_t>) { told = true; }));
+    live->tick(1, always, [&](std::span<const std::uint8_t>) { told = true; });
     EXPECT_FALSE(told);
     memory.take(std::array<std::uint8_t, 3>{1, 2, 3});
 }
@@ -278,7 +278,7 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
         viewer.sink()(frame);
     };
     live->play(true);
-    while (live->clock_s() < 0.5 * live->duration_s()) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    while (live->clock_s() < 0.5 * live->duration_s()) live->tick(1.0 / 60, always, both);
     CutChange change;
     change.feed_factor = 1.5;
     change.speed_factor = 0.5;
@@ -286,9 +286,9 @@ TEST(LiveMill, TellsTheForcesOfAChangedCut) {
     change.coefficients = milling::find_material("steel")->coefficients;
     live->set_change(change);
     const double before = live->clock_s();
-    ASSERT_TRUE(live->tick(0.1, always, both));
+    live->tick(0.1, always, both);
     EXPECT_NEAR(live->clock_s() - before, 0.15, 1e-12);
-    while (live->playing()) ASSERT_TRUE(live->tick(1.0 / 60, always, both));
+    while (live->playing()) live->tick(1.0 / 60, always, both);
     EXPECT_EQ(viewer.jobs, 1);
     ASSERT_EQ(viewer.row_forces.size(), forces.size());
     for (std::size_t n = 0; n < forces.size(); ++n)
@@ -313,7 +313,7 @@ TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
         if (protocol::read_frame(frame, chunk)) chunks[chunk.at] = chunk;
     };
     live->set_clock(live->duration_s());
-    ASSERT_TRUE(live->tick(0, always, keep));
+    live->tick(0, always, keep);
     double least = 0, most = 0;
     std::size_t far = 0;
     for (const auto& [at, chunk] : chunks) {
@@ -343,7 +343,7 @@ TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
         (void)protocol::read_frame(frame, chunk);
         EXPECT_TRUE(chunk.deviations_mm.empty());
     };
-    ASSERT_TRUE((*LiveMill::create(slot, serial_for))->tick(0, always, expect_none));
+    (*LiveMill::create(slot, serial_for))->tick(0, always, expect_none);
 }
 
 TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
@@ -361,8 +361,42 @@ TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
         }
     };
     live->set_clock(live->duration_s());
-    ASSERT_TRUE(live->tick(0, always, keep));
+    live->tick(0, always, keep);
     EXPECT_GT(compared, 100u);
+}
+
+TEST(LiveMill, MillsTheOldSetupAgainWhileTheNewOneIsWrong) {
+    bool good = true;
+    double feed_factor = 1;
+    const auto from_files = [&]() -> Result<MillSetup> {
+        if (!good) return fail_at("p.nc", 3, 1, "no word 'H1'", "correct it");
+        auto setup = slot();
+        for (motion::Move& move : setup->moves) move.feed_mm_per_min *= feed_factor;
+        return setup;
+    };
+    auto live = *LiveMill::create(from_files, serial_for);
+    Viewer viewer;
+    const auto mill_all = [&] {
+        live->set_clock(0);
+        live->tick(0, always, viewer.sink());
+        live->set_clock(live->duration_s());
+        live->tick(0, always, viewer.sink());
+        return viewer.row_times;
+    };
+    const std::vector<double> times = mill_all();
+    good = false;
+    EXPECT_FALSE(live->input_error());
+    for (int n = 0; n < 2; ++n) {
+        EXPECT_EQ(mill_all(), times);
+        ASSERT_TRUE(live->input_error());
+        EXPECT_EQ(live->input_error()->line, 3);
+        EXPECT_NEAR(viewer.part_volume_mm3() / live->session().totals().remaining_mm3, 1, 2e-3);
+    }
+    good = true;
+    feed_factor = 2;
+    mill_all();
+    EXPECT_FALSE(live->input_error());
+    EXPECT_NEAR(viewer.duration_s, 0.5 * 5 * 50.0 / 20, 1e-9);
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

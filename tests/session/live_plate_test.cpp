@@ -61,7 +61,7 @@ TEST(LivePlate, IsTheSameInThePage) {
     };
     (*live)->set_clock((*live)->duration_s());
     const auto always = [] { return true; };
-    ASSERT_TRUE((*live)->tick(0, always, take));
+    (*live)->tick(0, always, take);
     EXPECT_GT(chunks.size(), 10u);
     // Told apart by what they are, not by their order.
     std::uint64_t sum = 0;
@@ -98,7 +98,7 @@ TEST(LivePlate, SoundsTheSameFromStructsAndFromFrames) {
     float loudest = 0;
     std::uint64_t hash = kHashBegin;
     for (int picture = 0; picture < 120; ++picture) {
-        ASSERT_TRUE((*live)->tick(1.0 / 60, always, decode));
+        (*live)->tick(1.0 / 60, always, decode);
         const protocol::LiveState state = (*live)->state();
         for (LiveSound* ear : {&from_structs, &from_frames})
             ear->follow(state.t_s, state.speed, state.playing);

@@ -48,7 +48,7 @@ std::vector<protocol::LiveRow> page_rows(double feed_per_tooth_mm, double feed_f
         protocol::LiveRows told;
         if (protocol::read_frame(frame, told)) rows.insert(rows.end(), told.rows.begin(), told.rows.end());
     };
-    EXPECT_TRUE((*live)->tick(0, [] { return true; }, keep));
+    (*live)->tick(0, [] { return true; }, keep);
     return rows;
 }
 

@@ -25,6 +25,18 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
     return arm;
 }
 
+// Reads the job and refuses what does not fit into memory. A program that reads its files again refuses
+// pipes.
+FileResult<PreparedJob> read_job(const LiveCall& call, std::optional<int> sound_rate_hz) {
+    const session::MillOptions options{call.resolution_mm, {}, session::LiveMill::kPieceMm};
+    auto read = prepare_job(call.job, options, sound_rate_hz, files::Pipes::refuse);
+    if (!read) return read;
+    const RunOutputs made{.mesh = true, .report = false, .sound = sound_rate_hz.has_value()};
+    if (auto fits = check_memory(call.job, read->setup, read->part, made, call.memory_mb); !fits)
+        return std::unexpected(FileFailure(fits.error()));
+    return read;
+}
+
 LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
     LiveViewOptions options;
@@ -53,14 +65,10 @@ LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
 
 int live(const LiveCall& call) {
     if (call.job.empty()) return live_without_job(call);
-    const session::MillOptions options{call.resolution_mm, {}, session::LiveMill::kPieceMm};
     const bool sounds = call.audio == "native";
-    auto first = prepare_job(
-        call.job, options, sounds ? std::optional(sound::SoundtrackOptions().sample_rate_hz) : std::nullopt);
+    auto first =
+        read_job(call, sounds ? std::optional(sound::SoundtrackOptions().sample_rate_hz) : std::nullopt);
     if (!first) return report(first.error());
-    const RunOutputs made{.mesh = true, .report = false, .sound = sounds};
-    if (auto fits = check_memory(call.job, first->setup, first->part, made); !fits)
-        return report(fits.error());
     report(first->warnings);
 
     const auto files = live_page(call);
@@ -98,8 +106,8 @@ int live(const LiveCall& call) {
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
 
     // When the clock is set back, the program begins again from the current files.
-    const auto load_again = [file = call.job, options]() -> Result<session::MillSetup> {
-        auto again = prepare_job(file, options);
+    const auto load_again = [call]() -> Result<session::MillSetup> {
+        auto again = read_job(call, {});
         if (!again) return std::unexpected(Error(again.error()));
         return std::move(again->setup);
     };
@@ -118,9 +126,8 @@ int live(const LiveCall& call) {
     int exit_code = kDone;
     auto server = open_live_server(call, call.job, show.handlers(*files), exit_code);
     if (!server) return exit_code;
-    const auto done = show.run(*server);
+    show.run(*server);
     server.reset();
-    if (!done) return report(done.error());
     return interrupted_exit_code();
 }
 

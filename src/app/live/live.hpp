@@ -20,6 +20,7 @@ struct LiveCall {
     bool open = false;                     // opens the page in the browser of the user
     std::string web_root;                  // empty: folder of the build or installation
     std::optional<double> resolution_mm;   // absent: as in render
+    std::optional<double> memory_mb;       // absent: memory of the machine
     int threads = 0;                       // 0: all
     std::string audio = "browser";         // sound output: browser, native or off
     ArmCall arm;

@@ -51,7 +51,6 @@ LiveView::LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique
       controller_(mill, options_.feel, std::move(arm), options_.settings),
       finger_(controller_.finger()),
       sent_settings_(controller_.settings()),
-      builder_(options_.make_setup),
       audio_(std::move(audio)) {
     for (const milling::WorkpieceMaterial& m : milling::materials())
         options_.info.materials.push_back(m.name);
@@ -61,7 +60,7 @@ LiveView::LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique
     options_.info.arm = finger_.has_arm();
     if (audio_)
         mill_.set_sound_listener([this](session::LiveSoundUpdate news) { audio_->take(std::move(news)); });
-    request_forces();
+    follow_files();
     servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
                                                     [this](double now_s) { return finger_.tick(now_s); });
 }
@@ -87,7 +86,7 @@ net::ServerHandlers LiveView::handlers(const WebFiles& files) {
     return h;
 }
 
-Result<void> LiveView::run(net::Server& server) {
+void LiveView::run(net::Server& server) {
     auto before = Clock::now(), next = before;
     const auto frames = [&](std::span<const std::uint8_t> frame) {
         memory_.take(frame);
@@ -99,25 +98,53 @@ Result<void> LiveView::run(net::Server& server) {
         const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
         before = now;
         const auto has_time = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
-        if (auto done = mill_.tick(dt, has_time, frames); !done) return done;
+        mill_.tick(dt, has_time, frames);
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
+        show_input_error(server);
+        follow_files();
         collect_forces();
         finger_.show(controller_.scene(), mill_.state().tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
         next = std::max(next + kFrameTime, Clock::now());
         std::this_thread::sleep_until(next);
     }
-    return {};
+}
+
+void LiveView::show_input_error(net::Server& server) {
+    const std::optional<Error>& error = mill_.input_error();
+    std::string text = error ? error->text() : "";
+    if (text == input_error_) return;
+    input_error_ = std::move(text);
+    if (error) {
+        report(*error);
+        std::fprintf(stderr, "the cut before goes on\n");
+    }
+    server.send_text_all(protocol::live_files(error));
+}
+
+// Mills ahead for the hand, again when the files have changed the cut.
+void LiveView::follow_files() {
+    if (sessions_ == mill_.sessions()) return;
+    sessions_ = mill_.sessions();
+    const std::uint64_t key = session::bake_key(mill_.session().setup(), {});
+    if (builder_ && key == built_of_) return;
+    built_of_ = key;
+    controller_.set_force({});
+    finger_.force_source().set_textures({});
+    builder_ = std::make_unique<ForceBuilder>(options_.make_setup);
+    request_forces();
 }
 
 void LiveView::request_forces() {
     contact::ForceTableOptions wanted = controller_.table_options();
     wanted.profile = options_.profile;
-    builder_.request(mill_.change(), wanted);
+    builder_->request(mill_.change(), wanted);
 }
 
 void LiveView::collect_forces() {
-    ForceBuilder::Built built = builder_.take();
+    ForceBuilder::Built built = builder_->take();
+    // The files were changed since the mill read them. The next session tries again.
+    if (built.error) built_of_ = 0;
     if (built.textures) finger_.force_source().set_textures(*std::move(built.textures));
     if (built.table) controller_.set_force(*std::move(built.table));
 }
@@ -149,6 +176,7 @@ void LiveView::answer(const LiveInbox::Event& event, net::Server& server) {
             options_.info.resumed = event.resume.resumed;
             server.send_text(event.client, protocol::live_server_info(options_.info));
             server.send_text(event.client, protocol::live_settings(controller_.settings()));
+            if (mill_.input_error()) server.send_text(event.client, protocol::live_files(mill_.input_error()));
             replay(event.client, server);
             break;
         case Kind::overflowed:

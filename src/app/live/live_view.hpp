@@ -53,12 +53,14 @@ class LiveView {
 
     net::ServerHandlers handlers(const WebFiles& files);
     // Runs until the user interrupts it.
-    Result<void> run(net::Server& server);
+    void run(net::Server& server);
 
   private:
     void answer(const LiveInbox::Event& event, net::Server& server);
     void obey(const LiveInbox::Event& event, net::Server& server);
     void replay(net::ClientId to, net::Server& server);
+    void show_input_error(net::Server& server);
+    void follow_files();
     void request_forces();
     void collect_forces();
     void show_servo(net::Server& server, const protocol::FrameSink& frames);
@@ -70,8 +72,11 @@ class LiveView {
     protocol::LiveSettings sent_settings_;
     session::FrameCache memory_;
     LiveInbox inbox_;
-    ForceBuilder builder_;
-    int force_changes_ = 0;  // last requested from the builder
+    std::unique_ptr<ForceBuilder> builder_;
+    int force_changes_ = 0;       // last requested from the builder
+    int sessions_ = 0;            // of the mill, seen last
+    std::uint64_t built_of_ = 0;  // key of the cut that the builder mills
+    std::string input_error_;     // last reported problem of the files
     std::unique_ptr<LiveAudio> audio_;
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;

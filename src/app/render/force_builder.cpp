@@ -32,8 +32,11 @@ ForceBuilder::Built ForceBuilder::take() {
 
 void ForceBuilder::work(const std::function<Result<session::MillSetup>()>& make_setup) {
     auto setup = make_setup();
-    // Errors of the setup are reported by the live view.
-    if (!setup) return;
+    if (!setup) {
+        const std::lock_guard lock(mutex_);
+        built_.error = setup.error();
+        return;
+    }
     // One thread: the other threads work for the picture.
     session::ForceLookAhead ahead(*std::move(setup), serial_for);
     const auto has_time = [this] {

@@ -27,6 +27,7 @@ class ForceBuilder {
     struct Built {
         std::optional<contact::ForceTable> table;
         std::optional<haptics::TextureMap> textures;  // set once
+        std::optional<Error> error;                   // no setup: nothing else will follow
     };
     // Results since the last call. Does not wait.
     Built take();

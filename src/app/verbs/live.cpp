@@ -37,6 +37,10 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
         ->check(finite_number(0, 100))
         ->type_name("MM");
+    verb->add_option("--memory", call->memory_mb,
+                     "Refuse a job that could take more; half of the machine's if absent")
+        ->check(finite_number(0, 1e9))
+        ->type_name("MB");
     verb->add_option("--threads", call->threads, "Threads to use; all processors if absent")
         ->check(CLI::Range(1, kMaxThreads))
         ->type_name("N");

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -60,6 +61,8 @@ class CarvedField final : public contact::DistanceField {
     double near_mm() const { return near_; }
     const Shape& blank() const { return tables_->query.blank(); }
     const Shape& shape(ShapeId id) const { return tables_->query.shape(id); }
+    // Gives the blank back. After that the field can only be destroyed.
+    std::unique_ptr<const Shape> release_blank() { return std::move(tables_->shapes[0]); }
     double removed_mm3() const { return removed_; }
     Lattice lattice(BrickCoord b) const { return tables_->query.lattice(b); }
     BrickCoord size() const { return tables_->index.size(); }

@@ -291,5 +291,10 @@ const MillTotals& MillSession::totals() const {
 const MillSetup& MillSession::setup() const {
     return run_->setup_;
 }
+MillSetup MillSession::release_setup() {
+    run_->setup_.blank = run_->stock_.release_blank();
+    run_->setup_.schedule = run_->schedule_;
+    return std::move(run_->setup_);
+}
 
 }  // namespace tribo::session

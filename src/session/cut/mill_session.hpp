@@ -87,6 +87,8 @@ class MillSession {
     std::unique_ptr<field::FieldReader> read_stock();
     const MillTotals& totals() const;
     const MillSetup& setup() const;
+    // Gives the setup back, for a session that mills it again. After that this one can only be destroyed.
+    MillSetup release_setup();
 
   private:
     class Run;

@@ -106,8 +106,12 @@ Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, Paralle
 
 Result<void> LiveMill::begin() {
     auto setup = make_setup_();
-    if (!setup) return std::unexpected(setup.error());
+    if (!setup && !session_) return std::unexpected(setup.error());
+    input_error_ = setup ? std::nullopt : std::optional(setup.error());
     if (session_observer_) session_observer_(nullptr);
+    picture_.reset();
+    if (!setup) setup = session_->release_setup();
+    session_.reset();  // before the next one: two of them need twice the memory
     session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
@@ -117,6 +121,7 @@ Result<void> LiveMill::begin() {
     sound_.pieces.clear();
     rows_sent_ = collisions_sent_ = 0;
     shown_s_ = 0;
+    ++sessions_;
     begun_anew_ = true;
     set_back_ = false;
     if (session_observer_) session_observer_(session_.get());
@@ -194,11 +199,9 @@ void LiveMill::set_changed_forces(std::size_t first_row, std::size_t first_heard
     for (std::size_t n = first_row; n < rows_.size(); ++n) set_force(n, forces[n - first_row]);
 }
 
-Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
-                            const protocol::FrameSink& frames) {
-    if (set_back_) {
-        if (auto begun = begin(); !begun) return begun;
-    }
+void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
+    // With a session this cannot fail: it mills again what it milled before.
+    if (set_back_) (void)begin();
     // The clock continues from the milled part.
     const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
     const std::size_t rows_before = rows_.size();
@@ -227,7 +230,6 @@ Result<void> LiveMill::tick(double dt_s, const std::function<bool()>& has_time,
     show_rows(frames);
     show_sound(frames);
     show_state(frames);
-    return {};
 }
 
 void LiveMill::show_job(const protocol::FrameSink& frames) {

@@ -25,8 +25,9 @@ struct LiveExtras {
 
 class LiveMill {
   public:
-    // Makes the same setup at each call; called again when the clock is set back. Moves should be short
-    // (MillOptions::longest_piece_mm): the part is shown only between moves.
+    // Makes the setup from its files. Called again when the clock is set back; if it then fails, the setup
+    // before is milled again (input_error()). Moves should be short (MillOptions::longest_piece_mm): the part
+    // is shown only between moves.
     using MakeSetup = std::function<Result<MillSetup>()>;
     static constexpr double kPieceMm = 2;
     static constexpr double kFastest = 1000;  // program seconds per second
@@ -39,8 +40,12 @@ class LiveMill {
     bool playing() const { return playing_; }
     protocol::LiveState state() const;
     const MillSession& session() const { return *session_; }
+    // Number of sessions so far: a new one begins after the clock was set back.
+    int sessions() const { return sessions_; }
     // The rows so far.
     const CutRecord& record() const { return record_; }
+    // The error of the last call of MakeSetup; none: it made a setup.
+    const std::optional<Error>& input_error() const { return input_error_; }
 
     // play(true) at the end starts again from the beginning.
     void play(bool on);
@@ -59,7 +64,7 @@ class LiveMill {
 
     // Advances the time by dt_s >= 0. Mills towards the clock while `has_time` is true (checked every few
     // moves), then sends frames for all changes (FrameCache keeps them). The clock waits for the part.
-    Result<void> tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
+    void tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
     LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras);
@@ -94,6 +99,8 @@ class LiveMill {
     protocol::LiveSoundPieces sound_;   // not sent yet
     CutChange change_;
     bool rows_anew_ = false;
+    std::optional<Error> input_error_;
+    int sessions_ = 0;
     std::function<void(MillSession*)> session_observer_;
     std::function<void(LiveSoundUpdate)> sound_listener_;
     std::size_t rows_sent_ = 0, collisions_sent_ = 0;

@@ -16,7 +16,7 @@ import { PALETTES } from "./sight/palette.js";
 import { Parameters } from "./panels/parameters.js";
 import { Plot } from "./panels/plot.js";
 import type { Plots } from "./panels/plots.js";
-import { LineList, showServo, showState, showWarnings } from "./panels/readout.js";
+import { LineList, showFileFault, showServo, showState, showWarnings } from "./panels/readout.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { download, element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
@@ -35,6 +35,7 @@ const listener: Listener = {
     if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
     element("job").textContent = name;
     showWarnings(message.warnings);
+    showFileFault(null);
     parameters.info(message);
     soundsHere = (message.audio ?? "browser") === "browser";
     element("sound").hidden = !soundsHere || !Sound.possible;
@@ -54,6 +55,7 @@ const listener: Listener = {
   line(there, why) {
     say(there ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
   },
+  files: showFileFault,
   refused: say,
 };
 

@@ -280,6 +280,32 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
   );
 
   it(
+    "says what is wrong with a file, and where, until it is good again",
+    async () => {
+      const stepBack = async () => {
+        await page.fill("#time", "1000");
+        await page.waitForFunction(
+          () => {
+            const [at, end] = document.getElementById("clock")!.textContent.split(" / ");
+            return at === end;
+          },
+          null,
+          { timeout: PATIENCE_MS },
+        );
+        await page.fill("#time", "0");
+      };
+      writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT.replace("G1 Z-2", "G1 Zx-2"));
+      await stepBack();
+      await page.waitForSelector("#file-fault:not([hidden])", { timeout: PATIENCE_MS });
+      expect(await page.textContent("#file-fault")).toMatch(/p\.nc:3(:\d+)?: .*; the cut before goes on$/);
+      writeFileSync(join(folder, "p.nc"), PROGRAM_TEXT);
+      await stepBack();
+      await page.waitForSelector("#file-fault", { state: "hidden", timeout: PATIENCE_MS });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "comes back by a token that is good for once, with the part as it is",
     async () => {
       const other = await browser.newPage({ viewport: { width: 400, height: 300 } });

@@ -47,9 +47,24 @@ export interface Refused {
   remedy?: string;
 }
 
+/** A fault in the files of the job. `line` and `column` count from 1; 0: none. */
+export interface FileFault {
+  file: string;
+  line: number;
+  column: number;
+  why: string;
+  remedy: string;
+}
+
+/** The files were read again. With a fault the cut before goes on; null: they are good. */
+export interface Files {
+  op: "files";
+  wrong: FileFault | null;
+}
+
 /** Frames were dropped; `resync` requests them again. */
 export interface Lost {
   op: "lost";
 }
 
-export type EngineMessage = ServerInfo | Settings | Refused | Lost;
+export type EngineMessage = ServerInfo | Settings | Refused | Files | Lost;

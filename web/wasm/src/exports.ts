@@ -92,7 +92,7 @@ export interface MillExports extends CommonExports {
   mill_settings(): Address;
   /** All known materials, one per line. */
   mill_materials(): Address;
-  /** Number of bytes at mill_frames(); -1: failed, mill_text() has the reason. */
+  /** Number of bytes at mill_frames(). */
   mill_tick(seconds: number, looks: number): number;
   mill_frames(): Address;
 }

@@ -42,7 +42,6 @@ class Mill {
   /** Frames of a tick, as bytes. */
   tick(seconds: number, looks: number): Uint8Array[] {
     const length = this.x.mill_tick(seconds, looks);
-    expect(length, this.said()).toBeGreaterThanOrEqual(0);
     const at = this.x.mill_frames();
     const view = new DataView(this.x.memory.buffer);
     const frames: Uint8Array[] = [];

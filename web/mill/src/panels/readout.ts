@@ -2,6 +2,7 @@
 // Current values of the tool, places to inspect, the state of the servo, and the assumptions.
 
 import type { ServoFrame, StateFrame } from "@tribo/protocol/frames";
+import type { FileFault } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
 
 export function showState(state: StateFrame): void {
@@ -86,6 +87,14 @@ export function showServo(frame: ServoFrame): void {
       return row;
     }),
   );
+}
+
+// Shown until the files are good again, also beside other messages.
+export function showFileFault(wrong: FileFault | null): void {
+  const place = wrong ? [wrong.file, wrong.line, wrong.column].filter(Boolean).join(":") : "";
+  const parts = wrong ? [[place, wrong.why].filter(Boolean).join(": "), wrong.remedy, "the cut before goes on"] : [];
+  element("file-fault").hidden = wrong === null;
+  element("file-fault").textContent = parts.filter(Boolean).join("; ");
 }
 
 export function showWarnings(warnings: string[]): void {

@@ -74,6 +74,8 @@ export class Connection implements Source {
       this.tell((to) => to.settings(message));
     } else if (message.op === "lost") {
       this.send({ op: "resync" });
+    } else if (message.op === "files") {
+      this.tell((to) => to.files(message.wrong));
     } else if (message.op === "refused") {
       this.tell((to) => to.refused([message.why, message.remedy].filter(Boolean).join("; ")));
     }

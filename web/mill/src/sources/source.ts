@@ -3,7 +3,7 @@
 // for all.
 
 import type { Frame } from "@tribo/protocol/frames";
-import type { Command, ServerInfo, Settings } from "@tribo/protocol/messages";
+import type { Command, FileFault, ServerInfo, Settings } from "@tribo/protocol/messages";
 
 export interface Listener {
   // `bytes` is the undecoded frame; it may be kept.
@@ -12,6 +12,8 @@ export interface Listener {
   settings(settings: Settings): void;
   // Reports whether the source is connected; `why` is a text for users.
   line(open: boolean, why: string): void;
+  // Reports a fault in the files of the job, which were read again; null: there is none any more.
+  files(wrong: FileFault | null): void;
   // Reports a refused command with the reason.
   refused(why: string): void;
 }

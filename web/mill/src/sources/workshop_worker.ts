@@ -81,7 +81,6 @@ class Mill {
     const took = (this.took = performance.now() - now);
     if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
     else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
-    if (length < 0) return post({ kind: "failed", why: textAt(this.x, this.x.mill_text()) });
     if (length > 0) this.hand(length);
   }
 
