@@ -136,13 +136,15 @@ TRIBO_EXPORT(mill_materials) const char* mill_materials() {
     return mill().text.c_str();
 }
 
-// Advances the time of the viewer by dt_s. Mills for at most that many checks of the time budget (a few moves
-// each), as there is no clock here. Returns the number of bytes of frames at mill_frames().
+// Applies the newest settings and advances the time of the viewer by dt_s. Mills for at most that many checks
+// of the time budget (a few moves each), as there is no clock here. Returns the number of bytes of frames at
+// mill_frames().
 TRIBO_EXPORT(mill_tick) std::uint32_t mill_tick(double dt_s, std::uint32_t looks) {
     mill().frames.clear();
     if (!mill().live) return 0;
     std::uint32_t left = looks;
     const auto has_time = [&] { return left > 0 && left-- > 0; };
+    mill().controller->apply();
     mill().live->tick(dt_s, has_time, keep);
     mill().touch->tick(dt_s, keep);
     return static_cast<std::uint32_t>(mill().frames.size());

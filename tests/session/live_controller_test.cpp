@@ -44,7 +44,9 @@ class Controlled : public testing::Test {
     Result<void> say(std::string_view text) {
         const auto command = protocol::parse_live_command(text);
         if (!command) return std::unexpected(command.error());
-        return controller.obey(*command);
+        auto obeyed = controller.obey(*command);
+        controller.apply();
+        return obeyed;
     }
 
     std::unique_ptr<LiveMill> mill = *LiveMill::create(slot, serial_for);
@@ -81,6 +83,21 @@ TEST_F(Controlled, TheCutIsChangedAgainstTheJobs) {
         ASSERT_TRUE(say(back));
     EXPECT_TRUE(mill->change().none());
     EXPECT_EQ(controller.settings(), job_settings());
+}
+
+TEST_F(Controlled, OfASliderTheNewestValueWins) {
+    for (int percent = 10; percent <= 300; ++percent) {
+        const auto command = protocol::parse_live_command(R"({"op":"set","key":"feed_percent","value":)" +
+                                                          std::to_string(percent) + "}");
+        ASSERT_TRUE(controller.obey(*command));
+    }
+    EXPECT_EQ(controller.settings().feed_percent, 300);
+    EXPECT_TRUE(mill->change().none());
+    controller.apply();
+    EXPECT_EQ(mill->change().feed_factor, 3);
+    EXPECT_EQ(controller.force_changes(), 1);
+    controller.apply();
+    EXPECT_EQ(controller.force_changes(), 1);
 }
 
 TEST_F(Controlled, WhatIsRefusedChangesNothing) {

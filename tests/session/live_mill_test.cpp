@@ -9,144 +9,12 @@
 #include <memory>
 
 #include "field/contour/contour.hpp"
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
-#include "motion/path/path.hpp"
-#include "session/live/frame_cache.hpp"
+#include "session/live_viewer.hpp"
 
 namespace tribo::session {
 namespace {
 
-constexpr Box3 kBlank{{0, 0, -8}, {40, 20, 0}};
-
-Result<MillSetup> slot() {
-    MillSetup s;
-    milling::Cutter cutter;
-    cutter.kind = milling::CutterKind::ball;
-    cutter.diameter_mm = 6;
-    cutter.length_mm = 20;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    s.blank = std::make_unique<field::BoxShape>(kBlank);
-    s.blank_volume_mm3 = kBlank.volume();
-    s.cell_mm = 0.5;
-    motion::Move move;
-    move.feed_mm_per_min = 1200;
-    move.line = 7;
-    for (const double y : {4.0, 7.0, 10.0, 13.0, 16.0}) {
-        move.start.tip_mm = {-5, y, -2};
-        move.end.tip_mm = {45, y, -2};
-        for (motion::Move& piece : motion::in_pieces(move, LiveMill::kPieceMm)) {
-            s.moves.push_back(piece);
-            s.cutter_of_move.push_back(0);
-            s.rpm_of_move.push_back(9000);
-        }
-    }
-    return s;
-}
-
-// Reads frames as a viewer does, from their bytes alone.
-class Viewer {
-  public:
-    protocol::FrameSink sink() {
-        return [this](std::span<const std::uint8_t> frame) { take(frame); };
-    }
-    double part_volume_mm3() const {
-        TriangleMesh whole;
-        for (const auto& [at, mesh] : chunks_) {
-            const auto first = static_cast<std::uint32_t>(whole.positions.size());
-            whole.positions.insert(whole.positions.end(), mesh.positions.begin(), mesh.positions.end());
-            for (const Triangle& t : mesh.triangles)
-                whole.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-        }
-        return volume_mm3(whole);
-    }
-
-    int jobs = 0;
-    double duration_s = 0;
-    protocol::LiveState state;
-    std::size_t path_points = 0;
-    std::vector<double> row_times, row_forces, sound_times;
-    Vec3 listener;
-
-  private:
-    template <class Frame>
-    static Frame read(std::span<const std::uint8_t> bytes) {
-        Frame frame;
-        EXPECT_TRUE(protocol::read_frame(bytes, frame));
-        return frame;
-    }
-    void take(std::span<const std::uint8_t> frame) {
-        EXPECT_EQ(frame.size() % 4, 0u);
-        const auto kind = protocol::frame_kind(frame);
-        ASSERT_TRUE(kind);
-        switch (*kind) {
-            case protocol::LiveFrame::job:
-                job(read<protocol::LiveJob>(frame));
-                break;
-            case protocol::LiveFrame::path:
-                path_points = read<protocol::LivePath>(frame).points.size();
-                break;
-            case protocol::LiveFrame::chunk: {
-                auto chunk = read<protocol::LiveChunk>(frame);
-                chunks_[chunk.at] = std::move(chunk.mesh);
-                break;
-            }
-            case protocol::LiveFrame::state:
-                state = read<protocol::LiveState>(frame);
-                break;
-            case protocol::LiveFrame::rows:
-                rows(read<protocol::LiveRows>(frame));
-                break;
-            case protocol::LiveFrame::collision:
-                (void)read<protocol::LiveCollision>(frame);
-                break;
-            case protocol::LiveFrame::sound:
-                sound(read<protocol::LiveSoundPieces>(frame));
-                break;
-            case protocol::LiveFrame::listening:
-                listener = read<job::Listening>(frame).listener_mm;
-                break;
-            default:
-                ADD_FAILURE() << "not the mill's";
-        }
-    }
-    void job(const protocol::LiveJob& job) {
-        ++jobs;
-        chunks_.clear();
-        row_times.clear();
-        row_forces.clear();
-        sound_times.clear();
-        duration_s = job.duration_s;
-        EXPECT_EQ(job.blank_mm.min, kBlank.min);
-        EXPECT_EQ(job.blank_mm.max, kBlank.max);
-    }
-    void rows(const protocol::LiveRows& told) {
-        if (told.anew) {
-            row_times.clear();
-            row_forces.clear();
-        }
-        for (const protocol::LiveRow& row : told.rows) {
-            row_times.push_back(row.t_s);
-            row_forces.push_back(row.mean_force_n);
-        }
-    }
-    void sound(const protocol::LiveSoundPieces& told) {
-        for (const protocol::LiveSoundPiece& piece : told.pieces) {
-            sound_times.push_back(piece.t_s);
-            EXPECT_EQ(piece.order_step, 2);          // two flutes alike
-            EXPECT_EQ(piece.harmonics.size(), 17u);  // the mean and 16
-            EXPECT_EQ(piece.edges, 2);
-            EXPECT_GT(piece.mean_torque_nmm, 0);
-        }
-    }
-
-    std::map<protocol::LiveChunkPlace, TriangleMesh> chunks_;
-};
-
-bool always() {
-    return true;
-}
+using namespace test;
 
 TEST(LiveMill, ShowsThePartAsItIsCut) {
     auto live = *LiveMill::create(slot, serial_for);
@@ -252,52 +120,6 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     memory.take(std::array<std::uint8_t, 3>{1, 2, 3});
 }
 
-// Overrides change what was cut and what will be as if the program had been written so.
-TEST(LiveMill, TellsTheForcesOfAChangedCut) {
-    const auto changed = []() -> Result<MillSetup> {
-        auto s = slot();
-        for (motion::Move& move : s->moves) move.feed_mm_per_min *= 1.5;
-        for (double& rpm : s->rpm_of_move) rpm *= 0.5;
-        for (milling::Cutter& cutter : s->cutters) cutter.helix_deg = 45;
-        s->coefficients = milling::find_material("steel")->coefficients;
-        return s;
-    };
-    MillSession alone(*changed(), serial_for);
-    std::vector<double> forces;
-    MillSinks sinks;
-    sinks.row = [&](const milling::CutRow&, const milling::RowForce& force) {
-        forces.push_back(length(force.peaks.mean_n));
-    };
-    alone.run(sinks);
-
-    auto live = *LiveMill::create(slot, serial_for);
-    Viewer viewer;
-    FrameCache memory;
-    const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
-        memory.take(frame);
-        viewer.sink()(frame);
-    };
-    live->play(true);
-    while (live->clock_s() < 0.5 * live->duration_s()) live->tick(1.0 / 60, always, both);
-    CutChange change;
-    change.feed_factor = 1.5;
-    change.speed_factor = 0.5;
-    change.helix_deg = 45;
-    change.coefficients = milling::find_material("steel")->coefficients;
-    live->set_change(change);
-    const double before = live->clock_s();
-    live->tick(0.1, always, both);
-    EXPECT_NEAR(live->clock_s() - before, 0.15, 1e-12);
-    while (live->playing()) live->tick(1.0 / 60, always, both);
-    EXPECT_EQ(viewer.jobs, 1);
-    ASSERT_EQ(viewer.row_forces.size(), forces.size());
-    for (std::size_t n = 0; n < forces.size(); ++n)
-        ASSERT_NEAR(viewer.row_forces[n], forces[n], 1e-5 * forces[n] + 1e-4) << n;
-    Viewer latecomer;
-    memory.replay(latecomer.sink());
-    EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
-}
-
 // The design is the blank, sunk by half a millimetre at its top: what no cut has reached is as far from it
 // as it was sunk, the bottom of a groove as deep as it was cut.
 TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
@@ -363,40 +185,6 @@ TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
     live->set_clock(live->duration_s());
     live->tick(0, always, keep);
     EXPECT_GT(compared, 100u);
-}
-
-TEST(LiveMill, MillsTheOldSetupAgainWhileTheNewOneIsWrong) {
-    bool good = true;
-    double feed_factor = 1;
-    const auto from_files = [&]() -> Result<MillSetup> {
-        if (!good) return fail_at("p.nc", 3, 1, "no word 'H1'", "correct it");
-        auto setup = slot();
-        for (motion::Move& move : setup->moves) move.feed_mm_per_min *= feed_factor;
-        return setup;
-    };
-    auto live = *LiveMill::create(from_files, serial_for);
-    Viewer viewer;
-    const auto mill_all = [&] {
-        live->set_clock(0);
-        live->tick(0, always, viewer.sink());
-        live->set_clock(live->duration_s());
-        live->tick(0, always, viewer.sink());
-        return viewer.row_times;
-    };
-    const std::vector<double> times = mill_all();
-    good = false;
-    EXPECT_FALSE(live->input_error());
-    for (int n = 0; n < 2; ++n) {
-        EXPECT_EQ(mill_all(), times);
-        ASSERT_TRUE(live->input_error());
-        EXPECT_EQ(live->input_error()->line, 3);
-        EXPECT_NEAR(viewer.part_volume_mm3() / live->session().totals().remaining_mm3, 1, 2e-3);
-    }
-    good = true;
-    feed_factor = 2;
-    mill_all();
-    EXPECT_FALSE(live->input_error());
-    EXPECT_NEAR(viewer.duration_s, 0.5 * 5 * 50.0 / 20, 1e-9);
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

@@ -94,6 +94,7 @@ void LiveView::run(net::Server& server) {
     };
     while (!interrupted()) {
         for (const LiveInbox::Event& event : inbox_.take_all()) answer(event, server);
+        show_changes(server);
         const auto now = Clock::now();
         const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
         before = now;
@@ -108,6 +109,18 @@ void LiveView::run(net::Server& server) {
         next = std::max(next + kFrameTime, Clock::now());
         std::this_thread::sleep_until(next);
     }
+}
+
+// Applies the settings of all messages since the last picture, and tells all clients the newest.
+void LiveView::show_changes(net::Server& server) {
+    controller_.apply();
+    if (force_changes_ != controller_.force_changes()) {
+        force_changes_ = controller_.force_changes();
+        request_forces();
+    }
+    if (controller_.settings() == sent_settings_) return;
+    sent_settings_ = controller_.settings();
+    server.send_text_all(protocol::live_settings(sent_settings_));
 }
 
 void LiveView::show_input_error(net::Server& server) {
@@ -198,13 +211,6 @@ void LiveView::obey(const LiveInbox::Event& event, net::Server& server) {
     if (auto obeyed = controller_.obey(*command); !obeyed)
         return server.send_text(event.client, protocol::live_refusal(obeyed.error()));
     if (command->op == protocol::LiveOp::resync) replay(event.client, server);
-    if (force_changes_ != controller_.force_changes()) {
-        force_changes_ = controller_.force_changes();
-        request_forces();
-    }
-    if (controller_.settings() == sent_settings_) return;
-    sent_settings_ = controller_.settings();
-    server.send_text_all(protocol::live_settings(sent_settings_));
 }
 
 }  // namespace tribo::app

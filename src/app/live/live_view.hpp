@@ -59,6 +59,7 @@ class LiveView {
     void answer(const LiveInbox::Event& event, net::Server& server);
     void obey(const LiveInbox::Event& event, net::Server& server);
     void replay(net::ClientId to, net::Server& server);
+    void show_changes(net::Server& server);
     void show_input_error(net::Server& server);
     void follow_files();
     void request_forces();

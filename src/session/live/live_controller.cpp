@@ -21,6 +21,7 @@ LiveController::LiveController(LiveMill& mill, const LiveForceOptions& options,
     : mill_(mill),
       job_settings_(std::move(settings)),
       settings_(job_settings_),
+      applied_(job_settings_),
       finger_(options, std::move(arm), mill.session().stock().blank().bounds_mm().max) {
     mill_.set_session_observer([this](MillSession* session) { finger_.force_source().set_session(session); });
 }
@@ -75,33 +76,36 @@ Result<void> LiveController::obey(const protocol::LiveCommand& command) {
             }
             break;
         case LiveOp::material:
+            if (command.word != job_settings_.material) {
+                const auto known = milling::find_material(command.word);
+                if (!known) return std::unexpected(known.error());
+            }
             wanted.material = command.word;
             break;
     }
-    return set(wanted);
-}
-
-Result<void> LiveController::set(const protocol::LiveSettings& wanted) {
-    const bool recut = cut_of(wanted) != cut_of(settings_);
-    const bool rescaled = wanted.force_scale != settings_.force_scale || wanted.jnd != settings_.jnd;
-    if (recut) {
-        CutChange change;
-        change.feed_factor = 0.01 * wanted.feed_percent;
-        change.speed_factor = 0.01 * wanted.spindle_percent;
-        if (wanted.helix_deg != job_settings_.helix_deg) change.helix_deg = wanted.helix_deg;
-        if (wanted.material != job_settings_.material) {
-            const auto material = milling::find_material(wanted.material);
-            if (!material) return std::unexpected(material.error());
-            change.coefficients = material->coefficients;
-        }
-        mill_.set_change(change);
-    }
     settings_ = wanted;
-    if (recut || rescaled) ++force_changes_;
-    if (rescaled) use_force();
     // Immediately, not only with the next picture.
     if (settings_.stopped) finger_.stop(scene());
     return {};
+}
+
+void LiveController::apply() {
+    const bool recut = cut_of(settings_) != cut_of(applied_);
+    const bool rescaled = settings_.force_scale != applied_.force_scale || settings_.jnd != applied_.jnd;
+    applied_ = settings_;
+    if (recut) mill_.set_change(change());
+    if (recut || rescaled) ++force_changes_;
+    if (rescaled) use_force();
+}
+
+CutChange LiveController::change() const {
+    CutChange change;
+    change.feed_factor = 0.01 * settings_.feed_percent;
+    change.speed_factor = 0.01 * settings_.spindle_percent;
+    if (settings_.helix_deg != job_settings_.helix_deg) change.helix_deg = settings_.helix_deg;
+    if (settings_.material != job_settings_.material)
+        change.coefficients = milling::find_material(settings_.material)->coefficients;
+    return change;
 }
 
 contact::ForceTableOptions LiveController::table_options() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Executes the commands of a page (docs/live-protocol.md) on mill, finger and settings. Used by the program
-// and by the mill in the page. No threads and no clocks of its own.
+// and by the mill in the page. Of several settings in one frame only the newest costs anything: obey() keeps
+// what is wanted, apply() does it. No threads and no clocks of its own.
 #pragma once
 
 #include "contact/force_table.hpp"
@@ -22,6 +23,8 @@ class LiveController {
 
     // A refused command changes nothing. The caller must handle resync: it keeps the frames.
     Result<void> obey(const protocol::LiveCommand& command);
+    // Applies the newest settings to cut and force: once per frame, before LiveMill::tick().
+    void apply();
 
     LiveMill& mill() { return mill_; }
     LiveFinger& finger() { return finger_; }
@@ -29,7 +32,7 @@ class LiveController {
     // The current scene for the finger.
     LiveScene scene() const;
 
-    // Number of changes so far that need a new force table.
+    // Number of applied changes so far that need a new force table.
     int force_changes() const { return force_changes_; }
     contact::ForceTableOptions table_options() const;
     // Sets the force of the cut, built with table_options(). The current force scale applies, also after
@@ -37,12 +40,12 @@ class LiveController {
     void set_force(contact::ForceTable table);
 
   private:
-    Result<void> set(const protocol::LiveSettings& wanted);
+    CutChange change() const;
     void use_force();
 
     LiveMill& mill_;
     const protocol::LiveSettings job_settings_;
-    protocol::LiveSettings settings_;
+    protocol::LiveSettings settings_, applied_;
     LiveFinger finger_;
     contact::ForceTable table_;
     int force_changes_ = 0;

@@ -10,8 +10,8 @@
 
 #include "base/result.hpp"
 #include "protocol/live_frame.hpp"
-#include "session/cut/cut_record.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/live/live_cut.hpp"
 #include "session/live/live_sound.hpp"
 #include "session/live/part_picture.hpp"
 
@@ -43,7 +43,7 @@ class LiveMill {
     // Number of sessions so far: a new one begins after the clock was set back.
     int sessions() const { return sessions_; }
     // The rows so far.
-    const CutRecord& record() const { return record_; }
+    const CutRecord& record() const { return cut_.record(); }
     // The error of the last call of MakeSetup; none: it made a setup.
     const std::optional<Error>& input_error() const { return input_error_; }
 
@@ -51,12 +51,12 @@ class LiveMill {
     void play(bool on);
     void set_speed(double seconds_per_second);  // > 0, at most kFastest; other values are ignored
     void set_clock(double t_s);                 // clamped to the program; NaN is ignored
-    // Sets overrides of feed and spindle, material or helix. All rows are sent again. The program clock runs
-    // faster by the feed override.
+    // Sets overrides of feed and spindle, material or helix, with the next tick. All rows are sent again once
+    // their forces are computed. The program clock runs faster by the feed override.
     void set_change(const CutChange& change);
-    const CutChange& change() const { return change_; }
+    const CutChange& change() const { return cut_.change(); }
     double speed() const { return speed_; }
-    double pace() const { return playing_ ? speed_ * change_.feed_factor : 0; }
+    double pace() const { return playing_ ? speed_ * change().feed_factor : 0; }
     // Called with each new session, and with null before a session is destroyed.
     void set_session_observer(std::function<void(MillSession*)> observer);
     // Receiver of sound updates in this process, called together with the frames.
@@ -69,12 +69,9 @@ class LiveMill {
   private:
     LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras);
     Result<void> begin();
-    void add_row(const milling::CutRow& row);
-    void set_force(std::size_t row, const milling::RowForce& force);
-    void set_changed_forces(std::size_t first_row, std::size_t first_heard);
     void show_job(const protocol::FrameSink& frames);
     void show_part(const Box3& box_mm, const protocol::FrameSink& frames);
-    void show_rows(const protocol::FrameSink& frames);
+    void show_collisions(const protocol::FrameSink& frames);
     void show_sound(const protocol::FrameSink& frames);
     void show_designed(const protocol::FrameSink& frames);
     job::Listening listening() const;
@@ -88,22 +85,12 @@ class LiveMill {
     std::unique_ptr<MillSession> session_;
     std::unique_ptr<PartPicture> picture_;
     protocol::LivePath path_;
-    std::vector<protocol::LiveRow> rows_;
-    // Additional data of a row for state frames.
-    struct RowState {
-        Vec3 force_n;            // stock frame
-        double removed_mm3 = 0;  // up to the end of this row
-    };
-    std::vector<RowState> row_states_;  // one per row
-    CutRecord record_;                  // also one per row
-    protocol::LiveSoundPieces sound_;   // not sent yet
-    CutChange change_;
-    bool rows_anew_ = false;
+    LiveCut cut_;
     std::optional<Error> input_error_;
-    int sessions_ = 0;
     std::function<void(MillSession*)> session_observer_;
     std::function<void(LiveSoundUpdate)> sound_listener_;
-    std::size_t rows_sent_ = 0, collisions_sent_ = 0;
+    int sessions_ = 0;
+    std::size_t collisions_sent_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;
     std::vector<std::uint8_t> frame_, last_state_;

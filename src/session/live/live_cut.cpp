@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "session/live/live_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/math.hpp"
+
+namespace tribo::session {
+namespace {
+
+// Rows in one slice of a pass: about three milliseconds on one thread.
+constexpr std::size_t kRowsPerSlice = 256;
+// Rows in one frame, and frames at one time: a viewer can process them without a stutter.
+constexpr std::size_t kRowsPerFrame = 4096, kMostFrames = 2;
+
+// Returns the data of a row that the sound needs, with its spectrum.
+protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const contact::ForceSpectrum& spectrum,
+                                          int edges, const CutChange& change) {
+    protocol::LiveSoundPiece piece;
+    piece.t_s = row.start_s;
+    piece.duration_s = static_cast<float>(row.duration_s());
+    for (int axis = 0; axis < 3; ++axis)
+        piece.tip_mm[static_cast<std::size_t>(axis)] = static_cast<float>(row.pose.tip_mm[axis]);
+    piece.spindle_angle_rad = static_cast<float>(std::fmod(changed_phase_rad(row, change), math::kTwoPi));
+    piece.spindle_rad_per_s = static_cast<float>(change.speed_factor * row.spindle_rpm / 60 * math::kTwoPi);
+    piece.pace = static_cast<float>(change.feed_factor);
+    piece.chip_mm3_per_s = static_cast<float>(change.feed_factor * row.chip_mm3_per_s());
+    piece.order_step = spectrum.order_step;
+    for (const contact::ForceHarmonic& h : spectrum.harmonics)
+        piece.harmonics.push_back(
+            {std::complex<float>(h.x), std::complex<float>(h.y), std::complex<float>(h.z)});
+    piece.edges = edges;
+    piece.mean_torque_nmm = static_cast<float>(mean_force(spectrum).torque_nmm);
+    return piece;
+}
+
+}  // namespace
+
+void LiveCut::begin(const MillSetup& setup) {
+    setup_ = &setup;
+    record_ = {};
+    rows_.clear();
+    states_.clear();
+    sound_.pieces.clear();
+    sent_ = fresh_ = heard_ = 0;
+    anew_ = outdated_ = passing_ = false;
+}
+
+void LiveCut::add(const milling::CutRow& row, const milling::RowForce& force) {
+    const milling::EngagementHull hull = milling::hull(row.engagement);
+    protocol::LiveRow told;
+    told.t_s = row.start_s;
+    told.end_s = row.end_s;
+    told.tip_mm = row.pose.tip_mm;
+    told.entry_rad = hull.entry_rad;
+    told.exit_rad = hull.exit_rad;
+    told.axial_depth_mm = hull.axial_depth_mm;
+    told.line = static_cast<std::uint32_t>(row.line);
+    rows_.push_back(told);
+    const double before = states_.empty() ? 0 : states_.back().removed_mm3;
+    states_.push_back({{}, before + row.removed_mm3});
+    record_.add(row);
+    if (!change_.none() || fresh_ + 1 < rows_.size()) return;
+    set_force(fresh_++, force, change_);
+}
+
+// Returns the row of this time, or the last one before it; 0 if there is none.
+std::size_t LiveCut::row_at(double t_s) const {
+    const auto after = std::upper_bound(rows_.begin(), rows_.end(), t_s,
+                                        [](double t, const protocol::LiveRow& row) { return t < row.t_s; });
+    return after == rows_.begin() ? 0 : static_cast<std::size_t>(after - rows_.begin()) - 1;
+}
+
+void LiveCut::set_change(const CutChange& change, double clock_s) {
+    change_ = change;
+    clock_row_ = row_at(clock_s);
+    fresh_ = std::min(fresh_, clock_row_);
+    heard_ = clock_row_ + (!rows_.empty() && rows_[clock_row_].end_s <= clock_s ? 1 : 0);
+    sound_.pieces.clear();
+    outdated_ = !rows_.empty();
+}
+
+void LiveCut::compute_new() {
+    if (fresh_ == rows_.size()) return;
+    compute(fresh_, rows_.size(), change_, heard_);
+    fresh_ = rows_.size();
+}
+
+void LiveCut::compute_slice() {
+    if (!passing_) {
+        if (!outdated_ || rest_s_ > 0) return;
+        outdated_ = false;
+        passing_ = true;
+        pass_next_ = 0;
+        pass_end_ = clock_row_;
+        pass_change_ = change_;
+    }
+    const std::size_t last = std::min(pass_next_ + kRowsPerSlice, pass_end_);
+    compute(pass_next_, last, pass_change_, last);
+    pass_next_ = last;
+    if (pass_next_ < pass_end_) return;
+    passing_ = false;
+    rest_s_ = kRestS;
+    sent_ = 0;
+    anew_ = true;
+}
+
+void LiveCut::compute(std::size_t first, std::size_t last, const CutChange& change, std::size_t first_heard) {
+    const auto forces = changed_forces(record_.rows().subspan(first, last - first), *setup_, change,
+                                       std::max(first, first_heard) - first, parallel_);
+    for (std::size_t n = first; n < last; ++n) set_force(n, forces[n - first], change);
+}
+
+// Sets the values that depend on the force of a row. The row gets sound only if there is a spectrum.
+void LiveCut::set_force(std::size_t n, const milling::RowForce& force, const CutChange& change) {
+    const milling::CutRow& cut = record_.rows()[n];
+    protocol::LiveRow& row = rows_[n];
+    states_[n].force_n = cut.pose.frame.in_stock(force.peaks.mean_n);
+    row.mean_force_n = length(states_[n].force_n);
+    row.peak_force_n = force.peaks.peak_force_n;
+    row.mean_torque_nm = 1e-3 * force.peaks.mean_torque_nmm;
+    row.feed_per_tooth_mm = change.chip_factor() * cut.feed.across_mm;
+    const milling::Cutter& cutter = setup_->cutters[cut.cutter];
+    row.chip_mm = force.chip_mm;
+    row.chip_verdict = static_cast<std::uint32_t>(milling::chip_verdict(force.chip_mm, cutter));
+    if (force.spectrum.empty()) return;
+    sound_.pieces.push_back(live_sound_piece(cut, force.spectrum, cutter.flutes, change));
+}
+
+void LiveCut::describe(protocol::LiveState& s) const {
+    if (rows_.empty() || s.t_s < rows_.front().t_s) return;
+    const std::size_t row = row_at(s.t_s);
+    s.removed_mm3 = states_[row].removed_mm3;
+    if (s.t_s > rows_[row].end_s) return;
+    const milling::CutRow& cut = record_.rows()[row];
+    s.cutting = true;
+    s.force_n = states_[row].force_n;
+    s.peak_force_n = rows_[row].peak_force_n;
+    s.mean_torque_nm = rows_[row].mean_torque_nm;
+    const double written_rad_per_s = change_.angle_factor() * cut.spindle_rad_per_s();
+    s.spindle_angle_rad = changed_phase_rad(cut, change_) + written_rad_per_s * (s.t_s - cut.start_s);
+}
+
+void LiveCut::show_rows(const protocol::FrameSink& frames) {
+    std::vector<std::uint8_t> frame;
+    for (std::size_t n = 0; n < kMostFrames && sent_ < fresh_; ++n) {
+        const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(sent_);
+        const std::size_t now = std::min(kRowsPerFrame, fresh_ - sent_);
+        protocol::write_frame(protocol::LiveRows{std::exchange(anew_, false),
+                                                 {first, first + static_cast<std::ptrdiff_t>(now)}},
+                              frame);
+        frames(frame);
+        sent_ += now;
+    }
+}
+
+protocol::LiveSoundPieces LiveCut::take_sound() {
+    return std::exchange(sound_, {});
+}
+
+}  // namespace tribo::session
