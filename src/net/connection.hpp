@@ -3,6 +3,7 @@
 // includes this header, so that all of Beast stays in one translation unit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
@@ -13,6 +14,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket/teardown.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <variant>
@@ -38,11 +40,19 @@ class Connection {
     std::string local_address() {
         boost::system::error_code error;
         const auto end = next_layer().socket().local_endpoint(error);
+        return error ? std::string() : unmapped(end.address()).to_string();
+    }
+    // Numeric address of the client. Of IPv6 only the network (64 bits): one machine may have all its
+    // addresses.
+    std::string client_network() {
+        boost::system::error_code error;
+        const auto end = next_layer().socket().remote_endpoint(error);
         if (error) return {};
-        const auto address = end.address();
-        if (address.is_v6() && address.to_v6().is_v4_mapped())
-            return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).to_string();
-        return address.to_string();
+        const boost::asio::ip::address address = unmapped(end.address());
+        if (address.is_v4()) return address.to_string();
+        auto bytes = address.to_v6().to_bytes();
+        std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+        return boost::asio::ip::address_v6(bytes).to_string();
     }
 
     // Starts TLS as the server. `begun` holds the bytes that were already read. All later traffic is
@@ -75,6 +85,12 @@ class Connection {
     }
 
   private:
+    // IPv4 addresses come to a socket of both versions in the form of IPv6.
+    static boost::asio::ip::address unmapped(const boost::asio::ip::address& address) {
+        if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address;
+        return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6());
+    }
+
     using Done = std::move_only_function<void(boost::system::error_code, std::size_t)>;
     // Enough for the head and the body of a message. The next call takes the rest.
     static constexpr std::size_t kBuffers = 4;

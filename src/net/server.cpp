@@ -14,7 +14,10 @@ constexpr auto kRequestTime = std::chrono::seconds(30);  // for a request, or un
 constexpr auto kTlsTime = std::chrono::seconds(10);      // for the handshake of TLS
 constexpr auto kPause = std::chrono::milliseconds(100);
 constexpr std::uint32_t kHeaderBytes = 16 * 1024;
-constexpr std::size_t kMostConnections = 256;
+constexpr auto kAnswerTime = std::chrono::seconds(5);          // an answer that takes longer counts as idle
+constexpr auto kOverTime = std::chrono::milliseconds(50);      // between two checks of is_over
+constexpr auto kGoodbyeTime = std::chrono::milliseconds(300);  // for the answers to the close frames
+constexpr auto kGoodbyeCheck = std::chrono::milliseconds(5);
 
 std::string_view view(boost::string_view s) {
     return {s.data(), s.size()};
@@ -23,14 +26,18 @@ std::string_view view(boost::string_view s) {
 // One connection while it uses HTTP.
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
-    HttpSession(Tcp::socket&& socket, Shared& shared) : connection_(std::move(socket)), shared_(shared) {
-        ++shared_.connections;
-    }
-    ~HttpSession() { --shared_.connections; }
+    HttpSession(Tcp::socket&& socket, Shared& shared) : connection_(std::move(socket)), shared_(shared) {}
+    ~HttpSession() { shared_.connections.leave(seat_); }
     HttpSession(const HttpSession&) = delete;
     HttpSession& operator=(const HttpSession&) = delete;
 
+    // Closes at once if there is no room.
     void begin() {
+        address_ = connection_.client_network();
+        if (!shared_.connections.make_room(address_, Clock::now())) return;
+        seat_ = shared_.connections.take(address_, Clock::now(), [weak = weak_from_this()] {
+            if (const auto self = weak.lock()) self->connection_.next_layer().close();
+        });
         local_address_ = connection_.local_address();
         if (!shared_.tls) return read();
         connection_.next_layer().expires_after(kTlsTime);
@@ -57,10 +64,25 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         parser_->header_limit(kHeaderBytes);
         parser_->body_limit(std::uint64_t{0});
         connection_.next_layer().expires_after(kRequestTime);
+        shared_.connections.set_idle_from(seat_, Clock::now());
         http::async_read(connection_, buffer_, *parser_,
                          [self = shared_from_this()](error_code error, std::size_t) {
-                             if (!error) self->take(self->parser_->release());
+                             if (error) return self->refuse_broken(error);
+                             self->shared_.connections.set_idle_from(self->seat_, Clock::now() + kAnswerTime);
+                             self->take(self->parser_->release());
                          });
+    }
+
+    // What is no request gets an answer. Connections that end or that time out get none.
+    void refuse_broken(error_code error) {
+        static const auto& of_http = make_error_code(http::error::bad_version).category();
+        if (error.category() != of_http || error == http::error::end_of_stream) return;
+        if (error == http::error::header_limit)
+            return answer({}, http::status::request_header_fields_too_large,
+                          {"text/plain", "the header is too long\n", ""});
+        if (error == http::error::body_limit)
+            return answer({}, http::status::payload_too_large, {"text/plain", "no body, please\n", ""});
+        answer({}, http::status::bad_request, {"text/plain", "this is no HTTP/1.1 request\n", ""});
     }
 
     void take(Request request) {
@@ -79,7 +101,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                  target, local_address_},
                 Clock::now());
             if (!admitted) return refuse(request, admitted.error());
-            std::make_shared<Client>(std::move(connection_), shared_)->accept(request, *admitted);
+            if (!shared_.client_seats.make_room(address_, Clock::now()))
+                return answer(request, http::status::service_unavailable,
+                              {"text/plain", "too many viewers are connected\n", ""});
+            std::make_shared<Client>(std::move(connection_), shared_)->accept(request, *admitted, address_);
             return;
         }
         if (request.method() != http::verb::get && request.method() != http::verb::head)
@@ -141,7 +166,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     Connection connection_;
     Shared& shared_;
     beast::flat_buffer buffer_;
-    std::string local_address_, location_;
+    Seats::Id seat_ = 0;
+    std::string address_, local_address_, location_;
     std::optional<http::request_parser<http::empty_body>> parser_;
     std::string text_;
 };
@@ -154,21 +180,51 @@ struct Server::Parts {
     Shared shared;  // outlives the connections, which the context holds
     asio::io_context context{1};
     Tcp::acceptor acceptor{context};
-    asio::steady_timer pause{context};
+    asio::steady_timer pause{context}, over{context}, goodbye{context};
     std::thread thread;
 
     void accept() {
         acceptor.async_accept([this](error_code error, Tcp::socket socket) {
             if (error == asio::error::operation_aborted) return;
-            if (!error && shared.connections < kMostConnections)
+            if (!error) {
                 std::make_shared<HttpSession>(std::move(socket), shared)->begin();
-            if (!error) return accept();
+                return accept();
+            }
             // The system has no resources for another connection. Pause instead of retrying at once.
             pause.expires_after(kPause);
             pause.async_wait([this](error_code stopped) {
                 if (!stopped) accept();
             });
         });
+    }
+
+    void watch_is_over() {
+        if (!shared.options.is_over) return;
+        over.expires_after(kOverTime);
+        over.async_wait([this](error_code stopped) {
+            if (stopped) return;
+            if (shared.options.is_over()) return say_goodbye();
+            watch_is_over();
+        });
+    }
+
+    // Accepts no more, and sends the close frames.
+    void say_goodbye() {
+        error_code ignored;
+        acceptor.close(ignored);
+        pause.cancel();
+        // To disconnect a client removes it.
+        for (const auto& [id, weak] : std::map(shared.clients)) {
+            if (const auto client = weak.lock())
+                client->disconnect(websocket::close_code::going_away, "the engine ends");
+        }
+    }
+
+    // Stops once all clients have answered, or after the time.
+    void stop_by(Clock::time_point last) {
+        if (shared.client_seats.taken() == 0 || Clock::now() >= last) return context.stop();
+        goodbye.expires_after(kGoodbyeCheck);
+        goodbye.async_wait([this, last](error_code) { stop_by(last); });
     }
 
     template <class Action>
@@ -200,7 +256,11 @@ Server::Server(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
 }
 
 Server::~Server() {
-    parts_->context.stop();
+    asio::post(parts_->context, [p = parts_.get()] {
+        p->over.cancel();
+        p->say_goodbye();
+        p->stop_by(Clock::now() + kGoodbyeTime);
+    });
     parts_->thread.join();
 }
 
@@ -234,6 +294,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, Serv
     }
     parts->shared.port = acceptor.local_endpoint().port();
     parts->accept();
+    parts->watch_is_over();
     return std::unique_ptr<Server>(new Server(std::move(parts)));
 }
 
@@ -259,6 +320,10 @@ void Server::send(ClientId to, Bytes data) {
 
 void Server::send_all(const Bytes& data) {
     parts_->to_all([data](Client& client) { client.send(data); });
+}
+
+void Server::replay(ClientId to, std::vector<Bytes> data) {
+    parts_->to_client(to, [data = std::move(data)](Client& client) { client.replay(data); });
 }
 
 void Server::disconnect(ClientId client, std::string why) {

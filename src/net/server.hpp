@@ -7,6 +7,7 @@
 // the reason. A plain request to a TLS server is redirected to https.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -39,14 +40,28 @@ struct ServerOptions {
     std::string address = "127.0.0.1";
     std::uint16_t port = 0;  // 0: any free port
     std::string subprotocol;
-    std::string token;                // empty: no token is required
-    std::vector<std::string> hosts;   // names of this server (without port), besides localhost and its
-                                      // address
-    std::shared_ptr<ssl_ctx_st> tls;  // from tls.hpp; null: no TLS
-    std::size_t queue_bytes = 32e6;   // data queue of one client; when it is full the oldest is dropped
-    std::size_t message_bytes = 1e6;  // a client that sends a longer message is disconnected
-    int messages_per_s = 500;         // a client with a higher rate over two seconds is disconnected
+    std::string token;                 // empty: no token is required
+    std::vector<std::string> hosts;    // names of this server (without port), besides localhost and its
+                                       // address
+    std::shared_ptr<ssl_ctx_st> tls;   // from tls.hpp; null: no TLS
+    std::size_t queue_bytes = 32e6;    // data queue of one client; when it is full the oldest is dropped
+    std::size_t message_bytes = 4096;  // a client that sends a longer message is disconnected
+    int messages_per_s = 500;          // a client with a higher rate over two seconds is disconnected
+    // At most so many at once, in all and of one address (of IPv6: of a network of 64 bits). One that comes
+    // then takes the place of the one that has been idle for the longest time. A connection without a request
+    // is idle at once, a client (WebSocket) when it has not answered for kSilentTime.
+    std::size_t connections = 256, connections_per_address = 128;
+    std::size_t clients = 64, clients_per_address = 32;
+    // Checked 20 times a second on the server thread: true says goodbye to all clients (close code 1001) and
+    // accepts no more. Empty: only the destructor does.
+    std::function<bool()> is_over;
 };
+
+// A client that answers no ping for this long is disconnected, and gives way to others before that.
+inline constexpr std::chrono::seconds kLongestSilence{30}, kSilentTime{20};
+
+// Whether the receiver has room for a message.
+enum class Taken { yes, too_many, too_much };
 
 struct ResumeInfo {
     bool resumed = false;  // the client connected with a resume token
@@ -58,17 +73,20 @@ struct ServerHandlers {
     std::function<std::optional<Page>(std::string_view path, AcceptedEncodings accepted)>
         on_get;  // none: 404
     std::function<void(ClientId, const ResumeInfo&)> on_connect;
-    std::function<void(ClientId, std::string_view text)> on_message;
+    // A client whose message is not taken is disconnected, with code 1008 (too many) or 1009 (too much).
+    std::function<Taken(ClientId, std::string_view text)> on_message;
     std::function<void(ClientId)> on_disconnect;
     // The data queue of this client was full and data was dropped: the client needs a full replay.
     std::function<void(ClientId)> on_overflow;
+    // Makes the text that a client gets before it is disconnected for breaking a rule. May be empty.
+    std::function<std::string(std::string_view why)> last_words;
 };
 
 class Server {
   public:
     // Starts to listen. The error names an address or port that the system refuses.
     static Result<std::unique_ptr<Server>> start(const ServerOptions& options, ServerHandlers handlers);
-    ~Server();  // closes all connections
+    ~Server();  // says goodbye to all clients (close code 1001) and waits up to 0.3 s for their answers
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
@@ -83,6 +101,9 @@ class Server {
     // comes first). When a client is too slow the oldest data is dropped.
     void send(ClientId to, Bytes data);
     void send_all(const Bytes& data);
+    // Replaces the data that waits for this client by all of these. They do not count for queue_bytes: the
+    // caller keeps them anyway.
+    void replay(ClientId to, std::vector<Bytes> data);
     // Closes with code 1008 and at most 123 bytes of reason.
     void disconnect(ClientId client, std::string why);
     std::size_t clients() const;

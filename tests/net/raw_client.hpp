@@ -137,7 +137,15 @@ class RawClient {
         }
         return {};
     }
+    // The next frame that is no ping. Pings are answered (RFC 6455 5.5.2).
     std::optional<Frame> frame() {
+        for (;;) {
+            auto one = any_frame();
+            if (!one || one->opcode != 9) return one;
+            send_frame(10, one->payload);
+        }
+    }
+    std::optional<Frame> any_frame() {
         const std::string head = bytes(2);
         if (head.size() < 2) return std::nullopt;
         std::uint64_t size = static_cast<unsigned char>(head[1]) & 0x7f;

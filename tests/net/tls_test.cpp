@@ -75,6 +75,7 @@ class TlsServer : public testing::Test {
         handlers.on_message = [this](ClientId id, std::string_view text) {
             server_->send_text(id, std::string(text));
             server_->send(id, std::make_shared<std::vector<std::uint8_t>>(300'000, std::uint8_t{7}));
+            return Taken::yes;
         };
         auto started = Server::start(options, std::move(handlers));
         ASSERT_TRUE(started);

@@ -31,7 +31,7 @@ TEST(LiveChanges, TellsTheForcesOfAChangedCut) {
     Viewer viewer;
     FrameCache memory;
     const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
-        memory.take(frame);
+        memory.take(shared(frame));
         viewer.sink()(frame);
     };
     live->play(true);
@@ -51,7 +51,7 @@ TEST(LiveChanges, TellsTheForcesOfAChangedCut) {
     for (std::size_t n = 0; n < forces.size(); ++n)
         ASSERT_NEAR(viewer.row_forces[n], forces[n], 1e-5 * forces[n] + 1e-4) << n;
     Viewer latecomer;
-    memory.replay(latecomer.sink());
+    for (const FrameCache::Frame& frame : memory.replay()) latecomer.sink()(*frame);
     EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
 }
 

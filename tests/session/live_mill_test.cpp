@@ -101,12 +101,12 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     Viewer viewer, latecomer;
     FrameCache memory;
     const protocol::FrameSink both = [&](std::span<const std::uint8_t> frame) {
-        memory.take(frame);
+        memory.take(shared(frame));
         viewer.sink()(frame);
     };
     live->play(true);
     for (int n = 0; n < 200; ++n) live->tick(1.0 / 60, always, both);
-    memory.replay(latecomer.sink());
+    for (const FrameCache::Frame& frame : memory.replay()) latecomer.sink()(*frame);
     EXPECT_EQ(latecomer.jobs, 1);
     EXPECT_EQ(latecomer.row_times, viewer.row_times);
     EXPECT_EQ(latecomer.state.t_s, viewer.state.t_s);
@@ -117,7 +117,9 @@ TEST(LiveMill, IsRememberedForALatecomer) {
     bool told = false;
     live->tick(1, always, [&](std::span<const std::uint8_t>) { told = true; });
     EXPECT_FALSE(told);
-    memory.take(std::array<std::uint8_t, 3>{1, 2, 3});
+    const std::size_t kept = memory.replay().size();
+    memory.take(shared(std::array<std::uint8_t, 3>{1, 2, 3}));
+    EXPECT_EQ(memory.replay().size(), kept);
 }
 
 // The design is the blank, sunk by half a millimetre at its top: what no cut has reached is as far from it

@@ -146,4 +146,8 @@ inline bool always() {
     return true;
 }
 
+inline FrameCache::Frame shared(std::span<const std::uint8_t> frame) {
+    return std::make_shared<const std::vector<std::uint8_t>>(frame.begin(), frame.end());
+}
+
 }  // namespace tribo::session::test

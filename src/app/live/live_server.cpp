@@ -5,11 +5,13 @@
 #include <cstdio>
 
 #include "app/exit.hpp"
+#include "app/interrupt.hpp"
 #include "app/live/browser.hpp"
 #include "base/text/printable.hpp"
 #include "net/addresses.hpp"
 #include "net/secret.hpp"
 #include "net/tls.hpp"
+#include "protocol/live_message.hpp"
 
 namespace tribo::app {
 namespace {
@@ -46,6 +48,8 @@ FileResult<net::ServerOptions> live_server_options(const LiveCall& call) {
     options.address = call.listen;
     options.port = call.port;
     options.subprotocol = kLiveSubprotocol;
+    // The clients learn of the end even while the picture is busy.
+    options.is_over = [] { return interrupted().load(); };
     if (!call.tls_certificate.empty()) {
         auto tls = read_tls(call);
         if (!tls) return std::unexpected(tls.error());
@@ -80,6 +84,10 @@ std::vector<std::string> live_urls(const net::ServerOptions& options, std::uint1
         if (std::find(urls.begin(), urls.end(), url) == urls.end()) urls.push_back(std::move(url));
     }
     return urls;
+}
+
+std::string live_last_words(std::string_view why) {
+    return protocol::live_refusal({"", 0, 0, std::string(why), "the limits stand in docs/live-protocol.md"});
 }
 
 FileResult<WebFiles> live_page(const LiveCall& call) {

@@ -30,6 +30,9 @@ FileResult<WebFiles> live_page(const LiveCall& call);
 std::unique_ptr<net::Server> open_live_server(const LiveCall& call, const std::string& what,
                                               net::ServerHandlers handlers, int& exit_code);
 
+// The text that a client gets before the server closes its connection for breaking a rule.
+std::string live_last_words(std::string_view why);
+
 // Serves the page without a job, for files that are dropped into it, until Ctrl-C. Returns the exit
 // code.
 int live_without_job(const LiveCall& call);

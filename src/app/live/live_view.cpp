@@ -8,18 +8,19 @@
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/live/live_server.hpp"
 #include "milling/tool/materials.hpp"
 
 namespace tribo::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
 // Largest part of the frame time for milling; the rest is for the picture.
 constexpr auto kMillingTime = std::chrono::microseconds(9'000);
 // If the clock stood still for longer (a sleeping laptop), it advances by this only.
 constexpr double kLongestStepS = 0.1;
+// Least time between two replays to one client.
+constexpr auto kReplayTime = std::chrono::seconds(1);
 // Number of pictures between two servo reports.
 constexpr int kServoEvery = 15;
 
@@ -33,16 +34,6 @@ std::array<double, 4> figures_us(const devices::DurationHistogram& h) {
 }
 
 }  // namespace
-
-void LiveInbox::put(const Event& event) {
-    const std::lock_guard lock(mutex_);
-    events_.push_back(event);
-}
-
-std::deque<LiveInbox::Event> LiveInbox::take_all() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(events_, {});
-}
 
 LiveView::LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique_ptr<haptics::Device> arm,
                    std::unique_ptr<LiveAudio> audio)
@@ -71,30 +62,26 @@ LiveView::~LiveView() {
 }
 
 net::ServerHandlers LiveView::handlers(const WebFiles& files) {
-    using Event = LiveInbox::Event;
     net::ServerHandlers h;
+    inbox_.attach(h);
     h.on_get = [&files](std::string_view path, net::AcceptedEncodings accepted) {
         return files.page(path, accepted);
     };
-    h.on_connect = [this](net::ClientId id, const net::ResumeInfo& resume) {
-        inbox_.put({Event::Kind::connected, id, {}, resume});
-    };
-    h.on_overflow = [this](net::ClientId id) { inbox_.put({Event::Kind::overflowed, id}); };
-    h.on_message = [this](net::ClientId id, std::string_view text) {
-        inbox_.put({Event::Kind::message, id, std::string(text)});
-    };
+    h.last_words = live_last_words;
     return h;
 }
 
 void LiveView::run(net::Server& server) {
     auto before = Clock::now(), next = before;
     const auto frames = [&](std::span<const std::uint8_t> frame) {
-        memory_.take(frame);
-        server.send_all(shared(frame));
+        const net::Bytes bytes = shared(frame);
+        memory_.take(bytes);
+        server.send_all(bytes);
     };
     while (!interrupted()) {
-        for (const LiveInbox::Event& event : inbox_.take_all()) answer(event, server);
+        for (const net::Inbox::Event& event : inbox_.take_all()) answer(event, server);
         show_changes(server);
+        replay_where_asked(server);
         const auto now = Clock::now();
         const double dt = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
         before = now;
@@ -181,15 +168,16 @@ void LiveView::show_servo(net::Server& server, const protocol::FrameSink& frames
     server.send_text_all(protocol::live_refusal({"", 0, 0, "the arm is gone", "plug it in and start again"}));
 }
 
-void LiveView::answer(const LiveInbox::Event& event, net::Server& server) {
-    using Kind = LiveInbox::Event::Kind;
+void LiveView::answer(const net::Inbox::Event& event, net::Server& server) {
+    using Kind = net::Inbox::Event::Kind;
     switch (event.kind) {
         case Kind::connected:
             options_.info.resume = event.resume.token;
             options_.info.resumed = event.resume.resumed;
             server.send_text(event.client, protocol::live_server_info(options_.info));
             server.send_text(event.client, protocol::live_settings(controller_.settings()));
-            if (mill_.input_error()) server.send_text(event.client, protocol::live_files(mill_.input_error()));
+            if (mill_.input_error())
+                server.send_text(event.client, protocol::live_files(mill_.input_error()));
             replay(event.client, server);
             break;
         case Kind::overflowed:
@@ -198,19 +186,29 @@ void LiveView::answer(const LiveInbox::Event& event, net::Server& server) {
         case Kind::message:
             obey(event, server);
             break;
+        case Kind::disconnected:
+            replayed_.erase(event.client);
+            break;
     }
 }
 
 void LiveView::replay(net::ClientId to, net::Server& server) {
-    memory_.replay([&](std::span<const std::uint8_t> frame) { server.send(to, shared(frame)); });
+    replayed_[to] = {Clock::now(), false};
+    server.replay(to, memory_.replay());
 }
 
-void LiveView::obey(const LiveInbox::Event& event, net::Server& server) {
+void LiveView::replay_where_asked(net::Server& server) {
+    for (const auto& [client, replayed] : replayed_) {
+        if (replayed.asked && Clock::now() - replayed.at >= kReplayTime) replay(client, server);
+    }
+}
+
+void LiveView::obey(const net::Inbox::Event& event, net::Server& server) {
     const auto command = protocol::parse_live_command(event.text);
     if (!command) return server.refuse(event.client, protocol::live_refusal(command.error()));
     if (auto obeyed = controller_.obey(*command); !obeyed)
         return server.send_text(event.client, protocol::live_refusal(obeyed.error()));
-    if (command->op == protocol::LiveOp::resync) replay(event.client, server);
+    if (command->op == protocol::LiveOp::resync) replayed_[event.client].asked = true;
 }
 
 }  // namespace tribo::app

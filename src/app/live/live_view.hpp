@@ -3,37 +3,20 @@
 // commands.
 #pragma once
 
-#include <deque>
+#include <chrono>
+#include <map>
 #include <memory>
-#include <mutex>
 
 #include "app/live/live_audio.hpp"
 #include "app/live/web_files.hpp"
 #include "app/render/force_builder.hpp"
 #include "devices/servo/servo_thread.hpp"
-#include "net/server.hpp"
+#include "net/inbox.hpp"
 #include "protocol/live_message.hpp"
 #include "session/live/frame_cache.hpp"
 #include "session/live/live_controller.hpp"
 
 namespace tribo::app {
-
-// Queue from the server thread to the thread of the live view, which sends all answers.
-class LiveInbox {
-  public:
-    struct Event {
-        enum class Kind { connected, overflowed, message } kind;
-        net::ClientId client;
-        std::string text = {};        // of a message
-        net::ResumeInfo resume = {};  // of `connected`
-    };
-    void put(const Event& event);
-    std::deque<Event> take_all();
-
-  private:
-    std::mutex mutex_;
-    std::deque<Event> events_;
-};
 
 struct LiveViewOptions {
     protocol::LiveServerInfo info;  // materials and device are added here
@@ -56,9 +39,12 @@ class LiveView {
     void run(net::Server& server);
 
   private:
-    void answer(const LiveInbox::Event& event, net::Server& server);
-    void obey(const LiveInbox::Event& event, net::Server& server);
+    using Clock = std::chrono::steady_clock;
+
+    void answer(const net::Inbox::Event& event, net::Server& server);
+    void obey(const net::Inbox::Event& event, net::Server& server);
     void replay(net::ClientId to, net::Server& server);
+    void replay_where_asked(net::Server& server);
     void show_changes(net::Server& server);
     void show_input_error(net::Server& server);
     void follow_files();
@@ -72,7 +58,13 @@ class LiveView {
     session::LiveFinger& finger_;  // owned by controller_
     protocol::LiveSettings sent_settings_;
     session::FrameCache memory_;
-    LiveInbox inbox_;
+    net::Inbox inbox_;
+    // Whom the last replay went to, when, and whether the client asked for another.
+    struct Replayed {
+        Clock::time_point at;
+        bool asked = false;
+    };
+    std::map<net::ClientId, Replayed> replayed_;
     std::unique_ptr<ForceBuilder> builder_;
     int force_changes_ = 0;       // last requested from the builder
     int sessions_ = 0;            // of the mill, seen last

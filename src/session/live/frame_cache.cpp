@@ -9,52 +9,53 @@ constexpr std::size_t kSoundFrames = 64;
 
 }  // namespace
 
-void FrameCache::take(std::span<const std::uint8_t> frame) {
-    const auto kind = protocol::frame_kind(frame);
+void FrameCache::take(const Frame& frame) {
+    const auto kind = protocol::frame_kind(*frame);
     if (!kind) return;
-    Frame copy(frame.begin(), frame.end());
     switch (*kind) {
         case protocol::LiveFrame::job:
             *this = {};
-            job_ = std::move(copy);
+            job_ = frame;
             break;
         case protocol::LiveFrame::chunk: {
             protocol::LiveChunkPlace place;
-            if (protocol::read_frame(frame, place)) chunks_[place] = std::move(copy);
+            if (protocol::read_frame(*frame, place)) chunks_[place] = frame;
             break;
         }
         case protocol::LiveFrame::rows:
-            if (protocol::header_flag(frame)) rows_.clear();
-            rows_.push_back(std::move(copy));
+            if (protocol::header_flag(*frame)) rows_.clear();
+            rows_.push_back(frame);
             break;
         case protocol::LiveFrame::designed:
-            designed_.push_back(std::move(copy));
+            designed_.push_back(frame);
             break;
         case protocol::LiveFrame::path:
-            path_ = std::move(copy);
+            path_ = frame;
             break;
         case protocol::LiveFrame::sound:
-            sounds_.push_back(std::move(copy));
+            sounds_.push_back(frame);
             if (sounds_.size() > kSoundFrames) sounds_.pop_front();
             break;
         case protocol::LiveFrame::collision:
-            collisions_.push_back(std::move(copy));
+            collisions_.push_back(frame);
             break;
         default:
-            newest_[*kind] = std::move(copy);
+            newest_[*kind] = frame;
     }
 }
 
-void FrameCache::replay(const protocol::FrameSink& frames) const {
-    if (job_.empty()) return;
-    frames(job_);
-    for (const auto& [place, frame] : chunks_) frames(frame);
-    for (const Frame& frame : designed_) frames(frame);
-    if (!path_.empty()) frames(path_);
-    for (const Frame& frame : rows_) frames(frame);
-    for (const Frame& frame : collisions_) frames(frame);
-    for (const Frame& frame : sounds_) frames(frame);
-    for (const auto& [kind, frame] : newest_) frames(frame);
+std::vector<FrameCache::Frame> FrameCache::replay() const {
+    std::vector<Frame> all;
+    if (!job_) return all;
+    all.push_back(job_);
+    for (const auto& [place, frame] : chunks_) all.push_back(frame);
+    all.insert(all.end(), designed_.begin(), designed_.end());
+    if (path_) all.push_back(path_);
+    all.insert(all.end(), rows_.begin(), rows_.end());
+    all.insert(all.end(), collisions_.begin(), collisions_.end());
+    all.insert(all.end(), sounds_.begin(), sounds_.end());
+    for (const auto& [kind, frame] : newest_) all.push_back(frame);
+    return all;
 }
 
 }  // namespace tribo::session

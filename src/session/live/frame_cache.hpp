@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Cache of live frames for viewers that connect late. It keeps the job, the newest frame of each chunk, all
 // rows and collisions, the designed surface, the last sound frames, and the newest frame of each other kind.
+// The frames are shared with those who send them: a replay copies no bytes.
 #pragma once
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "protocol/live_frame.hpp"
@@ -13,13 +15,14 @@ namespace tribo::session {
 
 class FrameCache {
   public:
+    using Frame = std::shared_ptr<const std::vector<std::uint8_t>>;
+
     // A job frame clears the cache. Invalid frames are ignored.
-    void take(std::span<const std::uint8_t> frame);
-    // Sends all frames in a valid order.
-    void replay(const protocol::FrameSink& frames) const;
+    void take(const Frame& frame);
+    // Returns all frames in a valid order.
+    std::vector<Frame> replay() const;
 
   private:
-    using Frame = std::vector<std::uint8_t>;
     Frame job_, path_;
     std::map<protocol::LiveChunkPlace, Frame> chunks_;
     std::vector<Frame> rows_, collisions_, designed_;
