@@ -5,13 +5,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <memory>
 #include <sstream>
-#include <thread>
 
-#include "app/run/program.hpp"
+#include "app/run/live_engine.hpp"
 #include "net/raw_client.hpp"
 
 namespace tribo::test {
@@ -21,43 +19,14 @@ using net::test::RawClient;
 using std::chrono::seconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kJob =
-    "[stock]\nbox_mm = [[0,0,-5],[40,30,0]]\n[cutter]\nkind = \"ball\"\ndiameter_mm = 6\nflutes = 2\n"
-    "helix_deg = 30\nlength_mm = 15\n[material]\nname = \"al7075-t6\"\n[process]\nspindle_rpm = 6000\n"
-    "feed_mm_per_min = 1200\n[path]\ngcode = \"p.nc\"\n";
-
-std::string zigzag() {
-    std::string text = "G21 G90\nG0 X-5 Y0 Z2\nG1 Z-1\n";
-    for (int n = 0; n <= 15; ++n) {
-        const std::string y = " Y" + std::to_string(2 * n);
-        text += std::string("G1 X") + (n % 2 == 0 ? "45" : "-5") + y + "\nG1" + " Y" +
-                std::to_string(2 * n + 2) + "\n";
-    }
-    return text;
-}
-
-double resident_mb(int pid) {
-    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-    for (std::string line; std::getline(status, line);) {
-        if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) / 1024;
-    }
-    return 0;
-}
-
 // Plays the job through, over and over, and gives the engine's memory every second.
 struct Played {
     std::vector<double> resident_mb;
     int rounds = 0;
 };
 Played play(seconds time, int silent_clients) {
-    Scratch scratch;
-    scratch.put("job.toml", kJob);
-    scratch.put("p.nc", zigzag());
-    scratch.put("index.html", "<p>page");
-    RunningTribo engine({"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", "."},
-                        scratch.path());
-    const std::string out = engine.out_with("Ctrl-C");
-    const auto port = static_cast<std::uint16_t>(std::stoi(out.substr(out.find("127.0.0.1:") + 10)));
+    LiveEngine engine;
+    const std::uint16_t port = engine.port();
     std::vector<std::unique_ptr<RawClient>> silent;
     for (int n = 0; n < silent_clients; ++n) {
         silent.push_back(std::make_unique<RawClient>(port));
@@ -75,7 +44,7 @@ Played play(seconds time, int silent_clients) {
         const auto frame = player.frame();
         if (!frame) break;
         if (Clock::now() >= look) {
-            played.resident_mb.push_back(resident_mb(engine.pid()));
+            played.resident_mb.push_back(engine.resident_mb());
             look += seconds(1);
         }
         if (frame->opcode != 2 || frame->payload.front() != 3) continue;
@@ -94,17 +63,6 @@ Played play(seconds time, int silent_clients) {
     EXPECT_EQ(engine.stop(SIGTERM).code, 128 + SIGTERM);
     return played;
 }
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TRIBO_ADDRESS_SANITIZER
-#endif
-#endif
-#if defined(TRIBO_ADDRESS_SANITIZER) || defined(__SANITIZE_ADDRESS__)
-constexpr bool kKeepsFreedMemory = true;
-#else
-constexpr bool kKeepsFreedMemory = false;
-#endif
 
 std::string listed(const std::vector<double>& values) {
     std::ostringstream text;
