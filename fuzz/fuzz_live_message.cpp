@@ -47,7 +47,7 @@ void check(const Error& error) {
 void check(const protocol::LiveSettings& settings) {
     for (const protocol::LiveNumber& number : protocol::kLiveNumbers) {
         const double value = settings.*number.member;
-        if (!(value >= number.least && value <= number.most)) std::abort();
+        if (!number.limit.range.contains(value)) std::abort();
     }
     if (!milling::find_material(settings.material)) std::abort();
     if (protocol::live_settings(settings).empty()) std::abort();

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/limits.hpp"
 #include "base/text/decimal.hpp"
 #include "readers/tables/tool_table.hpp"
 
@@ -27,11 +28,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::set<int> numbers;
         std::string text = "number,diameter_mm,corner_mm,flutes,length_mm\n";
         for (const motion::DeclaredTool& tool : table->tools) {
-            if (!numbers.insert(tool.number).second || tool.number < 1 || tool.number > 999'999) std::abort();
-            if (!(tool.diameter_mm >= 0 && tool.diameter_mm <= readers::kLargestCoordinateMm)) std::abort();
+            if (!numbers.insert(tool.number).second || !kLimits.tool_number.range.contains(tool.number))
+                std::abort();
+            if (tool.diameter_mm != 0 && !kLimits.cutter_diameter.range.contains(tool.diameter_mm))
+                std::abort();
             if (!(tool.corner_mm >= 0 && 2 * tool.corner_mm <= tool.diameter_mm)) std::abort();
             if (tool.flutes < 0 || tool.flutes > 64) std::abort();
-            if (tool.length_mm && !(std::abs(*tool.length_mm) <= readers::kLargestCoordinateMm)) std::abort();
+            if (tool.length_mm && !kLimits.tool_length.range.contains(*tool.length_mm)) std::abort();
             text += std::to_string(tool.number) + ',' + format_decimal(tool.diameter_mm) + ',' +
                     format_decimal(tool.corner_mm) + ',' +
                     (tool.flutes > 0 ? std::to_string(tool.flutes) : "") + ',' +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/text/limit_text.hpp"
 #include "base/text/nearest.hpp"
 #include "base/text/printable.hpp"
 
@@ -34,15 +35,14 @@ std::vector<std::string> known_words(const CLI::App& app, bool flag) {
 
 }  // namespace
 
-CLI::Validator finite_number(double above, double most) {
-    const auto check = [above, most](std::string& text) -> std::string {
+CLI::Validator within(const Limit& limit) {
+    const auto check = [&limit](std::string& text) -> std::string {
         double value = 0;
         if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value)) {
             return "'" + text + "' is not a number";
         }
-        if (value > above && value <= most) return "";
-        return text + " is not above " + CLI::detail::to_string(above) + " and at most " +
-               CLI::detail::to_string(most);
+        if (limit.range.contains(value)) return "";
+        return out_of_range(limit, value) + "; " + range_remedy(limit);
     };
     return CLI::Validator(check, "");
 }

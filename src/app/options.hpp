@@ -6,10 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/limits.hpp"
+
 namespace tribo::app {
 
-// A finite number, > `above` and <= `most`.
-CLI::Validator finite_number(double above, double most);
+// A number within the range of the table.
+CLI::Validator within(const Limit& limit);
 // One of the words, or a comma-separated list of them.
 CLI::Validator one_of(std::vector<std::string_view> words);
 

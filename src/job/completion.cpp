@@ -6,6 +6,7 @@
 
 #include "base/text/decimal.hpp"
 #include "job/program_tools.hpp"
+#include "job/solid.hpp"
 
 namespace tribo::job {
 namespace {
@@ -21,6 +22,7 @@ milling::Cutter cutter_of(const motion::DeclaredTool& tool, int number) {
         cutter.kind = milling::CutterKind::bull;
         cutter.corner_mm = tool.corner_mm;
     }
+    cutter.length_mm = std::max(cutter.length_mm, cutter.corner_radius_mm());
     return cutter;
 }
 
@@ -35,19 +37,23 @@ std::string description(const milling::Cutter& cutter, const motion::DeclaredToo
            format_decimal(cutter.length_mm) + " mm of edge are assumed";
 }
 
-void add_cutter(Job& job, const motion::Program& program, const DeclaredTools& declared, int number,
-                Warnings& warnings) {
+Result<void> add_cutter(Job& job, const motion::Program& program, const DeclaredTools& declared, int number,
+                        Warnings& warnings) {
     const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
                                        [&](const milling::Cutter& c) { return c.number == number; });
     const motion::DeclaredTool* tool = described ? nullptr : declared.find(number);
-    if (tool == nullptr) return;
+    if (tool == nullptr) return {};
     const milling::Cutter cutter = cutter_of(*tool, number);
     const std::string name = number > 0 ? "tool T" + std::to_string(number) : "the tool";
     const bool from_table = !tool->table.empty();
-    warnings.push_back({from_table ? tool->table : program.source, tool->line,
+    const std::string& source = from_table ? tool->table : program.source;
+    if (const auto good = milling::check(cutter); !good)
+        return fail_at(source, tool->line, 0, name + ": " + good.error().cause, good.error().remedy);
+    warnings.push_back({source, tool->line,
                         name + " is taken from the " + (from_table ? "tool table" : "program") + ": " +
                             description(cutter, *tool)});
     job.cutters.push_back(cutter);
+    return {};
 }
 
 }  // namespace
@@ -59,6 +65,9 @@ Result<void> complete_job(Job& job, const motion::Program& program, Warnings& wa
                            "add [stock] with box_mm or mesh");
         }
         job.stock.box_mm = program.stock->box_mm;
+        if (const auto room = check_room(job.stock.box_mm); !room) {
+            return fail_at(program.source, program.stock->line, 0, room.error().cause, room.error().remedy);
+        }
         warnings.push_back(
             {program.source, program.stock->line, "the stock is taken from the program (BLK FORM)"});
     }
@@ -67,7 +76,9 @@ Result<void> complete_job(Job& job, const motion::Program& program, Warnings& wa
         const auto tools = called_tools(program);
         if (!tools) return std::unexpected(tools.error());
         const DeclaredTools declared(program);
-        for (const int tool : *tools) add_cutter(job, program, declared, tool, warnings);
+        for (const int tool : *tools) {
+            if (auto done = add_cutter(job, program, declared, tool, warnings); !done) return done;
+        }
     }
     if (!job.cutters.empty()) return {};
     return fail_at(job.file, 0, 0,

@@ -43,6 +43,12 @@ class Budget {
     std::uint64_t left_;
 };
 
+std::unexpected<FileFailure> refuse_model(const readers::ModelFile& model, Error error) {
+    error.file = model.path;
+    error.remedy += ", or state the unit of the file as unit_mm";
+    return std::unexpected(FileFailure(std::move(error)));
+}
+
 // Reads with a budget.
 struct Reading {
     const FileSource& files;
@@ -70,6 +76,8 @@ struct Reading {
         if (!solid.model) return box_solid(solid.box_mm);
         auto read = model(*solid.model, most);
         if (!read) return std::unexpected(read.error());
+        if (auto room = check_room(bounds(read->mesh)); !room)
+            return refuse_model(*solid.model, room.error());
         auto made = mesh_solid(std::move(read->mesh), solid.model->path);
         if (!made) return std::unexpected(FileFailure(made.error()));
         solid_bytes += made->mesh->mesh().triangles.size() * kTriangleBytes;
@@ -194,6 +202,7 @@ FileResult<void> load_all(const FileSource& files, bool is_assumed, const LoadOp
     if (!job.part) return {};
     auto part = reading.model(*job.part);
     if (!part) return std::unexpected(part.error());
+    if (auto place = check_place(bounds(part->mesh)); !place) return refuse_model(*job.part, place.error());
     loaded.part = *std::move(part);
     add(loaded.part->warnings, loaded.warnings);
     return {};

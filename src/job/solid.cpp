@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/hash.hpp"
+#include "base/text/limit_text.hpp"
 #include "field/shape/box_shape.hpp"
 #include "job/turned_shape.hpp"
 
@@ -35,6 +36,27 @@ Box3 bounds_in_frame(const Solid& solid, const motion::WorkFrame& frame) {
 }
 
 }  // namespace
+
+Result<void> check_place(const Box3& box_mm) {
+    if (box_mm.empty()) return {};
+    for (const Vec3& corner : {box_mm.min, box_mm.max}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (kLimits.coordinate.range.contains(corner[axis])) continue;
+            return fail(out_of_range(kLimits.coordinate, corner[axis]), range_remedy(kLimits.coordinate));
+        }
+    }
+    return {};
+}
+
+Result<void> check_room(const Box3& box_mm) {
+    if (auto done = check_place(box_mm); !done) return done;
+    const Vec3 size = box_mm.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (kLimits.edge.range.contains(size[axis])) continue;
+        return fail(out_of_range(kLimits.edge, size[axis]), range_remedy(kLimits.edge));
+    }
+    return {};
+}
 
 Solid box_solid(const Box3& box_mm) {
     Solid solid;

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-#include "base/range.hpp"
+#include "base/limits.hpp"
 #include "material/material.hpp"
 #include "noise/model/voice_map.hpp"
 
@@ -42,10 +42,15 @@ struct Absent {
     bool left_out = false;  // a writer omits the number if it has this value
 };
 
-// The range of the elastic sheet.
-inline constexpr Range kStiffness{1e-3, 1e6}, kViscosity{0, 1e6};
-inline constexpr Range kWidth{0, 1e5}, kShare{0, 1}, kRoughness{0.05, 1}, kHighpass{0, 1e5};
-inline constexpr Range kLevel{-200, 60}, kModelRate{1000, 384'000};
+// Copies of the table's ranges: a module that reads no text then holds none of the table's texts.
+inline constexpr Range kStiffness = kLimits.sheet_stiffness.range;
+inline constexpr Range kViscosity = kLimits.sheet_viscosity.range;
+inline constexpr Range kWidth = kLimits.material_width.range, kHighpass = kLimits.noted_highpass.range;
+inline constexpr Range kOptical = kLimits.optical_share.range, kRoughness = kLimits.roughness.range;
+inline constexpr Range kSpeed = kLimits.finger_speed.range, kForce = kLimits.finger_force.range;
+inline constexpr Range kLevel = kLimits.voice_level.range, kModelRate = kLimits.model_rate.range;
+// Of what learning measures.
+inline constexpr Range kShare{0, 1};
 inline constexpr Range kBand{0, 0.5 * kModelRate.max, true};  // also below half the rate of the model
 inline constexpr Range kReflection{-noise::kLargestReflection, noise::kLargestReflection};
 
@@ -102,8 +107,8 @@ std::vector<double> line_spectrum_hz(const noise::ArModel& model);
 
 template <class Visitor>
 void describe(Visitor& f, noise::VoiceModel& v, std::vector<RecordingSource>* sources) {
-    f.number("speed_mm_per_s", v.speed_mm_per_s, {0, 1e6, true});
-    f.number("force_n", v.force_n, {0, 1e4, true}, Absent{1});
+    f.number("speed_mm_per_s", v.speed_mm_per_s, kSpeed);
+    f.number("force_n", v.force_n, kForce, Absent{1});
     f.number("level_db", v.level_db, kLevel);
     f.number("sample_rate_hz", v.spectrum.sample_rate_hz, kModelRate);
     f.numbers("reflection", v.spectrum.reflection, kReflection, noise::kLargestOrder);
@@ -173,8 +178,8 @@ void describe(Visitor& f, Material& m) {
     f.text("height_map", m.height_map);
     f.expect(m.height_map.empty() || !m.image.empty(), "height_map", "is given without an image",
              "name the image that it belongs to as well");
-    f.number("relief_slope", m.relief_slope, kShare, Absent{usual.relief_slope, true});
-    f.number("gloss", m.gloss, kShare, Absent{usual.gloss, true});
+    f.number("relief_slope", m.relief_slope, kOptical, Absent{usual.relief_slope, true});
+    f.number("gloss", m.gloss, kOptical, Absent{usual.gloss, true});
     f.number("roughness", m.roughness, kRoughness, Absent{usual.roughness, true});
     f.text("method", m.method);
     f.number("highpass_hz", m.highpass_hz, kHighpass, Absent{usual.highpass_hz, true});

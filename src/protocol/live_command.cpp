@@ -2,9 +2,11 @@
 #include "protocol/live_command.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "base/text/decimal.hpp"
 #include "base/text/json_string.hpp"
+#include "base/text/limit_text.hpp"
 
 namespace tribo::protocol {
 namespace {
@@ -17,14 +19,17 @@ std::string names_of(const Table& table, auto name) {
     return names;
 }
 
+Result<void> check_range(std::string cause, const Limit& limit, double value) {
+    if (limit.range.contains(value)) return {};
+    return fail(std::move(cause), range_remedy(limit));
+}
+
 Result<void> check_setting(const LiveCommand& command) {
     if (command.word.empty() || !std::isfinite(command.value))
         return fail("'set' needs a key and a number", "give them as key and value");
     for (const LiveNumber& n : kLiveNumbers) {
         if (n.key != command.word) continue;
-        if (command.value >= n.least && command.value <= n.most) return {};
-        return fail("'" + command.word + "' is out of range",
-                    "give a number from " + format_decimal(n.least) + " to " + format_decimal(n.most));
+        return check_range("'" + command.word + "' is out of range", n.limit, command.value);
     }
     return fail("'" + command.word + "' cannot be set",
                 "the keys are " + names_of(kLiveNumbers, &LiveNumber::key));
@@ -45,10 +50,18 @@ Result<void> check_live_command(const LiveOperation& operation, const LiveComman
     switch (operation.argument) {
         case LiveArgument::number:
             if (!std::isfinite(command.value)) return live_operation_needs(operation, "a number");
-            break;
+            return check_range("'" + std::string(operation.name) + "' is out of range",
+                               operation.op == LiveOp::speed ? kLimits.play_speed : kLimits.program_time,
+                               command.value);
         case LiveArgument::place:
             if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
                 return live_operation_needs(operation, "three numbers");
+            for (const double place : {p.x, p.y, p.z}) {
+                if (auto good = check_range("'" + std::string(operation.name) + "' is out of range",
+                                            kLimits.coordinate, place);
+                    !good)
+                    return good;
+            }
             break;
         case LiveArgument::setting:
             return check_setting(command);

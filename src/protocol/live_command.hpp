@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/limits.hpp"
 #include "base/result.hpp"
 #include "base/vec3.hpp"
 
@@ -48,14 +49,14 @@ struct LiveSettings {
 struct LiveNumber {
     std::string_view key;
     double LiveSettings::* member;
-    double least, most;
+    Limit limit;
 };
 inline constexpr std::array kLiveNumbers{
-    LiveNumber{"feed_percent", &LiveSettings::feed_percent, 10, 300},
-    LiveNumber{"spindle_percent", &LiveSettings::spindle_percent, 10, 300},
-    LiveNumber{"helix_deg", &LiveSettings::helix_deg, 0, 60},
-    LiveNumber{"force_scale", &LiveSettings::force_scale, 1e-6, 1},
-    LiveNumber{"jnd", &LiveSettings::jnd, 0.1, 10},
+    LiveNumber{"feed_percent", &LiveSettings::feed_percent, kLimits.override_percent},
+    LiveNumber{"spindle_percent", &LiveSettings::spindle_percent, kLimits.override_percent},
+    LiveNumber{"helix_deg", &LiveSettings::helix_deg, kLimits.helix},
+    LiveNumber{"force_scale", &LiveSettings::force_scale, kLimits.force_scale},
+    LiveNumber{"jnd", &LiveSettings::jnd, kLimits.table_error},
 };
 
 // What an operation brings along, under which key: a number, a flag or a word; a place and whether it is

@@ -7,6 +7,7 @@
 
 #include "base/text/decimal.hpp"
 #include "base/text/file_names.hpp"
+#include "base/text/limit_text.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -22,16 +23,16 @@ namespace tribo {
 namespace {
 
 constexpr double kMegabyte = 1e6;
-constexpr double kLeastCellMm = 1e-3, kMostCellMm = 10;
 
 Result<void> check(const MillOptions& options) {
-    if (options.cell_mm && !(*options.cell_mm >= kLeastCellMm && *options.cell_mm <= kMostCellMm))
-        return fail("cell_mm is out of range", "give 0.001 to 10 mm");
-    if (options.until_s && !(*options.until_s > 0)) return fail("until_s is not above 0", "leave it out");
+    if (options.cell_mm && !kLimits.resolution.range.contains(*options.cell_mm))
+        return fail("cell_mm is out of range", range_remedy(kLimits.resolution));
+    if (options.until_s && !kLimits.until.range.contains(*options.until_s))
+        return fail("until_s is out of range", range_remedy(kLimits.until) + ", or leave it out");
     if (options.threads < 0 || options.threads > kMaxThreads)
         return fail("the number of threads is out of range", "give 0 to 256");
-    if (options.memory_mb && !(*options.memory_mb > 0))
-        return fail("memory_mb is not above 0", "leave it out");
+    if (options.memory_mb && !kLimits.memory.range.contains(*options.memory_mb))
+        return fail("memory_mb is out of range", range_remedy(kLimits.memory) + ", or leave it out");
     return {};
 }
 

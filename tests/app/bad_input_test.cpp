@@ -70,7 +70,7 @@ const BadInput kCases[] = {
      "'feed_mm_per_min'"},
     {"number_is_text", [](Parts& p) { p.process = "[process]\nspindle_rpm = \"6000\"\n"; }, "'spindle_rpm'"},
     {"number_is_negative", [](Parts& p) { p.cutter = "[cutter]\nkind = \"flat\"\ndiameter_mm = -6\n"; },
-     "diameter_mm is not a length above 0"},
+     "'diameter_mm' is -6; keep the cutter diameter within 0.01 to 1000 mm"},
     {"box_is_flat", [](Parts& p) { p.stock = "[stock]\nbox_mm = [[0, 0, 0], [30, 20, 0]]\n"; }, "'box_mm'"},
     {"corner_too_large",
      [](Parts& p) {

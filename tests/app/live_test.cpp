@@ -243,10 +243,10 @@ TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
          "p.nc", "is a folder"},
         {"a wrong job", [&] { scratch_.put("job.toml", "[stock]\nbox_mm = 5\n"); }, "job.toml",
          R"("line":2)"},
-        {"a stock of 200 m",
+        {"a stock of 90 m",
          [&] {
              std::string wide = job;
-             wide.replace(wide.find("[20,10,0]"), 9, "[200000,200000,0]");
+             wide.replace(wide.find("[20,10,0]"), 9, "[90000,90000,0]");
              scratch_.put("job.toml", wide);
          },
          "job.toml", "MB are allowed"},

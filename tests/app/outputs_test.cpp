@@ -73,7 +73,8 @@ TEST_F(Outputs, of_feel_are_not_its_inputs_nor_each_other) {
     expect_refused(with({"--out", "slot.nc"}), "slot.nc");
     expect_refused(with({"--out", "new.csv", "--stats", "slot.toml"}), "slot.toml");
     expect_refused(with({"--out", "user.toml", "--profile", "user.toml"}), "user.toml");
-    expect_refused(with({"--out", "new.csv", "--mode", "cut", "--bake", "slot.nc"}), "slot.nc");
+    expect_refused(with({"--out", "new.csv", "--mode", "cut", "--bake", "slot.nc"}), "slot.nc",
+                   "this is not a baked force table");
     expect_refused(with({"--out", "new.csv", "--stats", "./new.csv"}), "./new.csv",
                    "is named for two outputs");
 }

@@ -195,10 +195,10 @@ TEST(Learning, refuses_what_holds_no_sound) {
                  {recorded(100, std::vector<double>(44100, 0.5)), "is silent"},
                  {recorded(100, {good.begin(), good.begin() + 4000}), "holds only"},
                  {recorded(100, odd), "no numbers"},
-                 {recorded(0, good), "speed or force"},
-                 {recorded(-5, good), "speed or force"},
-                 {recorded(100, good, 44100, 0), "speed or force"},
-                 {recorded(std::nan(""), good), "speed or force"}};
+                 {recorded(0, good), "speed of the finger"},
+                 {recorded(-5, good), "speed of the finger"},
+                 {recorded(100, good, 44100, 0), "force of the finger"},
+                 {recorded(std::nan(""), good), "speed of the finger"}};
     for (const auto& c : cases) {
         const auto learned = learn({&c.recording, 1});
         ASSERT_FALSE(learned) << c.cause;

@@ -35,10 +35,11 @@ TEST(LiveMessage, SettingsStayWithinTheirBounds) {
             return parse_live_command(R"({"op":"set","key":")" + std::string(n.key) + R"(","value":)" +
                                       std::to_string(value) + "}");
         };
-        EXPECT_TRUE(set(n.most)) << n.key;
-        EXPECT_TRUE(set(0.5 * (n.least + n.most))) << n.key;
-        EXPECT_FALSE(set(1.01 * n.most)) << n.key;
-        EXPECT_FALSE(set(n.least - 0.01)) << n.key;
+        const auto [least, most, above] = n.limit.range;
+        EXPECT_TRUE(set(most)) << n.key;
+        EXPECT_TRUE(set(0.5 * (least + most))) << n.key;
+        EXPECT_FALSE(set(1.01 * most)) << n.key;
+        EXPECT_FALSE(set(least - 0.01)) << n.key;
     }
 }
 

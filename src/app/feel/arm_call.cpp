@@ -13,15 +13,15 @@ void add_arm_flags(CLI::App& verb, ArmCall& call) {
     verb.add_option("--arm-at", call.at_mm,
                     "Where an arm's own zero lies in the stock; the middle of its top if absent")
         ->expected(3)
-        ->check(finite_number(-1e6, 1e6))
+        ->check(within(kLimits.coordinate))
         ->type_name("X Y Z");
     verb.add_option("--arm-scale", call.scale,
                     "Millimetres of the part per millimetre of the hand; 1 if absent")
-        ->check(finite_number(0, 1e3))
+        ->check(within(kLimits.arm_scale))
         ->type_name("TIMES");
     verb.add_option("--delay", call.delay_ms,
                     "Of arm, driver and line, both ways together, 0 to 20; feel's simulated hand gets it")
-        ->check(CLI::Range(0.0, 1e3 * haptics::kMostDelayS))
+        ->check(within(kLimits.arm_delay))
         ->type_name("MS");
 }
 

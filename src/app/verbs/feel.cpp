@@ -28,40 +28,40 @@ void add_feel(CLI::App& program, int& exit_code) {
                      "simulated: a hand that yields; playback: exactly on the stroke; or an arm's name")
         ->type_name("NAME");
     verb->add_option("--rate", call->rate_hz, "Ticks per second, 100 to 20000; 1000 if absent")
-        ->check(CLI::Range(100.0, 20'000.0))
+        ->check(within(kLimits.servo_rate))
         ->type_name("HZ");
     verb->add_option("--probe-mm", call->probe_mm, "Radius of the probe; 0, a point, if absent")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(within(kLimits.probe_radius))
         ->type_name("R");
     verb->add_option("--stiffness", call->stiffness_n_per_mm,
                      "Of the surface; the job's, else 0.5, at most the device's")
-        ->check(finite_number(0, 1e3))
+        ->check(within(kLimits.surface_stiffness))
         ->type_name("N_PER_MM");
     verb->add_option(
             "--friction", call->friction_static,
             "Static coefficient of friction; the job's, else none; the kinetic one too if that is absent")
-        ->check(CLI::Range(0.0, 10.0))
+        ->check(within(kLimits.friction))
         ->type_name("MU");
     verb->add_option("--friction-kinetic", call->friction_kinetic,
                      "Kinetic coefficient, at most the static one")
-        ->check(CLI::Range(0.0, 10.0))
+        ->check(within(kLimits.friction))
         ->type_name("MU");
     verb->add_option("--unit-mm", call->unit_mm,
                      "Of a model: millimetres per unit of the file, 1000 for metres, 25.4 for inches")
-        ->check(finite_number(0, 1e6))
+        ->check(within(kLimits.unit))
         ->type_name("MM");
     verb->add_option("--scale", call->scale, "Of a model: so many times as large; 1 if absent")
-        ->check(finite_number(0, 1e6))
+        ->check(within(kLimits.model_scale))
         ->type_name("TIMES");
     verb->add_option("--source", call->source,
                      "A library with a force of your own (docs/feel.md), handed what Tribo would give")
         ->type_name("PLUGIN.so");
     add_arm_flags(*verb, call->arm);
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
-        ->check(finite_number(0, 100))
+        ->check(within(kLimits.resolution))
         ->type_name("MM");
     verb->add_option("--until", call->until_s, "Stop the program at this time")
-        ->check(finite_number(0, 1e9))
+        ->check(within(kLimits.until))
         ->type_name("S");
     verb->add_option("--texture", *texture, "The grooves' own force in cut mode; on if absent")
         ->check(CLI::IsMember({"on", "off"}));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,12 +14,12 @@
 #include "app/outputs.hpp"
 #include "app/verbs/verbs.hpp"
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "base/text/printable.hpp"
 #include "files/image/image_file.hpp"
 #include "files/sound/sound_file.hpp"
 #include "material/learned_material.hpp"
 #include "material/material_json.hpp"
-#include "material/material_schema.hpp"
 #include "noise/learn/learning.hpp"
 #include "report/learning_report.hpp"
 
@@ -52,13 +51,21 @@ Result<Source> parse_source(const std::string& text) {
     const auto number = [&](double& value) {
         const std::size_t length = parse_decimal(rest, value);
         rest.remove_prefix(length);
-        return length > 0 && value > 0 && std::isfinite(value);
+        return length > 0;
     };
-    if (!number(source.speed_mm_per_s)) return refuse("the speed is not a number of mm/s above 0");
+    if (!number(source.speed_mm_per_s)) return refuse("the speed is not a number");
     if (rest.starts_with('@')) {
         rest.remove_prefix(1);
-        if (!number(source.force_n)) return refuse("the force is not a number of newtons above 0");
+        if (!number(source.force_n)) return refuse("the force is not a number");
     }
+    const auto in_range = [&](const Limit& limit, double value) -> Result<void> {
+        if (limit.range.contains(value)) return {};
+        return fail("--recording '" + text + "': " + out_of_range(limit, value), range_remedy(limit));
+    };
+    if (auto good = in_range(kLimits.finger_speed, source.speed_mm_per_s); !good)
+        return std::unexpected(good.error());
+    if (auto good = in_range(kLimits.finger_force, source.force_n); !good)
+        return std::unexpected(good.error());
     if (!rest.starts_with(':') || rest.size() < 2) return refuse("no file is named");
     source.file = rest.substr(1);
     return source;
@@ -180,12 +187,6 @@ int learn(const Call& call) {
     return kDone;
 }
 
-// CLI::Range accepts NaN.
-CLI::Validator within(Range range) {
-    return CLI::Range(range.min, range.max) &
-           finite_number(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-}
-
 }  // namespace
 
 void add_learn(CLI::App& program, int& exit_code) {
@@ -204,22 +205,22 @@ void add_learn(CLI::App& program, int& exit_code) {
         ->type_name("F");
     verb->add_option("--relief-slope", call->known.relief_slope,
                      "Root mean square slope of its small relief: 0.2 if absent, 0 for a smooth one")
-        ->check(within(material::kShare))
+        ->check(within(kLimits.optical_share))
         ->type_name("S");
     verb->add_option("--gloss", call->known.gloss, "Share of light that it mirrors: 0.04 if absent")
-        ->check(within(material::kShare))
+        ->check(within(kLimits.optical_share))
         ->type_name("G");
     verb->add_option("--roughness", call->known.roughness, "0.05 polished to 1 matt: 0.5 if absent")
-        ->check(within(material::kRoughness))
+        ->check(within(kLimits.roughness))
         ->type_name("R");
     verb->add_option("--width-mm", call->known.width_mm, "Width of the image as the finger feels it")
-        ->check(finite_number(material::kWidth.min, material::kWidth.max))
+        ->check(within(kLimits.material_width))
         ->type_name("W");
     verb->add_option("--stiffness", call->known.stiffness_n_per_mm, "K in N/mm: 4 if absent")
-        ->check(within(material::kStiffness))
+        ->check(within(kLimits.sheet_stiffness))
         ->type_name("K");
     verb->add_option("--viscosity", call->known.viscosity_n_s_per_mm, "nu in N s/mm: 0.3 if absent")
-        ->check(within(material::kViscosity))
+        ->check(within(kLimits.sheet_viscosity))
         ->type_name("NU");
     verb->add_option("--method", call->method, "How the models are fitted: yule-walker or burg")
         ->check(one_of({"yule-walker", "burg"}))
@@ -229,7 +230,7 @@ void add_learn(CLI::App& program, int& exit_code) {
         ->type_name("N");
     verb->add_option("--highpass", call->highpass_hz,
                      "Remove sound below: 50 Hz if absent, 0 for the mean alone")
-        ->check(CLI::Range(0.0, 1000.0))
+        ->check(within(kLimits.learned_highpass))
         ->type_name("HZ");
     verb->add_flag("--report", call->report,
                    "Write a page beside the material (M.html): spectra, measures, both sounds to compare");

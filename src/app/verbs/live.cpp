@@ -35,11 +35,11 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_flag("--open", call->open, "Open the page in a browser");
     verb->add_option("--web-root", call->web_root, "Folder of the built page")->type_name("DIR");
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
-        ->check(finite_number(0, 100))
+        ->check(within(kLimits.resolution))
         ->type_name("MM");
     verb->add_option("--memory", call->memory_mb,
                      "Refuse a job that could take more; half of the machine's if absent")
-        ->check(finite_number(0, 1e9))
+        ->check(within(kLimits.memory))
         ->type_name("MB");
     verb->add_option("--threads", call->threads, "Threads to use; all processors if absent")
         ->check(CLI::Range(1, kMaxThreads))

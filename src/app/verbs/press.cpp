@@ -27,10 +27,10 @@ void add_press(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1, elastic::kMostNodesPerSide))
         ->type_name("PX");
     verb->add_option("--radius-mm", call->radius_mm, "Radius of the contact; 6 if absent")
-        ->check(finite_number(elastic::kLeastRadiusMm, 1e4))
+        ->check(within(kLimits.contact_radius))
         ->type_name("R");
     verb->add_option("--fps", call->fps, "Frames a second; 60 if absent")
-        ->check(finite_number(0, 1e4))
+        ->check(within(kLimits.frame_rate))
         ->type_name("HZ");
     verb->add_option("--contact", *contact, "area: the whole contact presses; point: its centre alone")
         ->check(CLI::IsMember({"area", "point"}));

@@ -21,10 +21,10 @@ void add_render(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("DIR");
     verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
-        ->check(finite_number(0, 100))
+        ->check(within(kLimits.resolution))
         ->type_name("MM");
     verb->add_option("--until", call->until_s, "Stop the program at this time")
-        ->check(finite_number(0, 1e9))
+        ->check(within(kLimits.until))
         ->type_name("S");
     verb->add_option("--sample-rate", call->sample_rate_hz, "Of sound.wav: 48000 or 44100")
         ->check(CLI::IsMember({44100, 48000}))
@@ -36,7 +36,7 @@ void add_render(CLI::App& program, int& exit_code) {
         ->type_name("LIST");
     verb->add_option("--memory", call->memory_mb,
                      "Refuse a job that could take more; half of the machine's if absent")
-        ->check(finite_number(0, 1e9))
+        ->check(within(kLimits.memory))
         ->type_name("MB");
     verb->add_flag(
         "--as-published", call->as_published,

@@ -103,7 +103,7 @@ void add_rub(CLI::App& program, int& exit_code) {
                    "The paper's generation step as printed: linear mix, mean power for gain");
     verb->add_flag("--gaussian", call->gaussian, "Without textures: coloured noise alone, to compare");
     verb->add_option("--sample-rate", call->sample_rate_hz, "That of the material if absent")
-        ->check(CLI::Range(8000, 192000))
+        ->check(within(kLimits.sample_rate))
         ->type_name("HZ");
     verb->add_option("--bits", call->bits, "16, 24 or 32")
         ->check(CLI::IsMember({16, 24, 32}))

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "base/text/nearest.hpp"
 
 namespace tribo::files {
@@ -31,8 +32,8 @@ Place place_of(std::string_view text, std::size_t byte) {
 }
 
 std::string range_text(Range range) {
-    return std::string(range.above ? "above " : "from ") + format_decimal(range.min) + " to " +
-           format_decimal(range.max);
+    return std::string(range.above ? "above " : "from ") + plain_number(range.min) + " to " +
+           plain_number(range.max);
 }
 
 const char* kind_of(const Json& value) {

@@ -13,7 +13,6 @@ constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv,
                                  "runout_deg"sv, "pitch_deg"sv, "holder"sv,      "core_mm"sv};
 constexpr std::array kKindWords{"flat"sv, "ball"sv, "bull"sv};
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
-constexpr int kLargestToolNumber = 999'999;
 constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
 
 // Steps from the bottom up: [[holder]] tables with one step each, or one [holder] whose keys are lists.
@@ -24,8 +23,8 @@ std::vector<milling::HolderStep> read_holder(TomlSection& owner) {
         for (const std::string_view key : kHolderKeys) {
             if (!holder.has(key)) holder.missing(key);
         }
-        const auto diameters = holder.numbers("diameter_mm", kPositive);
-        const auto lengths = holder.numbers("length_mm", kPositive);
+        const auto diameters = holder.numbers("diameter_mm", kLimits.holder);
+        const auto lengths = holder.numbers("length_mm", kLimits.holder);
         if (!diameters || !lengths) continue;
         if (diameters->size() != lengths->size()) {
             holder.fail("length_mm",
@@ -65,25 +64,25 @@ void check_cutter(TomlSection& section, const milling::Cutter& cutter) {
 milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std::string& label) {
     TomlSection section(file, table, label, kCutterKeys);
     milling::Cutter cutter;
-    cutter.number = section.integer("number", 1, kLargestToolNumber).value_or(0);
+    cutter.number = section.integer("number", kLimits.tool_number).value_or(0);
     if (!section.has("kind")) section.missing("kind");
     cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kKindWords).value_or(0));
-    cutter.diameter_mm = section.required_number("diameter_mm");
+    cutter.diameter_mm = section.required_number("diameter_mm", kLimits.cutter_diameter);
     if (cutter.kind == milling::CutterKind::bull) {
-        cutter.corner_mm = section.required_number("corner_mm");
+        cutter.corner_mm = section.required_number("corner_mm", kLimits.corner_radius);
     } else if (section.has("corner_mm")) {
         section.fail("corner_mm",
                      "a " + std::string(kKindWords[static_cast<std::size_t>(cutter.kind)]) +
                          " cutter has no 'corner_mm'",
                      "remove it or write kind = \"bull\"");
     }
-    cutter.flutes = section.integer("flutes", 1, 64).value_or(cutter.flutes);
-    cutter.helix_deg = section.number("helix_deg").value_or(cutter.helix_deg);
-    cutter.core_mm = section.number("core_mm").value_or(0);
-    cutter.length_mm = section.number("length_mm").value_or(cutter.length_mm);
-    cutter.runout_mm = section.number("runout_mm").value_or(0);
-    cutter.runout_deg = section.number("runout_deg").value_or(0);
-    cutter.pitch_deg = section.numbers("pitch_deg").value_or(std::vector<double>());
+    cutter.flutes = section.integer("flutes", kLimits.flutes).value_or(cutter.flutes);
+    cutter.helix_deg = section.number("helix_deg", kLimits.helix).value_or(cutter.helix_deg);
+    cutter.core_mm = section.number("core_mm", kLimits.core_diameter).value_or(0);
+    cutter.length_mm = section.number("length_mm", kLimits.cutting_length).value_or(cutter.length_mm);
+    cutter.runout_mm = section.number("runout_mm", kLimits.runout).value_or(0);
+    cutter.runout_deg = section.number("runout_deg", kLimits.runout_angle).value_or(0);
+    cutter.pitch_deg = section.numbers("pitch_deg", kLimits.pitch).value_or(std::vector<double>());
     cutter.holder = read_holder(section);
     check_cutter(section, cutter);
     return cutter;

@@ -7,17 +7,8 @@
 #include "job/toml/toml_section.hpp"
 
 namespace tribo::job {
-namespace {
 
 using namespace std::string_view_literals;
-
-// Beyond these a difference is not noticeable but overwhelming.
-constexpr Range kFraction{0, 1, true};
-constexpr Range kDegrees{0, 90, true};
-constexpr Range kDecibels{0, 20, true};
-constexpr Range kFloorNewtons{0, 10, true};
-
-}  // namespace
 
 Result<contact::JndProfile> parse_jnd_profile(std::string_view text, const std::string& name) {
     static constexpr std::array keys{"force_magnitude"sv,     "force_direction_deg"sv,
@@ -29,18 +20,18 @@ Result<contact::JndProfile> parse_jnd_profile(std::string_view text, const std::
     TomlFile file(name);
     TomlSection section(file, *parsed, "", keys);
     contact::JndProfile p;
-    const auto read = [&](std::string_view key, Range range, double& value) {
-        value = section.number(key, range).value_or(value);
+    const auto read = [&](std::string_view key, const Limit& limit, double& value) {
+        value = section.number(key, limit).value_or(value);
     };
     double direction_deg = p.force_direction_rad / math::kRadPerDeg;
-    read("force_magnitude", kFraction, p.force_magnitude);
-    read("force_direction_deg", kDegrees, direction_deg);
-    read("vibration_amplitude", kFraction, p.vibration_amplitude);
-    read("vibration_frequency", kFraction, p.vibration_frequency);
-    read("sound_level_db", kDecibels, p.sound_level_db);
-    read("pitch", kFraction, p.pitch);
-    read("force_floor_n", kFloorNewtons, p.force_floor_n);
-    read("vibration_floor_n", kFloorNewtons, p.vibration_floor_n);
+    read("force_magnitude", kLimits.noticeable_share, p.force_magnitude);
+    read("force_direction_deg", kLimits.noticeable_angle, direction_deg);
+    read("vibration_amplitude", kLimits.noticeable_share, p.vibration_amplitude);
+    read("vibration_frequency", kLimits.noticeable_share, p.vibration_frequency);
+    read("sound_level_db", kLimits.noticeable_level, p.sound_level_db);
+    read("pitch", kLimits.noticeable_share, p.pitch);
+    read("force_floor_n", kLimits.force_floor, p.force_floor_n);
+    read("vibration_floor_n", kLimits.force_floor, p.vibration_floor_n);
     p.force_direction_rad = direction_deg * math::kRadPerDeg;
     if (!file.ok()) return std::unexpected(file.error());
     return p;

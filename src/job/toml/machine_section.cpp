@@ -20,11 +20,6 @@ constexpr std::array kAxisKeys{"word"sv,    "carries"sv,  "direction"sv, "pivot_
 constexpr std::array kAxisWords{"X"sv, "Y"sv, "Z"sv, "A"sv, "B"sv, "C"sv};
 constexpr std::array kCarriedWords{"part"sv, "tool"sv};
 
-constexpr double kLargestAngleDeg = 1e6;
-constexpr double kLargestLengthMm = 1e6;  // a kilometre
-constexpr Range kAnyAngle{-kLargestAngleDeg, kLargestAngleDeg};
-constexpr Range kAnyLength{-kLargestLengthMm, kLargestLengthMm};
-
 motion::MachineAxis* find_axis(motion::Machine& machine, char word) {
     for (auto* side : {&machine.part_side, &machine.tool_side}) {
         for (motion::MachineAxis& axis : *side) {
@@ -73,16 +68,16 @@ void read_axis(TomlFile& file, const toml::table& table, motion::Machine& machin
     if (section.has("pivot_mm") && !turns) {
         section.fail("pivot_mm", "a linear axis has no pivot", "remove it");
     }
-    const Vec3 direction = section.point("direction").value_or(axis->direction);
+    const Vec3 direction = section.point("direction", kLimits.direction).value_or(axis->direction);
     if (!(length(direction) > 0)) section.fail("direction", "'direction' has no length", "try [1, 0, 0]");
     axis->direction = normalized(direction);
     axis->pivot_mm = section.point("pivot_mm").value_or(axis->pivot_mm);
     const double unit = turns ? math::kRadPerDeg : 1;
-    const Range range = turns ? kAnyAngle : kAnyLength;
+    const Limit& limit = turns ? kLimits.axis_limit : kLimits.coordinate;
     const std::string_view limits_key = turns ? "limits_deg"sv : "limits_mm"sv;
-    if (const auto zero = section.number(turns ? "zero_deg"sv : "zero_mm"sv, range))
+    if (const auto zero = section.number(turns ? "zero_deg"sv : "zero_mm"sv, limit))
         axis->zero = unit * *zero;
-    const auto limits = section.numbers(limits_key, range);
+    const auto limits = section.numbers(limits_key, limit);
     if (!limits) return;
     if (limits->size() != 2 || !((*limits)[0] < (*limits)[1])) {
         section.fail(limits_key, "'" + std::string(limits_key) + "' is not a lower and an upper limit",
@@ -105,8 +100,10 @@ void limit_linear_axes(motion::Machine& machine, const Box3& box) {
 JobMachine read_table(TomlFile& file, const toml::table& table, const std::string& label, std::string base) {
     TomlSection section(file, table, label, kMachineKeys);
     JobMachine result;
-    result.rapid_mm_per_min = section.number("rapid_mm_per_min", kPositive).value_or(result.rapid_mm_per_min);
-    result.acceleration_mm_per_s2 = section.number("acceleration_mm_per_s2", kPositive).value_or(0);
+    result.rapid_mm_per_min =
+        section.number("rapid_mm_per_min", kLimits.rapid).value_or(result.rapid_mm_per_min);
+    result.acceleration_mm_per_s2 =
+        section.number("acceleration_mm_per_s2", kLimits.acceleration).value_or(0);
     if (const auto named = section.text("based_on")) {
         if (!base.empty() && base != *named) {
             section.fail("based_on",
@@ -129,7 +126,7 @@ JobMachine read_table(TomlFile& file, const toml::table& table, const std::strin
     for (const toml::table* axis : axes) read_axis(file, *axis, machine, !base.empty());
     const auto limits = section.box("limits_mm");
     const auto stock = section.point("stock_mm");
-    const auto tool = section.number("tool_length_mm", kAnyLength);
+    const auto tool = section.number("tool_length_mm", kLimits.tool_length);
     if (axes.empty() && base.empty()) {
         for (const std::string_view key : {"limits_mm"sv, "stock_mm"sv, "tool_length_mm"sv}) {
             if (section.has(key)) {

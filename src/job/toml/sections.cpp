@@ -9,7 +9,6 @@
 #include "milling/tool/materials.hpp"
 #include "sound/cut/machine.hpp"
 #include "sound/place/room.hpp"
-#include "sound/play/workshop.hpp"
 
 namespace tribo::job {
 namespace {
@@ -19,6 +18,9 @@ using namespace std::string_view_literals;
 constexpr std::array kPartKeys{"surface"sv, "unit_mm"sv};
 constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                       "kte_n_per_mm"sv,  "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+// Of kCoefficientKeys.
+constexpr std::array kCoefficientLimits{kLimits.ktc, kLimits.krc, kLimits.krc,
+                                        kLimits.kte, kLimits.kre, kLimits.kre};
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                    "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
 constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
@@ -55,9 +57,6 @@ constexpr std::array kHapticsKeys{"force_scale"sv,     "profile"sv,          "pr
                                   "friction_static"sv, "friction_kinetic"sv, "stiffness_n_per_mm"sv};
 constexpr std::array kProbeWords{"point"sv, "ray"sv, "cylinder"sv};
 
-constexpr double kLargestGainDb = 120;
-constexpr double kLargestFriction = 10;
-
 }  // namespace
 
 readers::ModelFile read_part(TomlFile& file, const toml::table& table) {
@@ -83,15 +82,7 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
         milling::CuttingCoefficients k;
         double* const values[] = {&k.ktc, &k.krc, &k.kac, &k.kte, &k.kre, &k.kae};
         for (std::size_t i = 0; i < kCoefficientKeys.size(); ++i) {
-            *values[i] = section.required_number(kCoefficientKeys[i]);
-        }
-        const Result<void> checked = milling::check(k);
-        if (!checked) {  // the message begins with the coefficient's letters
-            const std::string letters = checked.error().cause.substr(0, 3);
-            const auto key = std::find_if(kCoefficientKeys.begin(), kCoefficientKeys.end(),
-                                          [&](std::string_view name) { return name.starts_with(letters); });
-            section.fail(key == kCoefficientKeys.end() ? present : *key, checked.error().cause,
-                         checked.error().remedy);
+            *values[i] = section.required_number(kCoefficientKeys[i], kCoefficientLimits[i]);
         }
         material.coefficients = k;
     } else {
@@ -103,8 +94,8 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
 
 JobProcess read_process(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[process]", kProcessKeys);
-    return {section.number("spindle_rpm", kPositive).value_or(0),
-            section.number("feed_mm_per_min", kPositive).value_or(0)};
+    return {section.number("spindle_rpm", kLimits.spindle_speed).value_or(0),
+            section.number("feed_mm_per_min", kLimits.feed).value_or(0)};
 }
 
 JobPath read_path(TomlFile& file, const toml::table& table) {
@@ -163,9 +154,9 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
 JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[engagement]", kEngagementKeys);
     JobEngagement engagement;
-    engagement.entry_deg = section.required_number("entry_deg", {0, 360});
-    engagement.exit_deg = section.required_number("exit_deg", {0, 360});
-    engagement.axial_depth_mm = section.required_number("axial_depth_mm", kPositive);
+    engagement.entry_deg = section.required_number("entry_deg", kLimits.engagement_angle);
+    engagement.exit_deg = section.required_number("exit_deg", kLimits.engagement_angle);
+    engagement.axial_depth_mm = section.required_number("axial_depth_mm", kLimits.axial_depth);
     if (engagement.exit_deg <= engagement.entry_deg) {
         section.fail("exit_deg", "'exit_deg' is not behind 'entry_deg'",
                      "angles run clockwise from the left of the feed: up-milling starts at 0, down-milling "
@@ -185,11 +176,12 @@ JobSound read_sound(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[sound]", kSoundKeys);
     JobSound sound;
     sound.listener_mm = section.point("listener_mm");
-    sound.distance_factor = section.number("distance_factor", kPositive).value_or(sound.distance_factor);
-    sound.reference_distance_m =
-        section.number("reference_distance_m", {0.05, 100}).value_or(sound.reference_distance_m);
-    sound.gain_db = section.number("gain_db", {-kLargestGainDb, kLargestGainDb}).value_or(sound.gain_db);
-    sound.bits = section.integer("bits", 16, 32).value_or(sound.bits);
+    sound.distance_factor =
+        section.number("distance_factor", kLimits.distance_factor).value_or(sound.distance_factor);
+    sound.reference_distance_m = section.number("reference_distance_m", kLimits.reference_distance)
+                                     .value_or(sound.reference_distance_m);
+    sound.gain_db = section.number("gain_db", kLimits.gain).value_or(sound.gain_db);
+    sound.bits = section.integer("bits", kLimits.sample_bits).value_or(sound.bits);
     if (sound.bits != 16 && sound.bits != 24 && sound.bits != 32) {
         section.fail("bits", "'bits' is " + std::to_string(sound.bits), "try 16, 24 or 32");
     }
@@ -209,7 +201,7 @@ JobSound read_sound(TomlFile& file, const toml::table& table) {
     sound.chips = section.path("chips").value_or("");
     // The speed at which something was recorded belongs to the recording, and the other way round.
     const auto recorded_rpm = [&](std::string_view file, std::string_view key, bool there) {
-        if (there) return section.required_number(key, kPositive);
+        if (there) return section.required_number(key, kLimits.spindle_speed);
         if (section.has(key)) {
             section.fail(key, "'" + std::string(key) + "' belongs to '" + std::string(file) + "'",
                          "name the recording, or remove it");
@@ -223,15 +215,14 @@ JobSound read_sound(TomlFile& file, const toml::table& table) {
         section.fail("recording_share", "'recording_share' belongs to 'recording'",
                      "name the recording, or remove it");
     }
-    sound.recording_share = section.number("recording_share", {0, 1}).value_or(sound.recording_share);
+    sound.recording_share =
+        section.number("recording_share", kLimits.recording_share).value_or(sound.recording_share);
     if (const auto n = section.word("machine", names_of(sound::machines())))
         sound.machine = sound::machines()[*n].name;
     // Force and vibration alone have no room around them, unless one is asked for.
     if (sound.machine == sound::machines()[0].name) sound.room = sound::rooms()[0].name;
     if (const auto n = section.word("room", names_of(sound::rooms()))) sound.room = sound::rooms()[*n].name;
-    const auto level = [&](std::string_view key) {
-        return section.number(key, {-sound::kLargestLevelDb, sound::kLargestLevelDb}).value_or(0);
-    };
+    const auto level = [&](std::string_view key) { return section.number(key, kLimits.level).value_or(0); };
     sound.cut_db = level("cut_db");
     sound.spindle_db = level("spindle_db");
     sound.chips_db = level("chips_db");
@@ -242,16 +233,16 @@ JobSound read_sound(TomlFile& file, const toml::table& table) {
 JobHaptics read_haptics(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[haptics]", kHapticsKeys);
     JobHaptics haptics;
-    haptics.force_scale = section.number("force_scale", kPositive).value_or(haptics.force_scale);
+    haptics.force_scale = section.number("force_scale", kLimits.force_scale).value_or(haptics.force_scale);
     haptics.profile = section.path("profile").value_or("");
     haptics.probe = static_cast<ProbeKind>(section.word("probe", kProbeWords).value_or(0));
-    haptics.friction_static = section.number("friction_static", {0, kLargestFriction});
-    haptics.friction_kinetic = section.number("friction_kinetic", {0, kLargestFriction});
+    haptics.friction_static = section.number("friction_static", kLimits.friction);
+    haptics.friction_kinetic = section.number("friction_kinetic", kLimits.friction);
     if (haptics.friction_static && haptics.friction_kinetic &&
         *haptics.friction_kinetic > *haptics.friction_static) {
         section.fail("friction_kinetic", "'friction_kinetic' is above 'friction_static'", "exchange them");
     }
-    haptics.stiffness_n_per_mm = section.number("stiffness_n_per_mm", kPositive);
+    haptics.stiffness_n_per_mm = section.number("stiffness_n_per_mm", kLimits.surface_stiffness);
     return haptics;
 }
 

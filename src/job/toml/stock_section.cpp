@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text/decimal.hpp"
+#include "job/solid.hpp"
 #include "job/toml/sections.hpp"
 
 namespace tribo::job {
@@ -14,8 +15,6 @@ constexpr std::array kSolidKeys{"box_mm"sv, "mesh"sv, "unit_mm"sv};
 constexpr std::array kStockKeys{"box_mm"sv, "mesh"sv, "unit_mm"sv, "from"sv};
 constexpr std::array kSetupKeys{"origin_mm"sv, "x_axis"sv, "z_axis"sv};
 
-constexpr double kLargestUnitMm = 1e6;    // a kilometre; coordinates stay far from overflow
-constexpr double kLargestOriginMm = 1e6;  // a kilometre: coordinates keep nine digits below the millimetre
 // How far the axes of a set-up may be off a right angle: x is then turned square to z, which moves a point at
 // 100 mm by at most 0.17 mm. Directions written with three decimals are far within it.
 constexpr double kLargestSkew = 1.7453e-3;  // cosine of the angle between them: 0.1 degrees
@@ -28,7 +27,11 @@ JobSolid solid_of(TomlSection& section, const char* otherwise) {
     } else if (section.has("mesh")) {
         solid.model = readers::ModelFile{section.required_path("mesh"), read_unit_mm(section)};
     } else if (section.has("box_mm")) {
-        solid.box_mm = section.box("box_mm").value_or(Box3{});
+        if (const auto box = section.box("box_mm")) {
+            solid.box_mm = *box;
+            if (const auto room = check_room(*box); !room)
+                section.fail("box_mm", "in 'box_mm' " + room.error().cause, room.error().remedy);
+        }
         if (section.has("unit_mm")) {
             section.fail("unit_mm", "'unit_mm' belongs to a mesh; a box is in mm", "remove it");
         }
@@ -41,7 +44,7 @@ JobSolid solid_of(TomlSection& section, const char* otherwise) {
 
 // A direction of any length, as a unit vector.
 Vec3 direction(TomlSection& section, std::string_view key, Vec3 otherwise) {
-    const Vec3 written = section.point(key).value_or(otherwise);
+    const Vec3 written = section.point(key, kLimits.direction).value_or(otherwise);
     const double size = length(written);
     if (size > 0 && std::isfinite(size)) return written / size;
     section.fail(key, "'" + std::string(key) + "' is no direction: its length is " + format_decimal(size),
@@ -52,7 +55,7 @@ Vec3 direction(TomlSection& section, std::string_view key, Vec3 otherwise) {
 }  // namespace
 
 std::optional<double> read_unit_mm(TomlSection& section) {
-    return section.number("unit_mm", {0, kLargestUnitMm, true});
+    return section.number("unit_mm", kLimits.unit);
 }
 
 JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label) {
@@ -80,12 +83,6 @@ motion::WorkFrame read_setup(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[setup]", kSetupKeys);
     motion::WorkFrame frame;
     frame.origin_mm = section.point("origin_mm").value_or(Vec3{});
-    for (int k = 0; k < 3; ++k) {
-        if (std::abs(frame.origin_mm[k]) <= kLargestOriginMm) continue;
-        section.fail("origin_mm", "'origin_mm' is more than a kilometre away",
-                     "write where this set-up's zero stands in the stock of the earlier job, in mm");
-        return frame;
-    }
     frame.x = direction(section, "x_axis", frame.x);
     frame.z = direction(section, "z_axis", frame.z);
     const double skew = dot(frame.x, frame.z);

@@ -6,6 +6,7 @@
 
 #include "base/text/decimal.hpp"
 #include "base/text/file_names.hpp"
+#include "base/text/limit_text.hpp"
 #include "job/toml/toml_key_parts.hpp"
 
 namespace tribo::job {
@@ -80,7 +81,8 @@ void TomlSection::wrong_type(std::string_view key, const toml::node& node, const
                node.is_string() ? "take the quotes away" : std::string("write ") + wanted);
 }
 
-std::optional<double> TomlSection::number_of(std::string_view key, const toml::node& node, Range range) {
+std::optional<double> TomlSection::number_of(std::string_view key, const toml::node& node,
+                                             const Limit& limit) {
     if (!node.is_number()) {
         wrong_type(key, node, "a number");
         return {};
@@ -90,28 +92,20 @@ std::optional<double> TomlSection::number_of(std::string_view key, const toml::n
         file_.fail(node.source(), in_quotes(key) + " is not a finite number", "write a plain number");
         return {};
     }
-    const bool low = range.above ? value <= range.min : value < range.min;
-    if (low || value > range.max) {
-        std::string wanted =
-            range.above ? "above " + format_decimal(range.min) : "at least " + format_decimal(range.min);
-        if (range.max < std::numeric_limits<double>::max()) {
-            wanted += std::string(range.min > -std::numeric_limits<double>::max() ? " and " : "") +
-                      "at most " + format_decimal(range.max);
-        }
-        file_.fail(node.source(), in_quotes(key) + " is " + format_decimal(value), "it must be " + wanted);
+    if (!limit.range.contains(value)) {
+        file_.fail(node.source(), in_quotes(key) + " is " + plain_number(value), range_remedy(limit));
         return {};
     }
     return value;
 }
 
-std::optional<double> TomlSection::number(std::string_view key, Range range) {
+std::optional<double> TomlSection::number(std::string_view key, const Limit& limit) {
     const toml::node* node = table_.get(key);
-    return node ? number_of(key, *node, range) : std::nullopt;
+    return node ? number_of(key, *node, limit) : std::nullopt;
 }
 
-std::optional<int> TomlSection::integer(std::string_view key, int min, int max) {
-    const std::optional<double> value =
-        number(key, Range{static_cast<double>(min), static_cast<double>(max)});
+std::optional<int> TomlSection::integer(std::string_view key, const Limit& limit) {
+    const std::optional<double> value = number(key, limit);
     if (!value) return {};
     if (*value != std::floor(*value)) {
         fail(key, in_quotes(key) + " must be a whole number, not " + format_decimal(*value),
@@ -157,7 +151,8 @@ std::optional<std::string> TomlSection::path(std::string_view key) {
     return file_.beside(*value);
 }
 
-std::optional<Vec3> TomlSection::point_of(std::string_view key, const toml::node& node, const char* wanted) {
+std::optional<Vec3> TomlSection::point_of(std::string_view key, const toml::node& node, const Limit& limit,
+                                          const char* wanted) {
     const toml::array* array = node.as_array();
     if (!array || array->size() != 3) {
         file_.fail(node.source(), in_quotes(key) + " must be " + wanted,
@@ -166,17 +161,16 @@ std::optional<Vec3> TomlSection::point_of(std::string_view key, const toml::node
     }
     Vec3 point;
     for (int i = 0; i < 3; ++i) {
-        const std::optional<double> value =
-            number_of(key, *array->get(static_cast<std::size_t>(i)), kAnyNumber);
+        const std::optional<double> value = number_of(key, *array->get(static_cast<std::size_t>(i)), limit);
         if (!value) return {};
         point[i] = *value;
     }
     return point;
 }
 
-std::optional<Vec3> TomlSection::point(std::string_view key) {
+std::optional<Vec3> TomlSection::point(std::string_view key, const Limit& limit) {
     const toml::node* node = table_.get(key);
-    return node ? point_of(key, *node, "three numbers [x, y, z]") : std::nullopt;
+    return node ? point_of(key, *node, limit, "three numbers [x, y, z]") : std::nullopt;
 }
 
 std::optional<Box3> TomlSection::box(std::string_view key) {
@@ -190,7 +184,7 @@ std::optional<Box3> TomlSection::box(std::string_view key) {
     }
     Box3 box;
     for (std::size_t i = 0; i < 2; ++i) {
-        const std::optional<Vec3> corner = point_of(key, *array->get(i), kWanted);
+        const std::optional<Vec3> corner = point_of(key, *array->get(i), kLimits.coordinate, kWanted);
         if (!corner) return {};
         box.include(*corner);
     }
@@ -204,25 +198,25 @@ std::optional<Box3> TomlSection::box(std::string_view key) {
     return box;
 }
 
-std::optional<std::vector<double>> TomlSection::numbers(std::string_view key, Range range) {
+std::optional<std::vector<double>> TomlSection::numbers(std::string_view key, const Limit& limit) {
     const toml::node* node = table_.get(key);
     if (!node) return {};
     std::vector<double> values;
     if (const toml::array* array = node->as_array()) {
         for (const toml::node& item : *array) {
-            const std::optional<double> value = number_of(key, item, range);
+            const std::optional<double> value = number_of(key, item, limit);
             if (!value) return {};
             values.push_back(*value);
         }
         return values;
     }
-    if (const std::optional<double> value = number_of(key, *node, range)) return std::vector<double>{*value};
+    if (const std::optional<double> value = number_of(key, *node, limit)) return std::vector<double>{*value};
     return {};
 }
 
-double TomlSection::required_number(std::string_view key, Range range) {
+double TomlSection::required_number(std::string_view key, const Limit& limit) {
     if (!has(key)) missing(key);
-    return number(key, range).value_or(0);
+    return number(key, limit).value_or(0);
 }
 
 std::string TomlSection::required_path(std::string_view key) {

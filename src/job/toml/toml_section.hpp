@@ -14,7 +14,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,16 +35,12 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
-#include "base/range.hpp"
+#include "base/limits.hpp"
 #include "base/result.hpp"
 #include "base/text/nearest.hpp"
 #include "base/vec3.hpp"
 
 namespace tribo::job {
-
-inline constexpr Range kAnyNumber{};
-inline constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
-inline constexpr Range kNotNegative{0};
 
 // The file, and the first thing found wrong in it.
 class TomlFile {
@@ -74,21 +69,21 @@ class TomlSection {
 
     bool has(std::string_view key) const { return table_.contains(key); }
     bool has_text(std::string_view key) const { return table_[key].is_string(); }
-    std::optional<double> number(std::string_view key, Range range = kAnyNumber);
-    std::optional<int> integer(std::string_view key, int min, int max);
+    std::optional<double> number(std::string_view key, const Limit& limit);
+    std::optional<int> integer(std::string_view key, const Limit& limit);
     std::optional<std::string> text(std::string_view key);
     // The index of the word among `words`.
     std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words);
     // A file's path, joined with the folder of the file that names it.
     std::optional<std::string> path(std::string_view key);
-    std::optional<Vec3> point(std::string_view key);
+    std::optional<Vec3> point(std::string_view key, const Limit& limit = kLimits.coordinate);
     // [[x,y,z],[x,y,z]]: two opposite corners with room between them.
     std::optional<Box3> box(std::string_view key);
     // One number or an array of them.
-    std::optional<std::vector<double>> numbers(std::string_view key, Range range = kAnyNumber);
+    std::optional<std::vector<double>> numbers(std::string_view key, const Limit& limit);
 
     // The same, but absence is an error too; the value is then anything.
-    double required_number(std::string_view key, Range range = kAnyNumber);
+    double required_number(std::string_view key, const Limit& limit);
     std::string required_path(std::string_view key);
 
     // The tables under a key: of one table, or of an array of at most kMostTables.
@@ -103,9 +98,10 @@ class TomlSection {
     const std::string& label() const { return label_; }
 
   private:
-    std::optional<double> number_of(std::string_view key, const toml::node& node, Range range);
+    std::optional<double> number_of(std::string_view key, const toml::node& node, const Limit& limit);
     void wrong_type(std::string_view key, const toml::node& node, const char* wanted);
-    std::optional<Vec3> point_of(std::string_view key, const toml::node& node, const char* wanted);
+    std::optional<Vec3> point_of(std::string_view key, const toml::node& node, const Limit& limit,
+                                 const char* wanted);
 
     TomlFile& file_;
     const toml::table& table_;

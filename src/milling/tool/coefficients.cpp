@@ -2,22 +2,26 @@
 #include "milling/tool/coefficients.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "base/math.hpp"
+#include "base/text/limit_text.hpp"
 
 namespace tribo::milling {
 
 Result<void> check(const CuttingCoefficients& k) {
-    for (const double value : {k.ktc, k.krc, k.kac, k.kte, k.kre, k.kae}) {
-        if (!std::isfinite(value)) {
-            return fail("a cutting coefficient is not a finite number",
-                        "give ktc, krc, kac in N/mm2 and kte, kre, kae in N/mm");
-        }
+    struct Number {
+        const char* name;
+        double value;
+        const Limit& limit;
+    };
+    for (const auto& [name, value, limit] :
+         {Number{"ktc", k.ktc, kLimits.ktc}, Number{"krc", k.krc, kLimits.krc},
+          Number{"kac", k.kac, kLimits.krc}, Number{"kte", k.kte, kLimits.kte},
+          Number{"kre", k.kre, kLimits.kre}, Number{"kae", k.kae, kLimits.kre}}) {
+        if (limit.range.contains(value)) continue;
+        return fail(std::string(name) + " is " + plain_number(value), range_remedy(limit));
     }
-    if (k.ktc <= 0)
-        return fail("ktc is not above 0", "give the tangential coefficient in N/mm2, usually 200 to 5000");
-    if (k.kte < 0)
-        return fail("kte is below 0", "give the tangential edge coefficient in N/mm, usually 0 to 100");
     return {};
 }
 

@@ -15,8 +15,8 @@ struct CuttingCoefficients {
     double kte = 0, kre = 0, kae = 0;  // edge (ploughing), N/mm
 };
 
-// Refuses values that cannot cut: non-finite values, ktc <= 0, negative kte. (Radial and axial values may be
-// negative: sharp positive edges pull.)
+// Refuses values out of their range (base/limits.hpp): ktc is above 0, kte not below; radial and axial values
+// may be negative, because sharp positive edges pull.
 Result<void> check(const CuttingCoefficients& coefficients);
 
 // Orthogonal cutting of one material. Chip ratio r = r0 h^a with h in mm; r0, a and the friction angle are

@@ -6,20 +6,43 @@
 #include <string>
 
 #include "base/math.hpp"
+#include "base/text/limit_text.hpp"
 
 namespace tribo::milling {
 namespace {
 
-constexpr int kMaxFlutes = 64;
-constexpr double kMaxHelixDeg = 85;      // beyond it a flute is a thread, and the lag per mm has no meaning
 constexpr double kPitchSlackDeg = 0.05;  // pitch angles as printed in drawings must still close
-
-bool positive(double x) {
-    return std::isfinite(x) && x > 0;
-}
 
 std::unexpected<Error> refuse(const char* key, const std::string& cause, const std::string& remedy) {
     return fail("cutter " + std::string(key) + " " + cause, remedy);
+}
+
+Result<void> check_numbers(const Cutter& c) {
+    struct Number {
+        const char* key;
+        double value;
+        const Limit& limit;
+    };
+    const double corner = c.kind == CutterKind::bull ? c.corner_mm : 0;
+    for (const auto& [key, value, limit] : {Number{"diameter_mm", c.diameter_mm, kLimits.cutter_diameter},
+                                            Number{"corner_mm", corner, kLimits.corner_radius},
+                                            Number{"flutes", static_cast<double>(c.flutes), kLimits.flutes},
+                                            Number{"helix_deg", c.helix_deg, kLimits.helix},
+                                            Number{"core_mm", c.core_mm, kLimits.core_diameter},
+                                            Number{"length_mm", c.length_mm, kLimits.cutting_length},
+                                            Number{"runout_mm", c.runout_mm, kLimits.runout},
+                                            Number{"runout_deg", c.runout_deg, kLimits.runout_angle}}) {
+        if (limit.range.contains(value)) continue;
+        return refuse(key, "is " + plain_number(value), range_remedy(limit));
+    }
+    for (const HolderStep& step : c.holder) {
+        for (const double size : {step.diameter_mm, step.length_mm}) {
+            if (kLimits.holder.range.contains(size)) continue;
+            return refuse("holder", "has a step of " + plain_number(size) + " mm",
+                          range_remedy(kLimits.holder));
+        }
+    }
+    return {};
 }
 
 Result<void> check_pitch(const Cutter& c) {
@@ -32,8 +55,8 @@ Result<void> check_pitch(const Cutter& c) {
     }
     double sum = 0;
     for (const double p : c.pitch_deg) {
-        if (!positive(p)) {
-            return refuse("pitch_deg", "holds an angle that is not above 0", "give angles in degrees");
+        if (!kLimits.pitch.range.contains(p)) {
+            return refuse("pitch_deg", "holds " + plain_number(p), range_remedy(kLimits.pitch));
         }
         sum += p;
     }
@@ -57,42 +80,22 @@ double Cutter::lag_rad(double z_mm) const {
 }
 
 Result<void> check(const Cutter& c) {
-    if (!positive(c.diameter_mm)) {
-        return refuse("diameter_mm", "is not a length above 0", "give the diameter in millimetres");
-    }
-    if (c.kind == CutterKind::bull && !(positive(c.corner_mm) && c.corner_mm < c.radius_mm())) {
+    if (auto done = check_numbers(c); !done) return done;
+    if (c.kind == CutterKind::bull && !(c.corner_mm > 0 && c.corner_mm < c.radius_mm())) {
         return refuse("corner_mm", "is not between 0 and the radius",
                       "give the corner radius of the bull-nose cutter, or make it flat or ball");
     }
-    if (c.flutes < 1 || c.flutes > kMaxFlutes) {
-        return refuse("flutes", "is not between 1 and " + std::to_string(kMaxFlutes), "count the teeth");
-    }
-    if (!(std::abs(c.helix_deg) <= kMaxHelixDeg)) {
-        return refuse("helix_deg", "is not between -85 and 85 degrees",
-                      "use 0 for straight flutes, a negative angle for a left-hand helix");
-    }
-    if (!(c.core_mm >= 0 && c.core_mm <= c.diameter_mm - 2 * c.corner_radius_mm())) {
+    if (!(c.core_mm <= c.diameter_mm - 2 * c.corner_radius_mm())) {
         return refuse("core_mm", "is not between 0 and the diameter of the flat bottom",
                       "give the diameter that the bottom edges leave out, or 0 where they cut over centre");
-    }
-    if (!positive(c.length_mm)) {
-        return refuse("length_mm", "is not a length above 0", "give the length of the cutting edges");
     }
     if (c.length_mm < c.corner_radius_mm()) {
         return refuse("length_mm", "is shorter than the rounded bottom",
                       "make it at least the corner radius");
     }
-    if (!(c.runout_mm >= 0 && c.runout_mm < c.radius_mm())) {
+    if (!(c.runout_mm < c.radius_mm())) {
         return refuse("runout_mm", "is not between 0 and the radius",
                       "give the offset of the tool axis, usually 0.005 to 0.05 mm");
-    }
-    if (!std::isfinite(c.runout_deg))
-        return refuse("runout_deg", "is not a number", "give an angle in degrees");
-    for (const HolderStep& step : c.holder) {
-        if (!positive(step.diameter_mm) || !positive(step.length_mm)) {
-            return refuse("holder", "has a step without diameter or length",
-                          "give each step from the bottom up as [diameter_mm, length_mm]");
-        }
     }
     return check_pitch(c);
 }

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "noise/learn/sound_statistics.hpp"
 #include "noise/learn/texture_learning.hpp"
 #include "noise/model/fourier.hpp"
@@ -204,10 +205,14 @@ Result<std::vector<PreparedRecording>> prepared_all(std::span<const Recording> r
     if (recordings.empty()) return fail("no recording was given", "give at least one");
     std::vector<PreparedRecording> prepared;
     for (const Recording& r : recordings) {
-        if (!(r.speed_mm_per_s > 0) || !(r.force_n > 0) || !std::isfinite(r.speed_mm_per_s * r.force_n)) {
-            return fail_at(r.name, 0, 0, "has a speed or force that is not above 0",
-                           "give the speed in mm/s at which the finger moved");
-        }
+        const auto in_range = [&](const Limit& limit, double value) -> Result<void> {
+            if (limit.range.contains(value)) return {};
+            return fail_at(r.name, 0, 0, out_of_range(limit, value), range_remedy(limit));
+        };
+        if (auto good = in_range(kLimits.finger_speed, r.speed_mm_per_s); !good)
+            return std::unexpected(good.error());
+        if (auto good = in_range(kLimits.finger_force, r.force_n); !good)
+            return std::unexpected(good.error());
         Result<PreparedRecording> one = prepare(r, options.highpass_hz);
         if (!one) return std::unexpected(one.error());
         learned.warnings.insert(learned.warnings.end(), one->warnings.begin(), one->warnings.end());

@@ -53,8 +53,8 @@ Result<void> read_rest(const Statement& statement, std::size_t from, Circle& cir
             return report.refuse(item, quoted(item.text) + " is not known here", "delete it");
         }
         if (++i == statement.items.size()) return report.refuse(item, "a number is missing", "write it");
-        const auto value = report.number(statement.items[i], angle ? -360 * kMostTurns : 1,
-                                         angle ? 360 * kMostTurns : kMostTurns);
+        const auto value = report.number(
+            statement.items[i], Range{angle ? -360 * kMostTurns : 1, angle ? 360 * kMostTurns : kMostTurns});
         if (!value) return std::unexpected(value.error());
         if (angle) circle.turn_rad = *value * math::kRadPerDeg;
         if (times) circle.more_turns = std::floor(*value) - 1;
@@ -80,7 +80,7 @@ Result<Circle> read_circle(const Statement& statement, Path& path, Report& repor
     if (!point) return std::unexpected(point.error());
     const auto direction = path.read_direction(statement, axis);
     if (!direction) return std::unexpected(direction.error());
-    const auto r = report.number(statement.items[radius], 0, kLargestCoordinateMm / path.settings.unit_mm);
+    const auto r = report.number(statement.items[radius], lengths(path.settings.unit_mm));
     if (!r) return std::unexpected(r.error());
     const Frame& frame = path.frames.to_program();
     circle.centre_mm = frame.point(*point);
@@ -163,7 +163,7 @@ Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward, 
     const auto centre = path.read_point(plain, 0), end = path.read_point(plain, 7);
     if (!centre) return std::unexpected(centre.error());
     if (!end) return std::unexpected(end.error());
-    const auto radius = report.number(plain.items[3], 0, kLargestCoordinateMm / path.settings.unit_mm);
+    const auto radius = report.number(plain.items[3], lengths(path.settings.unit_mm));
     if (!radius) return std::unexpected(radius.error());
     const Frame& frame = path.frames.to_program();
     CatiaCircle out;

@@ -12,8 +12,6 @@ namespace {
 // this length, mm. Value of LinuxCNC; other controls have a parameter that no program states.
 constexpr double kPeckGapMm = 0.254;
 constexpr double kMostPecks = 10'000;
-constexpr double kLongestDwellS = 86'400;
-constexpr double kLargestFeed = 1e6;
 
 struct Kind {
     std::string_view word;
@@ -92,10 +90,10 @@ class CycleReader {
                               "let the CAM system write its moves");
     }
 
-    Result<double> take_number(double least, double most) {
+    Result<double> take_number(const Range& range) {
         if (at_ == items_.size())
             return report_.refuse(items_[at_ - 1], "a number is missing after this", "write it");
-        return report_.number(items_[at_++], least, most);
+        return report_.number(items_[at_++], range);
     }
 
     Result<void> read_words() {
@@ -118,13 +116,13 @@ class CycleReader {
         }
         if (key == Key::dwell) return read_dwell();
         if (key == Key::feed) {
-            const auto value = take_number(0, kLargestFeed);
+            const auto value = take_number(Range{});
             if (!value) return std::unexpected(value.error());
             return set_feed(*value, word);
         }
-        const double farthest = kLargestCoordinateMm / unit_mm_;
-        const bool may_be_negative = key == Key::depth || key == Key::retract;
-        const auto value = take_number(may_be_negative ? -farthest : 0, farthest);
+        Range range = lengths(unit_mm_);
+        if (key == Key::depth || key == Key::retract) range.min = -range.max;
+        const auto value = take_number(range);
         if (!value) return std::unexpected(value.error());
         const double mm = *value * unit_mm_;
         switch (key) {
@@ -151,7 +149,7 @@ class CycleReader {
     Result<void> read_dwell() {
         const bool turns = at_ < items_.size() && matches(items_[at_].text, "REV");
         if (turns) ++at_;
-        const auto value = take_number(0, kLongestDwellS);
+        const auto value = take_number(kLimits.dwell.range);
         if (!value) return std::unexpected(value.error());
         if (turns && path_.settings.spindle_rpm == 0) {
             return report_.refuse(items_[at_ - 1], "a dwell in turns with the spindle speed unknown",
@@ -162,13 +160,14 @@ class CycleReader {
     }
 
     Result<void> set_feed(double value, const Item& word) {
-        if (value == 0) return report_.refuse(word, "a feed rate of 0", "write one above 0");
         const bool inches = matches(word.text, "IPM") || matches(word.text, "IPR");
         const bool plain = matches(word.text, "PERMIN") || matches(word.text, "PERREV");
         const bool per_turn =
             matches(word.text, "IPR") || matches(word.text, "MMPR") || matches(word.text, "PERREV");
         const double unit = plain ? unit_mm_ : mm_per(inches ? LengthUnit::inch : LengthUnit::millimetre);
-        cycle_.feed = Feed{value * unit, per_turn};
+        const auto feed = feed_of(word, value * unit, per_turn, report_);
+        if (!feed) return std::unexpected(feed.error());
+        cycle_.feed = *feed;
         return {};
     }
 
@@ -188,7 +187,7 @@ class CycleReader {
                 return report_.refuse(item, "more numbers than depth, feed and clearance",
                                       "name them: FEDTO, MMPM, RAPTO, ...");
             } else {
-                const auto number = report_.number(item, 0, kLargestCoordinateMm / unit_mm_);
+                const auto number = report_.number(item, lengths(unit_mm_));
                 if (!number) return std::unexpected(number.error());
                 value[count++] = *number;
             }

@@ -22,7 +22,7 @@ Result<std::vector<double>> numbers(const Statement& statement, std::size_t coun
     }
     std::vector<double> out;
     for (const Item& item : statement.items) {
-        const auto value = report.number(item, -kLargestCoordinateMm, kLargestCoordinateMm);
+        const auto value = report.number(item, kLimits.coordinate);
         if (!value) return std::unexpected(value.error());
         out.push_back(*value);
     }
@@ -110,7 +110,7 @@ Result<void> Frames::set_frame_type(const Statement& statement, Report& report) 
                              "TRNTYP is neither WORLD nor LOCAL", "write one of the two");
     }
     for (std::size_t i = 1; i < count; ++i) {
-        const auto value = report.number(statement.items[i], -kLargestCoordinateMm, kLargestCoordinateMm);
+        const auto value = report.number(statement.items[i], kLimits.coordinate);
         if (!value) return std::unexpected(value.error());
         if (*value != 0)
             return report.refuse(statement.items[i], "TRNTYP with an offset is not read", "use TRANS");

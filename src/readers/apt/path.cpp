@@ -4,22 +4,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text/limit_text.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::apt {
 namespace {
 
 constexpr std::size_t kMostCutters = 1000;  // each new one is compared with all others
-constexpr double kShortestAxis = 1e-6, kLongestAxis = 1e6;
+constexpr double kShortestAxis = 1e-6;
 
 }  // namespace
 
 Result<Vec3> Path::read_point(const Statement& statement, std::size_t first) {
     Vec3 point;
-    const double farthest = kLargestCoordinateMm / settings.unit_mm;
     for (int k = 0; k < 3; ++k) {
-        const auto place =
-            report_.number(statement.items[first + static_cast<std::size_t>(k)], -farthest, farthest);
+        const auto place = report_.number(statement.items[first + static_cast<std::size_t>(k)],
+                                          kLimits.coordinate, settings.unit_mm);
         if (!place) return std::unexpected(place.error());
         point[k] = *place * settings.unit_mm;
     }
@@ -30,7 +30,7 @@ Result<Vec3> Path::read_direction(const Statement& statement, std::size_t first)
     Vec3 direction;
     for (int k = 0; k < 3; ++k) {
         const auto component =
-            report_.number(statement.items[first + static_cast<std::size_t>(k)], -kLongestAxis, kLongestAxis);
+            report_.number(statement.items[first + static_cast<std::size_t>(k)], kLimits.direction);
         if (!component) return std::unexpected(component.error());
         direction[k] = *component;
     }
@@ -90,7 +90,10 @@ Result<double> Path::mm_per_min(const Feed& feed, const Item& at) const {
         return report_.refuse(at, "a feed per turn with the spindle speed unknown",
                               "add SPINDL with a speed before it");
     }
-    return feed.value * settings.spindle_rpm;
+    const double value = feed.value * settings.spindle_rpm;
+    if (!kLimits.feed.range.contains(value))
+        return report_.refuse(at, out_of_range(kLimits.feed, value), range_remedy(kLimits.feed));
+    return value;
 }
 
 Result<double> Path::feed_in_force(const Item& at) {
@@ -122,6 +125,11 @@ Result<void> Path::go(const motion::ToolPose& end, motion::MoveKind kind, const 
         move.feed_mm_per_min = *speed;
         if (settings.spindle_stopped && report_.first(Note::spindle_off)) {
             report_.warn(move.line, "feed move with the spindle off: it is taken as running");
+        }
+        if (settings.spindle_stands && report_.first(Note::spindle_stands)) {
+            report_.warn(move.line,
+                         "feed move with a spindle speed of 0: the spindle stands still; it is taken as "
+                         "turning at the job's speed");
         }
     }
     set_place(end);

@@ -15,8 +15,6 @@ namespace tribo::readers {
 namespace apt {
 namespace {
 
-constexpr double kLongestDwellS = 86'400;
-
 constexpr const char* kPlainGoto = "let the CAM system write it as GOTO with tool axes";
 
 class AptReader {
@@ -163,8 +161,7 @@ class AptReader {
         motion::ToolPose end = *path_.place();
         const std::size_t count = statement.items.size();
         if (count == 1) {
-            const double farthest = kLargestCoordinateMm / path_.settings.unit_mm;
-            const auto along = report_.number(statement.items[0], -farthest, farthest);
+            const auto along = report_.number(statement.items[0], kLimits.coordinate, path_.settings.unit_mm);
             if (!along) return std::unexpected(along.error());
             end.tip_mm += *along * path_.settings.unit_mm * end.axis;
         } else if (count == 3) {
@@ -330,8 +327,7 @@ class AptReader {
         } else if (items.size() != 1) {
             return report_.refuse(statement.word, "CLEARP without a plane", "write CLEARP/XYPLAN,z");
         }
-        const double farthest = kLargestCoordinateMm / path_.settings.unit_mm;
-        const auto value = report_.number(items[height], -farthest, farthest);
+        const auto value = report_.number(items[height], kLimits.coordinate, path_.settings.unit_mm);
         if (!value) return std::unexpected(value.error());
         const Frame& frame = path_.frames.to_program();
         plane.distance_mm = *value * path_.settings.unit_mm;
@@ -387,7 +383,7 @@ class AptReader {
             return report_.refuse(statement.word, "DELAY without a single number",
                                   "write DELAY/ and the seconds");
         }
-        const auto time = report_.number(items.front(), 0, kLongestDwellS);
+        const auto time = report_.number(items.front(), kLimits.dwell);
         if (!time) return std::unexpected(time.error());
         if (!in_turns) return path_.dwell(*time, statement.word);
         if (path_.settings.spindle_rpm == 0) {

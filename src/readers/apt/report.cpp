@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/text/limit_text.hpp"
+
 namespace tribo::readers::apt {
 
 std::string quoted(std::string_view text) {
@@ -16,17 +18,29 @@ std::unexpected<Error> Report::refuse(const Item& at, std::string cause, std::st
     return fail_at(source_name_, at.line, at.column, std::move(cause), std::move(remedy));
 }
 
-Result<double> Report::number(const Item& item, double least, double most) const {
+Result<double> Report::number(const Item& item) const {
     const auto value = number_of(item.text);
     if (!value) {
         return refuse(item,
                       item.text.empty() ? "a number is missing" : quoted(item.text) + " is not a number",
                       "write a decimal number");
     }
-    if (!(*value >= least && *value <= most)) {
-        return refuse(item, quoted(item.text) + " is out of range", "correct it");
-    }
     return *value;
+}
+
+Result<double> Report::number(const Item& item, const Range& range) const {
+    const auto value = number(item);
+    if (value && !range.contains(*value))
+        return refuse(item, quoted(item.text) + " is out of range",
+                      "give a number from " + plain_number(range.min) + " to " + plain_number(range.max));
+    return value;
+}
+
+Result<double> Report::number(const Item& item, const Limit& limit, double scale) const {
+    const auto value = number(item);
+    if (value && !limit.range.contains(*value * scale))
+        return refuse(item, quoted(item.text) + " is out of range", range_remedy(limit));
+    return value;
 }
 
 bool Report::first(Note note) {

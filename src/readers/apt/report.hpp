@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "base/limits.hpp"
 #include "base/result.hpp"
 #include "readers/apt/lexer.hpp"
 
@@ -15,6 +16,7 @@ enum class Note {
     unit,
     feed,
     spindle_off,
+    spindle_stands,
     spindle_backwards,
     cutter_shape,
     inserted_text,
@@ -34,8 +36,11 @@ class Report {
     explicit Report(std::string source_name) : source_name_(std::move(source_name)) {}
 
     std::unexpected<Error> refuse(const Item& at, std::string cause, std::string remedy) const;
-    // Reads the item as a number from `least` to `most`.
-    Result<double> number(const Item& item, double least, double most) const;
+    // Reads the item as a number; in the range if one is given.
+    Result<double> number(const Item& item) const;
+    Result<double> number(const Item& item, const Range& range) const;
+    // `scale`: of the number's unit in that of the limit. Returns the number as it is written.
+    Result<double> number(const Item& item, const Limit& limit, double scale = 1) const;
     // Returns true at the first call for a note.
     bool first(Note note);
     void warn(int line, std::string text);
@@ -46,6 +51,11 @@ class Report {
     std::string source_name_;
     std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
 };
+
+// The range of lengths in a unit.
+inline Range lengths(double unit_mm) {
+    return {0, kLimits.coordinate.range.max / unit_mm};
+}
 
 // Returns an item in quotes, for messages.
 std::string quoted(std::string_view text);

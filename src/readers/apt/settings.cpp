@@ -6,18 +6,22 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "base/text/limit_text.hpp"
 #include "readers/text/length_unit.hpp"
 
 namespace tribo::readers::apt {
 namespace {
 
-constexpr double kLargestToolNumber = 999'999'999;
-constexpr double kLargestSpindleRpm = 1e6;
-constexpr double kLargestFeed = 1e6;  // in the unit of the statement
 // Largest difference between CUTTER/ and the tool described by its diameter and corner, mm or degrees.
 constexpr double kCutterTolerance = 1e-3;
 
 }  // namespace
+
+Result<Feed> feed_of(const Item& at, double value, bool per_turn, const Report& report) {
+    const Limit& limit = per_turn ? kLimits.feed_per_turn : kLimits.feed;
+    if (limit.range.contains(value)) return Feed{value, per_turn};
+    return report.refuse(at, out_of_range(limit, value), range_remedy(limit));
+}
 
 Result<void> set_units(const Statement& statement, Settings& settings, Report& report) {
     const Item& item = statement.items.empty() ? statement.word : statement.items.front();
@@ -34,6 +38,7 @@ Result<void> set_units(const Statement& statement, Settings& settings, Report& r
 
 Result<void> set_feed(const Statement& statement, Settings& settings, Report& report) {
     std::optional<double> value;
+    const Item* written = nullptr;
     double scale = settings.unit_mm;
     bool per_turn = false, inverse = false;
     for (const Item& item : statement.items) {
@@ -53,10 +58,11 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
             return report.refuse(item, "a feed per tooth, and APT does not say how many teeth",
                                  "write it per turn or per minute");
         } else if (!matches(item.text, "PERMIN")) {
-            const auto speed = report.number(item, 0, kLargestFeed);
+            const auto speed = report.number(item);
             if (!speed) return std::unexpected(speed.error());
             if (value) return report.refuse(item, "a second feed rate", "give one number and its unit");
             value = *speed;
+            written = &item;
         }
     }
     if (inverse && value) {
@@ -65,8 +71,9 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
     }
     if (inverse) return {};
     if (!value) return report.refuse(statement.word, "FEDRAT without a number", "write FEDRAT/100,MMPM");
-    if (*value == 0) return report.refuse(statement.word, "a feed rate of 0", "write one above 0");
-    settings.feed = Feed{*value * scale, per_turn};
+    const auto feed = feed_of(*written, *value * scale, per_turn, report);
+    if (!feed) return std::unexpected(feed.error());
+    settings.feed = *feed;
     return {};
 }
 
@@ -92,19 +99,24 @@ Result<void> set_spindle(const Statement& statement, Settings& settings, Report&
                 report.warn(item.line, "the spindle turns backwards (CCLW): taken as a cut all the same");
             }
         } else if (!matches(item.text, "RPM")) {
-            const auto speed = report.number(item, 0, kLargestSpindleRpm);
+            const auto speed = report.number(item);
             if (!speed) return std::unexpected(speed.error());
             any = true;
             settings.spindle_rpm = *speed;
+            settings.spindle_stands = *speed == 0;
             settings.spindle_stopped = false;
         }
     }
-    if (surface_mm == 0 || !any) return {};
-    if (settings.diameter_mm == 0) {
+    if (!any) return {};
+    if (surface_mm != 0 && settings.diameter_mm == 0) {
         return report.refuse(statement.word, "a surface speed with the cutter's diameter unknown",
                              "add CUTTER before it, or write RPM");
     }
-    settings.spindle_rpm *= surface_mm / (math::kPi * settings.diameter_mm);
+    if (surface_mm != 0) settings.spindle_rpm *= surface_mm / (math::kPi * settings.diameter_mm);
+    if (settings.spindle_rpm != 0 && !kLimits.spindle_speed.range.contains(settings.spindle_rpm)) {
+        return report.refuse(statement.word, out_of_range(kLimits.spindle_speed, settings.spindle_rpm),
+                             range_remedy(kLimits.spindle_speed));
+    }
     return {};
 }
 
@@ -121,7 +133,8 @@ Result<void> load_tool(const Statement& statement, Settings& settings, Report& r
         return report.refuse(statement.word, "no tool number", "write LOADTL/ and the number");
     }
     const Item& item = statement.items[place];
-    const auto tool = report.number(item, 0, kLargestToolNumber);
+    const auto tool =
+        number_of(item.text) == 0.0 ? Result<double>(0) : report.number(item, kLimits.tool_number);
     if (!tool) return std::unexpected(tool.error());
     if (*tool != std::floor(*tool)) {
         return report.refuse(item, "the tool number is not a whole number", "correct it");
@@ -138,12 +151,16 @@ Result<void> set_cutter(const Statement& statement, Settings& settings, Report& 
                              "write CUTTER/diameter,corner radius");
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const auto read = report.number(statement.items[i], -kLargestCoordinateMm, kLargestCoordinateMm);
+        const auto read = report.number(statement.items[i], kLimits.coordinate);
         if (!read) return std::unexpected(read.error());
         value[i] = *read;
     }
     const auto [d, r, e, f, bottom_deg, flank_deg, height] = value;
     if (!(d > 0)) return report.refuse(statement.items[0], "a cutter without a diameter", "correct it");
+    if (const double mm = d * settings.unit_mm; !kLimits.cutter_diameter.range.contains(mm)) {
+        return report.refuse(statement.items[0], out_of_range(kLimits.cutter_diameter, mm),
+                             range_remedy(kLimits.cutter_diameter));
+    }
     if (r < 0 || 2 * r > d + kCutterTolerance) {
         return report.refuse(statement.items[1], "a corner radius that does not fit the diameter",
                              "correct it");

@@ -16,12 +16,16 @@ struct Feed {
     bool per_turn = false;
 };
 
+// Refuses a feed out of its range. `at`: the number, for messages.
+Result<Feed> feed_of(const Item& at, double value, bool per_turn, const Report& report);
+
 struct Settings {
     double unit_mm = 1;
     bool unit_stated = false;
     std::optional<Feed> feed;
     double spindle_rpm = 0;        // 0: not stated
     bool spindle_stopped = false;  // by SPINDL/OFF
+    bool spindle_stands = false;   // the last speed is 0
     int tool = 0;
     std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without the tool number
     double diameter_mm = 0;                      // of the last CUTTER; 0: none so far

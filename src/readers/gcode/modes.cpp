@@ -5,14 +5,17 @@
 
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/cycles.hpp"
+#include "readers/gcode/motion/moves.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr double kLargestSpindleRpm = 1e6;
-constexpr double kLargestFeed = 1e6;  // mm/min, 1/min or mm per turn: 1 km a minute
-constexpr double kLargestToolNumber = 999'999'999;
+const Limit& feed_limit(FeedMode mode) {
+    return mode == FeedMode::inverse_time ? kLimits.inverse_time
+           : mode == FeedMode::per_minute ? kLimits.feed
+                                          : kLimits.feed_per_turn;
+}
 
 void set_units(const Command& command, State& state) {
     const auto code = command.g(GGroup::units);
@@ -34,11 +37,10 @@ Result<void> set_feed(Command& command, State& state, const Output& output) {
     if (word == nullptr) return {};
     const double value =
         state.feed_mode == FeedMode::inverse_time ? word->value : word->value * state.unit_mm;
-    if (!(value >= 0) || value > kLargestFeed) {
-        return output.refuse(
-            command.line(), word->column,
-            word->value < 0 ? "the feed rate is negative" : "the feed rate is beyond any machine",
-            "correct F");
+    // A feed of 0 is refused where a move uses it.
+    if (value != 0) {
+        if (auto good = in_range(feed_limit(state.feed_mode), value, command, *word, output); !good)
+            return good;
     }
     state.feed = value;
     state.feed_line = command.line();
@@ -47,13 +49,12 @@ Result<void> set_feed(Command& command, State& state, const Output& output) {
 
 Result<void> set_spindle(Command& command, State& state, const Output& output) {
     if (const Word* word = command.use('S')) {
-        if (!(word->value >= 0) || word->value > kLargestSpindleRpm) {
-            return output.refuse(
-                command.line(), word->column,
-                word->value < 0 ? "the spindle speed is negative" : "the spindle speed is beyond any machine",
-                "give S in turns per minute and the direction with M3 or M4");
+        if (word->value != 0) {
+            if (auto good = in_range(kLimits.spindle_speed, word->value, command, *word, output); !good)
+                return good;
         }
         state.spindle_rpm = word->value;
+        state.spindle_stands = word->value == 0;
     }
     if (const auto code = command.m(MGroup::spindle)) {
         state.spindle = code->tenths == 30   ? Spindle::clockwise
@@ -65,8 +66,11 @@ Result<void> set_spindle(Command& command, State& state, const Output& output) {
 
 Result<void> set_tool(Command& command, State& state, Output& output) {
     if (const Word* word = command.use('T')) {
-        if (!(word->value >= 0) || word->value > kLargestToolNumber ||
-            word->value != std::floor(word->value)) {
+        if (word->value != 0) {
+            if (auto good = in_range(kLimits.tool_number, word->value, command, *word, output); !good)
+                return good;
+        }
+        if (word->value != std::floor(word->value)) {
             return output.refuse(command.line(), word->column, "the tool number is not a whole number",
                                  "correct T");
         }

@@ -129,6 +129,7 @@ struct State {
 
     Spindle spindle = Spindle::off;
     double spindle_rpm = 0;
+    bool spindle_stands = false;  // the last S is 0
     int selected_tool = 0;
     int loaded_tool = 0;
     bool has_changed_tool = false;
@@ -174,6 +175,7 @@ enum class Note {
     rotary_words,
     tool_tip_switch,
     spindle_off,
+    spindle_stands,
     spindle_backwards,
     work_system,
     tool_length,

@@ -15,7 +15,6 @@ namespace {
 constexpr double kRapid = std::numeric_limits<double>::infinity();  // value of a feed for FMAX
 constexpr double kFastFeed = 99'999;                                // value of a retraction feed for FMAX
 constexpr double kChipBreakMm = 0.2;
-constexpr double kLongestDwellS = 86'400;
 constexpr int kMostInfeeds = 100'000;
 
 struct Parameter {
@@ -54,9 +53,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
         if (auto done = in.items(items); !done) return done;
         for (const Item& item : items) {
             if (!item.value) continue;
-            if (*item.value < 0 || *item.value > kLongestDwellS) {
-                return in.refuse(item.column, "the dwell is out of range", "give seconds");
-            }
+            if (auto good = in.in_range(kLimits.dwell, *item.value, item.column); !good) return good;
             return path_.dwell(*item.value, place(column));
         }
         return in.refuse(column, "a dwell without its time", "write CYCL DEF 9.1 DWELL 2");
@@ -123,6 +120,9 @@ Result<void> Interpreter::define_drilling(LineReader& in, int number) {
     if (cycle.at(200) < 0 || cycle.at(202) < 0 || !(cycle.at(206) > 0)) {
         return path_.refuse(cycle.place, "Q200, Q202 or Q206 is out of range",
                             "give clearance and infeed without a sign and a feed above 0");
+    }
+    if (cycle.at(206) != kRapid) {
+        if (auto good = path_.in_range(kLimits.feed, cycle.at(206), cycle.place); !good) return good;
     }
     cycle_ = cycle;
     cycle_at_every_position_ = false;
@@ -217,8 +217,7 @@ Result<void> Interpreter::drill() {
         } else {
             broken = 0;
             if (auto done = go_to_height(clearance, retract); !done) return done;
-            if (auto done = path_.dwell(std::clamp(cycle_.at(210), 0.0, kLongestDwellS), cycle_.place);
-                !done) {
+            if (auto done = path_.dwell(std::max(cycle_.at(210), 0.0), cycle_.place); !done) {
                 return done;
             }
             const double back = std::min(clearance, surface - reached + cycle_.at(200));
@@ -226,8 +225,7 @@ Result<void> Interpreter::drill() {
         }
         if (universal) infeed = std::max(infeed - std::max(cycle_.at(212), 0.0), least);
     }
-    if (auto done = path_.dwell(std::clamp(cycle_.at(211), 0.0, kLongestDwellS), cycle_.place); !done)
-        return done;
+    if (auto done = path_.dwell(std::max(cycle_.at(211), 0.0), cycle_.place); !done) return done;
     if (auto done = go_to_height(clearance, retract); !done) return done;
     return second > clearance ? go_to_height(second, kRapid) : Result<void>{};
 }
@@ -243,8 +241,7 @@ Result<void> Interpreter::bore() {
     }
     if (auto done = go_to_height(clearance, kRapid); !done) return done;
     if (auto done = go_to_height(surface + cycle_.at(201), plunge); !done) return done;
-    if (auto done = path_.dwell(std::clamp(cycle_.at(211), 0.0, kLongestDwellS), cycle_.place); !done)
-        return done;
+    if (auto done = path_.dwell(std::max(cycle_.at(211), 0.0), cycle_.place); !done) return done;
     if (auto done = go_to_height(clearance, retract); !done) return done;
     return second > clearance ? go_to_height(second, kRapid) : Result<void>{};
 }

@@ -15,7 +15,6 @@ namespace {
 // Largest depth of subprograms; the control allows 19.
 constexpr std::size_t kDeepestCalls = 100;
 constexpr double kEqual = 1e-9;  // FN 9: numbers closer than this are equal
-constexpr double kLargestSpindleRpm = 1e6;
 constexpr long kMostRepeats = 65534;
 
 }  // namespace
@@ -212,11 +211,17 @@ Result<void> Interpreter::define_tool(LineReader& in) {
     tool.line = line_.number;
     for (const Item& item : items) {
         if (item.name.empty() && item.value) {
-            tool.number = static_cast<int>(std::clamp(*item.value, 0.0, 999'999.0));
+            tool.number = static_cast<int>(std::clamp(*item.value, 0.0, kLimits.tool_number.range.max));
         } else if (item.name == "R" && item.value) {
             tool.diameter_mm = 2 * *item.value * unit_mm_;
+            if (tool.diameter_mm != 0) {
+                if (auto good = in.in_range(kLimits.cutter_diameter, tool.diameter_mm, item.column); !good)
+                    return good;
+            }
         } else if (item.name == "L" && item.value) {
-            if (*item.value > 0) tool.length_mm = *item.value * unit_mm_;
+            const double length = *item.value * unit_mm_;
+            if (auto good = in.in_range(kLimits.tool_length, length, item.column); !good) return good;
+            if (length > 0) tool.length_mm = length;
         } else if (!item.name.starts_with('"')) {
             return in.refuse(item.column, item.name + " does not belong into TOOL DEF", "write L and R");
         }
@@ -236,9 +241,9 @@ Result<void> Interpreter::call_tool(LineReader& in) {
                              "call the tool by its number");
         }
         if (i == 0 && item.name.empty() && item.value) {
-            constexpr double most = 999'999;
-            if (*item.value < 0 || *item.value > most) {
-                return in.refuse(item.column, "the tool number is out of range", "correct it");
+            if (*item.value != 0) {
+                if (auto good = in.in_range(kLimits.tool_number, *item.value, item.column); !good)
+                    return good;
             }
             path_.tool = static_cast<int>(*item.value);
             path_.measure_tool();
@@ -246,12 +251,17 @@ Result<void> Interpreter::call_tool(LineReader& in) {
             return in.refuse(item.column, "a tool along " + item.name + " is not read",
                              "write TOOL CALL ... Z");
         } else if (item.name == "S" && item.value) {
-            if (*item.value < 0 || *item.value > kLargestSpindleRpm) {
-                return in.refuse(item.column, "the spindle speed is out of range", "correct S");
+            if (*item.value != 0) {
+                if (auto good = in.in_range(kLimits.spindle_speed, *item.value, item.column); !good)
+                    return good;
             }
             path_.spindle_rpm = *item.value;
+            path_.spindle_stands = *item.value == 0;
         } else if (item.name == "F" && item.value) {
             tool_feed_ = *item.value * unit_mm_;
+            if (tool_feed_ != 0) {
+                if (auto good = in.in_range(kLimits.feed, tool_feed_, item.column); !good) return good;
+            }
             if (tool_feed_ > 0) path_.feed_mm_per_min = tool_feed_;
         } else if (item.name == "DR" || item.name == "DL") {
             if (item.value.value_or(0) != 0 && path_.first(kDeltas)) {

@@ -20,6 +20,7 @@ enum Note {
     kUnstatedAxes,
     kMachinePosition,
     kSpindleOff,
+    kSpindleStands,
     kDefaultFeed,
     kToolLength,
     kIgnoredCycle,

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers::heidenhain {
@@ -52,6 +53,11 @@ Line line_of(std::string_view text, int number) {
 
 std::unexpected<Error> LineReader::refuse(int column, std::string cause, std::string remedy) const {
     return fail_at(source_name_, line_.number, column, std::move(cause), std::move(remedy));
+}
+
+Result<void> LineReader::in_range(const Limit& limit, double value, int column) const {
+    if (limit.range.contains(value)) return {};
+    return refuse(column, out_of_range(limit, value), range_remedy(limit));
 }
 
 void LineReader::skip_blanks() {

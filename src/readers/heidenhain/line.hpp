@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "base/result.hpp"
 #include "readers/heidenhain/parameters.hpp"
 
@@ -58,6 +59,8 @@ class LineReader {
     Result<void> items(std::vector<Item>& items);
 
     std::unexpected<Error> refuse(int column, std::string cause, std::string remedy) const;
+    // Refuses a value out of its range. `value` is in the unit of the limit.
+    Result<void> in_range(const Limit& limit, double value, int column) const;
 
   private:
     void skip_blanks();

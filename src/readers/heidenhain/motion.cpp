@@ -11,8 +11,6 @@ namespace tribo::readers::heidenhain {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ", kRotary = "ABC";
-constexpr double kLargestFeed = 1e6;          // mm/min
-constexpr double kLargestAngleDeg = 100'000;  // 278 turns
 // Miscellaneous functions without effect on the simulation: coolant, clamps, feed of rotary axes, corner and
 // look-ahead behaviour.
 constexpr int kSilent[] = {0,   1,   6,   7,   8,   9,   25,  26,  27,  28,  90, 97,
@@ -44,14 +42,12 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
             item.name.size() == 2 && item.name[0] == 'T' ? kAxes.find(item.name[1]) : std::string_view::npos;
         if (axis < 3 && item.value) {
             const double mm = *item.value * unit_mm_;
-            if (std::abs(mm) > kLargestCoordinateMm) {
-                return in.refuse(item.column, item.name + " lies more than a kilometre away", "correct it");
-            }
+            if (auto good = in.in_range(kLimits.coordinate, mm, item.column); !good)
+                return std::unexpected(good.error());
             (incremental ? words.increment : words.axis)[axis] = mm;
         } else if (rotary < 3 && item.value) {
-            if (std::abs(*item.value) > kLargestAngleDeg) {
-                return in.refuse(item.column, item.name + " turns more than 277 times", "correct it");
-            }
+            if (auto good = in.in_range(kLimits.rotary_angle, *item.value, item.column); !good)
+                return std::unexpected(good.error());
             (incremental ? words.turn : words.rotary)[rotary] = *item.value;
         } else if (vector < 3 && item.value && own == "LN") {
             words.vector[vector] = *item.value;
@@ -110,9 +106,7 @@ Result<void> Interpreter::apply_feed(const Words& words) {
             path_.feed_mm_per_min = tool_feed_;
         } else if (item.name == "F" && item.value) {
             const double feed = *item.value * unit_mm_;
-            if (!(feed > 0) || feed > kLargestFeed) {
-                return path_.refuse(place(item.column), "the feed is out of range", "correct F");
-            }
+            if (auto good = path_.in_range(kLimits.feed, feed, place(item.column)); !good) return good;
             path_.feed_mm_per_min = feed;
         }
     }
@@ -205,10 +199,11 @@ Result<Vec3> Interpreter::polar_target(const Words& words) {
     if (words.polar_radius) radius = *words.polar_radius + (words.polar_radius_increment ? radius : 0);
     if (words.polar_angle) angle = *words.polar_angle;
     if (words.polar_turn) angle += *words.polar_turn;
-    if (!(std::abs(radius) <= kLargestCoordinateMm) || !(std::abs(angle) <= kLargestAngleDeg)) {
-        return path_.refuse(place(words.first_column), "the polar coordinates are out of range",
-                            "correct them");
-    }
+    const Place where = place(words.first_column);
+    if (auto good = path_.in_range(kLimits.coordinate, radius, where); !good)
+        return std::unexpected(good.error());
+    if (auto good = path_.in_range(kLimits.rotary_angle, angle, where); !good)
+        return std::unexpected(good.error());
     auto to = target(words);
     if (!to) return to;
     to->x = pole_->x + radius * math::cos(angle * math::kRadPerDeg);
@@ -272,6 +267,11 @@ Result<void> Interpreter::go(bool rapid, Vec3 to, const std::optional<motion::Ar
         }
         if (!path_.spindle_on && path_.first(kSpindleOff)) {
             path_.warn(line_.number, "feed move with the spindle off: it is taken as running (M3)");
+        }
+        if (path_.spindle_on && path_.spindle_stands && path_.first(kSpindleStands)) {
+            path_.warn(line_.number,
+                       "feed move with S0: the spindle stands still; it is taken as turning at the job's "
+                       "speed");
         }
     }
     return path_.move(rapid ? motion::MoveKind::rapid : motion::MoveKind::feed, to, arc, to_rad, where);
@@ -436,7 +436,7 @@ Result<void> Interpreter::tangent_circle(LineReader& in) {
                          "write L");
     }
     const double radius = squared_length(chord) / (2 * across);
-    if (std::abs(radius) > kLargestCoordinateMm) {
+    if (!kLimits.coordinate.range.contains(radius)) {
         return in.refuse(words->first_column, "the radius of CT is more than a kilometre", "write L");
     }
     gcode::ArcEnds ends;

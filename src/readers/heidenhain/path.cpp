@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "base/text/limit_text.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::readers::heidenhain {
@@ -48,6 +49,11 @@ std::unexpected<Error> Path::refuse(Place place, std::string cause, std::string 
     return fail_at(options.source_name, place.line, place.column, std::move(cause), std::move(remedy));
 }
 
+Result<void> Path::in_range(const Limit& limit, double value, Place place) const {
+    if (limit.range.contains(value)) return {};
+    return refuse(place, out_of_range(limit, value), range_remedy(limit));
+}
+
 void Path::note_machine_needed(int line, const std::string& what) {
     if (!program.has_rotary_words) program.first_rotary_line = line;
     if (!program.has_rotary_words && !machine)
@@ -85,11 +91,16 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     move.line = place.line;
     const bool turns = to_rad != now_rad_;
     if (!arc && !turns && move.start == move.end) return {};
+    // Datum shifts, planes and cycles add to the words of a block.
+    for (int k = 0; k < 3; ++k) {
+        if (auto good = in_range(kLimits.coordinate, move.end.tip_mm[k], place); !good) return good;
+    }
     axis_ = aim_;
     if (kind == motion::MoveKind::feed) {
         if (!feed_mm_per_min) {
             return refuse(place, "a feed move before any F", "write F, or FMAX for a rapid");
         }
+        if (auto good = in_range(kLimits.feed, *feed_mm_per_min, place); !good) return good;
         move.feed_mm_per_min = *feed_mm_per_min;
         const double length = motion::path_length_mm(move);
         if (turns && (!in_stock() || length == 0)) {
@@ -123,6 +134,7 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
 
 Result<void> Path::dwell(double seconds, Place place) {
     if (!knows_tip() || !(seconds > 0)) return {};
+    if (auto good = in_range(kLimits.dwell, seconds, place); !good) return good;
     motion::Move move;
     move.kind = motion::MoveKind::dwell;
     motion::ToolPose pose{place_mm_, axis_};

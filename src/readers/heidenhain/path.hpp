@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "base/limits.hpp"
 #include "motion/machine/work_frame.hpp"
 #include "motion/path/program.hpp"
 #include "readers/control/machine_run.hpp"
@@ -34,6 +35,7 @@ class Path {
 
     // Data that each move gets.
     double spindle_rpm = 0;
+    bool spindle_stands = false;  // the last S is 0
     int tool = 0;
     std::optional<double> feed_mm_per_min;  // modal F
     bool spindle_on = false;
@@ -81,6 +83,8 @@ class Path {
     bool first(int note);
     void warn(int line, std::string text);
     std::unexpected<Error> refuse(Place place, std::string cause, std::string remedy) const;
+    // Refuses a value out of its range. `value` is in the unit of the limit.
+    Result<void> in_range(const Limit& limit, double value, Place place) const;
     // Records the line of the first rotary words. Without a machine also warns.
     void note_machine_needed(int line, const std::string& what);
 

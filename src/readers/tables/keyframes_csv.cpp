@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "readers/text/csv_fields.hpp"
-#include "readers/text/length_unit.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -17,10 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 6> kPoseColumns{"x", "y", "z", "i", "j", "k"};
 constexpr std::string_view kWeightColumn = "weight", kFeedColumn = "feed_mm_per_min";
 constexpr const char* kHeaderRemedy = "start with the line x,y,z,i,j,k[,weight][,feed_mm_per_min]";
-constexpr double kLargestFeed = 1e6;    // mm/min
-constexpr double kLargestWeight = 1e9;  // smallest weight: 1 / this; beyond, sums of weights lose poses
 // Shorter axes have no reliable direction.
-constexpr double kShortestAxis = 1e-9, kLongestAxis = 1e9;
+constexpr double kShortestAxis = 1e-9;
 
 // A vector that is unit up to rounding stays unchanged, so that written tables read back the same.
 Vec3 to_unit(Vec3 axis) {
@@ -88,7 +86,8 @@ class KeyframesReader {
         return {};
     }
 
-    Result<double> number(std::size_t i, double least, double most) const {
+    // `scale`: of the column's unit in that of the limit.
+    Result<double> number(std::size_t i, const Limit& limit, double scale = 1) const {
         const CsvField& field = fields_[i];
         const auto value = number_of(field.text);
         if (!value) {
@@ -96,10 +95,9 @@ class KeyframesReader {
                                  field.text.empty() ? "a number is missing" : "this is not a number",
                                  "write a decimal number with a point");
         }
-        if (!(*value >= least && *value <= most)) {
-            return lines_.refuse(field.column, "this number is out of range", "correct it");
-        }
-        return *value;
+        if (!limit.range.contains(*value * scale))
+            return lines_.refuse(field.column, out_of_range(limit, *value * scale), range_remedy(limit));
+        return *value * scale;
     }
 
     Result<motion::Keyframe> read_row() const {
@@ -111,12 +109,11 @@ class KeyframesReader {
         }
         motion::Keyframe keyframe;
         keyframe.line = lines_.number();
-        const double farthest = kLargestCoordinateMm / options_.unit_mm;
         for (int axis = 0; axis < 3; ++axis) {
-            const auto place = number(static_cast<std::size_t>(axis), -farthest, farthest);
+            const auto place = number(static_cast<std::size_t>(axis), kLimits.coordinate, options_.unit_mm);
             if (!place) return std::unexpected(place.error());
-            keyframe.pose.tip_mm[axis] = *place * options_.unit_mm;
-            const auto direction = number(static_cast<std::size_t>(axis) + 3, -kLongestAxis, kLongestAxis);
+            keyframe.pose.tip_mm[axis] = *place;
+            const auto direction = number(static_cast<std::size_t>(axis) + 3, kLimits.direction);
             if (!direction) return std::unexpected(direction.error());
             keyframe.pose.axis[axis] = *direction;
         }
@@ -126,12 +123,13 @@ class KeyframesReader {
         }
         keyframe.pose.axis = to_unit(keyframe.pose.axis);
         if (weight_ && !fields_[*weight_].text.empty()) {
-            const auto weight = number(*weight_, 1 / kLargestWeight, kLargestWeight);
+            const auto weight = number(*weight_, kLimits.weight);
             if (!weight) return std::unexpected(weight.error());
             keyframe.weight = *weight;
         }
-        if (feed_ && !fields_[*feed_].text.empty()) {
-            const auto feed = number(*feed_, 0, kLargestFeed);
+        // 0 stands where none is given.
+        if (feed_ && !fields_[*feed_].text.empty() && number_of(fields_[*feed_].text) != 0.0) {
+            const auto feed = number(*feed_, kLimits.feed);
             if (!feed) return std::unexpected(feed.error());
             keyframe.feed_mm_per_min = *feed;
         }

@@ -6,29 +6,27 @@
 #include <optional>
 
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "readers/text/csv_fields.hpp"
-#include "readers/text/length_unit.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
 namespace {
 
-constexpr double kLongestStrokeS = 1e6;   // eleven days; a longer stroke is an error of the unit
-constexpr double kLargestForceN = 1e6;    // more than any finger or arm
 constexpr std::size_t kShownColumns = 4;  // both kinds have four columns
 
 struct Column {
     std::string_view name;
-    double least, most;
+    Limit limit;
 };
 using Columns = std::array<Column, kShownColumns>;
 using Values = std::array<double, kShownColumns>;
 
-constexpr Column kTime{"t_s", 0, kLongestStrokeS};
-constexpr Column kX{"x_mm", -kLargestCoordinateMm, kLargestCoordinateMm};
-constexpr Column kY{"y_mm", -kLargestCoordinateMm, kLargestCoordinateMm};
-constexpr Columns kProbe{kTime, kX, kY, {"z_mm", -kLargestCoordinateMm, kLargestCoordinateMm}};
-constexpr Columns kFinger{kTime, kX, kY, {"force_n", -kLargestForceN, kLargestForceN}};
+constexpr Column kTime{"t_s", kLimits.stroke_time};
+constexpr Column kX{"x_mm", kLimits.coordinate};
+constexpr Column kY{"y_mm", kLimits.coordinate};
+constexpr Columns kProbe{kTime, kX, kY, {"z_mm", kLimits.coordinate}};
+constexpr Columns kFinger{kTime, kX, kY, {"force_n", kLimits.stroke_force}};
 
 std::string header_of(const Columns& columns) {
     std::string header(columns[0].name);
@@ -111,12 +109,9 @@ class StrokeReader {
                                      field.text.empty() ? "a number is missing" : "this is not a number",
                                      "write a decimal number with a point");
             }
-            if (!(*value >= columns_[n].least && *value <= columns_[n].most)) {
-                return lines_.refuse(field.column, "this number is out of range",
-                                     "correct it: " + std::string(columns_[n].name) + " lies within " +
-                                         format_decimal(columns_[n].least) + " and " +
-                                         format_decimal(columns_[n].most));
-            }
+            const Limit& limit = columns_[n].limit;
+            if (!limit.range.contains(*value))
+                return lines_.refuse(field.column, out_of_range(limit, *value), range_remedy(limit));
             values[n] = *value;
         }
         return values;

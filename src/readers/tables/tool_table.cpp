@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/text/decimal.hpp"
+#include "base/text/limit_text.hpp"
 #include "base/text/nearest.hpp"
 #include "readers/text/csv_fields.hpp"
 #include "readers/text/model_text.hpp"
@@ -19,8 +20,6 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::array kColumns{"number"sv, "diameter_mm"sv, "corner_mm"sv, "flutes"sv, "length_mm"sv};
-constexpr double kLargestNumber = 999'999;
-constexpr double kMostFlutes = 64;
 
 struct Field {
     std::string_view text;
@@ -145,37 +144,32 @@ class ToolTableReader {
     }
 
     Result<void> set(motion::DeclaredTool& tool, std::size_t what, double value, int column) {
-        const bool whole = value == std::floor(value);
+        static constexpr std::array kColumnLimits{kLimits.tool_number, kLimits.cutter_diameter,
+                                                  kLimits.corner_radius, kLimits.flutes, kLimits.tool_length};
+        const Limit& limit = kColumnLimits[what];
+        // Tool 0 is the empty spindle; a tool without a diameter is a probe, or described elsewhere.
+        const bool may_be_none = what <= 1 && value == 0;
+        if (!limit.range.contains(value) && !may_be_none)
+            return refuse(column, out_of_range(limit, value), range_remedy(limit));
+        if ((what == 0 || what == 3) && value != std::floor(value)) {
+            return refuse(column,
+                          std::string(limit.quantity) + ": " + plain_number(value) + " is not a whole number",
+                          "correct it");
+        }
         switch (what) {
             case 0:
-                if (!whole || value < 0 || value > kLargestNumber) {
-                    return refuse(column, "the tool number is not a whole number", "correct it");
-                }
                 tool.number = static_cast<int>(value);
                 break;
             case 1:
-                if (!(value >= 0) || value > kLargestCoordinateMm) {
-                    return refuse(column, "the diameter is out of range", "give it above 0");
-                }
                 tool.diameter_mm = value;
                 break;
             case 2:
-                if (!(value >= 0) || value > kLargestCoordinateMm) {
-                    return refuse(column, "the corner radius is out of range",
-                                  "give it from 0 to half the diameter");
-                }
                 tool.corner_mm = value;
                 break;
             case 3:
-                if (!whole || value < 1 || value > kMostFlutes) {
-                    return refuse(column, "the number of flutes is out of range", "give 1 to 64");
-                }
                 tool.flutes = static_cast<int>(value);
                 break;
             default:
-                if (!(std::abs(value) <= kLargestCoordinateMm)) {
-                    return refuse(column, "the length is out of range", "correct it");
-                }
                 tool.length_mm = value;
                 break;
         }

@@ -15,8 +15,4 @@ constexpr std::string_view plural(LengthUnit unit) {
     return unit == LengthUnit::inch ? "inches" : "millimetres";
 }
 
-// Larger coordinates count as a typing error, mm: no machine is a kilometre long, and products of larger
-// values would lose the micrometre.
-inline constexpr double kLargestCoordinateMm = 1e6;
-
 }  // namespace tribo::readers

@@ -13,6 +13,7 @@
 #include "readers/text/move_limit.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/part_in_stock.hpp"
+#include "session/cut/speed_warnings.hpp"
 
 namespace tribo::session {
 namespace {
@@ -183,6 +184,8 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
             for (const motion::Move& part : motion::in_pieces(piece, *options.longest_piece_mm)) add(part);
         }
     }
+    const Warnings found = speed_warnings(setup, program.source);
+    warnings.insert(warnings.end(), found.begin(), found.end());
     auto times = motion::schedule(setup.moves, setup.timing);
     if (!times) {
         Error error = times.error();

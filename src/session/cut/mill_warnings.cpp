@@ -22,7 +22,11 @@ std::string rounded(double value, double parts) {
 
 Warnings warnings_of(const MillTotals& totals, const std::string& job, const std::string& program) {
     Warnings warnings;
-    if (totals.removed_mm3 == 0) {
+    if (totals.removed_mm3 == 0 && totals.rows > 0) {
+        warnings.push_back({job, 0,
+                            "the tool cuts, but the grid is too coarse to measure what it removes; try a "
+                            "finer --resolution"});
+    } else if (totals.removed_mm3 == 0) {
         warnings.push_back({job, 0,
                             "nothing was cut: the tool never meets the stock; check the path's units and "
                             "zero, and the stock's place"});

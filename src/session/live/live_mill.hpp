@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/limits.hpp"
 #include "base/result.hpp"
 #include "protocol/live_frame.hpp"
 #include "session/cut/mill_session.hpp"
@@ -30,7 +31,7 @@ class LiveMill {
     // is shown only between moves.
     using MakeSetup = std::function<Result<MillSetup>()>;
     static constexpr double kPieceMm = 2;
-    static constexpr double kFastest = 1000;  // program seconds per second
+    static constexpr double kFastest = kLimits.play_speed.range.max;  // program seconds per second
 
     static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel,
                                                     LiveExtras extras = {});

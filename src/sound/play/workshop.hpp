@@ -4,11 +4,12 @@
 
 #include <cstddef>
 
+#include "base/limits.hpp"
 #include "sound/play/soundtrack.hpp"
 
 namespace tribo::sound {
 
-inline constexpr double kLargestLevelDb = 60;
+inline constexpr double kLargestLevelDb = kLimits.level.range.max;
 
 // Levels in dB relative to the defaults of machine, material and room, within +-kLargestLevelDb.
 struct Workshop {

@@ -168,7 +168,7 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "GOTO/1,0,0\n", 3, 1, "before any FEDRAT"},
         {ready + "FEDRAT/.1,MMPR\nGOTO/1,0,0\n", 4, 1, "spindle speed unknown"},
         {"FEDRAT/\n", 1, 1, "without a number"},
-        {"FEDRAT/0\n", 1, 1, "feed rate of 0"},
+        {"FEDRAT/0\n", 1, 8, "the feed of 0 mm/min is out of range"},
         {"FEDRAT/-5\n", 1, 8, "out of range"},
         {"FEDRAT/5,6\n", 1, 10, "second feed rate"},
         {"FEDRAT/5,FURLONGS\n", 1, 10, "'FURLONGS' is not a number"},

@@ -44,7 +44,7 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {at + "CYCLE/DRILL,FEDTO\n", 4, 13, "a number is missing after this"},
         {at + "CYCLE/DRILL,FEDTO,deep\n", 4, 19, "'deep' is not a number"},
         {at + "CYCLE/DRILL,FEDTO,5,RAPTO,-3\n", 4, 27, "'-3' is out of range"},
-        {at + "CYCLE/DRILL,FEDTO,5,MMPM,0\n", 4, 21, "a feed rate of 0"},
+        {at + "CYCLE/DRILL,FEDTO,5,MMPM,0\n", 4, 21, "the feed of 0 mm/min is out of range"},
         {at + "CYCLE/DRILL,FEDTO,5,CAM,1\n", 4, 21, "'CAM' is not known in a cycle"},
         {at + "CYCLE/DRILL,5,80,3\n", 4, 1, "the cycle's feed has no unit"},
         {at + "CYCLE/DRILL,5,MMPM,80,3,4\n", 4, 25, "more numbers than depth, feed and clearance"},

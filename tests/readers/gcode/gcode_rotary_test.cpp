@@ -193,8 +193,10 @@ TEST(GcodeRotary, RefusesWhatTheMachineCannotDo) {
     EXPECT_EQ(fault("head-head", "G21 G0 X0 Y0 Z0\nB30\n"),
               "p.nc:2:1: error: where the tilted head of the machine head-head brings the tip depends on the "
               "tool's length; add tool_length_mm, from the spindle nose to the tip, to the machine");
-    EXPECT_EQ(fault("xyzac-trt", "G21 G0 X0 Y0 Z0 C1000000\n"),
-              "p.nc:1:17: error: C turns more than 277 times; correct it");
+    EXPECT_EQ(
+        fault("xyzac-trt", "G21 G0 X0 Y0 Z0 C1000000\n"),
+        "p.nc:1:17: error: C: the angle of a rotary axis of 1000000 deg is out of range; keep the angle "
+        "of a rotary axis within -100000 to 100000 deg");
     EXPECT_EQ(
         fault("xyzac-trt", "G21 G0 X0 Y0 Z0\nM430\n"),
         "p.nc:2:1: error: M430 switches to kinematics that only its own machine knows; use M428 for tool "

@@ -63,7 +63,7 @@ test("what is wrong is said in words", async () => {
   expect(await wrong()).toMatch(/no recording was given; give at least one/);
   expect(await wrong({ samples: new Float64Array(48000), rate: 48000, speed: 100 })).toMatch(/rub: error: is silent/);
   expect(await wrong({ samples: noise(48000, 0, 0, 0.1), rate: 48000, speed: 0 })).toMatch(
-    /speed or force that is not above 0/,
+    /the speed of the finger of .* is out of range/,
   );
   const broken = noise(48000, 0, 0, 0.1);
   broken[100] = Number.NaN;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "base/text/limit_text.hpp"
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/moves.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -15,7 +16,6 @@ namespace {
 // Directions that differ by less than this count as straight, rad.
 constexpr double kStraightRad = 1e-6;
 constexpr double kSamePointMm = 1e-7;
-constexpr double kLargestDiameterMm = 1e4;
 
 std::string mm_text(double value) {
     return short_decimal(value) + " mm";
@@ -274,9 +274,8 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
         }
         diameter_mm = word->value * state.unit_mm;
     } else {
-        constexpr double largest_number = 999'999'999;
         const double number = word == nullptr ? state.tool() : word->value;
-        if (!(number >= 0 && number <= largest_number) || number != std::floor(number)) {
+        if (!(number >= 0 && number <= kLimits.tool_number.range.max) || number != std::floor(number)) {
             return output.refuse(command.line(), column, "D is not the number of a tool", "correct D");
         }
         // D0 means no compensation, by convention.
@@ -289,10 +288,10 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
                                  "give the tool to the job, write a comment like (T1 D=10.), or use G41.1 D");
         }
     }
-    if (!(*diameter_mm >= 0) || *diameter_mm > kLargestDiameterMm) {
-        return output.refuse(command.line(), column,
-                             "the cutter's diameter is negative or beyond any machine",
-                             "correct D; use the other side for a negative one");
+    if (!kLimits.offset_diameter.range.contains(*diameter_mm)) {
+        return output.refuse(
+            command.line(), column, out_of_range(kLimits.offset_diameter, *diameter_mm),
+            range_remedy(kLimits.offset_diameter) + "; use the other side for a negative one");
     }
     if (!state.knows_tip()) {
         if (auto known = require_start(command, state, output); !known) return known;

@@ -18,7 +18,6 @@ using motion::MoveKind;
 constexpr double kChipBreakMm = 0.254;
 constexpr double kMostRepeats = 100'000;
 constexpr double kMostPecks = 100'000;
-constexpr double kLongestDwellS = 86'400;
 
 class Run {
   public:
@@ -83,7 +82,7 @@ class Run {
         const Word* word = command_.use(letter);
         if (word == nullptr) return {};
         const double value = word->value * state_.unit_mm;
-        if (std::abs(value) > kLargestCoordinateMm) return refuse_far(command_, letter, output_);
+        if (auto good = in_range(kLimits.coordinate, value, command_, *word, output_); !good) return good;
         length = value;
         return {};
     }
@@ -119,11 +118,7 @@ class Run {
         if (word == nullptr) return {};
         const bool in_seconds = output_.options.dialect == GcodeDialect::linuxcnc;
         const double seconds = in_seconds ? word->value : word->value / 1000;
-        if (!(seconds >= 0) || seconds > kLongestDwellS) {
-            return output_.refuse(command_.line(), word->column,
-                                  seconds < 0 ? "a dwell of negative length" : "a dwell of more than a day",
-                                  in_seconds ? "give P in seconds" : "give P in milliseconds");
-        }
+        if (auto good = in_range(kLimits.dwell, seconds, command_, *word, output_); !good) return good;
         state_.cycle.dwell_s = seconds;
         return {};
     }

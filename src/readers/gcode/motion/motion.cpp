@@ -56,7 +56,8 @@ Result<motion::Arc> arc_of(Command& command, const State& state, Vec3 target, co
                                  std::string("delete R, or ") + first + " and " + second);
         }
         const double radius_mm = radius->value * state.unit_mm;
-        if (std::abs(radius_mm) > kLargestCoordinateMm) return refuse_far(command, 'R', output);
+        if (auto good = in_range(kLimits.coordinate, radius_mm, command, *radius, output); !good)
+            return std::unexpected(good.error());
         return placed(arc_of_radius(ends, radius_mm), radius->column);
     }
     Vec3 centre = state.absolute_centres ? state.origin_mm() : state.tip_mm;
@@ -65,7 +66,8 @@ Result<motion::Arc> arc_of(Command& command, const State& state, Vec3 target, co
         const Word* word = command.use(kCentreLetters[axes[static_cast<std::size_t>(i)]]);
         if (word == nullptr) continue;
         const double offset_mm = word->value * state.unit_mm;
-        if (std::abs(offset_mm) > kLargestCoordinateMm) return refuse_far(command, word->letter, output);
+        if (auto good = in_range(kLimits.coordinate, offset_mm, command, *word, output); !good)
+            return std::unexpected(good.error());
         centre[axes[static_cast<std::size_t>(i)]] += offset_mm;
         if (column == 0 || word->column < column) column = word->column;
         ++given;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/text/limit_text.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -22,9 +23,12 @@ int column_of_any(Command& command, std::string_view letters) {
     return 1;
 }
 
-std::unexpected<Error> refuse_far(Command& command, char letter, const Output& output) {
-    return output.refuse(command.line(), command.use(letter)->column,
-                         std::string(1, letter) + " lies more than a kilometre away", "correct it");
+Result<void> in_range(const Limit& limit, double value, const Command& command, const Word& word,
+                      const Output& output) {
+    if (limit.range.contains(value)) return {};
+    return output.refuse(command.line(), word.column,
+                         std::string(1, word.letter) + ": " + out_of_range(limit, value),
+                         range_remedy(limit));
 }
 
 motion::Move new_move(motion::MoveKind kind, const Command& command, const State& state) {
@@ -88,8 +92,10 @@ Result<Target> target_of(Command& command, State& state, Output& output) {
             known = state.known[static_cast<std::size_t>(axis)] = Known::yes;
             place += **word;
         }
-        if (std::abs(place) > kLargestCoordinateMm) {
-            return refuse_far(command, kAxisLetters[axis], output);
+        if (auto good =
+                in_range(kLimits.coordinate, place, command, *command.use(kAxisLetters[axis]), output);
+            !good) {
+            return std::unexpected(good.error());
         }
     }
     return target;
@@ -157,6 +163,10 @@ Result<void> set_feed(motion::Move& move, Command& command, const State& state, 
                                  "write S before it, or G94 with a feed per minute");
         }
         move.feed_mm_per_min *= state.spindle_rpm;
+        if (!kLimits.feed.range.contains(move.feed_mm_per_min)) {
+            return output.refuse(command.line(), column, out_of_range(kLimits.feed, move.feed_mm_per_min),
+                                 range_remedy(kLimits.feed));
+        }
     }
     return {};
 }
@@ -165,6 +175,12 @@ void note_spindle(const Command& command, const State& state, Output& output) {
     if (state.spindle == Spindle::off) {
         if (output.first(Note::spindle_off)) {
             output.warn(command.line(), "feed move with the spindle off: it is taken as running (M3)");
+        }
+    } else if (state.spindle_stands) {
+        if (output.first(Note::spindle_stands)) {
+            output.warn(
+                command.line(),
+                "feed move with S0: the spindle stands still; it is taken as turning at the job's speed");
         }
     } else if (state.spindle == Spindle::counter_clockwise) {
         if (output.first(Note::spindle_backwards)) {
@@ -184,9 +200,8 @@ Result<std::optional<double>> coordinate_mm(Command& command, int axis, const St
     const Word* word = command.use(kAxisLetters[axis]);
     if (word == nullptr) return std::nullopt;
     const double value = word->value * state.unit_mm;
-    if (std::abs(value) > kLargestCoordinateMm) {
-        return refuse_far(command, kAxisLetters[axis], output);
-    }
+    if (auto good = in_range(kLimits.coordinate, value, command, *word, output); !good)
+        return std::unexpected(good.error());
     if (!state.unit_stated) {
         if (output.first(Note::no_unit)) {
             output.warn(command.line(), "no G20 or G21 before the first coordinates: " +

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "base/limits.hpp"
 #include "readers/gcode/command.hpp"
 #include "readers/gcode/state.hpp"
 
@@ -12,10 +13,12 @@ namespace tribo::readers::gcode {
 // Returns the column of the first of these words in the block; 1 if it has none.
 int column_of_any(Command& command, std::string_view letters);
 
-std::unexpected<Error> refuse_far(Command& command, char letter, const Output& output);
+// Refuses a value out of its range, at the word that gave it. `value` is in the unit of the limit.
+Result<void> in_range(const Limit& limit, double value, const Command& command, const Word& word,
+                      const Output& output);
 
-// Returns the coordinate word of an axis (0 x, 1 y, 2 z) in mm, if the block has it. Refuses values beyond a
-// kilometre.
+// Returns the coordinate word of an axis (0 x, 1 y, 2 z) in mm, if the block has it. Refuses values out of
+// range.
 Result<std::optional<double>> coordinate_mm(Command& command, int axis, const State& state, Output& output);
 
 // Returns a move that starts and ends at the tip, with tool, spindle and line of the block.

@@ -10,8 +10,6 @@
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr double kLongestDwellS = 86'400;
-
 // G4: P in seconds; on a Fanuc control P in milliseconds or X in seconds.
 Result<void> apply_dwell(Command& command, State& state, Output& output, int column) {
     const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
@@ -22,11 +20,7 @@ Result<void> apply_dwell(Command& command, State& state, Output& output, int col
         is_fanuc ? "write its milliseconds as P or its seconds as X" : "write its seconds as P";
     if (length == nullptr) return output.refuse(command.line(), column, "a dwell (G4) without P", remedy);
     const double seconds = in_milliseconds ? length->value / 1000 : length->value;
-    if (!(seconds >= 0) || seconds > kLongestDwellS) {
-        return output.refuse(command.line(), length->column,
-                             seconds < 0 ? "a dwell of negative length" : "a dwell of more than a day",
-                             remedy);
-    }
+    if (auto good = in_range(kLimits.dwell, seconds, command, *length, output); !good) return good;
     return dwell(seconds, command, state, output);
 }
 
@@ -109,8 +103,7 @@ Result<void> set_work_origin_by_tip(Command& command, State& state, Output& outp
 // G10 L1: sets a line of the tool table. Only the radius is used here.
 Result<void> set_tool_entry(Command& command, const State& state, Output& output, int column) {
     const Word* number = command.use('P');
-    constexpr double largest_number = 999'999'999;
-    if (number == nullptr || !(number->value >= 1 && number->value <= largest_number) ||
+    if (number == nullptr || !kLimits.tool_number.range.contains(number->value) ||
         number->value != std::floor(number->value)) {
         return output.refuse(command.line(), number == nullptr ? column : number->column,
                              "G10 L1 without the number of a tool", "write it as P");
@@ -119,10 +112,8 @@ Result<void> set_tool_entry(Command& command, const State& state, Output& output
     const Word* radius = command.use('R');
     if (radius == nullptr) return {};
     const double diameter_mm = 2 * radius->value * state.unit_mm;
-    if (!(diameter_mm >= 0) || diameter_mm > kLargestCoordinateMm) {
-        return output.refuse(command.line(), radius->column,
-                             "the cutter's radius is negative or beyond any machine", "correct R");
-    }
+    if (auto good = in_range(kLimits.offset_diameter, diameter_mm, command, *radius, output); !good)
+        return good;
     output.declare_tool({static_cast<int>(number->value), diameter_mm});
     return {};
 }

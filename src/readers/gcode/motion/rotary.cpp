@@ -5,14 +5,13 @@
 
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
+#include "readers/gcode/motion/moves.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
 
 constexpr char kLetters[] = "ABC";
-// No table turns further: 278 turns.
-constexpr double kLargestAngleDeg = 100'000;
 
 void note_machine_needed(const Command& command, Output& output) {
     motion::Program& program = output.program;
@@ -54,10 +53,8 @@ Result<std::optional<double>> word_rad(Command& command, int axis, const Output&
                              "the machine " + output.machine->machine().name + " has no axis " + letter,
                              "name the machine that the program is written for");
     }
-    if (std::abs(word->value) > kLargestAngleDeg) {
-        return output.refuse(command.line(), word->column, letter + " turns more than 277 times",
-                             "correct it");
-    }
+    if (auto good = in_range(kLimits.rotary_angle, word->value, command, *word, output); !good)
+        return std::unexpected(good.error());
     return word->value * math::kRadPerDeg;
 }
 

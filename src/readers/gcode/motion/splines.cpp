@@ -15,7 +15,6 @@ using motion::HomogeneousPoint;
 
 constexpr std::size_t kHighestOrder = 10;
 constexpr std::size_t kMostControlPoints = 100'000;
-constexpr double kLargestWeight = 1e6;
 constexpr double kLargestKnot = 1e9;
 // Largest distance of the first control point of a G6.2 from the tip, mm: the rounding of three decimals.
 constexpr double kJoinMm = 0.002;
@@ -25,7 +24,8 @@ Result<std::optional<double>> length_word(Command& command, char letter, const S
     const Word* word = command.use(letter);
     if (word == nullptr) return std::nullopt;
     const double value = word->value * state.unit_mm;
-    if (std::abs(value) > kLargestCoordinateMm) return refuse_far(command, letter, output);
+    if (auto good = in_range(kLimits.coordinate, value, command, *word, output); !good)
+        return std::unexpected(good.error());
     return value;
 }
 
@@ -104,10 +104,9 @@ motion::BSpline<HomogeneousPoint> bezier(std::initializer_list<Vec3> points) {
 Result<double> weight_word(Command& command, char letter, const Output& output) {
     const Word* word = command.use(letter);
     if (word == nullptr) return 1.0;
-    if (word->value >= 1 / kLargestWeight && word->value <= kLargestWeight) return word->value;
-    return output.refuse(command.line(), word->column,
-                         "the weight of a control point is not a number from a millionth to a million",
-                         std::string("correct ") + letter);
+    if (auto good = in_range(kLimits.weight, word->value, command, *word, output); !good)
+        return std::unexpected(good.error());
+    return word->value;
 }
 
 Result<void> begin_nurbs(Command& command, State& state, Output& output) {

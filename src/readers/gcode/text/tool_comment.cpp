@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "readers/text/length_unit.hpp"
+#include "base/limits.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers::gcode {
@@ -31,13 +31,13 @@ bool take(std::string_view& text, std::string_view prefix) {
 }  // namespace
 
 std::optional<ToolComment> tool_in_comment(std::string_view comment) {
-    constexpr double largest_number = 999'999'999;
     if (!take(comment, "T")) return std::nullopt;
     const auto number = take_number(comment);
-    if (!number || *number > largest_number || *number != std::floor(*number)) return std::nullopt;
+    if (!number || *number > kLimits.tool_number.range.max || *number != std::floor(*number))
+        return std::nullopt;
     if (!take(comment, "D=")) return std::nullopt;
     const auto diameter = take_number(comment);
-    if (!diameter || *diameter <= 0 || *diameter > kLargestCoordinateMm) return std::nullopt;
+    if (!diameter || *diameter <= 0 || *diameter > kLimits.cutter_diameter.range.max) return std::nullopt;
     ToolComment tool{static_cast<int>(*number), *diameter, 0};
     if (take(comment, "CR=")) {
         const auto corner = take_number(comment);
