@@ -151,7 +151,9 @@ std::string learning_report(const material::Material& material, const noise::Lea
                             const std::vector<ReportedVoice>& voices) {
     const std::string name = escaped(material.name);
     std::string html =
-        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta "
+        "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+        "media-src data:; base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>" +
         name + ": learned voices</title>\n<style>" + std::string(kReportStyle) +
         "svg{width:100%;height:auto;background:var(--card);border:1px solid var(--line);"

@@ -3,6 +3,7 @@
 import { copyFileSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { MILL_PAGE, ROOT, SITE } from "../tools/places.js";
+import { withPolicy } from "../tools/policy.js";
 
 // The first is milled when the page opens.
 const EXAMPLES = [
@@ -20,7 +21,7 @@ for (const name of readdirSync(MILL_PAGE)) {
 const page = readFileSync(join(out, "index.html"), "utf8");
 const none = page.replace('name="tribo-engine" content="here"', 'name="tribo-engine" content="none"');
 if (none === page) throw new Error("the page does not say who mills");
-writeFileSync(join(out, "index.html"), none);
+writeFileSync(join(out, "index.html"), withPolicy(none));
 for (const { folder, files } of EXAMPLES) {
   for (const file of files) copyFileSync(join(ROOT, "examples", folder, file), join(out, "examples", file));
 }

@@ -4,8 +4,9 @@ import { brotliCompressSync, gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 import { COMPACT } from "../tools/bundle.js";
 import { MILL_PAGE, MODULES } from "../tools/places.js";
+import { notices } from "./notices.js";
 
-// The modules beside the page, and of everything that is text or code packed forms for the engine's server.
+// The modules and the licences beside the page, and of everything that is text or code packed forms for the engine's server.
 function modules(): Plugin {
   return {
     name: "tribo-modules",
@@ -15,8 +16,9 @@ function modules(): Plugin {
         if (!existsSync(join(MODULES, name))) throw new Error(`${join(MODULES, name)} is not built: make build`);
         copyFileSync(join(MODULES, name), join(MILL_PAGE, name));
       }
+      writeFileSync(join(MILL_PAGE, "notices.txt"), notices());
       for (const name of readdirSync(MILL_PAGE)) {
-        if (!/\.(html|js|css|wasm)$/.test(name)) continue;
+        if (!/\.(html|js|css|wasm|txt)$/.test(name)) continue;
         const bytes = readFileSync(join(MILL_PAGE, name));
         writeFileSync(join(MILL_PAGE, `${name}.gz`), gzipSync(bytes, { level: 9 }));
         writeFileSync(join(MILL_PAGE, `${name}.br`), brotliCompressSync(bytes));

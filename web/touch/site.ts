@@ -6,6 +6,7 @@ import { copyFile, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promi
 import { basename, join } from "node:path";
 import { bundle } from "../tools/bundle.js";
 import { COMPONENT, MODULES, ROOT, SITE } from "../tools/places.js";
+import { withPolicy } from "../tools/policy.js";
 import { shortStyle } from "../tools/shorten.js";
 import { version } from "./package.json";
 import { kSchema } from "./src/material_schema.js";
@@ -34,7 +35,7 @@ async function materialFiles(folder: string): Promise<string[]> {
 
 await rm(SITE, { recursive: true, force: true });
 await mkdir(join(SITE, "materials"), { recursive: true });
-await copyFile(join(here, "index.html"), join(SITE, "index.html"));
+await writeFile(join(SITE, "index.html"), withPolicy(await readFile(join(here, "index.html"), "utf8")));
 await writeFile(join(SITE, "touch.css"), shortStyle(await readFile(join(here, "touch.css"), "utf8")));
 for (const file of ["tribo-touch.js", "worklet.js", "touch.wasm"])
   await copyFile(join(COMPONENT, file), join(SITE, file));

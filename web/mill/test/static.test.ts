@@ -34,6 +34,9 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
 
   const watch = (on: Page) => {
     on.on("pageerror", (error) => problems.push(error.message));
+    on.on("console", (said) => {
+      if (said.text().includes("Content Security Policy")) problems.push(said.text());
+    });
     on.on("request", (request) => {
       const asked = new URL(request.url());
       if (!["data:", "blob:"].includes(asked.protocol) && asked.host !== new URL(server.root).host)
@@ -102,6 +105,30 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     await browser?.close();
     await server?.close();
     rmSync(folder, { recursive: true, force: true });
+  });
+
+  it("lets no other site and no text in it run a script", async () => {
+    const tried = await browser.newPage();
+    await tried.goto(`${server.root}/mill/`);
+    const ran = await tried.evaluate(async () => {
+      const refused: string[] = [];
+      document.addEventListener("securitypolicyviolation", (event) => refused.push(event.effectiveDirective));
+      document.body.insertAdjacentHTML("beforeend", '<img src="data:," onerror="window.ran = true">');
+      const script = document.createElement("script");
+      script.textContent = "window.ran = true";
+      document.body.append(script);
+      await fetch("https://example.com/").catch(() => undefined);
+      await new Promise((done) => setTimeout(done, 100));
+      return { ran: "ran" in window, refused: [...new Set(refused)].sort() };
+    });
+    await tried.close();
+    expect(ran).toEqual({ ran: false, refused: ["connect-src", "script-src-attr", "script-src-elem"] });
+  });
+
+  it("links to the licences of what it is made of", async () => {
+    const link = await page.locator('aside a[href="notices.txt"]').getAttribute("href");
+    const licences = await (await fetch(`${server.root}/mill/${link}`)).text();
+    for (const holder of ["three.js authors", "Leon Sorokin"]) expect(licences).toContain(holder);
   });
 
   it("opens with the bowl, ready to be milled, in little", async () => {

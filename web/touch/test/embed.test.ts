@@ -109,6 +109,9 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   const page = await browser.newPage({ viewport: { width: 900, height: 900 } });
   const errors: string[] = [];
   page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (said) => {
+    if (said.text().includes("Content Security Policy")) errors.push(said.text());
+  });
   await page.goto(`${site.root}/site/index.html`);
   const ready = () =>
     page.waitForFunction(() =>
