@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, minutes or an hour of
-# sound at random, then every fuzz target for a while from its corpus; long also plays the live view for twenty minutes.
+# sound at random, then every fuzz target for a while from its corpus; long also plays the live view for twenty minutes,
+# and compares builds in two folders.
 # What fuzzing finds is left under build/fuzz/crashes/, nothing in the source tree.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
@@ -84,5 +85,7 @@ step "fuzz" fuzz_all
 if [ "${1:-short}" = long ]; then
     say "long play"
     step "long play" long_play
+    say "two builds"
+    step "same bits" scripts/check_reproducible.sh
 fi
 closing_summary

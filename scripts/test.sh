@@ -8,6 +8,7 @@ source scripts/presets.sh
 say "form of the sources"
 step "clang-format" scripts/check_format.sh
 test_preset release
+step "hardening" scripts/check_hardening.sh
 test_preset dev
 step "clang-tidy" scripts/tidy.sh --changed
 step "API reference" scripts/docs.sh
