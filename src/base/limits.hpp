@@ -200,9 +200,9 @@ struct Limits {
     // The hand.
     Limit force_scale{"force scale",
                       "",
-                      {1e-6, 1000},
+                      {1e-9, 1000},
                       "`force_scale`, also on the page",
-                      "Kilonewtons at the cutter or millinewtons: the hand gets a few newtons."};
+                      "From a cut that is not felt at all to millinewtons that become newtons."};
     Limit friction{"coefficient of friction",
                    "",
                    {0, 10},

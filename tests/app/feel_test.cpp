@@ -239,7 +239,7 @@ TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
 // be, 0.5 mm under the top, the top pushes back until the cutter comes, and then nothing.
 TEST_F(Feel, touches_the_part_while_it_is_cut) {
     put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,20,10,0.2\n0.2,20,10,-0.5\n2.6,20,10,-0.5\n");
-    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 1e-6\n");
+    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 1e-9\n");
     for (const char* clock : {"", "--real-time"}) {
         std::vector<std::string> flags{"--mode", "cut", "--device", "playback", "--texture", "off"};
         if (*clock != 0) flags.emplace_back(clock);
@@ -252,7 +252,7 @@ TEST_F(Feel, touches_the_part_while_it_is_cut) {
                 EXPECT_NEAR(r.fz, 0.25, 1e-3) << r.t_s << clock;
             }
             if (r.t_s > 2.2) {
-                EXPECT_NEAR(std::hypot(r.fx, r.fy, r.fz), 0, 1e-3) << r.t_s << clock;
+                EXPECT_NEAR(std::hypot(r.fx, r.fy, r.fz), 0, 1e-6) << r.t_s << clock;
             }
             const double force = std::hypot(r.fx, r.fy, r.fz);
             if (r.t_s > 0.3) most_rise = std::max(most_rise, force - last);

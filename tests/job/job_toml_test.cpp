@@ -303,7 +303,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadJob{"distance_factor = 1.0", "distance_factor = 0", 20, "within 0.001 to 1000000"},
         BadJob{"distance_factor = 1.0", "bits = 20", 20, "'bits' is 20; try 16, 24 or 32"},
         BadJob{"distance_factor = 1.0", "gain_db = 1000", 20, "within -120 to 120 dB"},
-        BadJob{"force_scale = 0.01", "force_scale = -1", 22, "within 1e-6 to 1000"},
+        BadJob{"force_scale = 0.01", "force_scale = -1", 22, "within 1e-9 to 1000"},
         BadJob{"force_scale = 0.01", "friction_static = 0.2\nfriction_kinetic = 0.4", 23,
                "above 'friction_static'"},
         BadJob{"length_mm = 40.0", "runout_mm = -0.1", 10, "runout_mm"},
