@@ -255,8 +255,9 @@ TEST(ServerLimits, keeps_viewers_that_answer_and_gives_the_places_of_silent_ones
     EXPECT_FALSE(join(true));  // nobody is silent
     RawClient other(recorded.server->port());
     EXPECT_TRUE(other.upgrade("/live", kProtocol, other.origin(), other.host()).starts_with("HTTP/1.1 503"));
-    recorded.server->send_all(std::make_shared<std::vector<std::uint8_t>>(3, 'x'));
-    for (const std::size_t n : {0u, 2u, 3u, 4u}) EXPECT_EQ(clients[n]->frame()->payload, "xxx");
+    const std::string picture = "a picture for all";
+    recorded.server->send_all(std::make_shared<std::vector<std::uint8_t>>(picture.begin(), picture.end()));
+    for (const std::size_t n : {0u, 2u, 3u, 4u}) EXPECT_EQ(clients[n]->frame()->payload, picture);
 }
 
 TEST(ServerLimits, replays_in_place_of_what_waits) {
