@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SIGINT, SIGTERM and SIGHUP end every verb soon, also where it waits for a pipe, and nothing is left.
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <fcntl.h>
@@ -22,7 +23,8 @@ using Clock = std::chrono::steady_clock;
 
 // The promise is a second; a loaded machine and sanitizers take more. Without the promise: for ever.
 constexpr auto kSoon = std::chrono::seconds(10);
-constexpr int kUnderWayMs = 400;
+constexpr auto kUnderWay = std::chrono::milliseconds(400);
+constexpr auto kLook = std::chrono::milliseconds(1);
 
 class Signals : public testing::Test {
   protected:
@@ -45,11 +47,31 @@ class Signals : public testing::Test {
         return all;
     }
     void expect_end(const std::vector<std::string>& arguments, int signal) const {
+        RunningTribo run(arguments, scratch.path());
+        std::this_thread::sleep_for(kUnderWay);
+        expect_end(run, arguments[0], signal);
+    }
+    // The signal comes so long after the first thing that the run makes.
+    void expect_end_of_writing(const std::vector<std::string>& arguments, int signal,
+                               std::chrono::milliseconds after) const {
+        RunningTribo run(arguments, scratch.path());
+        const auto give_up = Clock::now() + kSoon;
+        while (!makes_something() && Clock::now() < give_up) std::this_thread::sleep_for(kLook);
+        EXPECT_TRUE(makes_something()) << arguments[0];
+        std::this_thread::sleep_for(after);
+        expect_end(run, arguments[0], signal);
+    }
+    void expect_end(RunningTribo& run, const std::string& verb, int signal) const {
         const auto begin = Clock::now();
-        const Outcome run = run_tribo(arguments, scratch.path(), kUnderWayMs, signal);
-        EXPECT_LT(Clock::now() - begin, kSoon) << arguments[0];
-        EXPECT_EQ(run.code, 128 + signal) << arguments[0] << ": " << run.err;
-        EXPECT_EQ(names(), before) << arguments[0];
+        const Outcome outcome = run.stop(signal);
+        EXPECT_LT(Clock::now() - begin, kSoon) << verb;
+        EXPECT_EQ(outcome.code, 128 + signal) << verb << ": " << outcome.err;
+        EXPECT_EQ(names(), before) << verb;
+    }
+    bool makes_something() const {
+        return std::ranges::any_of(fs::directory_iterator(scratch.path()), [&](const auto& entry) {
+            return !before.contains(entry.path().string());
+        });
     }
     Scratch scratch;
     std::map<std::string, std::uintmax_t> before;
@@ -79,35 +101,41 @@ TEST_F(Signals, end_every_verb_that_waits_for_the_reader_of_its_output) {
 }
 
 TEST_F(Signals, leave_nothing_of_half_written_files_and_folders) {
-    // An hour of sound, and a cut and a press of many minutes.
-    scratch.put("rub.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n3600,360000,0,1\n");
+    // Seven hours of sound, and a cut and a press of a minute at least on any machine.
+    scratch.put("long_rub.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n25200,900000,0,1\n");
+    scratch.put("press.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n3600,360000,0,1\n");
     std::string program = "G21 G90\nG0 X-5 Y10 Z0\n";
-    for (int n = 0; n < 20'000; ++n) {
+    for (int n = 0; n < 3'000; ++n) {
         program += "G1 X" + std::to_string(35 - 40 * (n % 2)) + " Y" + std::to_string(n % 20) + " Z-" +
-                   std::to_string(0.0001 * n) + "\n";
+                   std::to_string(0.001 * n) + "\n";
     }
     scratch.put("slot.nc", program + "M30\n");
     before = names();
-    expect_end({"rub", "m.json", "--stroke", "rub.csv", "--out", "new.wav"}, SIGINT);
-    expect_end({"render", "slot.toml", "--out", "new/out", "--resolution", "0.1"}, SIGTERM);
-    expect_end({"press", "m.json", "--stroke", "rub.csv", "--out", "new/out", "--fps", "20"}, SIGHUP);
+    for (const auto after : {std::chrono::milliseconds(0), kUnderWay}) {
+        expect_end_of_writing({"rub", "m.json", "--stroke", "long_rub.csv", "--out", "new.wav"}, SIGINT,
+                              after);
+        expect_end_of_writing({"render", "slot.toml", "--out", "new/out", "--resolution", "0.1"}, SIGTERM,
+                              after);
+        expect_end_of_writing({"press", "m.json", "--stroke", "press.csv", "--out", "new/out", "--fps", "20"},
+                              SIGHUP, after);
+    }
 }
 
 TEST_F(Signals, second_one_leaves_the_exit_code_to_the_first) {
     RunningTribo run({"inspect", "pipe"}, scratch.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(kUnderWayMs));
+    std::this_thread::sleep_for(kUnderWay);
     ::kill(run.pid(), SIGTERM);
     // Of two that wait together the system delivers either first.
-    std::this_thread::sleep_for(std::chrono::milliseconds(kUnderWayMs / 2));
+    std::this_thread::sleep_for(kUnderWay / 2);
     EXPECT_EQ(run.stop(SIGINT).code, 128 + SIGTERM);
 }
 
 TEST_F(Signals, are_ignored_where_the_program_was_started_so) {
     ::signal(SIGHUP, SIG_IGN);  // as nohup does; the child inherits it
     RunningTribo run({"inspect", "pipe"}, scratch.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(kUnderWayMs));
+    std::this_thread::sleep_for(kUnderWay);
     ::kill(run.pid(), SIGHUP);
-    std::this_thread::sleep_for(std::chrono::milliseconds(3 * kUnderWayMs));
+    std::this_thread::sleep_for(3 * kUnderWay);
     ::signal(SIGHUP, SIG_DFL);
     // It still waits for its input, and reads what comes.
     const int pipe = ::open((scratch / "pipe").c_str(), O_WRONLY | O_NONBLOCK);
