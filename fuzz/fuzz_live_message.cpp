@@ -10,9 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
 #include "protocol/live_message.hpp"
+#include "session/block_setup.hpp"
 #include "session/live/live_controller.hpp"
 
 namespace {
@@ -20,23 +19,9 @@ namespace {
 using namespace tribo;
 
 Result<session::MillSetup> slot() {
-    session::MillSetup s;
-    milling::Cutter cutter;
-    cutter.diameter_mm = 8;
-    cutter.length_mm = 20;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    const Box3 blank{{0, 0, -8}, {40, 20, 0}};
-    s.blank = std::make_unique<field::BoxShape>(blank);
-    s.blank_volume_mm3 = blank.volume();
-    s.cell_mm = 4;
-    motion::Move move;
-    move.feed_mm_per_min = 750;
-    move.start.tip_mm = {-5, 10, -2};
-    move.end.tip_mm = {45, 10, -2};
-    s.moves = {move};
-    s.cutter_of_move = {0};
-    s.rpm_of_move = {6000};
+    session::MillSetup s =
+        session::block_setup({{0, 0, -8}, {40, 20, 0}}, {.diameter_mm = 8, .length_mm = 20}, 4);
+    session::add_cut(s, session::straight_cut({-5, 10, -2}, {45, 10, -2}, 750));
     return s;
 }
 

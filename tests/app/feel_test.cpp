@@ -8,31 +8,13 @@
 #include <sstream>
 
 #include "app/run/program.hpp"
+#include "app/run/small_inputs.hpp"
 
 namespace tribo::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kJob = R"(
-[stock]
-box_mm = [[0, 0, -10], [30, 20, 0]]
-[cutter]
-kind = "flat"
-diameter_mm = 6
-flutes = 2
-helix_deg = 30
-length_mm = 20
-[material]
-name = "al7075-t6"
-[process]
-spindle_rpm = 6000
-feed_mm_per_min = 900
-[path]
-gcode = "slot.nc"
-)";
-// A slot along y = 10, 2 mm deep.
-constexpr const char* kProgram = "G21 G90\nG0 X-5 Y10 Z-2\nG1 X35\nM30\n";
 // Down onto the floor of the slot, 0.3 mm into it, along it, and off.
 constexpr const char* kStroke =
     "t_s,x_mm,y_mm,z_mm\n0,12,10,1\n0.2,12,10,-2.3\n0.4,18,10,-2.3\n0.5,18,10,1\n";
@@ -45,8 +27,8 @@ struct Row {
 class Feel : public ::testing::Test {
   protected:
     Feel() : folder_(scratch_.path()) {
-        put("slot.toml", kJob);
-        put("slot.nc", kProgram);
+        put("slot.toml", kSlotJob);
+        put("slot.nc", kSlotProgram);
         put("stroke.csv", kStroke);
     }
     void put(const std::string& name, const std::string& text) const {
@@ -179,7 +161,7 @@ TEST_F(Feel, gives_the_cutting_force_of_the_program_at_the_time_of_the_stroke) {
     EXPECT_NE(again.out.find("as baked"), std::string::npos) << again.out;
     EXPECT_EQ(text_of("trace.csv"), first);
     // Of another job it is not used.
-    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 0.02\n");
+    put("slot.toml", std::string(kSlotJob) + "[haptics]\nforce_scale = 0.02\n");
     const Outcome other =
         feel({"--mode", "cut", "--device", "playback", "--texture", "off", "--bake", "cut.bake"});
     ASSERT_EQ(other.code, 0);
@@ -239,7 +221,7 @@ TEST_F(Feel, lets_the_cut_fade_with_the_distance_from_the_cutter) {
 // be, 0.5 mm under the top, the top pushes back until the cutter comes, and then nothing.
 TEST_F(Feel, touches_the_part_while_it_is_cut) {
     put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,20,10,0.2\n0.2,20,10,-0.5\n2.6,20,10,-0.5\n");
-    put("slot.toml", std::string(kJob) + "[haptics]\nforce_scale = 1e-9\n");
+    put("slot.toml", std::string(kSlotJob) + "[haptics]\nforce_scale = 1e-9\n");
     for (const char* clock : {"", "--real-time"}) {
         std::vector<std::string> flags{"--mode", "cut", "--device", "playback", "--texture", "off"};
         if (*clock != 0) flags.emplace_back(clock);

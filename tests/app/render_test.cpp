@@ -7,29 +7,12 @@
 #include <set>
 
 #include "app/run/program.hpp"
+#include "app/run/small_inputs.hpp"
 
 namespace tribo::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kJob = R"(
-[stock]
-box_mm = [[0, 0, -10], [30, 20, 0]]
-[cutter]
-kind = "flat"
-diameter_mm = 6
-flutes = 2
-length_mm = 20
-[material]
-name = "al7075-t6"
-[process]
-spindle_rpm = 6000
-feed_mm_per_min = 900
-[path]
-gcode = "slot.nc"
-)";
-constexpr const char* kProgram = "G21 G90\nG0 X-5 Y10 Z-2\nG1 X35\nM30\n";
 
 void write(const fs::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
@@ -38,8 +21,8 @@ void write(const fs::path& path, const std::string& text) {
 class Render : public ::testing::Test {
   protected:
     Render() : folder_(scratch_.path()) {
-        write(folder_ / "slot.toml", kJob);
-        write(folder_ / "slot.nc", kProgram);
+        write(folder_ / "slot.toml", kSlotJob);
+        write(folder_ / "slot.nc", kSlotProgram);
     }
     // Without the list of the run.
     std::set<std::string> files_in(const std::string& name) const {

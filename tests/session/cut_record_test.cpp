@@ -4,34 +4,18 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
+#include "session/block_setup.hpp"
 
 namespace tribo::session {
 namespace {
 
 // A slot 1 mm deep, half out of the block at first, so that the force swells.
 MillSetup slot(double feed_mm_per_min = 600, double rpm = 6000, double helix_deg = 30) {
-    MillSetup s;
-    milling::Cutter cutter;
-    cutter.diameter_mm = 8;
-    cutter.flutes = 2;
-    cutter.helix_deg = helix_deg;
-    cutter.length_mm = 30;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    const Box3 blank{{0, 0, -5}, {20, 20, 0}};
-    s.blank = std::make_unique<field::BoxShape>(blank);
-    s.blank_volume_mm3 = blank.volume();
-    s.cell_mm = 0.5;
-    motion::Move m;
-    m.start = {{-6, 2, -1}, {0, 0, 1}};
-    m.end = {{26, 14, -1}, {0, 0, 1}};
-    m.feed_mm_per_min = feed_mm_per_min;
-    m.line = 1;
-    s.moves = {m};
-    s.cutter_of_move = {0};
-    s.rpm_of_move = {rpm};
+    MillSetup s = block_setup({{0, 0, -5}, {20, 20, 0}},
+                              {.diameter_mm = 8, .helix_deg = helix_deg, .length_mm = 30}, 0.5);
+    motion::Move cut = straight_cut({-6, 2, -1}, {26, 14, -1}, feed_mm_per_min);
+    cut.line = 1;
+    add_cut(s, cut, rpm);
     return s;
 }
 

@@ -4,32 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "field/shape/box_shape.hpp"
 #include "milling/tool/materials.hpp"
 #include "protocol/live_message.hpp"
+#include "session/block_setup.hpp"
 
 namespace tribo::session {
 namespace {
 
 Result<MillSetup> slot() {
-    MillSetup s;
-    milling::Cutter cutter;
-    cutter.diameter_mm = 8;
-    cutter.length_mm = 20;
-    cutter.helix_deg = 35;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    const Box3 blank{{0, 0, -8}, {40, 20, 0}};
-    s.blank = std::make_unique<field::BoxShape>(blank);
-    s.blank_volume_mm3 = blank.volume();
-    s.cell_mm = 1;
-    motion::Move move;
-    move.feed_mm_per_min = 750;
-    move.start.tip_mm = {-5, 10, -2};
-    move.end.tip_mm = {45, 10, -2};
-    s.moves = {move};
-    s.cutter_of_move = {0};
-    s.rpm_of_move = {6000};
+    MillSetup s =
+        block_setup({{0, 0, -8}, {40, 20, 0}}, {.diameter_mm = 8, .helix_deg = 35, .length_mm = 20}, 1);
+    add_cut(s, straight_cut({-5, 10, -2}, {45, 10, -2}, 750));
     return s;
 }
 

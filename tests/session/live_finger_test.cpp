@@ -9,9 +9,7 @@
 #include <thread>
 
 #include "base/math.hpp"
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
-#include "motion/path/path.hpp"
+#include "session/block_setup.hpp"
 #include "session/live/force_look_ahead.hpp"
 #include "session/live/live_mill.hpp"
 #include "session/live/single_threaded_touch.hpp"
@@ -23,25 +21,8 @@ constexpr double kRateHz = 1000;
 
 // A slot along x at y = 10, 2 mm deep, from 0.25 s on; 12.5 mm/s.
 Result<MillSetup> slot() {
-    MillSetup s;
-    milling::Cutter cutter;
-    cutter.diameter_mm = 8;
-    cutter.length_mm = 20;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    const Box3 blank{{0, 0, -8}, {40, 20, 0}};
-    s.blank = std::make_unique<field::BoxShape>(blank);
-    s.blank_volume_mm3 = blank.volume();
-    s.cell_mm = 0.5;
-    motion::Move move;
-    move.feed_mm_per_min = 750;
-    move.start.tip_mm = {-5, 10, -2};
-    move.end.tip_mm = {45, 10, -2};
-    for (motion::Move& piece : motion::in_pieces(move, LiveMill::kPieceMm)) {
-        s.moves.push_back(piece);
-        s.cutter_of_move.push_back(0);
-        s.rpm_of_move.push_back(6000);
-    }
+    MillSetup s = block_setup({{0, 0, -8}, {40, 20, 0}}, {.diameter_mm = 8, .length_mm = 20}, 0.5);
+    add_cut_in_pieces(s, straight_cut({-5, 10, -2}, {45, 10, -2}, 750), LiveMill::kPieceMm);
     return s;
 }
 

@@ -7,9 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
 #include "motion/path/path.hpp"
+#include "session/block_setup.hpp"
 #include "session/live/frame_cache.hpp"
 #include "session/live/live_mill.hpp"
 
@@ -18,27 +17,12 @@ namespace tribo::session::test {
 inline constexpr Box3 kBlank{{0, 0, -8}, {40, 20, 0}};
 
 inline Result<MillSetup> slot() {
-    MillSetup s;
-    milling::Cutter cutter;
-    cutter.kind = milling::CutterKind::ball;
-    cutter.diameter_mm = 6;
-    cutter.length_mm = 20;
-    s.cutters = {cutter};
-    s.coefficients = milling::find_material("al7075-t6")->coefficients;
-    s.blank = std::make_unique<field::BoxShape>(kBlank);
-    s.blank_volume_mm3 = kBlank.volume();
-    s.cell_mm = 0.5;
-    motion::Move move;
-    move.feed_mm_per_min = 1200;
-    move.line = 7;
+    MillSetup s =
+        block_setup(kBlank, {.kind = milling::CutterKind::ball, .diameter_mm = 6, .length_mm = 20}, 0.5);
     for (const double y : {4.0, 7.0, 10.0, 13.0, 16.0}) {
-        move.start.tip_mm = {-5, y, -2};
-        move.end.tip_mm = {45, y, -2};
-        for (motion::Move& piece : motion::in_pieces(move, LiveMill::kPieceMm)) {
-            s.moves.push_back(piece);
-            s.cutter_of_move.push_back(0);
-            s.rpm_of_move.push_back(9000);
-        }
+        motion::Move cut = straight_cut({-5, y, -2}, {45, y, -2}, 1200);
+        cut.line = 7;
+        add_cut_in_pieces(s, cut, LiveMill::kPieceMm, 9000);
     }
     return s;
 }

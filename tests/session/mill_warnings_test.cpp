@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
-#include "field/shape/box_shape.hpp"
-#include "milling/tool/materials.hpp"
+#include "session/block_setup.hpp"
 #include "session/live/live_mill.hpp"
 
 namespace tribo::session {
@@ -13,20 +12,12 @@ namespace {
 
 // A slot across a block, at a feed per tooth.
 MillSetup slot(double feed_per_tooth_mm) {
-    MillSetup setup;
-    setup.cutters.emplace_back().diameter_mm = 6;
-    setup.coefficients = milling::find_material("al7075-t6")->coefficients;
-    setup.blank = std::make_unique<field::BoxShape>(Box3{{0, 0, -5}, {20, 20, 0}});
-    setup.blank_volume_mm3 = 2000;
-    motion::Move slot;
-    slot.start.tip_mm = {-5, 10, -1};
-    slot.end.tip_mm = {25, 10, -1};
-    slot.feed_mm_per_min = feed_per_tooth_mm * setup.cutters[0].flutes * 6000;
-    slot.line = 7;
-    setup.moves = {slot};
-    setup.cutter_of_move = {0};
-    setup.rpm_of_move = {6000};
-    return setup;
+    const milling::Cutter cutter{.diameter_mm = 6};
+    MillSetup s = block_setup({{0, 0, -5}, {20, 20, 0}}, cutter, MillSetup{}.cell_mm);
+    motion::Move cut = straight_cut({-5, 10, -1}, {25, 10, -1}, feed_per_tooth_mm * cutter.flutes * 6000);
+    cut.line = 7;
+    add_cut(s, cut);
+    return s;
 }
 
 MillTotals slotted(double feed_per_tooth_mm) {

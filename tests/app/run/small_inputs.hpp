@@ -4,7 +4,7 @@
 
 namespace tribo::test {
 
-// Mills `slot.nc`.
+// Mills `slot.nc`: a slot along y = 10, 2 mm deep.
 inline constexpr const char* kSlotJob = R"(
 [stock]
 box_mm = [[0, 0, -10], [30, 20, 0]]
@@ -12,6 +12,7 @@ box_mm = [[0, 0, -10], [30, 20, 0]]
 kind = "flat"
 diameter_mm = 6
 flutes = 2
+length_mm = 20
 [material]
 name = "al7075-t6"
 [process]
