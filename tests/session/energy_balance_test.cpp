@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
-#include "field/shape/box_shape.hpp"
+#include "session/block_setup.hpp"
 #include "session/random_cut.hpp"
 
 namespace tribo::session {
@@ -58,20 +58,11 @@ TEST(EnergyBalance, holds_for_random_cutters_motions_and_stocks) {
 TEST(EnergyBalance, a_plunge_that_only_just_touches_has_rows) {
     for (const double depth : {0.01, 0.2, 0.7}) {
         const Vec3 from{10, 10, 3.1}, to{10, 10, -depth};
-        MillSetup s;
-        s.cutters.emplace_back().diameter_mm = 6;
+        MillSetup s = block_setup({{0, 0, -5}, {20, 20, 0}}, {.diameter_mm = 6}, 0.1);
         s.coefficients = {2000, 600, 300, 0, 0, 0};
-        s.blank = std::make_unique<field::BoxShape>(Box3{{0, 0, -5}, {20, 20, 0}});
-        s.blank_volume_mm3 = 2000;
-        s.cell_mm = 0.1;
-        motion::Move plunge;
-        plunge.start.tip_mm = from;
-        plunge.end.tip_mm = to;
-        plunge.feed_mm_per_min = 60;
+        motion::Move plunge = straight_cut(from, to, 60);
         plunge.line = 1;
-        s.moves = {plunge};
-        s.cutter_of_move = {0};
-        s.rpm_of_move = {6000};
+        add_cut(s, plunge);
         MillSession session(std::move(s), serial_for);
         double seconds = 0, volume = 0;
         session.run({[&](const milling::CutRow& row, const milling::RowForce&) {
@@ -83,6 +74,24 @@ TEST(EnergyBalance, a_plunge_that_only_just_touches_has_rows) {
         EXPECT_NEAR(seconds, depth, row_mm / 512) << depth;  // at 1 mm/s
         EXPECT_NEAR(volume, math::kPi * 9 * depth, math::kPi * 9 * row_mm / 512) << depth;
         EXPECT_NEAR(*session.totals().energy_balance, 1, 0.03) << depth;
+    }
+}
+
+// The blank stands between two of the even places of the cutter's circle.
+TEST(EnergyBalance, holds_for_face_mills_that_are_much_wider_than_the_blank) {
+    for (const double diameter : {80.0, 200.0, 500.0}) {
+        for (const double width : {5.0, 20.0}) {
+            for (const double offset : {0.0, 0.013, 0.0246, 0.031, 0.1}) {
+                MillSetup s =
+                    block_setup({{0, 0, -10}, {60, width, 0}}, {.diameter_mm = diameter, .flutes = 8}, 0.5);
+                const double y = 0.5 * width + offset * diameter, before = -0.5 * diameter - 2;
+                add_cut(s, straight_cut({before, y, -2}, {before + 40, y, -2}, 400), 600);
+                const Outcome out = mill(std::move(s));
+                ASSERT_TRUE(out.totals.energy_balance) << diameter << " " << width << " " << offset;
+                EXPECT_NEAR(*out.totals.energy_balance, 1, kShare)
+                    << diameter << " " << width << " " << offset;
+            }
+        }
     }
 }
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "milling/tool/material_arcs.hpp"
-
 namespace tribo::milling {
 namespace {
 
@@ -16,6 +14,7 @@ constexpr int kRows = 32;
 constexpr double kLeastCells = 1;
 constexpr int kHalvings = 5;
 constexpr double kColumnRad = math::kTwoPi / 64;
+constexpr double kWidestColumnMm = 2;
 
 }  // namespace
 
@@ -58,6 +57,19 @@ void ContactScout::set_windows(const CutPose& pose) {
     }
 }
 
+// Looks beside the middle of a cell that is wide, as a face mill has them.
+bool ContactScout::meets(const field::CarvedView& stock, const AxisCircle& circle, int column,
+                         double clear_mm) const {
+    const double width_mm = circle.radius_mm * kColumnRad;
+    const int parts = static_cast<int>(std::ceil(width_mm / kWidestColumnMm));
+    for (int n = 0; n < parts; ++n) {
+        const double share = (n + 0.5) / parts;
+        if (std::abs(share - 0.5) * width_mm < clear_mm) continue;
+        if (stock.is_material(circle.at((column + share) * kColumnRad), kSkin)) return true;
+    }
+    return false;
+}
+
 void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, Patch p) {
     const auto known = [&](int row) { return engaged_[static_cast<std::size_t>(row)] != 0; };
     while (p.row0 < p.row1 && known(p.row0)) ++p.row0;
@@ -70,11 +82,12 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
     for (int row = p.row0; row < p.row1; ++row) outward |= windows_[static_cast<std::size_t>(row)];
     if ((outward & mask) == 0) return;
 
-    // `reach` bounds the distance from the patch's middle to the middle of any cell: along the meridian and
-    // then around the axis.
+    // `reach` bounds the distance from the patch's middle to the middle of any cell, or to its sides if it is
+    // wide: along the meridian and then around the axis.
     const double s0 = middle(p.row0), s1 = middle(p.row1 - 1);
     const double widest = std::min(radius_mm_, s1);
-    const double half_s = 0.5 * (s1 - s0), half_turn = 0.5 * (columns - 1) * kColumnRad * widest;
+    const bool wide = widest * kColumnRad > kWidestColumnMm;
+    const double half_s = 0.5 * (s1 - s0), half_turn = 0.5 * (columns - (wide ? 0 : 1)) * kColumnRad * widest;
     const double reach = std::sqrt(half_s * half_s + half_turn * half_turn);
     if (reach < radius_mm_) {
         const ProfilePoint at = profile_.at(0.5 * (s0 + s1));
@@ -85,8 +98,9 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
         static_assert(kPlaces == 2);
         const double way =
             stock.clear_way_mm(circle.at_place(p.column0 + p.column1), 1.01 * reach + kSkin) + kSkin;
-        if (way > reach || (reach == 0 && way >= 0)) return;
-        if (way < -reach) {
+        const bool cell = p.row1 - p.row0 == 1 && columns == 1;
+        if (way > reach || (cell && way >= 0 && !(wide && meets(stock, circle, p.column0, way)))) return;
+        if (way < -reach || cell) {
             for (int row = p.row0; row < p.row1; ++row) {
                 const auto n = static_cast<std::size_t>(row);
                 if ((windows_[n] & mask) != 0) engaged_[n] = 1;
@@ -95,7 +109,7 @@ void ContactScout::search(const field::CarvedView& stock, const CutPose& pose, P
         }
     }
     Patch low = p, high = p;
-    if (half_s > half_turn) {
+    if (columns == 1 || half_s > half_turn) {
         low.row1 = high.row0 = (p.row0 + p.row1) / 2;
     } else {
         low.column1 = high.column0 = (p.column0 + p.column1) / 2;

@@ -9,6 +9,7 @@
 #include "field/carved/carved_view.hpp"
 #include "milling/tool/cut_pose.hpp"
 #include "milling/tool/cutter_profile.hpp"
+#include "milling/tool/material_arcs.hpp"
 
 namespace tribo::milling {
 
@@ -39,6 +40,7 @@ class ContactScout {
     void set_rows(double s0, double s1, double cell);
     void set_windows(const CutPose& pose);
     void search(const field::CarvedView& stock, const CutPose& pose, Patch patch);
+    bool meets(const field::CarvedView& stock, const AxisCircle& circle, int column, double clear_mm) const;
     double middle(int row) const {
         const auto n = static_cast<std::size_t>(row);
         return 0.5 * (borders_[n] + borders_[n + 1]);

@@ -12,6 +12,8 @@ namespace {
 // Narrower slits and slivers are rounding, left where surfaces meet or touch.
 constexpr double kSliver = 5e-4;  // mm
 constexpr double kSliverRad = 2e-3;
+// Farther apart, even places would miss a narrow blank in front of a face mill.
+constexpr double kWidestPlaceMm = 1;
 
 struct Direction {
     double sine, cosine;
@@ -38,9 +40,10 @@ class Scan {
         constexpr int kMostStride = 8;
         const double apart = kApartCells * stock.field().cell_mm();
         while (stride_ < kMostStride && 2 * stride_ * kPlaceRad * circle.radius_mm <= apart) stride_ *= 2;
-        const double step = stride_ * kPlaceRad;
-        first_ = static_cast<int>(std::floor(from / step)) + 1;
-        const int last = static_cast<int>(std::ceil(to / step)) - 1;
+        while (kPlaceRad * circle.radius_mm > parts_ * kWidestPlaceMm) parts_ *= 2;
+        step_ = stride_ * kPlaceRad / parts_;
+        first_ = static_cast<int>(std::floor(from / step_)) + 1;
+        const int last = static_cast<int>(std::ceil(to / step_)) - 1;
         count_ = std::max(0, last - first_ + 1);
     }
 
@@ -63,8 +66,9 @@ class Scan {
         return stock_.clear_way_mm(p, enough) + kSkin;
     }
     Place place(int number) const {
-        const int n = (first_ + number - 1) * stride_;
-        return {number, n * kPlaceRad, way(circle_.at_place(n))};
+        const int n = first_ + number - 1;
+        const double rotation = n * step_;
+        return {number, rotation, way(parts_ > 1 ? circle_.at(rotation) : circle_.at_place(n * stride_))};
     }
 
     // Adds the arc that began at entry_.
@@ -130,8 +134,9 @@ class Scan {
     double from_, to_;
     std::vector<MaterialArc>& arcs_;
     std::size_t before_;
-    int stride_ = 1;             // of places
-    int first_ = 0, count_ = 0;  // of the places between the ends, in strides
+    int stride_ = 1, parts_ = 1;  // places in a step, or steps in a place
+    double step_ = kPlaceRad;
+    int first_ = 0, count_ = 0;  // of the places between the ends, in steps
     double entry_ = 0;
 };
 
