@@ -7,10 +7,11 @@
 
 namespace tribo::app {
 
-// From now on SIGINT, SIGTERM and SIGHUP set the flag. 0.7 s later, or at a second signal, a thread of its
-// own removes what is unfinished (files/unfinished.hpp) and ends the program with interrupted_exit_code(),
-// whatever the other threads do or wait for. A broken pipe and the limit of file sizes then give errors of
-// the write, not signals.
+// From now on a thread of its own waits for SIGINT, SIGTERM and SIGHUP and then sets the flag. 0.7 s later,
+// or at a second signal, it removes what is unfinished (files/unfinished.hpp) and ends the program with
+// interrupted_exit_code(), whatever the other threads do or wait for. A broken pipe and the limit of file
+// sizes then give errors of the write, not signals. Call it before any thread starts. The signals are blocked
+// in the programs that this one starts, unless it gives them a mask of their own.
 void catch_signals();
 
 // True after a signal. Any thread may read it.

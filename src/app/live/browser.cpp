@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <optional>
+#include <signal.h>
 #include <spawn.h>
 #include <string_view>
 #include <sys/wait.h>
@@ -41,10 +42,14 @@ void open_browser(const std::string& url, bool secret) {
     ::posix_spawn_file_actions_addopen(&quiet, 0, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
     ::posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
-    // In a separate process group: Ctrl-C ends the engine, not the browser.
+    // In a separate process group: Ctrl-C ends the engine, not the browser. The engine blocks the signals
+    // that it waits for; the browser must not.
     posix_spawnattr_t apart;
     ::posix_spawnattr_init(&apart);
-    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+    ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    sigset_t none;
+    sigemptyset(&none);
+    ::posix_spawnattr_setsigmask(&apart, &none);
     std::string program = "xdg-open", argument = *place;
     char* const arguments[] = {program.data(), argument.data(), nullptr};
     pid_t child = 0;
