@@ -103,7 +103,8 @@ TEST_F(Live, serves_an_empty_bench_without_a_job) {
 
 TEST_F(Live, shows_its_token_to_no_list_of_processes) {
     // What would start a browser keeps what it was given.
-    scratch_.put("bin/xdg-open", "#!/bin/sh\nprintf '%s' \"$*\" > " + scratch_ / "given.new" + " && mv " +
+    scratch_.put("bin/xdg-open", "#!/bin/sh\ngrep SigBlk /proc/self/status > " + scratch_ / "blocked" +
+                                     "\nprintf '%s' \"$*\" > " + scratch_ / "given.new" + " && mv " +
                                      scratch_ / "given.new" + " " + scratch_ / "given" + "\n");
     std::filesystem::permissions(scratch_ / "bin/xdg-open", std::filesystem::perms::owner_all);
     std::filesystem::create_directory(scratch_ / "session");
@@ -132,6 +133,8 @@ TEST_F(Live, shows_its_token_to_no_list_of_processes) {
         << text;
     const auto others = std::filesystem::perms::group_all | std::filesystem::perms::others_all;
     EXPECT_EQ(std::filesystem::status(given).permissions() & others, std::filesystem::perms::none);
+    // A browser that blocks signals could not be ended with SIGTERM.
+    EXPECT_EQ(scratch_.get("blocked"), "SigBlk:\t0000000000000000\n");
     EXPECT_EQ(engine.stop().code, 130);
     EXPECT_FALSE(std::filesystem::exists(given));
 }
