@@ -42,7 +42,7 @@ struct Limits {
     Limit rotary_angle{"angle of a rotary axis",
                        "deg",
                        {-1e5, 1e5},
-                       "A B C and PA of programs",
+                       "A B C and PA of programs; angles of G16 and G68",
                        "No table turns 278 times in one direction."};
     Limit axis_limit{"end of an axis",
                      "deg",

@@ -112,6 +112,7 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     gcode.machine = options.machine;
     gcode.max_moves = options.max_moves;
     gcode.clock_s = options.clock_s;
+    gcode.refusals = options.refusals;
     // The last of a number wins there, the first of it here.
     for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});

@@ -46,6 +46,23 @@ TEST(Inspect, points_at_the_line_that_is_wrong) {
     EXPECT_EQ(run_tribo({"inspect", "empty.stl"}, scratch.path()).code, 2);
 }
 
+TEST(Inspect, shows_all_refusals_at_once) {
+    const Scratch scratch;
+    scratch.put("p.ngc", "G21\nG0 X0 Y0 Z0\nG12 I5\nG1 X1 F100\nG999\nG1 U5\n");
+    const Outcome program = run_tribo({"inspect", "p.ngc", "--json"}, scratch.path());
+    EXPECT_EQ(program.code, 2);
+    EXPECT_EQ(program.out, "");
+    for (const char* place : {"p.ngc:3:1: error: ", "p.ngc:5:1: error: ", "p.ngc:6:4: error: "}) {
+        EXPECT_NE(program.err.find(place), std::string::npos) << program.err;
+    }
+    // A missing feed is no fault of the program, and hides none.
+    scratch.put("q.ngc", "G21\nG0 X0 Y0 Z0\nG1 X1\nG12 I5\n");
+    const Outcome other = run_tribo({"inspect", "q.ngc"}, scratch.path());
+    EXPECT_EQ(other.code, 2);
+    EXPECT_NE(other.err.find("q.ngc:4:1: error: "), std::string::npos) << other.err;
+    EXPECT_EQ(other.err.find("before any F"), std::string::npos) << other.err;
+}
+
 TEST(Inspect, reads_a_program_without_a_feed_and_says_so) {
     const Scratch scratch;
     scratch.put("p.ngc", "G21\nM3 S1\nG0 X0 Y0 Z0\nG1 X10\n");

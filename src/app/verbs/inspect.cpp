@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/exit.hpp"
 #include "app/outputs.hpp"
@@ -84,7 +85,9 @@ Found found_program(const motion::Program& program, PathWatcher& path, job::Path
     return found;
 }
 
-FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job::PathKind kind) {
+// `refusals` receives all refusals of a program, where its reader gives more than the first.
+FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job::PathKind kind,
+                                  std::vector<Error>& refusals) {
     job::JobMachine machine;
     if (!call.machine.empty()) {
         FileResult<job::JobMachine> named = job::read_machine_named(files::DiskSource(), call.machine);
@@ -101,9 +104,10 @@ FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job:
     // Maybe only the feed is missing, which a job would give. Read again with a feed; the reader then adds a
     // warning.
     options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
+    options.refusals = &refusals;
     PathWatcher again(draws);
     const Result<motion::Program> with_feed = job::parse_program(bytes, call.file, kind, options, again);
-    if (!with_feed) return std::unexpected(FileFailure(program.error()));
+    if (!with_feed) return std::unexpected(FileFailure(with_feed.error()));
     return found_program(*with_feed, again, kind, machine.rapid_mm_per_min);
 }
 
@@ -135,7 +139,7 @@ FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
     return found;
 }
 
-FileResult<Found> inspect_file(const Call& call) {
+FileResult<Found> inspect_file(const Call& call, std::vector<Error>& refusals) {
     const std::string& file = call.file;
     const FileResult<std::string> bytes = files::read_file(file);
     if (!bytes) return std::unexpected(bytes.error());
@@ -148,7 +152,7 @@ FileResult<Found> inspect_file(const Call& call) {
     }
     const std::optional<job::PathKind> program = job::detect_program(*bytes, file);
     if (readers::detect_model_format(*bytes, file) && !program) return inspect_model(file);
-    if (program) return inspect_program(*bytes, call, *program);
+    if (program) return inspect_program(*bytes, call, *program, refusals);
     return std::unexpected(FileFailure(
         {file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
          "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl), "
@@ -156,8 +160,16 @@ FileResult<Found> inspect_file(const Call& call) {
 }
 
 int inspect(const Call& call) {
-    const FileResult<Found> found = inspect_file(call);
-    if (!found) return report(found.error());
+    std::vector<Error> refusals;
+    const FileResult<Found> found = inspect_file(call, refusals);
+    if (!found) {
+        const int code = report(found.error());
+        for (std::size_t i = 1; i < refusals.size(); ++i) report(refusals[i]);
+        if (refusals.size() == readers::GcodeOptions::kMostRefusals) {
+            std::fprintf(stderr, "there may be more: only %zu refusals are shown\n", refusals.size());
+        }
+        return code;
+    }
     if (!call.picture.empty()) {
         if (const auto checked = check_outputs({call.picture}); !checked) return report(checked.error());
         report::PictureOptions options;

@@ -30,7 +30,9 @@ constexpr std::array kSigns{
     Sign{"M428", Dialect::linuxcnc},       Sign{"M429", Dialect::linuxcnc},
     Sign{"G43.4", Dialect::fanuc},         Sign{"G43.5", Dialect::fanuc},
     Sign{"G68.2", Dialect::fanuc},         Sign{"]GOTO", Dialect::fanuc},
-    Sign{"G54.1P", Dialect::fanuc},
+    Sign{"G54.1P", Dialect::fanuc},        Sign{"]DO", Dialect::fanuc},
+    Sign{"]THEN", Dialect::fanuc},         Sign{"G65P", Dialect::fanuc},
+    Sign{"DPRNT[", Dialect::fanuc},        Sign{"#3000=", Dialect::fanuc},
 };
 
 // To upper case, without blanks and comments.

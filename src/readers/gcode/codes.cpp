@@ -7,7 +7,6 @@ namespace {
 constexpr std::string_view kPlainMoves = "let the CAM system write it as plain G0 to G3 moves";
 constexpr std::string_view kApt =
     "give the machine-independent path instead: APT CLDATA or keyframes with tool axes";
-constexpr std::string_view kDelete = "delete it where it does not move the tool";
 
 }  // namespace
 
@@ -24,6 +23,14 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 922:
         case 923:
             return GGroup::non_modal;
+        case 650:
+            return GGroup::macro_call;
+        case 310:
+        case 382:
+        case 383:
+        case 384:
+        case 385:
+            return GGroup::probing;
         case 0:
         case 10:
         case 20:
@@ -36,7 +43,6 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 730:
         case 740:
         case 760:
-        case 800:
         case 810:
         case 820:
         case 830:
@@ -47,6 +53,8 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 880:
         case 890:
             return GGroup::motion;
+        case 800:
+            return GGroup::cycle_end;
         case 170:
         case 180:
         case 190:
@@ -63,18 +71,31 @@ std::optional<GGroup> group_of_g(int tenths) {
             return GGroup::feed_mode;
         case 200:
         case 210:
+        case 700:
+        case 710:
             return GGroup::units;
         case 400:
         case 410:
         case 411:
+        case 412:
+        case 413:
+        case 414:
+        case 415:
+        case 416:
         case 420:
         case 421:
+        case 422:
+        case 423:
+        case 424:
+        case 425:
+        case 426:
             return GGroup::cutter_side;
         case 430:
         case 431:
         case 432:
         case 434:
         case 435:
+        case 440:
         case 490:
         case 1680:
         case 1690:
@@ -84,6 +105,7 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 990:
             return GGroup::return_level;
         case 540:
+        case 541:
         case 550:
         case 560:
         case 570:
@@ -92,18 +114,51 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 591:
         case 592:
         case 593:
+        case 1540:
             return GGroup::work_offset;
         case 610:
         case 611:
+        case 620:
+        case 630:
         case 640:
             return GGroup::path_control;
         case 970:
             return GGroup::spindle_mode;
         case 150:
+        case 160:
             return GGroup::polar;
+        case 500:
+        case 510:
+            return GGroup::scaling;
+        case 501:
+        case 511:
+            return GGroup::mirror;
+        case 680:
         case 690:
+        case 691:
             return GGroup::rotation;
+        case 80:   // look-ahead, with P
+        case 90:   // exact stop of one block
+        case 110:  // end of data input
+        case 131:  // polar interpolation off
+        case 151:  // polar coordinates off
+        case 220:  // stored stroke limits
+        case 230:
+        case 250:  // spindle speed fluctuation
+        case 260:
+        case 281:  // setting the home position
+        case 301:
+        case 401:   // normal direction control off
+        case 502:   // polygon turning off
+        case 670:   // modal macro off
+        case 1030:  // limit of look-ahead (Haas)
+        case 1130:  // polar interpolation off
+        case 1870:  // smoothness (Haas)
+        case 2550:  // dynamic work offset off (Haas)
+        case 2690:  // tilted plane off (Haas)
+            return GGroup::idle;
         default:
+            if (tenths >= 1100 && tenths <= 1290 && tenths % 10 == 0) return GGroup::work_offset;
             return std::nullopt;
     }
 }
@@ -121,6 +176,8 @@ std::optional<MGroup> group_of_m(int tenths) {
         case 30:
         case 40:
         case 50:
+        case 130:
+        case 140:
             return MGroup::spindle;
         case 70:
         case 80:
@@ -142,6 +199,7 @@ std::optional<MGroup> group_of_m(int tenths) {
         case 670:
         case 680:
             return MGroup::outputs;
+        case 970:
         case 980:
         case 990:
             return MGroup::subprogram;
@@ -162,37 +220,41 @@ Unread unread_g(int tenths) {
         case 61:
             return {"splines of this kind", kPlainMoves};
         case 70:
-        case 80:
             return {"lathe diameters", "give a milling program"};
         case 120:
         case 130:
             return {"circular pockets", kPlainMoves};
-        case 160:
-            return {"polar coordinates", kPlainMoves};
         case 171:
         case 181:
         case 191:
             return {"planes of the axes U V W", kPlainMoves};
-        case 281:
-        case 301:
-            return {"setting the home position", kDelete};
+        case 71:
+            return {"cylindrical interpolation", kPlainMoves};
+        case 121:
+        case 1120:
+            return {"polar interpolation", kPlainMoves};
+        case 320:
         case 330:
         case 331:
             return {"moves synchronised with the spindle", kPlainMoves};
-        case 310:
-        case 382:
-        case 383:
-        case 384:
-        case 385:
-            return {"probing", "delete the probing cycle; it does not cut"};
-        case 500:
-        case 510:
-            return {"scaling", kPlainMoves};
-        case 541:
-            return {"additional work offsets", "use G54 to G59"};
+        case 450:
+        case 460:
+        case 470:
+        case 480:
+            return {"moves longer or shorter by an offset", kPlainMoves};
+        case 660:
+        case 661:
+            return {"modal macro calls", "let the control or the CAM system write the macro out"};
+        case 720:
+        case 1500:
+            return {"patterns and pockets of the control", kPlainMoves};
+        case 161:
+            return {"polar coordinates in space", kPlainMoves};
         case 531:
-        case 680:
+        case 681:
         case 682:
+        case 683:
+        case 684:
             return {"tilted or turned planes", kApt};
         case 960:
             return {"constant surface speed", "use G97 with S in turns per minute"};
@@ -203,15 +265,11 @@ Unread unread_g(int tenths) {
 
 Unread unread_m(int tenths) {
     switch (tenths) {
-        case 970:
-            return {"subroutines that start at a line number", kPlainMoves};
-        case 100:
-        case 110:
-            return {"clamps", kDelete};
-        case 660:
-            return {"reading inputs", kDelete};
+        case 720:
+        case 730:
+            return {"restoring the modes that M70 has saved", "write the modes out"};
         default:
-            return {"", kDelete};
+            return {"", ""};
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -31,6 +32,13 @@ std::unexpected<Error> refuse_code(int line, const Word& word, std::optional<int
     return refuse(line, word, std::move(text), std::string(unread.remedy));
 }
 
+// G74 beside G0 to G3 sets how arcs are written: each within a quadrant (EIA RS-274-D). Alone it taps.
+constexpr int kQuadrantMode = 740;
+bool is_quadrant_mode(Code one, Code other) {
+    const auto plain = [](Code code) { return code.tenths <= 30; };
+    return (one.tenths == kQuadrantMode && plain(other)) || (other.tenths == kQuadrantMode && plain(one));
+}
+
 std::unexpected<Error> refuse_pair(int line, const Word& word, int earlier, int later) {
     return refuse(line, word,
                   code_text(word.letter, later) + " contradicts " + code_text(word.letter, earlier) +
@@ -51,15 +59,50 @@ Result<void> Command::add_g(const Word& word) {
     const auto group = tenths ? group_of_g(*tenths) : std::nullopt;
     if (!group) return refuse_code(line_, word, tenths, unread_g(tenths.value_or(-1)));
     auto& place = g_[static_cast<std::size_t>(*group)];
-    if (place && place->tenths != *tenths) return refuse_pair(line_, word, place->tenths, *tenths);
-    place = Code{*tenths, word.column};
+    const Code code{*tenths, word.column};
+    if (*group == GGroup::motion && place && is_quadrant_mode(*place, code)) {
+        const bool is_later = code.tenths == kQuadrantMode;
+        g_[static_cast<std::size_t>(GGroup::idle)] = is_later ? code : *place;
+        if (!is_later) place = code;
+        return {};
+    }
+    if (place && place->tenths != *tenths && *group != GGroup::idle) {
+        return refuse_pair(line_, word, place->tenths, *tenths);
+    }
+    place = code;
+    return {};
+}
+
+// Refuses codes whose meaning depends on the words beside them.
+Result<void> Command::settle() const {
+    if (const auto units = g(GGroup::units); units && units->tenths >= 700 && has_any("DIJKLPQRUW")) {
+        return fail_at(
+            {}, line_, units->column,
+            code_text('G', units->tenths) + " (a pattern of holes, or a cycle of a lathe) is not read yet",
+            "let the CAM system write it as plain G0 to G3 moves");
+    }
+    if (has_g(GGroup::idle, 80) && !has('P')) {
+        return fail_at({}, line_, g(GGroup::idle)->column, "G8 (lathe diameters) is not read yet",
+                       "give a milling program");
+    }
+    const auto cycle = g(GGroup::motion);
+    if (g(GGroup::cycle_end) && cycle && cycle->tenths >= 730) {
+        return fail_at({}, line_, g(GGroup::cycle_end)->column,
+                       "G80 contradicts " + code_text('G', cycle->tenths) + " in the same block",
+                       "keep one of the two");
+    }
     return {};
 }
 
 Result<void> Command::add_m(const Word& word) {
     const auto tenths = tenths_of(word.value);
     const auto group = tenths ? group_of_m(*tenths) : std::nullopt;
-    if (!group) return refuse_code(line_, word, tenths, unread_m(tenths.value_or(-1)));
+    if (!group) {
+        const Unread unread = tenths ? unread_m(*tenths) : Unread{"", "check the number"};
+        if (!tenths || !unread.what.empty()) return refuse_code(line_, word, tenths, unread);
+        unknown_m_.push_back({*tenths, word.column});
+        return {};
+    }
     auto& place = m_[static_cast<std::size_t>(*group)];
     // Mist and flood coolant may be on together.
     if (place && place->tenths != *tenths && *group != MGroup::coolant) {
@@ -87,6 +130,7 @@ Result<Command> Command::of(const Block& block) {
         }
         if (!added) return std::unexpected(added.error());
     }
+    if (auto settled = command.settle(); !settled) return std::unexpected(settled.error());
     return command;
 }
 
@@ -95,6 +139,12 @@ bool Command::has_any(std::string_view letters) const {
         if (has(letter)) return true;
     }
     return false;
+}
+
+bool Command::has_any_m() const {
+    return !unknown_m_.empty() || std::any_of(m_.begin(), m_.end(), [](const std::optional<Code>& code) {
+        return code.has_value();
+    });
 }
 
 const Word* Command::use(char letter) {

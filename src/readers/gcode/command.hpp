@@ -5,6 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "readers/gcode/codes.hpp"
@@ -21,14 +24,17 @@ struct Code {
 // Holds pointers into its block, which must outlive it.
 class Command {
   public:
-    // Refuses codes that are not read, two codes of one group, and a repeated letter. The error has line and
-    // column but no file.
+    // Refuses G codes that are not read, two codes of one group, and a repeated letter. The error has line
+    // and column but no file.
     static Result<Command> of(const Block& block);
 
     int line() const { return line_; }
     std::optional<Code> g(GGroup group) const { return g_[static_cast<std::size_t>(group)]; }
     std::optional<Code> m(MGroup group) const { return m_[static_cast<std::size_t>(group)]; }
     bool has_g(GGroup group, int tenths) const { return g(group) && g(group)->tenths == tenths; }
+    bool has_any_m() const;
+    // M codes without a group, in order: the machine has them, the path does not.
+    const std::vector<Code>& unknown_m() const { return unknown_m_; }
 
     // True when the block has the word; does not count as use of the word.
     bool has(char letter) const { return words_[index(letter)] != nullptr; }
@@ -40,12 +46,22 @@ class Command {
     void hide_axes() {
         for (const char letter : {'X', 'Y', 'Z'}) hide(letter);
     }
+    // Marks all words but the axes as used.
+    void use_rest() { used_ |= ~axis_bits(); }
     // Returns the first word of the block that is not used; null if there is none.
     const Word* first_unused() const;
 
   private:
     static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
+    static std::uint32_t axis_bits() {
+        std::uint32_t bits = 0;
+        for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W', 'X', 'Y', 'Z'}) {
+            bits |= std::uint32_t{1} << index(letter);
+        }
+        return bits;
+    }
     Result<void> add_g(const Word& word);
+    Result<void> settle() const;
     Result<void> add_m(const Word& word);
 
     int line_ = 0;
@@ -54,6 +70,7 @@ class Command {
     std::uint32_t used_ = 0;  // bit per letter
     std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g_;
     std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m_;
+    std::vector<Code> unknown_m_;
 };
 
 // For 901: "G90.1".

@@ -11,6 +11,7 @@ namespace {
 // The limit is 10 in LinuxCNC and 4 to 20 in other controls.
 constexpr std::size_t kDeepestCall = 100;
 constexpr double kMostRepeats = 1e9;
+constexpr std::int64_t kFourDigits = 10'000;
 
 std::string called_label(const std::string& label) {
     return "o" + label;
@@ -227,7 +228,7 @@ Result<void> Flow::leave_loop(int index, Block& block) {
     const Landmark& opener = (*labels_)[mark.opener];
     if (opener.closer < 0) return refuse_unclosed(mark.opener);
     const int innermost = ends ? mark.opener : mark.opener + 1;
-    const std::size_t least = calls_.empty() ? 0 : calls_.back().loops;
+    const std::size_t least = calls_.empty() ? 0 : calls_.back().repeats;
     while (repeats_.size() > least && repeats_.back().opener >= innermost) repeats_.pop_back();
     const Landmark& closer = (*labels_)[opener.closer];
     lexer_.go_to(ends ? closer.after : opener.keyword == Keyword::while_ ? opener.at : closer.at);
@@ -256,20 +257,33 @@ Result<void> Flow::call(const OWord& word, Block& block) {
                       "copy the subroutine into this file: no other files are opened");
     }
     if ((*labels_)[sub].closer < 0) return refuse_unclosed(sub);
+    Call call;
+    call.entry = (*labels_)[sub].after;
+    call.name = word.label;
+    call.has_variables = true;
+    if (auto pushed = push(std::move(call), block.line, block.column); !pushed) return pushed;
+    parameters_.enter({arguments.data(), count});
+    return {};
+}
+
+// Begins a call: the callee runs next.
+Result<void> Flow::push(Call call, int line, int column) {
     if (calls_.size() == kDeepestCall) {
-        return refuse(block.line, block.column, "subroutines call each other more than 100 deep",
+        return refuse(line, column, "subroutines call each other more than 100 deep",
                       "end the recursion earlier");
     }
-    calls_.push_back({lexer_.place(), sub, 0, repeats_.size(), false});
-    parameters_.enter({arguments.data(), count});
-    lexer_.go_to((*labels_)[sub].after);
+    call.back = lexer_.place();
+    call.repeats = repeats_.size();
+    call.macro_loops = macro_loops_.size();
+    lexer_.go_to(call.entry);
+    calls_.push_back(std::move(call));
     return {};
 }
 
 Result<void> Flow::return_from_sub(const OWord& word, Block& block) {
     const auto value = read_condition(block, word.keyword, false);
     if (!value) return std::unexpected(value.error());
-    if (calls_.empty() || calls_.back().is_program || (*labels_)[calls_.back().callee].label != word.label) {
+    if (calls_.empty() || calls_.back().is_program || calls_.back().name != word.label) {
         return refuse(block.line, block.column,
                       called_label(word.label) + " " + std::string(spelling(word.keyword)) +
                           " stands outside of that subroutine",
@@ -278,53 +292,73 @@ Result<void> Flow::return_from_sub(const OWord& word, Block& block) {
     parameters_.leave();
     parameters_.set_returned(*value);
     lexer_.go_to(calls_.back().back);
-    forget_loops(calls_.back().loops);
+    forget_loops(calls_.back());
     calls_.pop_back();
     return {};
 }
 
-Result<void> Flow::call_program(const Word& number, long times, int line) {
+Result<void> Flow::call_program(const Word& number, std::int64_t times, int line,
+                                const Arguments* arguments) {
     if (auto known = require_labels(); !known) return known;
-    const std::string label = std::to_string(static_cast<long>(number.value));
-    const int program = labels_->find_program(label);
+    const auto value = static_cast<std::int64_t>(number.value);
+    std::string label = std::to_string(value);
+    int program = labels_->find_program(label);
+    // Older controls write the number of times before the four digits of the program: P30100.
+    if (program < 0 && value > kFourDigits && arguments == nullptr) {
+        const std::string last = std::to_string(value % kFourDigits);
+        if (const int found = labels_->find_program(last); found >= 0) {
+            program = found;
+            label = last;
+            times *= value / kFourDigits;
+        }
+    }
     if (program < 0) {
-        return refuse(line, number.column, "M98 calls O" + label + ", which this file does not have",
+        return refuse(line, number.column,
+                      std::string(arguments == nullptr ? "M98" : "G65") + " calls O" + label +
+                          ", which this file does not have",
                       "copy the subprogram behind the main program, from O" + label + " to M99");
     }
-    if (calls_.size() == kDeepestCall) {
-        return refuse(line, number.column, "subprograms call each other more than 100 deep",
-                      "end the recursion earlier");
-    }
-    calls_.push_back({lexer_.place(), program, times - 1, repeats_.size(), true});
-    lexer_.go_to((*labels_)[program].after);
+    Call call;
+    call.entry = (*labels_)[program].after;
+    call.name = "O" + label;
+    call.times_left = times - 1;
+    call.is_program = true;
+    call.has_variables = arguments != nullptr;
+    if (auto pushed = push(std::move(call), line, number.column); !pushed) return pushed;
+    if (arguments != nullptr) parameters_.enter_macro(*arguments);
     return {};
 }
 
-Result<bool> Flow::return_from_program(int line, int column) {
+Result<bool> Flow::return_from_program(int line, int column, const Word* to) {
     if (calls_.empty()) return false;
     Call& call = calls_.back();
     if (!call.is_program) {
         return refuse(line, column, "M99 stands in a subroutine that an O-word has called",
                       "end it with endsub");
     }
-    forget_loops(call.loops);
+    forget_loops(call);
     if (call.times_left > 0) {
         --call.times_left;
-        lexer_.go_to((*labels_)[call.callee].after);
+        lexer_.go_to(call.entry);
         return true;
     }
-    lexer_.go_to(call.back);
+    const TextLines back = call.back;
+    if (call.has_variables) parameters_.leave();
     calls_.pop_back();
+    lexer_.go_to(back);
+    if (to == nullptr) return true;
+    if (auto jumped = jump(static_cast<int>(to->value), line, back); !jumped) {
+        return std::unexpected(jumped.error());
+    }
     return true;
 }
 
 Result<void> Flow::end_text(int line) const {
     if (calls_.empty()) return {};
     const Call& call = calls_.back();
-    const std::string& label = (*labels_)[call.callee].label;
     return refuse(line, 1,
-                  call.is_program ? "the text ends before M99 has ended O" + label
-                                  : "the text ends before o" + label + " endsub",
+                  call.is_program ? "the text ends before M99 has ended " + call.name
+                                  : "the text ends before o" + call.name + " endsub",
                   "end each subprogram with M99 and each sub with endsub");
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Control flow: O-word subroutines, branches and loops of LinuxCNC, M98 and M99 of the Fanuc family. It
-// decides which line the lexer reads next.
+// Control flow: O-word subroutines, branches and loops of LinuxCNC, M97 to M99, G65 and macro statements of
+// the Fanuc family. It decides which line the lexer reads next.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,10 +28,17 @@ class Flow {
     // outermost level.
     Result<bool> run(Block& block);
 
-    // M98: runs the program of that number, `times` times.
-    Result<void> call_program(const Word& number, long times, int line);
-    // M99. Returns false if no program has called this one.
-    Result<bool> return_from_program(int line, int column);
+    // Runs a macro block that the lexer has just read.
+    Result<void> run_macro(const Block& block);
+
+    // M98: runs the program of that number, `times` times. G65: with variables of its own.
+    using Arguments = std::array<double, kMacroParameters>;
+    Result<void> call_program(const Word& number, std::int64_t times, int line,
+                              const Arguments* arguments = nullptr);
+    // M97: the same for lines of this program, from N to M99.
+    Result<void> call_lines(const Word& number, std::int64_t times, int line);
+    // M99. Returns false if no program has called this one. `to`: the line N that it returns to, or null.
+    Result<bool> return_from_program(int line, int column, const Word* to);
     // At the end of the text. Refuses an open subroutine or loop.
     Result<void> end_text(int line) const;
     bool is_outermost() const { return calls_.empty(); }
@@ -40,11 +49,14 @@ class Flow {
   private:
     // A call without its return so far.
     struct Call {
-        TextLines back;           // the line after the call
-        int callee = -1;          // landmark of the called program
-        long times_left = 0;      // after this run
-        std::size_t loops = 0;    // number of running loops at the call
-        bool is_program = false;  // M98
+        TextLines back = TextLines({});   // the line after the call
+        TextLines entry = TextLines({});  // first line of the callee
+        std::string name;                 // of the callee, for messages and o-words
+        std::int64_t times_left = 0;      // after this run
+        std::size_t repeats = 0;          // number of running repeat loops at the call
+        std::size_t macro_loops = 0;      // the same of DO
+        bool is_program = false;          // M97, M98, G65
+        bool has_variables = false;       // a level of its own
     };
     // A running repeat loop.
     struct Repeat {
@@ -52,7 +64,18 @@ class Flow {
         long left = 0;
     };
 
+    // A running DO.
+    struct MacroLoop {
+        int number = 0;
+        TextLines at = TextLines({});  // its WHILE
+    };
+
     Result<void> require_labels();
+    Result<void> require_places();
+    Result<void> jump(int number, int line, const TextLines& from);
+    Result<void> begin_macro_loop(const Block& block);
+    Result<void> end_macro_loop(const Block& block);
+    Result<void> push(Call call, int line, int column);
     Result<void> branch(int index, Block& block);
     Result<void> leave_branches(int index);
     Result<void> begin_loop(int index, Block& block);
@@ -63,15 +86,21 @@ class Flow {
     Result<std::optional<double>> read_condition(Block& block, Keyword keyword, bool required);
     std::unexpected<Error> refuse_unclosed(int index) const;
     std::unexpected<Error> refuse(int line, int column, std::string cause, std::string remedy) const;
-    void forget_loops(std::size_t first) { repeats_.resize(first); }
+    void forget_loops(const Call& call) {
+        repeats_.resize(call.repeats);
+        macro_loops_.resize(call.macro_loops);
+    }
+    std::size_t first_macro_loop() const { return calls_.empty() ? 0 : calls_.back().macro_loops; }
 
     std::string_view bytes_;
     const GcodeOptions& options_;
     Lexer& lexer_;
     Parameters& parameters_;
-    std::optional<Labels> labels_;  // of the whole text, made at the first use
+    std::optional<Labels> labels_;       // of the whole text, made at the first use
+    std::optional<MacroPlaces> places_;  // the same
     std::vector<Call> calls_;
     std::vector<Repeat> repeats_;
+    std::vector<MacroLoop> macro_loops_;
     RunLimit limit_;
 };
 

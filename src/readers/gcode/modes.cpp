@@ -20,7 +20,8 @@ const Limit& feed_limit(FeedMode mode) {
 void set_units(const Command& command, State& state) {
     const auto code = command.g(GGroup::units);
     if (!code) return;
-    state.unit_mm = mm_per(code->tenths == 200 ? LengthUnit::inch : LengthUnit::millimetre);
+    const bool is_inch = code->tenths == 200 || code->tenths == 700;
+    state.unit_mm = mm_per(is_inch ? LengthUnit::inch : LengthUnit::millimetre);
     state.unit_stated = true;
 }
 
@@ -47,8 +48,15 @@ Result<void> set_feed(Command& command, State& state, const Output& output) {
     return {};
 }
 
-Result<void> set_spindle(Command& command, State& state, const Output& output) {
-    if (const Word* word = command.use('S')) {
+// S of G4 is a time (Marlin), S of G50 the largest speed of a lathe.
+bool is_speed(const Command& command) {
+    const bool is_dwell = command.has_g(GGroup::non_modal, 40) && !command.has_any("PXU");
+    return !is_dwell && !command.has_g(GGroup::scaling, 500);
+}
+
+Result<void> set_spindle(Command& command, State& state, Output& output) {
+    if (is_speed(command) && command.has('S')) {
+        const Word* word = command.use('S');
         if (word->value != 0) {
             if (auto good = in_range(kLimits.spindle_speed, word->value, command, *word, output); !good)
                 return good;
@@ -57,9 +65,19 @@ Result<void> set_spindle(Command& command, State& state, const Output& output) {
         state.spindle_stands = word->value == 0;
     }
     if (const auto code = command.m(MGroup::spindle)) {
-        state.spindle = code->tenths == 30   ? Spindle::clockwise
-                        : code->tenths == 40 ? Spindle::counter_clockwise
-                                             : Spindle::off;
+        state.spindle = code->tenths == 50                          ? Spindle::off
+                        : code->tenths == 40 || code->tenths == 140 ? Spindle::counter_clockwise
+                                                                    : Spindle::clockwise;
+        // Printer controls take the speed in percent as P.
+        const bool is_others = command.has_any("XYZ") || command.g(GGroup::non_modal) ||
+                               command.g(GGroup::path_control) || command.m(MGroup::subprogram);
+        const Word* share = is_others ? nullptr : command.use('P');
+        if (share != nullptr && output.first(Note::spindle_number)) {
+            output.warn(command.line(),
+                        code_text('M', code->tenths) +
+                            " with P: a share of the full speed, which only the machine knows; "
+                            "the spindle is taken as turning");
+        }
     }
     return {};
 }
@@ -70,11 +88,13 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
             if (auto good = in_range(kLimits.tool_number, word->value, command, *word, output); !good)
                 return good;
         }
-        if (word->value != std::floor(word->value)) {
-            return output.refuse(command.line(), word->column, "the tool number is not a whole number",
-                                 "correct T");
-        }
         state.selected_tool = static_cast<int>(word->value);
+        if (word->value != std::floor(word->value) && output.first(Note::tool_offset)) {
+            output.warn(command.line(),
+                        "the digits of T after the point are taken as the number of the tool's "
+                        "offset (Fagor): tool " +
+                            std::to_string(state.selected_tool));
+        }
     }
     if (command.m(MGroup::tool)) {
         state.loaded_tool = state.selected_tool;
@@ -111,26 +131,55 @@ Result<void> set_tool_length(Command& command, Output& output) {
     return {};
 }
 
-void set_work_system(const Command& command, State& state, Output& output) {
+// Returns the place of the work system in State::work.
+Result<int> work_index(Command& command, Code code, const Output& output) {
+    if (code.tenths >= 1100 && code.tenths <= 1290) return kWorkSystems + (code.tenths - 1100) / 10;
+    const bool is_numbered = code.tenths == 541 || code.tenths == 1540;
+    const bool owns_p = code.tenths == 540 && command.has('P') && !command.g(GGroup::path_control) &&
+                        !command.g(GGroup::non_modal) && !command.g(GGroup::motion) && !command.has_any_m();
+    if (!is_numbered && !owns_p) {
+        return code.tenths <= 590 ? (code.tenths - 540) / 10 : 5 + code.tenths - 590;
+    }
+    const Word* number = command.use('P');
+    if (number == nullptr || !(number->value >= 1 && number->value <= kMoreWorkSystems) ||
+        number->value != std::floor(number->value)) {
+        return output.refuse(command.line(), number == nullptr ? code.column : number->column,
+                             code_text('G', code.tenths) + " without a work system P from 1 to 300",
+                             "write its number as P");
+    }
+    return kWorkSystems + static_cast<int>(number->value) - 1;
+}
+
+Result<void> set_work_system(Command& command, State& state, Output& output) {
     const auto code = command.g(GGroup::work_offset);
-    if (!code) return;
-    const int tenths = code->tenths;
+    if (!code) return {};
+    const auto index = work_index(command, *code, output);
+    if (!index) return std::unexpected(index.error());
     const double before_deg = state.active().turn_deg;
-    state.active_work = tenths <= 590 ? (tenths - 540) / 10 : 5 + tenths - 590;
+    state.active_work = *index;
     state.reframe(before_deg);
     const bool unset = state.active_work != 0 && !state.work[static_cast<std::size_t>(state.active_work)].set;
     if (unset && output.first(Note::work_system)) {
         output.warn(command.line(),
-                    code_text('G', tenths) +
+                    code_text('G', code->tenths) +
                         ": the program does not say where this work system lies; its origin is taken as the "
                         "stock's");
     }
+    return {};
+}
+
+// G5 P10000, G5.1 Q1: look-ahead and smoothing of Fanuc controls, which leave the path as it is.
+bool is_look_ahead(const Command& command, Code code, const Output& output) {
+    if (code.tenths != 50 && code.tenths != 51) return false;
+    if (output.options.dialect == GcodeDialect::fanuc) return true;
+    return command.has_any("PQ") && !command.has_any("XYZIJ");
 }
 
 void set_motion_mode(Command& command, State& state, const Output& output) {
     const auto code = command.g(GGroup::motion);
+    if (command.g(GGroup::cycle_end)) state.motion = MotionMode::none;
     if (!code) return;
-    if (output.options.dialect == GcodeDialect::fanuc && (code->tenths == 50 || code->tenths == 51)) {
+    if (is_look_ahead(command, *code, output)) {
         for (const char letter : {'P', 'Q', 'R', 'X', 'Y', 'Z'}) command.use(letter);
         command.hide_axes();  // look-ahead and smoothing are ignored
         return;
@@ -162,12 +211,44 @@ void set_motion_mode(Command& command, State& state, const Output& output) {
             state.motion = MotionMode::nurbs_with_knots;
             break;
         case 53:
-        case 800:
             state.motion = MotionMode::none;
             break;
         default:
             begin_cycle(*code, state);
             break;
+    }
+    if (code->tenths <= 30) state.plain_motion = state.motion;
+}
+
+// Codes that move nothing, with their words.
+void pass_idle_codes(Command& command, State& state, Output& output) {
+    if (command.g(GGroup::path_control)) {
+        for (const char letter : {'P', 'Q'}) command.use(letter);  // tolerances of rounded corners
+    }
+    if (const auto code = command.g(GGroup::scaling); code && command.has('S')) {
+        command.use('S');
+        if (output.first(Note::idle_code, code->tenths)) {
+            output.warn(command.line(), "S of G50, the largest speed of a lathe, is left out");
+        }
+    }
+    const auto code = command.g(GGroup::idle);
+    if (!code) return;
+    if (code->tenths == 740) {
+        state.single_quadrant = true;
+        return;
+    }
+    const bool has_places = code->tenths == 220 || code->tenths == 281 || code->tenths == 301;
+    if (has_places) {
+        for (const char letter : {'X', 'Y', 'Z', 'A', 'B', 'C', 'I', 'J', 'K'}) {
+            command.use(letter);
+            command.hide(letter);
+        }
+    }
+    if (!command.g(GGroup::motion)) {
+        for (const char letter : {'P', 'Q', 'R', 'E', 'I', 'J'}) command.use(letter);
+    }
+    if (has_places && output.first(Note::idle_code, code->tenths)) {
+        output.warn(command.line(), code_text('G', code->tenths) + " sets up the machine and moves nothing");
     }
 }
 
@@ -182,18 +263,19 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
         state.plane = code->tenths == 170 ? Plane::xy : code->tenths == 180 ? Plane::zx : Plane::yz;
     }
     if (auto done = set_tool_length(command, output); !done) return done;
-    set_work_system(command, state, output);
+    if (auto done = set_work_system(command, state, output); !done) return done;
+    pass_idle_codes(command, state, output);
+    if (auto done = set_program_frame(command, state, output); !done) return done;
     if (auto done = begin_compensation(command, state, output); !done) return done;
-    if (const auto code = command.g(GGroup::path_control); code && code->tenths == 640) {
-        command.use('P');  // tolerance for rounded corners; it is ignored
-        command.use('Q');
-    }
     if (command.m(MGroup::outputs) || command.m(MGroup::overrides) || command.m(MGroup::orientation)) {
         for (const char letter : {'P', 'Q', 'E'}) command.use(letter);
         if (command.m(MGroup::orientation) && !command.g(GGroup::motion)) command.use('R');
     }
     if (const auto code = command.g(GGroup::distance)) state.incremental = code->tenths == 910;
-    if (const auto code = command.g(GGroup::arc_distance)) state.absolute_centres = code->tenths == 901;
+    if (const auto code = command.g(GGroup::arc_distance)) {
+        state.absolute_centres = code->tenths == 901;
+        state.centres_stated = true;
+    }
     if (const auto code = command.g(GGroup::return_level)) {
         state.retract_to_r = code->tenths == 990;
         state.return_level_stated = true;

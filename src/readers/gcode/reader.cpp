@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "readers/gcode/calls.hpp"
 #include "readers/gcode/command.hpp"
 #include "readers/gcode/flow.hpp"
 #include "readers/gcode/modes.hpp"
@@ -14,7 +16,9 @@
 #include "readers/gcode/motion/offsets.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/gcode/motion/splines.hpp"
+#include "readers/gcode/passing.hpp"
 #include "readers/gcode/state.hpp"
+#include "readers/gcode/text/fanuc_variables.hpp"
 #include "readers/gcode/text/lexer.hpp"
 #include "readers/gcode/text/parameters.hpp"
 #include "readers/gcode/text/tool_comment.hpp"
@@ -30,6 +34,7 @@ class ProgramReader {
           parameters_(state_, output_),
           lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
           flow_(bytes, options, lexer_, parameters_, output_.moves) {
+        output_.text = bytes;
         state_.unit_mm = mm_per(options.default_unit);
         state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
     }
@@ -38,25 +43,59 @@ class ProgramReader {
         Block block;
         bool more = true;
         while (more) {
-            state_.line = lexer_.place().number() + 1;
-            const auto found = lexer_.next(block);
-            if (!found) return std::unexpected(found.error());
-            if (!*found) {
-                if (auto done = flow_.end_text(block.line); !done) return std::unexpected(done.error());
-                break;
+            auto goes_on = run_next(block);
+            if (goes_on) {
+                more = *goes_on;
+            } else if (!goes_on_after(goes_on.error())) {
+                return std::unexpected(std::move(goes_on.error()));
             }
-            const auto goes_on = run(block);
-            if (!goes_on) return std::unexpected(goes_on.error());
-            more = *goes_on;
         }
-        return finish(block.line);
+        auto program = finish(block.line);
+        if (!program) goes_on_after(program.error());
+        const std::vector<Error>* refusals = output_.options.refusals;
+        if (refusals != nullptr && !refusals->empty()) return std::unexpected(refusals->front());
+        return program;
     }
 
   private:
     // Returns false at the end of the program.
+    Result<bool> run_next(Block& block) {
+        state_.line = lexer_.place().number() + 1;
+        const auto found = lexer_.next(block);
+        if (!found) return std::unexpected(found.error());
+        if (!*found) {
+            if (auto done = flow_.end_text(block.line); !done) return std::unexpected(done.error());
+            return false;
+        }
+        return run(block);
+    }
+
+    // Keeps a refusal where the caller wants them all. The reading goes on without the block; where the tool
+    // is, nobody knows then.
+    bool goes_on_after(const Error& error) {
+        std::vector<Error>* refusals = output_.options.refusals;
+        if (refusals == nullptr) return false;
+        const bool is_new = std::none_of(refusals->begin(), refusals->end(),
+                                         [&](const Error& other) { return other.cause == error.cause; });
+        if (is_new) refusals->push_back(error);
+        if (refusals->size() >= GcodeOptions::kMostRefusals || is_over_) return false;
+        state_.known = {Known::lost, Known::lost, Known::lost};
+        state_.lost_line = error.line;
+        state_.compensation = {};
+        state_.left_at_mm.reset();
+        state_.nurbs = {};
+        state_.rotary.arrive();
+        return true;
+    }
+
+    // Returns false at the end of the program.
     Result<bool> run(Block& block) {
-        if (auto counted = flow_.count_step(block.line); !counted) return std::unexpected(counted.error());
+        if (auto counted = flow_.count_step(block.line); !counted) {
+            is_over_ = true;
+            return std::unexpected(counted.error());
+        }
         for (const std::string_view comment : block.comments) read_comment(comment, block.line);
+        note_writing(block, output_);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
                 output_.warn(block.line,
@@ -64,13 +103,29 @@ class ProgramReader {
             }
             return true;
         }
-        if (block.kind == BlockKind::percent) return !has_words_ && !std::exchange(has_percent_, true);
+        if (!block.setting.empty()) {
+            pass_setting(block, state_, output_);
+            return true;
+        }
+        if (block.kind == BlockKind::percent) return begins_or_goes_on(block);
         if (block.kind == BlockKind::o_word) return run_o_word(block);
         for (const Assignment& assignment : block.assignments) {
             if (auto done = assign(assignment, block.line); !done) return std::unexpected(done.error());
         }
+        if (block.kind == BlockKind::macro) {
+            has_words_ = true;
+            if (auto done = flow_.run_macro(block); !done) return std::unexpected(done.error());
+            return true;
+        }
+        if (ends_with_alarm(block)) return false;
         if (block.words.empty()) return true;
         has_words_ = true;
+        if (const Word* call = macro_call_in(block)) {
+            if (auto done = call_macro(block, *call, flow_, output_); !done) {
+                return std::unexpected(done.error());
+            }
+            return true;
+        }
 
         auto command = Command::of(block);
         if (!command) {
@@ -78,6 +133,18 @@ class ProgramReader {
             return std::unexpected(std::move(command.error()));
         }
         return execute(*command);
+    }
+
+    // '%' begins and ends a program; with text behind it inside, it is a remark of the one who wrote it.
+    bool begins_or_goes_on(const Block& block) {
+        if (!has_words_) return !std::exchange(has_percent_, true);
+        const bool is_remark = !block.label.empty() && block.label[0] != '(' && block.label[0] != ';';
+        if (is_remark) {
+            output_.warn(block.line,
+                         "a line with '%' and text is taken as a remark, what follows as the same set-up: " +
+                             std::string(block.label.substr(0, 60)));
+        }
+        return is_remark;
     }
 
     void read_comment(std::string_view comment, int line) {
@@ -91,11 +158,26 @@ class ProgramReader {
     Result<void> assign(const Assignment& assignment, int line) {
         has_words_ = true;
         const ParameterName& to = assignment.to;
-        auto done = to.number != 0 ? parameters_.set(to.number, assignment.value)
-                                   : parameters_.set(to.name, assignment.value);
+        auto done = to.name.empty() ? parameters_.set(to.number, assignment.value)
+                                    : parameters_.set(to.name, assignment.value);
         if (done) return done;
         return output_.refuse(line, assignment.column, std::move(done.error().cause),
                               std::move(done.error().remedy));
+    }
+
+    // #3000 stops a Fanuc control with an alarm, #3006 with a message until somebody goes on.
+    bool ends_with_alarm(const Block& block) {
+        if (!parameters_.is_fanuc()) return false;
+        for (const Assignment& assignment : block.assignments) {
+            const int number = assignment.to.number;
+            if (number != kAlarm && number != kStopWithMessage) continue;
+            const std::string_view text = block.comments.empty() ? "" : block.comments.front();
+            output_.warn(block.line, (number == kAlarm ? "the control stops here with an alarm: "
+                                                       : "the control stops here with a message: ") +
+                                         std::string(text));
+            if (number == kAlarm) return true;
+        }
+        return false;
     }
 
     Result<bool> run_o_word(Block& block) {
@@ -138,66 +220,12 @@ class ProgramReader {
             command.use('P');
             command.use('L');
         }
-        if (const Word* word = command.first_unused()) return refuse_unused(command, *word);
-        if (calls) return call_or_return(command);
+        pass_unknown_codes(command, output_);
+        if (auto done = pass_unused_words(command, state_, output_); !done)
+            return std::unexpected(done.error());
+        if (calls) return call_or_return(command, flow_, output_);
         const auto stop = command.m(MGroup::stop);
         return !(stop && (stop->tenths == 20 || stop->tenths == 300));
-    }
-
-    // M98 P L and M99
-    Result<bool> call_or_return(Command& command) {
-        const Code code = *command.m(MGroup::subprogram);
-        const Word* number = command.use('P');
-        const Word* times = command.use('L');
-        const int line = command.line();
-        if (code.tenths == 990) {
-            if (number != nullptr) {
-                return output_.refuse(line, number->column, "M99 P (return to another line) is not read",
-                                      "let the control or the CAM system write the jump out");
-            }
-            const auto returned = flow_.return_from_program(line, code.column);
-            if (returned && !*returned) {
-                output_.warn(line, "M99 in the main program would run it again: it ends here");
-            }
-            return returned;
-        }
-        if (number == nullptr || !is_whole(*number, 1)) {
-            return output_.refuse(line, number == nullptr ? code.column : number->column,
-                                  "M98 needs the number of a program as P", "write M98 P1000 for O1000");
-        }
-        if (times != nullptr && !is_whole(*times, 0)) {
-            return output_.refuse(line, times->column, "L of M98 is no number of times",
-                                  "write a whole number");
-        }
-        if (times != nullptr && times->value == 0) return true;
-        const auto count = times == nullptr ? 1L : static_cast<long>(times->value);
-        if (auto done = flow_.call_program(*number, count, line); !done) return std::unexpected(done.error());
-        return true;
-    }
-
-    static bool is_whole(const Word& word, double least) {
-        constexpr double most = 999'999'999;
-        return word.value >= least && word.value <= most && word.value == std::floor(word.value);
-    }
-
-    std::unexpected<Error> refuse_unused(const Command& command, const Word& word) const {
-        const std::string letter(1, word.letter);
-        switch (word.letter) {
-            case 'U':
-            case 'V':
-            case 'W':
-                return output_.refuse(command.line(), word.column, "axes U, V and W are not read yet",
-                                      "let the CAM system write the path with X, Y and Z");
-            case 'I':
-            case 'J':
-            case 'K':
-            case 'R':
-                return output_.refuse(command.line(), word.column, letter + " without an arc to use it",
-                                      "write G2 or G3 before it, or delete the word");
-            default:
-                return output_.refuse(command.line(), word.column, letter + " without a code that uses it",
-                                      "delete the word, or add the code that it belongs to");
-        }
     }
 
     Result<motion::Program> finish(int last_line) {
@@ -221,6 +249,8 @@ class ProgramReader {
                 program.warnings.push_back(std::move(found));
             }
         }
+        output_.finish();
+        note_lathe(state_, output_);
         if (output_.moves == 0) output_.warn(0, "the program moves no tool");
         for (motion::DeclaredTool& tool : declared_) {
             tool.diameter_mm *= state_.unit_mm;
@@ -238,6 +268,7 @@ class ProgramReader {
     std::vector<motion::DeclaredTool> declared_;  // in units of the program until the end
     std::set<int> tool_lines_;
     bool has_percent_ = false, has_number_ = false, has_words_ = false;
+    bool is_over_ = false;  // its loops do not end
 };
 
 }  // namespace

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // G-code to moves: an interpreter of the LinuxCNC (RS274/NGC) and Fanuc family. It reads lines, arcs,
 // splines, canned cycles, cutter compensation, offsets, feed modes, tool changes; parameters, expressions,
-// subroutines, loops and branches. Unknown codes are refused with line and column; the reader never guesses.
-// Blocks with '/' are skipped; arc centres are incremental until G90.1. Any thread; allocates; time linear in
-// the bytes, or in the blocks that loops run, which are limited.
+// subroutines, loops and branches. What leaves the path as it is and is not known is passed over with a
+// warning; what may change the path and is not known is refused with line and column. Blocks with '/' are
+// skipped; arc centres are incremental until G90.1, or until an arc fits only an absolute one. Any thread;
+// allocates; time linear in the bytes, or in the blocks that loops run, which are limited.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +46,11 @@ struct GcodeOptions {
     bool skip_deletable_blocks = true;         // blocks with a leading '/'
     std::vector<GcodeTool> tools;              // for G41 and G42; they override the tools of the program
     const motion::Machine* machine = nullptr;  // for rotary words; motion::check accepts it
-    std::size_t max_moves = kMostMoves;        // more are refused
+    // Receives all refusals of the program, each cause once, up to kMostRefusals: refused blocks are left out
+    // then, and the first refusal is the result. Null: reading ends at the first.
+    std::vector<Error>* refusals = nullptr;
+    static constexpr std::size_t kMostRefusals = 20;
+    std::size_t max_moves = kMostMoves;  // more are refused
     // Loops and calls that run longer count as endless (control/run_limit.hpp).
     std::size_t max_steps = 20'000'000;  // blocks
     double max_loop_s = 3;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "readers/gcode/text/lexer.hpp"
 
 namespace tribo::readers::gcode {
 
@@ -54,11 +55,32 @@ std::optional<double> Output::tool_length_mm(int number) const {
     return tool == given_.end() ? std::nullopt : tool->second.length_mm;
 }
 
-bool Output::first(Note note) {
-    return !std::exchange(noted_[static_cast<std::size_t>(note)], true);
+bool Output::writes_axis(std::size_t axis) {
+    auto& known = writes_axis_[axis];
+    if (!known) known = has_word(text, "XYZ"[axis]);
+    return *known;
+}
+
+void Output::leave_out(int line, int lost_line) {
+    if (left_out_++ != 0) return;
+    left_out_line_ = line;
+    left_out_since_ = lost_line;
+}
+
+void Output::finish() {
+    if (left_out_ == 0) return;
+    std::string text = "this move starts at a place that only the machine knows since line " +
+                       std::to_string(left_out_since_) + ": it is left out, the path goes on from its end";
+    if (left_out_ > 1) text += " (" + std::to_string(left_out_) + " such moves in all)";
+    warn(left_out_line_, std::move(text));
 }
 
 void Output::warn(int line, std::string text) {
+    // Loops may find ever new things to say.
+    constexpr std::size_t most = 1000;
+    if (program.warnings.size() > most) return;
+    if (program.warnings.size() == most)
+        text = "there are more than " + std::to_string(most) + " warnings: the others are not shown";
     program.warnings.push_back({options.source_name, line, std::move(text)});
 }
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.hpp"
@@ -13,11 +15,11 @@
 #include "motion/curve/bezier_motion.hpp"
 #include "readers/control/machine_run.hpp"
 #include "readers/gcode/motion/contour.hpp"
+#include "readers/gcode/motion/program_frame.hpp"
 #include "readers/gcode/reader.hpp"
 
 namespace tribo::readers::gcode {
 
-enum class Plane { xy, zx, yz };  // G17 G18 G19
 enum class FeedMode { per_minute, inverse_time, per_turn };
 enum class MotionMode {
     none,
@@ -42,6 +44,9 @@ Vec3 turned(Vec3 v, double degrees);
 motion::Move turned(const motion::Move& move, double degrees);
 
 inline constexpr int kWorkSystems = 9;  // G54 to G59, G59.1 to G59.3
+// G54.1 P1 to P300 behind them; G154 P1 to P99 and G110 to G129 are the first of these (Haas).
+inline constexpr int kMoreWorkSystems = 300;
+inline constexpr int kAllWorkSystems = kWorkSystems + kMoreWorkSystems;
 
 struct WorkSystem {
     Vec3 origin_mm;       // in the frame of the stock
@@ -76,6 +81,7 @@ struct Compensation {
     bool has_begun = false;  // a move in the plane has reached the offset contour
     int code = 400;          // in tenths
     int line = 0;            // of that code
+    double number = 0;       // its D, else the tool
     Plane plane = Plane::xy;
     double left_mm = 0;                 // radius of the cutter; negative: to the right of the contour
     Point at;                           // position of the tool at its start
@@ -93,7 +99,7 @@ struct RotaryState {
     bool tip_control = false;     // coordinates are those of the tip in the stock, not those of the machine
     bool by_length_code = false;  // switched on by G43.4 or its like; G49 ends it
     bool vectors = false;         // I J K of a line are the tool axis (G43.5)
-    std::array<Vec3, kWorkSystems> origin_rad{};
+    std::array<Vec3, kAllWorkSystems> origin_rad{};
 
     // Tool axis when vectors are read without a machine.
     Vec3 now_axis{0, 0, 1}, target_axis{0, 0, 1};
@@ -113,7 +119,12 @@ struct State {
     Plane plane = Plane::xy;
     bool incremental = false;
     bool absolute_centres = false;  // G90.1
+    bool centres_stated = false;    // by G90.1, G91.1, or by an arc that fits only one of them
+    int ambiguous_arc_line = 0;     // of the first arc that fits both ways; 0: none so far
+    bool single_quadrant = false;   // G74 beside a motion: arc centres may lack their signs
     MotionMode motion = MotionMode::none;
+    MotionMode plain_motion = MotionMode::none;  // the last of G0 to G3; it goes on after G80
+    ProgramFrame frame;
     Cycle cycle;
     Nurbs nurbs;
     Compensation compensation;
@@ -133,8 +144,10 @@ struct State {
     int selected_tool = 0;
     int loaded_tool = 0;
     bool has_changed_tool = false;
+    std::optional<double> offset_number;  // the last D that stood without G41 or G42
+    bool has_y = false;                   // the program has a Y word
 
-    std::array<WorkSystem, kWorkSystems> work;
+    std::array<WorkSystem, kAllWorkSystems> work;
     int active_work = 0;
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
@@ -161,6 +174,10 @@ struct State {
     bool knows_tip() const {
         return known[0] == Known::yes && known[1] == Known::yes && known[2] == Known::yes;
     }
+    // Only the machine knows where the tip is.
+    bool has_lost_tip() const {
+        return known[0] == Known::lost || known[1] == Known::lost || known[2] == Known::lost;
+    }
     // G40, G41, ... in tenths.
     double compensation_code() const { return compensation.code; }
     // The cutting tool. Before the first M6 it is the tool of the T word: no other tool can be in the
@@ -168,7 +185,7 @@ struct State {
     int tool() const { return has_changed_tool ? loaded_tool : selected_tool; }
 };
 
-// Assumptions with one warning per program, however often they are made.
+// Assumptions with one warning per program (some: per letter or code), however often they are made.
 enum class Note {
     no_unit,
     unstated_axes,
@@ -181,6 +198,30 @@ enum class Note {
     tool_length,
     machine_position,
     tool_without_change,
+    unused_word,
+    unknown_m,
+    idle_code,
+    nested_comment,
+    open_comment,
+    deleted_rest,
+    setting,
+    print,
+    motion_after_cycle,
+    motion_assumed,
+    tool_offset,
+    tool_register,
+    spindle_number,
+    wrong_spindle,
+    compensation_unknown,
+    compensation_in_space,
+    centres,
+    pitch,
+    probing,
+    whole_peck,
+    lost_preset,
+    empty_code,
+    scale,
+    coarse_arc,
     unassigned_parameter,
     return_level,
     bore_shift,
@@ -189,7 +230,6 @@ enum class Note {
     preset_as_origin,
     deletable_blocks,
     rotary_home,
-    count
 };
 
 // Receives the moves, warnings and errors of the blocks.
@@ -212,6 +252,7 @@ class Output {
     const GcodeOptions& options;
     motion::Program program;
     std::size_t moves = 0;              // so far
+    std::string_view text;              // of the program
     std::optional<MachineRun> machine;  // absent: a machine of three axes
 
     // Adds a move in the frame of the stock.
@@ -221,8 +262,14 @@ class Output {
     std::optional<double> tool_length_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_[tool.number] = tool; }
 
-    // Returns true at the first call for a note.
-    bool first(Note note);
+    // Returns true at the first call for a note, and for a letter or code that it is about.
+    bool first(Note note, int about = 0) { return noted_.emplace(note, about).second; }
+    // True if the program has a word of the axis 0 to 2 (X Y Z).
+    bool writes_axis(std::size_t axis);
+    // A move is left out, because it starts where only the machine knows.
+    void leave_out(int line, int lost_line);
+    // Adds the warnings about all that was left out.
+    void finish();
     void warn(int line, std::string text);
     std::unexpected<Error> refuse(int line, int column, std::string cause, std::string remedy) const;
     std::unexpected<Error> refuse_more_moves(int line) const;
@@ -230,7 +277,10 @@ class Output {
   private:
     MoveSink* sink_;
     std::map<int, GcodeTool> given_, declared_;  // by number: of the options, of the program
-    std::array<bool, static_cast<std::size_t>(Note::count)> noted_{};
+    std::set<std::pair<Note, int>> noted_;
+    std::array<std::optional<bool>, 3> writes_axis_;  // once it was asked
+    std::size_t left_out_ = 0;
+    int left_out_line_ = 0, left_out_since_ = 0;  // the first of them
 };
 
 }  // namespace tribo::readers::gcode

@@ -40,6 +40,15 @@ Door gcode(const Limit& limit, const std::string& before, const std::string& aft
     return door(limit, "G-code", ready + before, after, read, scale);
 }
 
+Door fanuc(const Limit& limit, const std::string& before) {
+    const auto read = [](const std::string& text) {
+        readers::GcodeOptions options;
+        options.dialect = readers::GcodeDialect::fanuc;
+        return readers::read_gcode(text, options);
+    };
+    return door(limit, "Fanuc", "G21 G90 G0 X0 Y0 Z0\n" + before, "\n", read);
+}
+
 Door heidenhain(const Limit& limit, const std::string& before, const std::string& after = "\n",
                 double scale = 1) {
     const std::string ready = "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S2000 F500\n2 L X+0 Y+0 Z+10 R0 FMAX M3\n";
@@ -104,11 +113,16 @@ Doors program_doors() {
         gcode(l.coordinate, "G0 Y"),
         gcode(l.coordinate, "G0 Z"),
         gcode(l.coordinate, "G92 X"),
+        gcode(l.coordinate, "G52 X"),
+        fanuc(l.coordinate, "#5221="),
         gcode(l.feed, "G94 F"),
         gcode(l.feed_per_turn, "G95 F"),
         gcode(l.inverse_time, "G93 G1 X1 F"),
         gcode(l.spindle_speed, "S"),
         gcode(l.dwell, "G4 P"),
+        gcode(l.dwell, "G4 S"),
+        gcode(l.rotary_angle, "G68 X0 Y0 R"),
+        gcode(l.rotary_angle, "G16\nG0 X1 Y"),
         gcode(l.dwell, cycle),
         gcode(l.tool_number, "T"),
         gcode(l.offset_diameter, "G1 F100\nG41.1 D"),

@@ -101,15 +101,23 @@ RC_GTEST_PROP(GcodeArc, RadiusAndCentreGiveTheSameArc, ()) {
 }
 
 TEST(GcodeArc, ToleratesTheRoundingThatLinuxcncTolerates) {
-    const auto reads = [](const char* block) {
-        return read_gcode(std::string("G21 M3 F100\nG0 X10 Y0 Z0\n") + block).has_value();
+    enum Reading { silent, said, refused };
+    const auto reading_of = [](const std::string& text) {
+        const auto read = read_gcode("M3 F100\n" + text);
+        if (!read) return refused;
+        return warns_of(*read, 3, "the radius of an arc differs at its start and end") ? said : silent;
     };
-    EXPECT_TRUE(reads("G3 X0 Y10.0049 I-10"));
-    EXPECT_TRUE(reads("G3 X0 Y10.0099 I-10"));  // under 0.1 % of the radius
-    EXPECT_FALSE(reads("G3 X0 Y10.011 I-10"));  // over it
+    const std::string mm = "G21 G0 X10 Y0 Z0\n", inches = "G20 G0 X1 Y0 Z0\n";
+    EXPECT_EQ(reading_of(mm + "G3 X0 Y10.0049 I-10"), silent);
+    EXPECT_EQ(reading_of(mm + "G3 X0 Y10.0099 I-10"), silent);  // under 0.1 % of the radius
+    EXPECT_EQ(reading_of(mm + "G3 X0 Y10.011 I-10"), said);     // over it
+    EXPECT_EQ(reading_of(mm + "G3 X0 Y10.02828 I-10"), said);   // 0.02 sqrt(2), LinuxCNC's tolerance
+    EXPECT_EQ(reading_of(mm + "G3 X0 Y10.02829 I-10"), refused);
+    EXPECT_EQ(reading_of(inches + "G3 X0 Y1.002828 I-1"), said);
+    EXPECT_EQ(reading_of(inches + "G3 X0 Y1.002829 I-1"), refused);
     // Radius 1000: 0.1 % would be 1 mm, but never more than 0.5 mm.
-    EXPECT_TRUE(reads("G3 X-990 Y1000.4 I-1000"));
-    EXPECT_FALSE(reads("G3 X-990 Y1000.6 I-1000"));
+    EXPECT_EQ(reading_of(mm + "G3 X-990 Y1000.4 I-1000"), silent);
+    EXPECT_EQ(reading_of(mm + "G3 X-990 Y1000.6 I-1000"), refused);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 #include "readers/gcode/reader.hpp"
 #include "readers/refusals.hpp"
@@ -17,8 +18,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {std::string("G0 X1\0 Y2", 9), 1, 6, "byte 0x00"},
         {"G0 X1 Y\xE4 Z2", 1, 7, "no number after Y"},
         {"\xFF\xFEG\0", 1, 1, "byte 0xFF"},
-        {"G21\nG0 X1 (open\n", 2, 7, "not closed"},
-        {"G21\nG0 X1 (a (b))\n", 2, 10, "inside another comment"},
+        {"G21\nG0 X1 (a (b) Y2\n", 2, 10, "inside another comment"},
         {"G21\nG0 X1 )\n", 2, 7, "')' cannot start a word"},
         {"G21\n12 X1\n", 2, 1, "'1' cannot start a word"},
         {"G21\nG0 X\n", 2, 4, "no number after X"},
@@ -26,11 +26,11 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G21\nG0 X1.2.3\n", 2, 4, "malformed"},
         {"G21\nG0 X.\n", 2, 4, "malformed"},
         {"G21\nG0 X--1\n", 2, 4, "no number after X"},
-        {"G21\nG0 X1E5\n", 2, 6, "E without a code"},
+        {"G21\nG0 X1E5\n", 2, 6, "like an exponent"},
+        {"G21\n$J=X5 F100\n", 2, 1, "$J (jogging)"},
         {"G21\nG0 X" + std::string(65, '1') + "\n", 2, 4, "more than 64 digits"},
         {"G21\nG0 X1 X2\n", 2, 7, "X stands twice"},
         {"G21\nG0 X1 N5\n", 2, 7, "line number"},
-        {"G21\nG0 X1 / Y1\n", 2, 7, "deletes whole blocks"},
         {"#1\n", 1, 1, "without '=' and a value"},
         {"#0=5\n", 1, 1, "from 1 to 5602"},
         {"#5603=5\n", 1, 1, "from 1 to 5602"},
@@ -79,7 +79,14 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"M98 P7 L-1\nM30\nO7\nM99\n", 1, 8, "no number of times"},
         {"M98 P7\nM30\nO7\nG21\n", 4, 1, "before M99 has ended O7"},
         {"M98 P7\nM30\nO7\nG21\nO8\nM99\n", 5, 1, "another program starts here"},
-        {"M98 P7\nM30\nO7\nM99 P10\n", 4, 5, "return to another line"},
+        {"M98 P7\nM30\nO7\nM99 P10\n", 4, 1, "no line N10"},
+        {"M98 P7\nM30\nO7\nM99 P1.5\n", 4, 5, "not the number of a line"},
+        {"M97\n", 1, 1, "M97 needs the number of a line"},
+        {"M97 P5\n", 1, 5, "M97 calls N5, which this program lacks"},
+        {"G65\n", 1, 1, "G65 needs the number of a program"},
+        {"G65 P9 X1\n", 1, 5, "G65 calls O9, which this file does not have"},
+        {"G1 G65 P9\n", 1, 1, "G65 is not the first word"},
+        {"G65 P9 N5 X1\n", 1, 8, "line number"},
         {"O1 (a)\nO2 (b)\n", 2, 1, "second program"},
         {"TRAORI\n", 1, 1, "'TRAORI' is not a letter with a number"},
         {"G1 X=5\n", 1, 4, "'X=' is a word of another dialect"},
@@ -89,20 +96,33 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G999\n", 1, 1, "G999 is not known"},
         {"G1.55\n", 1, 1, "G code is not known"},
         {"G-1\n", 1, 1, "G code is not known"},
-        {"M200\n", 1, 1, "M200 is not known"},
+        {"M1.55\n", 1, 1, "M code is not known"},
+        {"M-1\n", 1, 1, "M code is not known"},
+        {"M72\n", 1, 1, "M72 (restoring the modes that M70 has saved) is not read yet"},
         {"G68.2 X0\n", 1, 1, "planes) is not read yet"},
-        {"M66 P1\n", 1, 1, "M66 (reading inputs) is not read yet"},
+        {"G12 I5\n", 1, 1, "G12 (circular pockets) is not read yet"},
+        {"G7.1 C10\n", 1, 1, "G7.1 (cylindrical interpolation) is not read yet"},
+        {"G66 P9 X1\n", 1, 1, "G66 (modal macro calls) is not read yet"},
+        {"G70 I5 L8\n", 1, 1, "G70 (a pattern of holes, or a cycle of a lathe) is not read yet"},
+        {"G8\n", 1, 1, "G8 (lathe diameters) is not read yet"},
         {"G96 S100\n", 1, 1, "G96 (constant surface speed) is not read yet"},
         {"G33 Z1 K1\n", 1, 1, "G33 (moves synchronised with the spindle) is not read yet"},
-        {"G68 R30\n", 1, 1, "planes) is not read yet"},
-        {"G38.2 Z-5\n", 1, 1, "G38.2 (probing) is not read yet"},
-        {"G21\nX1 Y2\n", 2, 1, "without a motion code"},
-        {"G21 G0 X0 Y0 Z0\nG80\nX1\n", 3, 1, "without a motion code"},
+        {"G68 X0 Y0\n", 1, 1, "G68 without an angle R"},
+        {"G68 X0 Y0 R30 K1\n", 1, 1, "G68 about an axis in space"},
+        {"G51 X0\n", 1, 1, "G51 without its scale"},
+        {"G51 P0\n", 1, 5, "the scale is smaller"},
+        {"G51.1\n", 1, 1, "without the place of its mirror"},
+        {ready + "G51 I2 J3\nG2 X20 Y0 I5\n", 4, 4, "scaled differently along the axes"},
+        {ready + "G81 G80 Z-1 R1\n", 3, 5, "G80 contradicts G81"},
+        {ready + "G1 X1 ,R5\n", 3, 7, "',' cannot start a word"},
         {"G21 M3\nG0 X0 Y0 Z0\nG1 X1\n", 3, 4, "before any F"},
         {"G21 M3\nG0 X0 Y0 Z0\nG1 X1 F0\n", 3, 7, "feed rate 0"},
         {"G21\nG1 X1 F-5\n", 2, 7, "feed of -5 mm/min is out of range"},
         {"G21\nS-5\n", 2, 1, "spindle speed of -5 rpm is out of range"},
-        {"G21\nT1.5 M6\n", 2, 1, "not a whole number"},
+        {"G21\nT-1 M6\n", 2, 1, "tool number of -1 is out of range"},
+        {"G21\nT0.5 M6\n", 2, 1, "tool number of 0.5 is out of range"},
+        {"G54.1\n", 1, 1, "without a work system P from 1 to 300"},
+        {"G54 P301\n", 1, 5, "without a work system P from 1 to 300"},
         {ready + "G93 G1 X1\n", 3, 8, "G93 without its own F"},
         {ready + "G93 G1 X1 F2\nX2\n", 4, 1, "G93 without its own F"},
         {ready + "G93\nG94\nG1 X1\n", 5, 4, "before any F"},
@@ -111,20 +131,19 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G3 X0 Y11 I-10\n", 3, 11, "10 mm at its start and 11 mm at its end"},
         {ready + "G3 X0 Y10 R5\n", 3, 11, "radius 5 mm cannot reach the end, which lies 14.1421 mm"},
         {ready + "G3 X10 Y0 R5\n", 3, 11, "ends where it starts"},
-        {ready + "G3 X0 Y10 R10 I-10\n", 3, 11, "a radius and a centre"},
+        {ready + "G3 X0 Y10 R10 I-5\n", 3, 11, "a radius and a centre"},
         {ready + "G3 X0 Y10 I-10 K1\n", 3, 16, "no use for K"},
         {ready + "G3 X0 I0 J0\n", 3, 7, "centre at its start"},
         {ready + "G90.1 G3 X0 Y10 I0\n", 3, 17, "needs both I and J"},
         {ready + "G3 I-10 P0\n", 3, 9, "number of turns"},
         {ready + "G1 X5 I2\n", 3, 7, "I without an arc"},
-        {ready + "G1 X5 P2\n", 3, 7, "P without a code"},
+        {ready + "G1 X5 R2\n", 3, 7, "R without an arc"},
         {ready + "G1 X5 U2\n", 3, 7, "axes U, V and W"},
         {ready + "G1 X2000000\n", 3, 4, "X: the coordinate of 2000000 mm is out of range"},
         {ready + "G3 I9999999999\n", 3, 4, "I: the coordinate of 9999999999 mm is out of range"},
-        {ready + "G4\n", 3, 1, "without P"},
         {ready + "G4 P-1\n", 3, 4, "dwell of -1 s is out of range"},
         {ready + "G4 P1 X5\n", 3, 7, "X without a code"},
-        {ready + "G10 L11 P1 X0\n", 3, 5, "of G10 only"},
+        {ready + "G10 L50 P1 X0\n", 3, 5, "of G10 only"},
         {"G21\nG0 X1\nG10 L20 P1 Y0\n", 3, 1, "Y is not known"},
         {ready + "G10 L20 P1 R5\n", 3, 12, "does not turn work systems"},
         {"G21\nG0 X1\nG10 L2 P1 R5\n", 3, 11, "only one of X and Y is known"},
@@ -133,25 +152,18 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G10 L2 P10 X0\n", 3, 8, "work system P"},
         {ready + "G10 L2 P1 R500\n", 3, 11, "more than 360 degrees"},
         {ready + "G92\n", 3, 1, "without coordinates"},
-        {ready + "G1 G92 X5\n", 3, 4, "both claim"},
-        {ready + "G53 G1 X5\n", 3, 1, "G53"},
+        {ready + "G2 G92 X5\n", 3, 4, "both claim"},
         {ready + "G91 G53 G0 X5\n", 3, 5, "G91"},
-        {ready + "G28\nG1 X5\n", 4, 4, "unknown X, which line 3"},
-        {ready + "G28 Z20\nG92 Z0\n", 4, 1, "since line 3"},
+        {ready + "G28\nG5 X5 I1 J1 P1 Q1\n", 4, 4, "unknown X, which line 3"},
         {ready + "G81 X1 Z-2\n", 3, 1, "G81 without R"},
         {ready + "G81 X1 R2\n", 3, 1, "G81 without Z"},
         {ready + "G18 G81 X1 R2\n", 3, 5, "G81 without Y"},
         {ready + "G81 X1 Z3 R2\n", 3, 1, "bottom lies above its retract level"},
-        {ready + "G83 X1 Z-3 R2\n", 3, 1, "G83 without Q above 0"},
-        {ready + "G83 X1 Z-3 R2 Q0\n", 3, 1, "G83 without Q above 0"},
         {ready + "G83 X1 Z-3 R2 Q0.000001\n", 3, 1, "more than 100000 pecks"},
         {ready + "G82 X1 Z-3 R2 P-1\n", 3, 15, "the dwell of -1 s is out of range"},
-        {ready + "G81 X1 Z-3 R2 L0\n", 3, 15, "the cycle's repeats"},
-        {ready + "G81 X1 Z-3 R2 Q1\n", 3, 15, "Q without a code"},
-        {ready + "G74 X1 Z-3 R2\n", 3, 1, "does not turn left"},
-        {ready + "M4 G84 X1 Z-3 R2\n", 3, 4, "does not turn right"},
-        {ready + "G76 X1 Z-3 R2\n", 3, 1, "a thread on a lathe"},
-        {ready + "G87 X1 Z-3 R2\n", 3, 1, "back boring"},
+        {ready + "G81 X1 Z-3 R2 L-1\n", 3, 15, "the cycle's repeats"},
+        {ready + "G76 P1 Z-3 I1 J1 K1\n", 3, 1, "a thread on a lathe"},
+        {ready + "G87 X1 Z3 R-2\n", 3, 1, "back boring"},
         {ready + "G93 G81 X1 Z-3 R2 F1\n", 3, 5, "has no feed"},
         {ready + "G81 X1 Z-3 R2\nG0 X0\nR3\n", 5, 1, "R without an arc"},
         {ready + "G5 X5 I1 J1\n", 3, 1, "without its second control point"},
@@ -173,14 +185,15 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G6.2 P3 K1 X10\nK0 X5\n", 4, 1, "do not ascend"},
         {ready + "G6.2 P3 K0 X10\nK0 X5\nK0 X3\nK1\nG1 X0\n", 3, 1, "has 4 knots and not 6"},
         {ready + "G6.2 P3 K0 X10\nK1 X5\nK2 X3\nK3\nK4\nK5\nG1 X0\n", 3, 1, "do not hold its ends"},
-        {ready + "G41 D1\n", 3, 5, "needs the diameter of tool 1, which nothing states"},
         {ready + "G41.1\n", 3, 1, "without the cutter's diameter"},
         {ready + "G41.1 D-2\n", 3, 7, "of -2 mm is out of range"},
         {ready + "G42 D1.5\n", 3, 5, "not the number of a tool"},
         {ready + "G41.1 D4\nG1 X11\n", 4, 1, "not longer than the cutter's radius of 2 mm"},
         {ready + "G41.1 D4\nG1 X20\nG3 X22 Y2 J2\n", 5, 1, "radius 2 mm is smaller than the cutter's"},
         {ready + "G41.1 D4\nG1 X20\nY1\n", 5, 1, "without gouging line 4"},
-        {ready + "G41.1 D4\nG1 X20\nG41.1 D4\n", 5, 1, "G41.1 does not go with the cutter compensation"},
+        {ready + "G41.1 D4\nG1 X20\nG41.1 D5\n", 5, 1, "G41.1 does not go with the cutter compensation"},
+        {ready + "G41.1 D4\nG1 X20\nD5 X30\n", 5, 1, "D changes the cutter compensation"},
+        {ready + "G41.1 D4\nG68 X0 Y0 R10\n", 4, 1, "while cutter compensation is on"},
         {ready + "G41.1 D4\nG18\n", 4, 1, "G18 does not go with the cutter compensation that line 3"},
         {ready + "G41.1 D4\nG20\n", 4, 1, "G20 does not go"},
         {ready + "G41.1 D4\nG55\n", 4, 1, "G55 does not go"},
@@ -275,6 +288,60 @@ TEST(GcodeReader, RefusesMoreMovesThanAllowed) {
     const auto program = read_gcode("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X1\nX2\nX3\n", options);
     ASSERT_FALSE(program.has_value());
     EXPECT_EQ(program.error().line, 5);
+}
+
+// Statements of Fanuc macro programs.
+TEST(GcodeReader, RefusesMacroStatementsThatItCannotRun) {
+    const Refusal refusals[] = {
+        {"GOTO 10\n", 1, 1, "no line N10 to go to"},
+        {"GOTO 1.5\n", 1, 1, "not a whole one"},
+        {"IF #1 EQ 2 GOTO 10\n", 1, 1, "without its [condition]"},
+        {"IF [1 EQ 1] G0\n", 1, 13, "IF without GOTO or THEN"},
+        {"WHILE [1 EQ 1]\n", 1, 15, "WHILE without DO"},
+        {"WHILE [1 EQ 2] DO1\nG0 X1\n", 1, 1, "DO1 has no END1"},
+        {"G0 X1\nEND2\n", 2, 1, "END2 without its DO"},
+        {"WHILE [1 EQ 1] DO128\nEND128\n", 1, 1, "not one from 1 to 127"},
+        {"GOTO 10 G0 X1\n", 1, 9, "nothing but a comment"},
+        {"G0 X#5021\n", 1, 5, "a state of the control that nobody knows"},
+        {"#100000=1\n", 1, 1, "from 1 to 99999"},
+        {"#0=1\n", 1, 1, "#0 cannot be assigned"},
+        {"G65 P9 X1\nM30\nO8\nM99\n", 1, 5, "G65 calls O9"},
+        {"G65 P8 O1\nM30\nO8\nM99\n", 1, 8, "an O-word stands inside"},
+    };
+    expect_refused(refusals, [](const std::string& text, const char* name) {
+        GcodeOptions options;
+        options.source_name = name;
+        options.dialect = GcodeDialect::fanuc;
+        return read_gcode(text, options);
+    });
+}
+
+TEST(GcodeReader, GivesAllRefusalsAtOnce) {
+    std::vector<Error> refusals;
+    GcodeOptions options;
+    options.source_name = "part.nc";
+    options.refusals = &refusals;
+    const auto program = read_gcode(
+        "G21 M3 F100\nG0 X0 Y0 Z5\nG12 I5\nG1 Z-1\nX5 U2\nG12 I6\nG999\nG0 X1 $ Y2\nX9\n", options);
+    ASSERT_FALSE(program.has_value());
+    ASSERT_EQ(refusals.size(), 4U);
+    EXPECT_EQ(program.error().text(), refusals[0].text());
+    const int lines[] = {3, 5, 7, 8};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(refusals[i].line, lines[i]) << refusals[i].text();
+        EXPECT_EQ(refusals[i].file, "part.nc");
+        EXPECT_FALSE(refusals[i].remedy.empty());
+    }
+
+    // No more than are worth reading; a program without refusals leaves none.
+    refusals.clear();
+    std::string many = "G21\n";
+    for (int i = 0; i < 50; ++i) many += "G" + std::to_string(600 + i) + "\n";
+    EXPECT_FALSE(read_gcode(many, options).has_value());
+    EXPECT_EQ(refusals.size(), GcodeOptions::kMostRefusals);
+    refusals.clear();
+    EXPECT_TRUE(read_gcode("G21 G0 X0 Y0 Z0\n", options).has_value());
+    EXPECT_TRUE(refusals.empty());
 }
 
 }  // namespace

@@ -201,12 +201,15 @@ TEST(GcodeRotary, RefusesWhatTheMachineCannotDo) {
         fault("xyzac-trt", "G21 G0 X0 Y0 Z0\nM430\n"),
         "p.nc:2:1: error: M430 switches to kinematics that only its own machine knows; use M428 for tool "
         "tip control, M429 for none");
-    EXPECT_EQ(fault("xyzac-trt", "G21 G0 X0 Y0 Z0\nG92 C0\n"),
-              "p.nc:2:1: error: G92 with rotary axes is not read yet; set their zero with G10 L2, or let the "
-              "CAM system write machine angles");
-    EXPECT_EQ(fault("xyzac-trt", "G21 G80 A30\n"),
-              "p.nc:1:9: error: coordinates without a motion code in force; write G0, G1, G2 or G3 on this "
-              "line or before it");
+}
+
+TEST(GcodeRotary, GivesRotaryAxesNewAnglesWhereTheyStand) {
+    const std::string begin = "G21 F100\nG0 X10 Y0 Z0 C90\n";
+    const motion::Program plain = on("xyzac-trt", begin + "G1 X20 C120\n");
+    const motion::Program preset = on("xyzac-trt", begin + "G92 C0\nG1 X20 C30\n");
+    ASSERT_FALSE(plain.moves.empty());
+    expect_near(preset.moves.back().end.tip_mm, plain.moves.back().end.tip_mm);
+    EXPECT_NEAR(feed_mm(preset), feed_mm(plain), 1e-9);
 }
 
 TEST(GcodeRotary, RefusesATurnThatBecomesMoreMovesThanFit) {

@@ -2,6 +2,7 @@
 #include "readers/gcode/motion/arc.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/math.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -16,13 +17,14 @@ constexpr double kSamePointMm = 1e-6;
 constexpr double kRadiusToleranceMm = 0.005;
 
 struct RadiusTolerance {
-    double always_mm, largest_mm;
+    double always_mm, largest_mm, coarse_mm;
 };
 constexpr double kRelativeTolerance = 0.001;
 
 RadiusTolerance tolerance_for(double unit_mm) {
-    if (unit_mm == 1) return {0.005, 0.5};
-    return {0.0005 * unit_mm, 0.05 * unit_mm};
+    // Ends and centre rounded or cut to 0.01 mm or 0.001 inch.
+    if (unit_mm == 1) return {0.005, 0.5, 2 * 0.01 * std::numbers::sqrt2};
+    return {0.0005 * unit_mm, 0.05 * unit_mm, 2 * 0.001 * std::numbers::sqrt2 * unit_mm};
 }
 
 struct InPlane {
@@ -60,8 +62,10 @@ Result<motion::Arc> arc_about_centre(const ArcEnds& ends, Vec3 centre_mm, double
     }
     const double off = std::abs(start_radius - end_radius);
     const RadiusTolerance tolerance = tolerance_for(unit_mm);
-    if (off > tolerance.largest_mm ||
-        (off > tolerance.always_mm && off > kRelativeTolerance * std::max(start_radius, end_radius))) {
+    const bool is_off =
+        off > tolerance.largest_mm ||
+        (off > tolerance.always_mm && off > kRelativeTolerance * std::max(start_radius, end_radius));
+    if (is_off && !(ends.is_coarse && off <= tolerance.coarse_mm)) {
         return fail("the arc's radius is " + mm_text(start_radius) + " at its start and " +
                         mm_text(end_radius) + " at its end",
                     "correct the end or the centre; with centres in absolute coordinates write G90.1 first");

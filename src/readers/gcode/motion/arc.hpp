@@ -28,11 +28,15 @@ struct ArcEnds {
     bool clockwise = false;  // seen against the normal of the plane
     Vec3 start_mm, end_mm;
     int extra_turns = 0;
+    bool is_coarse = false;  // the numbers may have two decimals, in inches three
 };
 
 // Returns the arc about a centre; only the two coordinates in the plane are used. End = start: a full circle.
 // The distances of start and end from the centre may differ by 0.5 mm if that is less than 0.1 % of the
-// distance, and always by 0.005 mm (in inches 0.05 and 0.0005): rule of LinuxCNC.
+// distance, and always by 0.005 mm (in inches 0.05 and 0.0005): rule in the manual of LinuxCNC, and of Grbl.
+// Coarse ones may differ by 0.0283 mm (0.00283 inches): what LinuxCNC takes unless its set-up says less
+// (CENTER_ARC_RADIUS_TOLERANCE in src/emc/rs274ngc/interp_internal.hh). Fanuc controls take what their
+// parameter 3410 says, which no program tells.
 Result<motion::Arc> arc_about_centre(const ArcEnds& ends, Vec3 centre_mm, double unit_mm);
 
 // Returns the arc of a radius, mm: at most half a turn for a positive radius, at least half a turn for a

@@ -217,6 +217,66 @@ std::unexpected<Error> refuse_meanwhile(const Command& command, char letter, Cod
                          "write G40 before it");
 }
 
+// True if the code in force stands again, with the same offset.
+bool repeats_compensation(Command& command, const State& state) {
+    const auto side = command.g(GGroup::cutter_side);
+    if (!side || side->tenths != state.compensation.code) return false;
+    return !command.has('D') || command.use('D')->value == state.compensation.number;
+}
+
+// On a Fanuc control D holds from its block on.
+bool has_modal_number(const State& state, const Output& output) {
+    return output.options.dialect == GcodeDialect::fanuc && state.offset_number.has_value();
+}
+
+// D of the block or an earlier one, else the tool in the spindle.
+double offset_number(Command& command, const State& state, const Output& output) {
+    if (const Word* word = command.use('D')) return word->value;
+    return has_modal_number(state, output) ? *state.offset_number : state.tool();
+}
+
+// Returns the diameter of the cutter that D or the tool in the spindle has; 0 where nothing states it.
+Result<double> compensated_diameter(Command& command, Code code, const State& state, Output& output) {
+    const Word* word = command.use('D');
+    const int column = word == nullptr ? code.column : word->column;
+    const int kind = code.tenths % 10;
+    // On a Fanuc control G41.1 without D turns the spindle along the path.
+    const bool is_direction = kind == 1 && word == nullptr && output.options.dialect == GcodeDialect::fanuc;
+    if (kind > 1 || is_direction) {
+        for (const char letter : {'I', 'J', 'K'}) command.use(letter);
+        if (output.first(Note::compensation_in_space)) {
+            output.warn(command.line(),
+                        code_text('G', code.tenths) +
+                            ": neither compensation in space nor a spindle turned along the path is "
+                            "read; the programmed path is milled");
+        }
+        return 0.0;
+    }
+    if (kind == 1) {
+        if (word != nullptr) return word->value * state.unit_mm;
+        return output.refuse(command.line(), column,
+                             code_text('G', code.tenths) + " without the cutter's diameter", "add it as D");
+    }
+    const double number = offset_number(command, state, output);
+    if (!(number >= 0 && number <= kLimits.tool_number.range.max) || number != std::floor(number)) {
+        return output.refuse(command.line(), column, "D is not the number of a tool", "correct D");
+    }
+    // D0 means no compensation, by convention.
+    const bool is_tool = word == nullptr && !has_modal_number(state, output);
+    if (number == 0 && !is_tool) return 0.0;
+    const auto diameter_mm = output.tool_diameter_mm(static_cast<int>(number));
+    if (diameter_mm) return *diameter_mm;
+    if (output.first(Note::compensation_unknown, static_cast<int>(number))) {
+        output.warn(
+            command.line(),
+            code_text('G', code.tenths) + ": nothing states the diameter of tool " +
+                std::to_string(static_cast<int>(number)) +
+                ", so the programmed path is milled as it stands; give the tool to the job, or write a "
+                "comment like (T1 D=10.)");
+    }
+    return 0.0;
+}
+
 }  // namespace
 
 Result<void> end_compensation(State& state, Output& output) {
@@ -234,24 +294,30 @@ Result<void> end_compensation(State& state, Output& output) {
     return {};
 }
 
-Result<void> check_compensation(const Command& command, State& state, Output& output) {
+Result<void> check_compensation(Command& command, State& state, Output& output) {
     if (!state.compensation.is_on) return {};
     const auto side = command.g(GGroup::cutter_side);
     if (side && side->tenths == 400) return end_compensation(state, output);
-    if (side) return refuse_meanwhile(command, 'G', *side, state, output);
-    for (const GGroup group : {GGroup::plane, GGroup::units, GGroup::work_offset}) {
-        if (const auto code = command.g(group)) {
-            const bool same_plane =
-                group == GGroup::plane && code->tenths == (state.plane == Plane::xy   ? 170
-                                                           : state.plane == Plane::zx ? 180
-                                                                                      : 190);
-            if (!same_plane) return refuse_meanwhile(command, 'G', *code, state, output);
-        }
+    // Without a radius nothing is offset, so that nothing is in the way.
+    if (state.compensation.left_mm == 0) return side ? end_compensation(state, output) : Result<void>{};
+    if (side && !repeats_compensation(command, state))
+        return refuse_meanwhile(command, 'G', *side, state, output);
+    if (const auto code = command.g(GGroup::plane)) {
+        const int plane = state.plane == Plane::xy ? 170 : state.plane == Plane::zx ? 180 : 190;
+        if (code->tenths != plane) return refuse_meanwhile(command, 'G', *code, state, output);
+    }
+    if (const auto code = command.g(GGroup::units)) {
+        const bool is_inch = code->tenths == 200 || code->tenths == 700;
+        if (is_inch != (state.unit_mm != 1)) return refuse_meanwhile(command, 'G', *code, state, output);
+    }
+    if (const auto code = command.g(GGroup::work_offset)) {
+        const bool is_same = state.active_work < 6 && code->tenths == 540 + 10 * state.active_work;
+        if (!is_same) return refuse_meanwhile(command, 'G', *code, state, output);
     }
     if (const auto code = command.g(GGroup::non_modal); code && code->tenths != 40) {
         return refuse_meanwhile(command, 'G', *code, state, output);
     }
-    if (const auto code = command.g(GGroup::motion); code && code->tenths > 30 && code->tenths != 800) {
+    if (const auto code = command.g(GGroup::motion); code && code->tenths > 30) {
         return refuse_meanwhile(command, 'G', *code, state, output);
     }
     if (const auto code = command.m(MGroup::tool))
@@ -262,38 +328,21 @@ Result<void> check_compensation(const Command& command, State& state, Output& ou
 Result<void> begin_compensation(Command& command, State& state, Output& output) {
     const auto code = command.g(GGroup::cutter_side);
     if (!code || code->tenths == 400) return {};
-    const bool is_dynamic = code->tenths % 10 == 1;
-    const Word* word = command.use('D');
-    const int column = word == nullptr ? code->column : word->column;
-    std::optional<double> diameter_mm;
-    if (is_dynamic) {
-        if (word == nullptr) {
-            return output.refuse(command.line(), column,
-                                 code_text('G', code->tenths) + " without the cutter's diameter",
-                                 "add it as D");
-        }
-        diameter_mm = word->value * state.unit_mm;
-    } else {
-        const double number = word == nullptr ? state.tool() : word->value;
-        if (!(number >= 0 && number <= kLimits.tool_number.range.max) || number != std::floor(number)) {
-            return output.refuse(command.line(), column, "D is not the number of a tool", "correct D");
-        }
-        // D0 means no compensation, by convention.
-        const bool is_none = word != nullptr && number == 0;
-        diameter_mm = is_none ? 0 : output.tool_diameter_mm(static_cast<int>(number));
-        if (!diameter_mm) {
-            return output.refuse(command.line(), column,
-                                 code_text('G', code->tenths) + " needs the diameter of tool " +
-                                     std::to_string(static_cast<int>(number)) + ", which nothing states",
-                                 "give the tool to the job, write a comment like (T1 D=10.), or use G41.1 D");
-        }
+    if (state.compensation.is_on && repeats_compensation(command, state)) {
+        command.use('D');
+        return {};
     }
-    if (!kLimits.offset_diameter.range.contains(*diameter_mm)) {
+    const auto found = compensated_diameter(command, *code, state, output);
+    if (!found) return std::unexpected(found.error());
+    const double diameter_mm = *found;
+    if (!kLimits.offset_diameter.range.contains(diameter_mm)) {
+        const Word* word = command.use('D');
         return output.refuse(
-            command.line(), column, out_of_range(kLimits.offset_diameter, *diameter_mm),
+            command.line(), word == nullptr ? code->column : word->column,
+            out_of_range(kLimits.offset_diameter, diameter_mm),
             range_remedy(kLimits.offset_diameter) + "; use the other side for a negative one");
     }
-    if (!state.knows_tip()) {
+    if (diameter_mm != 0 && !state.knows_tip()) {
         if (auto known = require_start(command, state, output); !known) return known;
     }
     Compensation& comp = state.compensation;
@@ -302,10 +351,12 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
     comp.code = code->tenths;
     comp.line = command.line();
     comp.plane = state.plane;
-    comp.left_mm = (code->tenths / 10 == 41 ? 0.5 : -0.5) * *diameter_mm;
+    const bool is_left = (code->tenths / 10 == 41) != state.frame.is_mirrored(state.plane);
+    comp.left_mm = (is_left ? 0.5 : -0.5) * diameter_mm;
     const auto axes = axes_of(state.plane);
     const Vec3 at = state.left_at_mm.value_or(state.tip_mm);
     comp.at = {at[axes[0]], at[axes[1]]};
+    comp.number = offset_number(command, state, output);
     state.left_at_mm.reset();
     return {};
 }

@@ -14,7 +14,7 @@ namespace tribo::readers::gcode {
 Result<void> end_compensation(State& state, Output& output);
 
 // Refuses the codes that are not allowed while compensation is on. Ends compensation if the block has G40.
-Result<void> check_compensation(const Command& command, State& state, Output& output);
+Result<void> check_compensation(Command& command, State& state, Output& output);
 
 // G41, G42, G41.1 and G42.1 of the block, with the diameter of their tool.
 Result<void> begin_compensation(Command& command, State& state, Output& output);

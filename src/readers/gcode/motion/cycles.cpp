@@ -27,11 +27,23 @@ class Run {
     Result<void> run() {
         if (auto done = read_words(); !done) return done;
         if (repeats_ == 0) return {};
+        const auto starts = find_start();
+        if (!starts) return std::unexpected(starts.error());
+        if (!*starts) return {};
         Cycle& cycle = state_.cycle;
+        if (!cycle.initial_mm) cycle.initial_mm = state_.tip_mm[axis_];
         const double origin = state_.origin_mm()[axis_];
         // In G91, R is relative to the start of the cycle, and Z to R.
-        const double retract = *cycle.retract_mm + (state_.incremental ? *cycle.initial_mm : origin);
-        const double depth = *cycle.depth_mm + (state_.incremental ? retract : origin);
+        const double retract = state_.incremental ? *cycle.initial_mm + scale() * *cycle.retract_mm
+                                                  : origin + level(*cycle.retract_mm);
+        const double depth =
+            state_.incremental ? retract + scale() * *cycle.depth_mm : origin + level(*cycle.depth_mm);
+        if (depth > retract && cycle.tenths == 870) {
+            return output_.refuse(
+                command_.line(), cycle_column(),
+                "G87 (back boring) cuts upwards with the back of its tool, which is not modelled",
+                "let the CAM system write it as G0 and G1 moves, or leave it out");
+        }
         if (depth > retract) {
             return output_.refuse(command_.line(), cycle_column(),
                                   std::string("the cycle's bottom lies above its retract level R"),
@@ -52,7 +64,11 @@ class Run {
         }
         for (int i = 0; i < repeats_; ++i) {
             place[axis_] = state_.tip_mm[axis_];
-            if (i > 0) {
+            if (i > 0 && state_.frame.is_polar && state_.incremental) {
+                const auto next = target_of(command_, state_, output_);
+                if (!next) return std::unexpected(next.error());
+                place = next->tip_mm;
+            } else if (i > 0) {
                 for (const int in_plane : {axes_of(state_.plane)[0], axes_of(state_.plane)[1]}) {
                     place[in_plane] += step[in_plane];
                 }
@@ -68,6 +84,31 @@ class Run {
     }
 
   private:
+    // Finds where the tool stands. After a move to a place that only the machine knows the cycle begins above
+    // its hole, at R; false where even the hole is not known: then it is left out.
+    Result<bool> find_start() {
+        if (!state_.has_lost_tip()) {
+            if (auto known = require_start(command_, state_, output_); !known) {
+                return std::unexpected(known.error());
+            }
+            return true;
+        }
+        output_.leave_out(command_.line(), state_.lost_line);
+        const auto target = target_of(command_, state_, output_);
+        if (!target) return std::unexpected(target.error());
+        state_.tip_mm = target->tip_mm;
+        state_.known = target->known;
+        const auto depth_axis = static_cast<std::size_t>(axis_);
+        if (state_.known[depth_axis] == Known::lost && !state_.incremental) {
+            state_.tip_mm[axis_] = level(*state_.cycle.retract_mm) + state_.origin_mm()[axis_];
+            state_.known[depth_axis] = Known::yes;
+        }
+        return state_.knows_tip();
+    }
+
+    double level(double written) const { return state_.frame.placed_level(written, axis_); }
+    double scale() const { return state_.frame.scale[axis_]; }
+
     int cycle_column() const {
         const auto code = command_.g(GGroup::motion);
         return code ? code->column : column_of_any(command_, "XYZR");
@@ -95,7 +136,7 @@ class Run {
         if (*depth) cycle.depth_mm = **depth;
         command_.hide("XYZ"[axis_]);
         if (auto done = read_length('R', cycle.retract_mm); !done) return done;
-        if (pecks() || cycle.tenths == 760) {
+        if (may_peck() || cycle.tenths == 760 || cycle.tenths == 870) {
             if (auto done = read_length('Q', cycle.peck_mm); !done) return done;
         }
         if (cycle.tenths != 810 && cycle.tenths != 850) {
@@ -107,8 +148,10 @@ class Run {
         if (!cycle.depth_mm) {
             return refuse_missing(axis_ == 2 ? "Z" : axis_ == 1 ? "Y" : "X", "write the depth");
         }
-        if (pecks() && !(cycle.peck_mm && *cycle.peck_mm > 0)) {
-            return refuse_missing("Q above 0", "write the depth of one peck as Q");
+        if (may_peck() && !pecks() && output_.first(Note::whole_peck)) {
+            output_.warn(command_.line(),
+                         code_text('G', cycle.tenths) +
+                             " without a depth of its pecks (Q): the hole is drilled in one");
         }
         return {};
     }
@@ -129,21 +172,24 @@ class Run {
         const Word* word = command_.use('L');
         if (word == nullptr && is_fanuc) word = command_.use('K');
         if (word == nullptr) return {};
-        const bool fits = word->value == std::floor(word->value) && word->value <= kMostRepeats &&
-                          word->value >= (is_fanuc ? 0 : 1);
+        const bool fits =
+            word->value == std::floor(word->value) && word->value <= kMostRepeats && word->value >= 0;
         if (!fits) {
             return output_.refuse(command_.line(), word->column,
-                                  "the cycle's repeats are not a whole number from 1 to 100000",
+                                  "the cycle's repeats are not a whole number from 0 to 100000",
                                   std::string("correct ") + word->letter);
         }
         repeats_ = static_cast<int>(word->value);
         return {};
     }
 
-    bool pecks() const { return state_.cycle.tenths == 730 || state_.cycle.tenths == 830; }
+    bool may_peck() const { return state_.cycle.tenths == 730 || state_.cycle.tenths == 830; }
+    // The sign of Q does not count.
+    double peck_mm() const { return std::abs(state_.cycle.peck_mm.value_or(0)); }
+    bool pecks() const { return may_peck() && peck_mm() > 0; }
 
     Result<void> check_pecks() const {
-        if (!pecks() || (retract_ - depth_) / *state_.cycle.peck_mm <= kMostPecks) return {};
+        if (!pecks() || (retract_ - depth_) / peck_mm() <= kMostPecks) return {};
         return output_.refuse(command_.line(), cycle_column(), "the hole takes more than 100000 pecks",
                               "correct Q");
     }
@@ -169,7 +215,7 @@ class Run {
     // Moves from the retract level to the bottom, and back as far as the cycle returns at feed.
     Result<void> bottom_and_back() {
         if (pecks()) {
-            const double peck = *state_.cycle.peck_mm;
+            const double peck = peck_mm();
             for (int i = 1; retract_ - i * peck > depth_; ++i) {
                 const double ground = retract_ - i * peck;
                 if (auto moved = go(MoveKind::feed, ground); !moved) return moved;
@@ -203,17 +249,31 @@ class Run {
     double retract_ = 0, depth_ = 0, clear_ = 0;  // levels in the frame of the tip, mm
 };
 
-std::unexpected<Error> refuse_unmodelled(const Command& command, const State& state, const Output& output) {
-    const auto code = command.g(GGroup::motion);
-    const int column = code ? code->column : 1;
-    if (state.cycle.tenths == 870) {
-        return output.refuse(
-            command.line(), column,
-            "G87 (back boring) cuts upwards with the back of its tool, which is not modelled",
-            "let the CAM system write it as G0 and G1 moves, or leave it out");
+// LinuxCNC's thread on a lathe has words that fine boring does not have.
+bool is_thread(const Command& command, const Output& output) {
+    return output.options.dialect == GcodeDialect::linuxcnc && command.has_g(GGroup::motion, 760) &&
+           command.has_any("IJKH");
+}
+
+void note_cycle(const Command& command, const State& state, Output& output) {
+    const int tenths = state.cycle.tenths;
+    const bool turns_left = tenths == 740;
+    const bool is_tap = turns_left || tenths == 840;
+    const Spindle needed = turns_left ? Spindle::counter_clockwise : Spindle::clockwise;
+    const bool checks_spindle = output.options.dialect == GcodeDialect::linuxcnc;
+    if (is_tap && checks_spindle && state.spindle != needed && output.first(Note::wrong_spindle, tenths)) {
+        output.warn(command.line(),
+                    turns_left ? "G74 taps a left thread, but the spindle does not turn left (M4)"
+                               : "G84 taps a right thread, but the spindle does not turn right (M3)");
     }
-    return output.refuse(command.line(), column, "G76 is a thread on a lathe in the LinuxCNC dialect",
-                         "state the Fanuc dialect if it is fine boring, or give a milling program");
+    if (tenths == 760 && output.first(Note::bore_shift)) {
+        output.warn(command.line(),
+                    "G76: the shift Q off the wall, whose direction the machine knows, is left out");
+    }
+    if ((tenths == 870 || tenths == 880) && output.first(Note::bore_by_hand, tenths)) {
+        output.warn(command.line(),
+                    code_text('G', tenths) + ": drawing the tool out by hand is taken as a rapid");
+    }
 }
 
 }  // namespace
@@ -230,33 +290,17 @@ void begin_cycle(Code code, State& state) {
 }
 
 Result<void> run_cycle(Command& command, State& state, Output& output) {
-    const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
-    if (state.cycle.tenths == 870 || (state.cycle.tenths == 760 && !is_fanuc)) {
-        return refuse_unmodelled(command, state, output);
+    const auto code = command.g(GGroup::motion);
+    const int column = code ? code->column : 1;
+    if (is_thread(command, output)) {
+        return output.refuse(command.line(), column, "G76 is a thread on a lathe in the LinuxCNC dialect",
+                             "state the Fanuc dialect if it is fine boring, or give a milling program");
     }
     if (state.feed_mode == FeedMode::inverse_time) {
-        return output.refuse(command.line(),
-                             command.g(GGroup::motion) ? command.g(GGroup::motion)->column : 1,
-                             "a canned cycle in inverse time (G93) has no feed", "write G94 and F before it");
+        return output.refuse(command.line(), column, "a canned cycle in inverse time (G93) has no feed",
+                             "write G94 and F before it");
     }
-    if (auto known = require_start(command, state, output); !known) return known;
-    if (!state.cycle.initial_mm) state.cycle.initial_mm = state.tip_mm[axes_of(state.plane)[2]];
-    const bool turns_left = state.cycle.tenths == 740;
-    if ((turns_left || state.cycle.tenths == 840) && !is_fanuc &&
-        state.spindle != (turns_left ? Spindle::counter_clockwise : Spindle::clockwise)) {
-        return output.refuse(command.line(),
-                             command.g(GGroup::motion) ? command.g(GGroup::motion)->column : 1,
-                             turns_left ? "G74 taps a left thread, but the spindle does not turn left"
-                                        : "G84 taps a right thread, but the spindle does not turn right",
-                             turns_left ? "write M4 before it" : "write M3 before it");
-    }
-    if (state.cycle.tenths == 760 && output.first(Note::bore_shift)) {
-        output.warn(command.line(),
-                    "G76: the shift Q off the wall, whose direction the machine knows, is left out");
-    }
-    if (state.cycle.tenths == 880 && output.first(Note::bore_by_hand)) {
-        output.warn(command.line(), "G88: drawing the tool out by hand is taken as a rapid");
-    }
+    note_cycle(command, state, output);
     return Run(command, state, output).run();
 }
 

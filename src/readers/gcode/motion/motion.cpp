@@ -3,86 +3,40 @@
 
 #include <cmath>
 
-#include "readers/gcode/motion/arc.hpp"
+#include "readers/gcode/motion/arc_words.hpp"
 #include "readers/gcode/motion/cycles.hpp"
 #include "readers/gcode/motion/moves.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/gcode/motion/splines.hpp"
-#include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
 
 constexpr char kAxisLetters[] = "XYZ";
-constexpr char kCentreLetters[] = "IJK";
-constexpr double kMostExtraTurns = 10'000;
 
-Result<int> extra_turns(Command& command, const Output& output) {
-    const Word* turns = command.use('P');
-    if (turns == nullptr) return 0;
-    if (turns->value < 1 || turns->value > kMostExtraTurns || turns->value != std::floor(turns->value)) {
-        return output.refuse(command.line(), turns->column,
-                             "the number of turns P is not a whole number above 0", "correct P");
-    }
-    return static_cast<int>(turns->value) - 1;
+// A feed move from a place that only the machine knows: the tool is at its end afterwards.
+Result<void> leave_out(Command& command, State& state, Output& output) {
+    const auto target = target_of(command, state, output);
+    if (!target) return std::unexpected(target.error());
+    for (const char letter : {'I', 'J', 'K', 'R', 'P'}) command.use(letter);
+    state.tip_mm = target->tip_mm;
+    state.known = target->known;
+    output.leave_out(command.line(), state.lost_line);
+    return {};
 }
 
-// Returns the arc from the tip to the target.
-Result<motion::Arc> arc_of(Command& command, const State& state, Vec3 target, const Output& output) {
-    ArcEnds ends;
-    ends.plane = state.plane;
-    ends.clockwise = state.motion == MotionMode::arc_clockwise;
-    ends.start_mm = state.tip_mm;
-    ends.end_mm = target;
-    const auto turns = extra_turns(command, output);
-    if (!turns) return std::unexpected(turns.error());
-    ends.extra_turns = *turns;
-
-    const auto placed = [&](Result<motion::Arc> arc, int column) -> Result<motion::Arc> {
-        if (arc) return arc;
-        return output.refuse(command.line(), column, arc.error().cause, arc.error().remedy);
-    };
-    const auto axes = axes_of(state.plane);
-    const char first = kCentreLetters[axes[0]], second = kCentreLetters[axes[1]];
-    if (command.has(kCentreLetters[axes[2]])) {
-        const Word* word = command.use(kCentreLetters[axes[2]]);
-        return output.refuse(command.line(), word->column,
-                             std::string("an arc in this plane has no use for ") + word->letter,
-                             "select the plane with G17, G18 or G19, or delete the word");
+// An axis that the program never names stays where it is, wherever the machine has sent it: it counts as
+// unstated.
+void forget_unnamed_axes(State& state, Output& output) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (state.known[axis] == Known::lost && !output.writes_axis(axis))
+            state.known[axis] = Known::unstated;
     }
-    if (const Word* radius = command.use('R')) {
-        if (command.has(first) || command.has(second)) {
-            return output.refuse(command.line(), radius->column, "the arc has a radius and a centre",
-                                 std::string("delete R, or ") + first + " and " + second);
-        }
-        const double radius_mm = radius->value * state.unit_mm;
-        if (auto good = in_range(kLimits.coordinate, radius_mm, command, *radius, output); !good)
-            return std::unexpected(good.error());
-        return placed(arc_of_radius(ends, radius_mm), radius->column);
-    }
-    Vec3 centre = state.absolute_centres ? state.origin_mm() : state.tip_mm;
-    int column = 0, given = 0;
-    for (int i = 0; i < 2; ++i) {
-        const Word* word = command.use(kCentreLetters[axes[static_cast<std::size_t>(i)]]);
-        if (word == nullptr) continue;
-        const double offset_mm = word->value * state.unit_mm;
-        if (auto good = in_range(kLimits.coordinate, offset_mm, command, *word, output); !good)
-            return std::unexpected(good.error());
-        centre[axes[static_cast<std::size_t>(i)]] += offset_mm;
-        if (column == 0 || word->column < column) column = word->column;
-        ++given;
-    }
-    if (given == 0 || (given == 1 && state.absolute_centres)) {
-        return output.refuse(command.line(), given == 0 ? column_of_any(command, "XYZ") : column,
-                             given == 0 ? "an arc without centre or radius"
-                                        : std::string("an arc in absolute centres (G90.1) needs both ") +
-                                              first + " and " + second,
-                             std::string("add ") + first + " and " + second + (given == 0 ? ", or R" : ""));
-    }
-    return placed(arc_about_centre(ends, centre, state.unit_mm), column);
 }
 
 Result<void> move_at_feed(Command& command, State& state, Output& output) {
+    if (state.has_lost_tip()) forget_unnamed_axes(state, output);
+    if (state.has_lost_tip()) return leave_out(command, state, output);
     if (auto known = require_start(command, state, output); !known) return known;
     const auto target = target_of(command, state, output);
     if (!target) return std::unexpected(target.error());
@@ -92,6 +46,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     if (state.motion != MotionMode::line) {
         auto arc = arc_of(command, state, target->tip_mm, output);
         if (!arc) return std::unexpected(arc.error());
+        if (!*arc) return {};
         move.arc = *arc;
     }
     if (auto fed = set_feed(move, command, state, output); !fed) return fed;
@@ -105,10 +60,11 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
 
 // G53: coordinates relative to the zero of the machine, which is unknown to the program.
 Result<void> move_to_machine_position(Command& command, State& state, Output& output, int column) {
-    if (state.motion != MotionMode::rapid) {
-        return output.refuse(command.line(), column,
-                             "G53 (machine coordinates) with a feed move is not read yet",
-                             "write the move in the coordinates of the work, or as a rapid (G0)");
+    if (!command.has_any("XYZ")) {
+        if (output.first(Note::empty_code, 530)) {
+            output.warn(command.line(), "G53 without coordinates moves nothing");
+        }
+        return {};
     }
     if (state.incremental) {
         return output.refuse(command.line(), column, "G53 (machine coordinates) does not go with G91",
@@ -126,6 +82,26 @@ Result<void> move_to_machine_position(Command& command, State& state, Output& ou
             "known again");
     }
     return {};
+}
+
+// Coordinates after G80, or before any motion code.
+void assume_motion(const Command& command, State& state, Output& output) {
+    if (state.plain_motion != MotionMode::none) {
+        state.motion = state.plain_motion;
+        if (output.first(Note::motion_after_cycle)) {
+            output.warn(command.line(),
+                        "coordinates without a motion code after the end of a cycle: the last of G0 to G3 "
+                        "goes on, as "
+                        "on Fanuc controls");
+        }
+        return;
+    }
+    state.motion = state.plain_motion = MotionMode::rapid;
+    if (output.first(Note::motion_assumed)) {
+        output.warn(
+            command.line(),
+            "coordinates before any motion code: a rapid (G0) is taken, in which most controls begin");
+    }
 }
 
 }  // namespace
@@ -164,11 +140,7 @@ Result<void> apply_motion(Command& command, State& state, Output& output) {
     }
     if (repeats_cycle(command, state)) return run_cycle(command, state, output);
     if (!moves) return {};
-    if (state.motion == MotionMode::none) {
-        return output.refuse(command.line(), column_of_any(command, "XYZABC"),
-                             "coordinates without a motion code in force",
-                             "write G0, G1, G2 or G3 on this line or before it");
-    }
+    if (state.motion == MotionMode::none) assume_motion(command, state, output);
     return state.motion == MotionMode::rapid ? move_rapidly(command, state, output)
                                              : move_at_feed(command, state, output);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/limit_text.hpp"
+#include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -68,9 +69,46 @@ Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command
     return append(move, state, output);
 }
 
+namespace {
+
+// The same in coordinates that are written turned, scaled, mirrored or polar.
+Result<Target> target_in_frame(Command& command, State& state, Output& output) {
+    const ProgramFrame& frame = state.frame;
+    Vec3 written = frame.written(state.tip_mm - state.origin_mm());
+    std::array<bool, 3> known{};
+    for (std::size_t axis = 0; axis < 3; ++axis) known[axis] = state.known[axis] != Known::lost;
+    if (auto done = write_target(command, state, output, written, known); !done) {
+        return std::unexpected(done.error());
+    }
+    Target target{state.origin_mm() + frame.placed(written), state.known};
+    const auto turns = axes_of(frame.turn_plane);
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool in_turn = frame.turn_deg != 0 && axis != turns[2];
+        const bool is_known =
+            in_turn ? known[static_cast<std::size_t>(turns[0])] && known[static_cast<std::size_t>(turns[1])]
+                    : known[static_cast<std::size_t>(axis)];
+        const bool is_stated = command.has("XYZ"[axis]) || (in_turn && command.has_any("XYZ"));
+        Known& place = target.known[static_cast<std::size_t>(axis)];
+        if (!is_known) {
+            place = Known::lost;
+        } else if (is_stated || frame.is_polar) {
+            place = Known::yes;
+        }
+        if (!kLimits.coordinate.range.contains(target.tip_mm[axis])) {
+            return output.refuse(command.line(), column_of_any(command, "XYZ"),
+                                 "turned or scaled, " + out_of_range(kLimits.coordinate, target.tip_mm[axis]),
+                                 range_remedy(kLimits.coordinate));
+        }
+    }
+    return target;
+}
+
+}  // namespace
+
 // Returns the target of the axis words. In G91 an axis without a stated position starts at the zero of the
 // program.
 Result<Target> target_of(Command& command, State& state, Output& output) {
+    if (!state.frame.is_plain()) return target_in_frame(command, state, output);
     Target target{state.tip_mm, state.known};
     for (int axis = 0; axis < 3; ++axis) {
         const auto word = coordinate_mm(command, axis, state, output);
@@ -196,9 +234,10 @@ void note_spindle(const Command& command, const State& state, Output& output) {
     }
 }
 
-Result<std::optional<double>> coordinate_mm(Command& command, int axis, const State& state, Output& output) {
+Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output) {
     const Word* word = command.use(kAxisLetters[axis]);
     if (word == nullptr) return std::nullopt;
+    if (axis == 1) state.has_y = true;
     const double value = word->value * state.unit_mm;
     if (auto good = in_range(kLimits.coordinate, value, command, *word, output); !good)
         return std::unexpected(good.error());

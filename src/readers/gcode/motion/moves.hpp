@@ -19,7 +19,7 @@ Result<void> in_range(const Limit& limit, double value, const Command& command, 
 
 // Returns the coordinate word of an axis (0 x, 1 y, 2 z) in mm, if the block has it. Refuses values out of
 // range.
-Result<std::optional<double>> coordinate_mm(Command& command, int axis, const State& state, Output& output);
+Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output);
 
 // Returns a move that starts and ends at the tip, with tool, spindle and line of the block.
 motion::Move new_move(motion::MoveKind kind, const Command& command, const State& state);

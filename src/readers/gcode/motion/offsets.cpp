@@ -10,15 +10,20 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// G4: P in seconds; on a Fanuc control P in milliseconds or X in seconds.
-Result<void> apply_dwell(Command& command, State& state, Output& output, int column) {
+// G4: P in seconds, on a Fanuc control in milliseconds; X, U and S (Marlin) in seconds.
+Result<void> apply_dwell(Command& command, State& state, Output& output) {
     const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
     const Word* length = command.use('P');
     const bool in_milliseconds = is_fanuc && length != nullptr;
-    if (length == nullptr && is_fanuc) length = command.use('X');
-    const char* const remedy =
-        is_fanuc ? "write its milliseconds as P or its seconds as X" : "write its seconds as P";
-    if (length == nullptr) return output.refuse(command.line(), column, "a dwell (G4) without P", remedy);
+    for (const char letter : {'X', 'U', 'S'}) {
+        if (length == nullptr) length = command.use(letter);
+    }
+    if (length == nullptr) {
+        if (output.first(Note::empty_code, 40)) {
+            output.warn(command.line(), "a dwell (G4) without a time: it is left out");
+        }
+        return {};
+    }
     const double seconds = in_milliseconds ? length->value / 1000 : length->value;
     if (auto good = in_range(kLimits.dwell, seconds, command, *length, output); !good) return good;
     return dwell(seconds, command, state, output);
@@ -37,6 +42,17 @@ Result<std::size_t> work_system_of(Command& command, const State& state, const O
     return static_cast<std::size_t>(index);
 }
 
+// The same for the systems of G54.1 (G10 L20 on a Fanuc control).
+Result<std::size_t> more_work_system_of(Command& command, const Output& output, int column) {
+    const Word* system = command.use('P');
+    if (system == nullptr || !(system->value >= 1 && system->value <= kMoreWorkSystems) ||
+        system->value != std::floor(system->value)) {
+        return output.refuse(command.line(), system == nullptr ? column : system->column,
+                             "G10 L20 without a work system P from 1 to 300", "write P1 for G54.1 P1");
+    }
+    return static_cast<std::size_t>(kWorkSystems + static_cast<int>(system->value) - 1);
+}
+
 // Changes a work system; the tip stays where it is in the stock.
 void set_work(std::size_t index, const WorkSystem& work, State& state) {
     const double before_deg = state.active().turn_deg;
@@ -46,8 +62,8 @@ void set_work(std::size_t index, const WorkSystem& work, State& state) {
 }
 
 // G10 L2: sets origin and rotation of a work system.
-Result<void> set_work_origin(Command& command, State& state, Output& output, int column) {
-    const auto index = work_system_of(command, state, output, column);
+Result<void> set_work_origin(Command& command, State& state, Output& output,
+                             const Result<std::size_t>& index) {
     if (!index) return std::unexpected(index.error());
     WorkSystem work = state.work[*index];
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,10 +138,27 @@ Result<void> set_tool_entry(Command& command, const State& state, Output& output
 Result<void> set_table(Command& command, State& state, Output& output, int column) {
     const Word* kind = command.use('L');
     if (kind != nullptr && kind->value == 1) return set_tool_entry(command, state, output, column);
-    if (kind != nullptr && kind->value == 2) return set_work_origin(command, state, output, column);
-    if (kind != nullptr && kind->value == 20) return set_work_origin_by_tip(command, state, output, column);
+    if (kind != nullptr && kind->value == 2) {
+        return set_work_origin(command, state, output, work_system_of(command, state, output, column));
+    }
+    if (kind != nullptr && kind->value == 20) {
+        if (output.options.dialect == GcodeDialect::fanuc) {
+            return set_work_origin(command, state, output, more_work_system_of(command, output, column));
+        }
+        return set_work_origin_by_tip(command, state, output, column);
+    }
+    if (kind != nullptr && kind->value >= 10 && kind->value <= 13) {
+        for (const char letter : {'P', 'R', 'X', 'Y', 'Z', 'I', 'J', 'Q'}) command.use(letter);
+        if (output.first(Note::tool_register)) {
+            output.warn(
+                command.line(),
+                "G10 writes an offset of a tool: lengths are taken as measured right, diameters are those of "
+                "the tools");
+        }
+        return {};
+    }
     return output.refuse(command.line(), kind == nullptr ? column : kind->column,
-                         "of G10 only L1 (tool table), L2 and L20 (work systems) are read",
+                         "of G10 only L1, L10 to L13 (tools), L2 and L20 (work systems) are read",
                          "let the CAM system write the path without other settings");
 }
 
@@ -147,6 +180,7 @@ Result<void> shift_locally(Command& command, State& state, Output& output, int c
 // G92: gives new coordinates to the current position of the tip.
 Result<void> preset(Command& command, State& state, Output& output, int column) {
     if (!command.has_any("XYZ")) {
+        if (command.has_any("ABCE")) return {};
         return output.refuse(command.line(), column, "G92 without coordinates", "write X, Y or Z after it");
     }
     if (!state.preset_on) state.preset_mm = {};
@@ -156,14 +190,13 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
         if (!word) return std::unexpected(word.error());
         if (!*word) continue;
         Known& known = state.known[static_cast<std::size_t>(axis)];
-        if (known == Known::lost) {
-            return output.refuse(
-                command.line(), column,
-                "G92 names a place that only the machine knows since line " + std::to_string(state.lost_line),
-                "write a rapid (G0) to a known place before it");
-        }
-        if (known == Known::unstated) {
-            if (output.first(Note::preset_as_origin)) {
+        if (known != Known::yes) {
+            if (known == Known::lost && output.first(Note::lost_preset)) {
+                output.warn(command.line(), "G92 at a place that only the machine knows since line " +
+                                                std::to_string(state.lost_line) +
+                                                ": the zero of the program is taken to stay where it was");
+            }
+            if (known == Known::unstated && output.first(Note::preset_as_origin)) {
                 output.warn(command.line(),
                             "G92 before the tool has a place: the coordinates count from the stock's origin");
             }
@@ -178,8 +211,9 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
 
 // G28, G30: a rapid to the point of the block, then to a position defined by the machine.
 Result<void> go_home(Command& command, State& state, Output& output, int tenths) {
-    std::array<bool, 3> goes{command.has('X'), command.has('Y'), command.has('Z')};
-    if (!command.has_any("XYZ")) goes = {true, true, true};
+    // U V W are increments of X Y Z; alone they name no point on the way.
+    std::array<bool, 3> goes{command.has_any("XU"), command.has_any("YV"), command.has_any("ZW")};
+    if (!command.has_any("XYZABCUVW")) goes = {true, true, true};
     // An increment from an unknown position gives an unknown position.
     for (std::size_t axis = 0; axis < 3 && state.incremental; ++axis) {
         if (state.known[axis] == Known::unstated) state.known[axis] = Known::lost;
@@ -199,9 +233,28 @@ Result<void> go_home(Command& command, State& state, Output& output, int tenths)
     return {};
 }
 
+// A move until a probe touches: where it ends, only the machine knows.
+void probe(Command& command, State& state, Output& output) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (command.use("XYZ"[axis]) == nullptr) continue;
+        state.known[static_cast<std::size_t>(axis)] = Known::lost;
+        state.lost_line = command.line();
+    }
+    if (output.first(Note::probing)) {
+        output.warn(command.line(),
+                    code_text('G', command.g(GGroup::probing)->tenths) +
+                        " (probing) ends where only the machine knows: the path is left out until "
+                        "the axis has a place again");
+    }
+}
+
 }  // namespace
 
 Result<bool> apply_non_modal(Command& command, State& state, Output& output) {
+    if (command.g(GGroup::probing)) {
+        probe(command, state, output);
+        return true;
+    }
     const auto code = command.g(GGroup::non_modal);
     if (!code) return false;
     switch (code->tenths) {
@@ -220,8 +273,8 @@ Result<bool> apply_non_modal(Command& command, State& state, Output& output) {
             break;
     }
     const auto motion = command.g(GGroup::motion);
-    const bool goes_home = code->tenths == 280 || code->tenths == 300;
-    if (motion && command.has_any("XYZ") && !(goes_home && motion->tenths == 0)) {
+    // G0 and G1 beside it hold from the next block on.
+    if (motion && command.has_any("XYZ") && motion->tenths > 10) {
         return output.refuse(command.line(), code->column,
                              code_text('G', code->tenths) + " and " + code_text('G', motion->tenths) +
                                  " both claim the coordinates of this block",
@@ -230,7 +283,7 @@ Result<bool> apply_non_modal(Command& command, State& state, Output& output) {
     Result<void> done;
     switch (code->tenths) {
         case 40:
-            done = apply_dwell(command, state, output, code->column);
+            done = apply_dwell(command, state, output);
             break;
         case 100:
             done = set_table(command, state, output, code->column);

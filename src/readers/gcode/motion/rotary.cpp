@@ -116,6 +116,17 @@ Result<void> set_rotary_origin(Command& command, State& state, const Output& out
     return {};
 }
 
+// G92: gives the rotary axes of the block new angles where they stand.
+Result<void> preset_rotary(Command& command, State& state, const Output& output) {
+    Vec3& origin = state.rotary.origin_rad[static_cast<std::size_t>(state.active_work)];
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto angle = word_rad(command, axis, output);
+        if (!angle) return std::unexpected(angle.error());
+        if (*angle) origin[axis] = state.rotary.now_rad[axis] - **angle;
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> switch_tip_control(const Command& command, State& state, Output& output) {
@@ -195,10 +206,7 @@ Result<void> read_rotary_words(Command& command, State& state, Output& output) {
     if (!command.has_any("ABC")) return {};
     note_machine_needed(command, output);
     if (code && code->tenths == 100) return set_rotary_origin(command, state, output);
-    if (code && code->tenths == 920) {
-        return output.refuse(command.line(), code->column, "G92 with rotary axes is not read yet",
-                             "set their zero with G10 L2, or let the CAM system write machine angles");
-    }
+    if (code && code->tenths == 920) return preset_rotary(command, state, output);
     for (int axis = 0; axis < 3; ++axis) {
         const auto angle = word_rad(command, axis, output);
         if (!angle) return std::unexpected(angle.error());

@@ -10,18 +10,19 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// Longest number, characters without sign and blanks. No control writes half as many.
-constexpr std::size_t kLongestNumber = 64;
+bool is_vacant(double value) {
+    return std::isnan(value);
+}
+double number_or_0(double value) {
+    return is_vacant(value) ? 0 : value;
+}
+
 // Largest depth of brackets, functions, signs and '#'.
 constexpr int kDeepestNesting = 60;
 // Largest difference from a whole number where one is required; also the tolerance of EQ (LinuxCNC).
 constexpr double kWholeTolerance = 1e-4, kEqualTolerance = 1e-4;
 
-bool is_number_character(char c) {
-    return is_digit(c) || c == '.';
-}
-
-enum class Function { abs, acos, asin, atan, cos, exists, exp, fix, fup, ln, round, sin, sqrt, tan };
+enum class Function { abs, acos, asin, atan, cos, exists, exp, fix, fup, ln, pow, round, sin, sqrt, tan };
 enum class Operator {
     none,
     power,
@@ -47,11 +48,11 @@ struct Named {
     What what;
 };
 constexpr Named<Function> kFunctions[] = {
-    {"ABS", Function::abs},   {"ACOS", Function::acos},   {"ASIN", Function::asin},
-    {"ATAN", Function::atan}, {"COS", Function::cos},     {"EXISTS", Function::exists},
-    {"EXP", Function::exp},   {"FIX", Function::fix},     {"FUP", Function::fup},
-    {"LN", Function::ln},     {"ROUND", Function::round}, {"SIN", Function::sin},
-    {"SQRT", Function::sqrt}, {"TAN", Function::tan},
+    {"ABS", Function::abs},   {"ACOS", Function::acos}, {"ASIN", Function::asin},
+    {"ATAN", Function::atan}, {"COS", Function::cos},   {"EXISTS", Function::exists},
+    {"EXP", Function::exp},   {"FIX", Function::fix},   {"FUP", Function::fup},
+    {"LN", Function::ln},     {"POW", Function::pow},   {"ROUND", Function::round},
+    {"SIN", Function::sin},   {"SQRT", Function::sqrt}, {"TAN", Function::tan},
 };
 // If two names start alike, the longer one comes first.
 constexpr Named<Operator> kOperators[] = {
@@ -92,6 +93,9 @@ class ExpressionReader {
         return read;
     }
 
+    // Operators without brackets around them.
+    Result<double> formula() { return operation(1); }
+
     Result<void> parameter_name(ParameterName& read) {
         const std::size_t start = cursor_.at++;  // '#'
         read.number = 0;
@@ -100,8 +104,11 @@ class ExpressionReader {
         const auto number = value();
         if (!number) return std::unexpected(number.error());
         const double whole = std::floor(*number + 0.5);
-        if (!(std::abs(*number - whole) <= kWholeTolerance) || !(whole >= 1) || whole > kLastParameter) {
-            return cursor_.refuse(start, "the number of a parameter is not a whole one from 1 to 5602",
+        const bool is_whole = std::abs(*number - whole) <= kWholeTolerance;
+        if (!is_whole || !(whole >= parameters_.first()) || whole > parameters_.last()) {
+            return cursor_.refuse(start,
+                                  "the number of a parameter is not a whole one from 1 to " +
+                                      std::to_string(parameters_.last()),
                                   "correct it");
         }
         read.number = static_cast<int>(whole);
@@ -117,7 +124,7 @@ class ExpressionReader {
         if (c == '-' || c == '+') {
             ++cursor_.at;
             auto read = value();
-            if (read && c == '-') *read = -*read;
+            if (read) *read = c == '-' ? -number_or_0(*read) : number_or_0(*read);
             return read;
         }
         if (is_letter(c)) return function();
@@ -132,7 +139,7 @@ class ExpressionReader {
         const std::size_t start = cursor_.at;
         ParameterName name;
         if (auto read = parameter_name(name); !read) return std::unexpected(read.error());
-        auto got = name.number != 0 ? parameters_.get(name.number) : parameters_.get(name.name);
+        auto got = name.name.empty() ? parameters_.get(name.number) : parameters_.get(name.name);
         if (got) return got;
         return cursor_.refuse(start, std::move(got.error().cause), std::move(got.error().remedy));
     }
@@ -182,6 +189,12 @@ class ExpressionReader {
 
     Result<double> applied(Operator op, double a, double b, std::size_t start) const {
         const auto truth = [](bool is) { return is ? 1.0 : 0.0; };
+        // A vacant variable equals only another one; elsewhere it counts as 0.
+        if (is_vacant(a) != is_vacant(b) && (op == Operator::eq || op == Operator::ne)) {
+            return truth(op == Operator::ne);
+        }
+        a = number_or_0(a);
+        b = number_or_0(b);
         switch (op) {
             case Operator::power:
                 return finite(math::pow(a, b), start, "a power without a real value",
@@ -232,9 +245,20 @@ class ExpressionReader {
                                   "use ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");
         }
         if (found->what == Function::exists) return existence();
-        const auto x = bracket();
+        if (parameters_.is_fanuc() && (found->what == Function::atan || found->what == Function::pow)) {
+            return of_two(found->what, start);
+        }
+        auto x = bracket();
         if (!x) return x;
+        *x = number_or_0(*x);
         if (found->what == Function::atan) return arc_tangent(*x);
+        if (found->what == Function::pow) {
+            return cursor_.refuse(start, "POW is a function of Fanuc controls", "write [a ** b]");
+        }
+        if (parameters_.is_fanuc() && found->what == Function::fix) return std::trunc(*x);
+        if (parameters_.is_fanuc() && found->what == Function::fup) {
+            return *x < 0 ? std::floor(*x) : std::ceil(*x);
+        }
         return finite(called(found->what, *x), start,
                       "a function has no value there: " + std::string(found->name),
                       "keep SQRT and LN above 0, ASIN and ACOS within 1");
@@ -253,7 +277,7 @@ class ExpressionReader {
             return cursor_.refuse(open, "EXISTS asks for a parameter", "write EXISTS[#<name>]");
         }
         if (auto read = parameter_name(name); !read) return std::unexpected(read.error());
-        if (name.number != 0) {
+        if (name.name.empty()) {
             return cursor_.refuse(open, "EXISTS asks for a parameter with a name", "write EXISTS[#<name>]");
         }
         if (cursor_.peek_after_blanks() != ']') {
@@ -261,6 +285,35 @@ class ExpressionReader {
         }
         ++cursor_.at;
         return parameters_.exists(name.name) ? 1.0 : 0.0;
+    }
+
+    // Fanuc: ATAN[y]/[x], ATAN[y,x], ATAN[y] and POW[a,b].
+    Result<double> of_two(Function function, std::size_t start) {
+        const std::size_t open = cursor_.at++;
+        auto first = operation(1);
+        if (!first) return first;
+        std::optional<double> second;
+        if (cursor_.peek_after_blanks() == ',') {
+            ++cursor_.at;
+            const auto read = operation(1);
+            if (!read) return read;
+            second = number_or_0(*read);
+        }
+        if (cursor_.peek_after_blanks() != ']') {
+            return cursor_.refuse(open, "a '[' is not closed on this line", "add the missing ']'");
+        }
+        ++cursor_.at;
+        *first = number_or_0(*first);
+        if (function == Function::pow) {
+            return finite(math::pow(*first, second.value_or(1)), start, "a power without a real value",
+                          "raise only positive numbers to broken powers");
+        }
+        Cursor ahead = cursor_;
+        if (!second && ahead.peek_after_blanks() == '/') {
+            ++ahead.at;
+            if (ahead.peek_after_blanks() == '[') return arc_tangent(*first);
+        }
+        return math::atan2(*first, second.value_or(1)) * math::kDegPerRad;
     }
 
     // ATAN[y]/[x], in degrees.
@@ -272,7 +325,7 @@ class ExpressionReader {
         }
         const auto x = bracket();
         if (!x) return x;
-        return math::atan2(y, *x) * math::kDegPerRad;
+        return math::atan2(y, number_or_0(*x)) * math::kDegPerRad;
     }
 
     static double called(Function function, double x) {
@@ -311,40 +364,12 @@ class ExpressionReader {
 
 }  // namespace
 
-Result<std::optional<double>> read_digits(Cursor& cursor, std::size_t start) {
-    const std::string_view line = cursor.line;
-    const std::size_t first = cursor.at;
-    std::size_t end = first;
-    while (end < line.size() && is_number_character(line[end])) ++end;
-    if (end == first) return std::nullopt;
-    std::string_view text = line.substr(first, end - first);
-    cursor.at = end;
-    // Blanks among the digits do not count: RS274/NGC 3.3.2.
-    std::array<char, kLongestNumber> joined;
-    if (is_number_character(cursor.peek_after_blanks())) {
-        std::size_t length = 0;
-        cursor.at = first;
-        while (is_number_character(cursor.peek_after_blanks())) {
-            if (length < joined.size()) joined[length] = cursor.peek();
-            ++length;
-            ++cursor.at;
-        }
-        text = {joined.data(), std::min(length, joined.size())};
-        if (length > joined.size()) end = first + length;  // too long: refused below
-    }
-    if (end - first > kLongestNumber) {
-        return cursor.refuse(start, "a number has more than 64 digits", "round it");
-    }
-    const auto value = number_of(text);
-    if (!value) {
-        return cursor.refuse(start, "the number " + std::string(text) + " is malformed",
-                             "write it with digits and at most one decimal point");
-    }
-    return value;
-}
-
 Result<double> read_value(Cursor& cursor, const Parameters& parameters) {
     return ExpressionReader(cursor, parameters).value();
+}
+
+Result<double> read_formula(Cursor& cursor, const Parameters& parameters) {
+    return ExpressionReader(cursor, parameters).formula();
 }
 
 bool starts_computed_value(const Cursor& cursor) {
@@ -361,23 +386,6 @@ bool starts_computed_value(const Cursor& cursor) {
 
 Result<void> read_parameter_name(Cursor& cursor, const Parameters& parameters, ParameterName& read) {
     return ExpressionReader(cursor, parameters).parameter_name(read);
-}
-
-Result<void> read_angled_name(Cursor& cursor, std::string& name) {
-    const std::size_t open = cursor.at++;
-    name.clear();
-    while (cursor.at < cursor.line.size() && cursor.line[cursor.at] != '>') {
-        const char c = cursor.line[cursor.at++];
-        if (is_blank(c)) continue;
-        name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    if (cursor.at >= cursor.line.size()) {
-        return cursor.refuse(open, "a name is opened with '<' and not closed on this line",
-                             "add the missing '>'");
-    }
-    if (name.empty()) return cursor.refuse(open, "a name without letters", "write letters between < and >");
-    ++cursor.at;
-    return {};
 }
 
 }  // namespace tribo::readers::gcode

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kMostLandmarks = 1'000'000;  // about 150 MB
 constexpr std::size_t kDeepestNesting = 1000;
-constexpr double kLargestLabel = 999'999'999;
 
 struct Spelled {
     std::string_view text;
@@ -37,7 +36,7 @@ constexpr Spelled kKeywords[] = {
 };
 
 Result<std::string> read_label(Cursor& cursor, const Parameters* parameters, bool& is_computed) {
-    const std::size_t start = cursor.at++;  // O
+    const std::size_t start = cursor.at++;  // O, or ':'
     std::string label;
     const char c = cursor.peek_after_blanks();
     if (c == '<') {
@@ -115,7 +114,8 @@ Result<Labels> Labels::of(std::string_view bytes, const std::string& source_name
         cursor.at = 0;
         cursor.number = lines.number();
         if (skip_block_head(cursor) && skip_deletable) continue;
-        if (to_upper(cursor.peek_after_blanks()) != 'O') continue;
+        if (!starts_o_word(cursor)) continue;
+        cursor.skip_blanks();
         const std::size_t start = cursor.at;
         auto word = read_o_word(cursor, nullptr);
         if (!word) continue;  // the error is reported when the line is run

@@ -14,6 +14,9 @@
 
 namespace tribo::readers::gcode {
 
+// Largest number of a program, a line or a loop.
+inline constexpr double kLargestLabel = 999'999'999;
+
 enum class Keyword {
     none,  // a program number: O1000
     sub,

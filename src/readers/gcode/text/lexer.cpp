@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/text/lexer.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tribo::readers::gcode {
@@ -9,15 +11,46 @@ namespace {
 // Remedy for text that begins with a letter and a number but is no word: TRAORI, X=5.
 constexpr const char* kOtherDialect = "post-process the program for LinuxCNC or Fanuc";
 
+// Control characters of punched tapes and of the end of DOS files.
+bool is_tape_character(char c) {
+    return (c >= 0x11 && c <= 0x14) || c == 0x1A || c == 0x7F;
+}
+
 }  // namespace
 
 Lexer::Lexer(std::string_view bytes, std::string source_name, bool skip_deletable,
              const Parameters& parameters)
     : lines_(bytes),
+      block_place_(lines_),
       source_name_(std::move(source_name)),
       skip_deletable_(skip_deletable),
       parameters_(parameters) {
     cursor_.source_name = &source_name_;
+}
+
+bool starts_o_word(const Cursor& cursor) {
+    Cursor ahead = cursor;
+    const char c = ahead.peek_after_blanks();
+    if (to_upper(c) == 'O') return true;
+    if (c != ':') return false;
+    ++ahead.at;
+    if (!is_digit(ahead.peek_after_blanks())) return false;
+    while (is_digit(ahead.peek_after_blanks())) ++ahead.at;
+    return ahead.at_end() || ahead.peek() == '(';
+}
+
+bool has_word(std::string_view text, char letter) {
+    TextLines lines(text);
+    while (const auto line = lines.next()) {
+        int depth = 0;
+        for (const char c : *line) {
+            if (c == ';' && depth == 0) break;
+            if (c == '(') ++depth;
+            if (c == ')' && depth > 0) --depth;
+            if (depth == 0 && to_upper(c) == letter) return true;
+        }
+    }
+    return false;
 }
 
 bool skip_block_head(Cursor& cursor) {
@@ -35,6 +68,7 @@ bool skip_block_head(Cursor& cursor) {
 }
 
 Result<bool> Lexer::next(Block& block) {
+    block_place_ = lines_;
     const auto line = lines_.next();
     if (!line) return false;
     cursor_.line = *line;
@@ -43,16 +77,20 @@ Result<bool> Lexer::next(Block& block) {
     block.kind = BlockKind::words;
     block.line = lines_.number();
     block.column = 1;
-    block.deletable = false;
+    block.deletable = block.has_nested_comment = block.has_open_comment = block.has_deleted_rest =
+        block.has_print = false;
+    block.setting = {};
     block.words.clear();
     block.assignments.clear();
     block.comments.clear();
     if (line->size() > kLongestBlock)
         return cursor_.refuse(kLongestBlock, too_long_block(line->size()), "write it on several lines");
 
+    if (cursor_.peek() == '$') return read_setting(block);
     if (cursor_.peek_after_blanks() == '%') {
         block.kind = BlockKind::percent;
         block.column = static_cast<int>(cursor_.at) + 1;
+        block.label = trimmed(cursor_.line.substr(cursor_.at + 1));
         return true;
     }
     if (cursor_.peek() == '/') {
@@ -64,10 +102,33 @@ Result<bool> Lexer::next(Block& block) {
     for (;;) {
         const char c = cursor_.peek_after_blanks();
         if (cursor_.at >= cursor_.line.size() || c == ';') break;
-        if ((c == 'O' || c == 'o') && block.words.empty() && block.assignments.empty()) {
+        const bool is_first = block.words.empty() && block.assignments.empty();
+        if (is_first && starts_o_word(cursor_)) {
             block.kind = BlockKind::o_word;
             block.column = static_cast<int>(cursor_.at) + 1;
             return true;
+        }
+        if (c == '/' && !is_first && skip_deletable_) {
+            block.has_deleted_rest = true;
+            return true;
+        }
+        const bool is_end = c == '%' && trimmed(cursor_.line.substr(cursor_.at + 1)).empty();
+        if (is_end) return true;  // M30%
+        if (is_tape_character(c)) {
+            ++cursor_.at;
+            continue;
+        }
+        if (c == ':' && is_first) {  // alignment block (ISO 6983-1): a line number, perhaps without digits
+            ++cursor_.at;
+            while (is_digit(cursor_.peek_after_blanks())) ++cursor_.at;
+            continue;
+        }
+        if (is_first && is_letter(c) && parameters_.is_fanuc()) {
+            const std::size_t start = cursor_.at;
+            const auto ends = read_macro(block);
+            if (!ends) return std::unexpected(ends.error());
+            if (*ends) return true;
+            if (cursor_.at != start) continue;  // THEN: its statement follows
         }
         const Result<void> read = c == '('   ? read_comment(block)
                                   : c == '#' ? read_assignment(block)
@@ -76,6 +137,32 @@ Result<bool> Lexer::next(Block& block) {
     }
     if (cursor_.at < cursor_.line.size()) block.comments.push_back(cursor_.line.substr(cursor_.at + 1));
     return true;
+}
+
+// $H, $X, $100=80: commands and settings of Grbl; the name of the file on other controls.
+Result<bool> Lexer::read_setting(Block& block) {
+    block.setting = trimmed(cursor_.line);
+    if (to_upper(block.setting.size() > 1 ? block.setting[1] : ' ') != 'J') return true;
+    return cursor_.refuse(0, "$J (jogging) moves the machine and is not read", "write the move as G0 or G1");
+}
+
+// Returns true if a statement has ended the block.
+Result<bool> Lexer::read_macro(Block& block) {
+    const auto statement = read_macro_statement(cursor_, parameters_);
+    if (!statement) return std::unexpected(statement.error());
+    switch (statement->kind) {
+        case MacroKind::none:
+            return false;
+        case MacroKind::then:
+            return !statement->holds;
+        case MacroKind::print:
+            block.has_print = true;
+            return true;
+        default:
+            block.kind = BlockKind::macro;
+            block.macro = *statement;
+            return true;
+    }
 }
 
 Result<void> Lexer::read_end(Block& block) {
@@ -92,17 +179,26 @@ Result<void> Lexer::read_end(Block& block) {
 Result<void> Lexer::read_comment(Block& block) {
     const std::string_view line = cursor_.line;
     const std::size_t open = cursor_.at;
-    const std::size_t close = line.find_first_of("()", open + 1);
-    if (close == std::string_view::npos) {
-        return cursor_.refuse(open, "a comment is opened here and not closed on this line",
-                              "add the missing ')'");
+    std::size_t close = open, depth = 1;
+    while (depth > 0) {
+        close = line.find_first_of("()", close + 1);
+        if (close == std::string_view::npos) break;
+        if (line[close] == '(') block.has_nested_comment = true;
+        depth += line[close] == '(' ? 1 : static_cast<std::size_t>(-1);
     }
-    if (line[close] == '(') {
-        return cursor_.refuse(close, "a comment is opened inside another comment",
-                              "use square brackets inside a comment");
+    if (depth > 0) {
+        // Not closed: the line must hold nothing behind the last ')', which might close it on other controls.
+        const std::size_t last = line.find_last_of(')');
+        const bool is_closed = last != std::string_view::npos && last > open;
+        if (is_closed && !trimmed(line.substr(last + 1)).empty()) {
+            return cursor_.refuse(line.find('(', open + 1), "a comment is opened inside another comment",
+                                  "use square brackets inside a comment");
+        }
+        block.has_open_comment = true;
+        close = is_closed ? last : line.size();
     }
     block.comments.push_back(line.substr(open + 1, close - open - 1));
-    cursor_.at = close + 1;
+    cursor_.at = std::min(close + 1, line.size());
     return {};
 }
 
@@ -116,7 +212,7 @@ Result<void> Lexer::read_assignment(Block& block) {
                               "assign a value to it, or put a letter before it");
     }
     ++cursor_.at;
-    const auto value = read_value(cursor_, parameters_);
+    const auto value = read_formula(cursor_, parameters_);
     if (!value) return std::unexpected(value.error());
     assignment.value = *value;
     block.assignments.push_back(std::move(assignment));
@@ -141,13 +237,21 @@ Result<void> Lexer::read_word(Block& block) {
     }
     ++cursor_.at;
     const char letter = to_upper(c);
+    // X1.2E-5 may be a number of other systems, X1.2 E-5 is not.
+    if (letter == 'E' && start > 0 && (is_digit(cursor_.line[start - 1]) || cursor_.line[start - 1] == '.')) {
+        return cursor_.refuse(start, "E follows a number without a blank, like an exponent",
+                              "write the number without exponent, or a blank before E");
+    }
     const auto value = read_number(letter, start);
     if (!value) return std::unexpected(value.error());
     if (letter == 'O') {
         return cursor_.refuse(start, "an O-word stands inside the block", "move it to a line of its own");
     }
+    if (!*value) return {};
     if (letter != 'N') {
-        block.words.push_back({letter, *value, static_cast<int>(start) + 1});
+        block.words.push_back({letter, **value, static_cast<int>(start) + 1});
+        const bool shows_text = letter == 'M' && (**value == 117 || **value == 118);  // Marlin
+        if (shows_text) cursor_.at = cursor_.line.size();
     } else if (!block.words.empty()) {
         return cursor_.refuse(start, "a line number (N) stands inside the block",
                               "move it to the start of the line");
@@ -155,7 +259,7 @@ Result<void> Lexer::read_word(Block& block) {
     return {};
 }
 
-Result<double> Lexer::read_number(char letter, std::size_t word) {
+Result<std::optional<double>> Lexer::read_number(char letter, std::size_t word) {
     char c = cursor_.peek_after_blanks();
     const bool has_sign = c == '-' || c == '+', negative = c == '-';
     if (has_sign) {
@@ -168,9 +272,10 @@ Result<double> Lexer::read_number(char letter, std::size_t word) {
         return negative ? -**digits : **digits;
     }
     if (!starts_computed_value(cursor_)) return refuse_number(letter, word, has_sign);
-    auto value = read_value(cursor_, parameters_);
-    if (value && negative) *value = -*value;
-    return value;
+    const auto value = read_value(cursor_, parameters_);
+    if (!value) return std::unexpected(value.error());
+    if (std::isnan(*value)) return std::nullopt;
+    return negative ? -*value : *value;
 }
 
 // Refuses the text at the place of a number.

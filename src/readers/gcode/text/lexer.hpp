@@ -11,6 +11,7 @@
 #include "base/result.hpp"
 #include "readers/gcode/cursor.hpp"
 #include "readers/gcode/text/expression.hpp"
+#include "readers/gcode/text/macro.hpp"
 #include "readers/gcode/text/parameters.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -33,14 +34,22 @@ enum class BlockKind {
     words,    // may be empty
     percent,  // a line with %
     o_word,   // a program number or control flow; no words beside it
+    macro,    // GOTO, DO or END of a Fanuc macro program; no words beside it
 };
 
 struct Block {
     BlockKind kind = BlockKind::words;
-    int line = 0;             // from 1
-    int column = 0;           // of the start of a percent or o_word block
-    bool deletable = false;   // starts with '/'
-    std::vector<Word> words;  // in order, line numbers (N) left out
+    int line = 0;            // from 1
+    int column = 0;          // of the start of a percent or o_word block
+    bool deletable = false;  // starts with '/'
+    bool has_nested_comment = false;
+    bool has_open_comment = false;  // not closed on its line
+    bool has_deleted_rest = false;  // behind a '/' inside; it is not read
+    bool has_print = false;         // DPRNT and the like
+    std::string_view setting;       // a line that begins with '$'
+    std::string_view label;         // what follows a '%'
+    MacroStatement macro;           // of a macro block
+    std::vector<Word> words;        // in order, line numbers (N) left out
     std::vector<Assignment> assignments;
     std::vector<std::string_view> comments;
 };
@@ -59,6 +68,8 @@ class Lexer {
     // The position of the next block, for go_to().
     const TextLines& place() const { return lines_; }
     void go_to(const TextLines& place) { lines_ = place; }
+    // The position of the block that next() has read.
+    const TextLines& block_place() const { return block_place_; }
 
     // The line of the block; in an o_word block the cursor is on the O.
     Cursor& cursor() { return cursor_; }
@@ -66,18 +77,27 @@ class Lexer {
     Result<void> read_end(Block& block);
 
   private:
+    Result<bool> read_macro(Block& block);
+    Result<bool> read_setting(Block& block);
     Result<void> read_word(Block& block);
     Result<void> read_comment(Block& block);
     Result<void> read_assignment(Block& block);
-    Result<double> read_number(char letter, std::size_t word);
+    // None: a vacant variable.
+    Result<std::optional<double>> read_number(char letter, std::size_t word);
     std::unexpected<Error> refuse_number(char letter, std::size_t word, bool has_sign);
 
-    TextLines lines_;
+    TextLines lines_, block_place_;
     std::string source_name_;
     bool skip_deletable_;
     const Parameters& parameters_;
     Cursor cursor_;
 };
+
+// True for O, and for ':' with a number alone, the program number of ISO tapes.
+bool starts_o_word(const Cursor& cursor);
+
+// True if the text has a word of this letter, outside of comments.
+bool has_word(std::string_view text, char letter);
 
 // Moves the cursor past '/' and N123 at the start of a block. Returns true if the block is deletable.
 bool skip_block_head(Cursor& cursor);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "base/math.hpp"
 #include "readers/gcode/state.hpp"
+#include "readers/gcode/text/fanuc_variables.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
@@ -19,8 +22,6 @@ constexpr int kInput = 5399;
 constexpr int kFirstState = 5400, kLastState = 5428;
 constexpr int kTool = 5400, kToolDiameter = 5410, kFirstPosition = 5420;
 constexpr int kAxes = 9;  // x y z a b c u v w
-// From this number on, parameters are the state of a Fanuc control.
-constexpr int kFirstFanucSystem = 1000;
 
 std::string shown(int number) {
     return "#" + std::to_string(number);
@@ -42,6 +43,7 @@ int motion_code(const State& state) {
 }
 
 int work_code(const State& state) {
+    if (state.active_work >= kWorkSystems) return 541;
     return state.active_work < 6 ? 540 + 10 * state.active_work : 586 + state.active_work - 1;
 }
 
@@ -92,56 +94,87 @@ Result<double> Parameters::position(int axis) const {
         return fail(std::string("the parameter asks for ") + "XYZ"[axis] + ", which is not known here",
                     "move every axis to a stated place (G0) before it is read");
     }
-    return (state_.tip_mm[axis] - state_.origin_mm()[axis]) / state_.unit_mm;
+    return state_.frame.written(state_.tip_mm - state_.origin_mm())[axis] / state_.unit_mm;
+}
+
+bool Parameters::is_fanuc() const {
+    return output_.options.dialect == GcodeDialect::fanuc;
+}
+int Parameters::first() const {
+    return is_fanuc() ? 0 : 1;
+}
+int Parameters::last() const {
+    return is_fanuc() ? kLastFanucParameter : kLastParameter;
+}
+
+// Returns the variable of the call, if it is one of those.
+const double* Parameters::local(int number) const {
+    const Frame& frame = frames_.back();
+    if (frames_.size() == 1 || number > frame.locals) return nullptr;
+    return &frame.numbers[static_cast<std::size_t>(number - 1)];
+}
+double* Parameters::local(int number) {
+    return const_cast<double*>(std::as_const(*this).local(number));
 }
 
 Result<double> Parameters::get(int number) const {
-    if (number < 1 || number > kLastParameter) {
-        return fail(shown(number) + " is no parameter: they run from #1 to #5602", "correct the number");
+    if (number == 0 && is_fanuc()) return std::numeric_limits<double>::quiet_NaN();
+    if (number < 1 || number > last()) {
+        return fail(shown(number) + " is no parameter: they run from #1 to #" + std::to_string(last()),
+                    "correct the number");
     }
-    const Frame& frame = frames_.back();
-    const bool is_outermost = frames_.size() == 1;
-    if (number <= kLocalParameters && !is_outermost) {
-        return frame.numbers[static_cast<std::size_t>(number - 1)];
-    }
+    if (const double* value = local(number)) return *value;
     const auto index = static_cast<std::size_t>(number);
-    if (output_.options.dialect == GcodeDialect::linuxcnc) {
-        if (number >= kFirstPosition && number < kFirstPosition + kAxes) {
-            return position(number - kFirstPosition);
-        }
-        if (number == kTool) return state_.tool();
-        if (number == kToolDiameter) {
-            const auto diameter = output_.tool_diameter_mm(state_.tool());
-            return diameter.value_or(0) / state_.unit_mm;
-        }
-        if (number >= kFirstState && number <= kLastState) return 0.0;
-        if (number == kPresetOn) return state_.preset_on ? 1.0 : 0.0;
-        if (number == kActiveWork) return state_.active_work + 1;
-        if (number >= kFirstPreset && number < kFirstPreset + kAxes) {
-            const int axis = number - kFirstPreset;
-            return axis < 3 ? state_.preset_mm[axis] / state_.unit_mm : 0;
-        }
-        if (number >= kFirstWork && number <= kLastWork && (number - kFirstWork) % kWorkStep <= kWorkTurn) {
-            const WorkSystem& work = state_.work[static_cast<std::size_t>((number - kFirstWork) / kWorkStep)];
-            const int axis = (number - kFirstWork) % kWorkStep;
-            if (axis == kWorkTurn) return work.turn_deg;
-            return axis < 3 ? work.origin_mm[axis] / state_.unit_mm : 0;
-        }
-        const bool is_measured = (number >= kFirstProbe && number <= kLastProbe) || number == kInput;
-        if (is_measured && (numbers_.empty() || !numbers_[index])) {
-            return fail(
-                shown(number) + " holds what a probe or an input has measured, which nobody knows here",
-                "assign it before it is read");
-        }
-    } else if (number >= kFirstFanucSystem && (numbers_.empty() || !numbers_[index])) {
-        return fail(shown(number) + " shows the state of a Fanuc control, which is not read",
-                    "assign it before it is read, or let the control expand the macro");
+    const bool is_assigned = !numbers_.empty() && numbers_[index];
+    if (is_fanuc()) return is_assigned ? *numbers_[index] : get_fanuc(number);
+    if (number >= kFirstPosition && number < kFirstPosition + kAxes) {
+        return position(number - kFirstPosition);
     }
-    if (!numbers_.empty() && numbers_[index]) return *numbers_[index];
+    if (number == kTool) return state_.tool();
+    if (number == kToolDiameter) {
+        const auto diameter = output_.tool_diameter_mm(state_.tool());
+        return diameter.value_or(0) / state_.unit_mm;
+    }
+    if (number >= kFirstState && number <= kLastState) return 0.0;
+    if (number == kPresetOn) return state_.preset_on ? 1.0 : 0.0;
+    if (number == kActiveWork) return state_.active_work + 1;
+    if (number >= kFirstPreset && number < kFirstPreset + kAxes) {
+        const int axis = number - kFirstPreset;
+        return axis < 3 ? state_.preset_mm[axis] / state_.unit_mm : 0;
+    }
+    if (number >= kFirstWork && number <= kLastWork && (number - kFirstWork) % kWorkStep <= kWorkTurn) {
+        const WorkSystem& work = state_.work[static_cast<std::size_t>((number - kFirstWork) / kWorkStep)];
+        const int axis = (number - kFirstWork) % kWorkStep;
+        if (axis == kWorkTurn) return work.turn_deg;
+        return axis < 3 ? work.origin_mm[axis] / state_.unit_mm : 0;
+    }
+    const bool is_measured = (number >= kFirstProbe && number <= kLastProbe) || number == kInput;
+    if (is_measured && !is_assigned) {
+        return fail(shown(number) + " holds what a probe or an input has measured, which nobody knows here",
+                    "assign it before it is read");
+    }
+    if (is_assigned) return *numbers_[index];
     if (output_.first(Note::unassigned_parameter)) {
         output_.warn(state_.line, shown(number) + " has no value so far: 0 is taken");
     }
     return 0.0;
+}
+
+// An unassigned variable of a Fanuc control.
+Result<double> Parameters::get_fanuc(int number) const {
+    if (number > kLastCommon) {
+        for (const int first : {kFirstBlockEnd, kFirstPlace}) {
+            if (number >= first && number < first + 3) return position(number - first);
+        }
+        if (const auto value = fanuc_system_variable(number, state_)) return *value;
+        return fail(shown(number) + " shows a state of the control that nobody knows here",
+                    "assign it before it is read, or let the control expand the macro");
+    }
+    if (output_.first(Note::unassigned_parameter)) {
+        output_.warn(state_.line,
+                     shown(number) + " has no value so far: a word with it is left out, in formulas it is 0");
+    }
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::optional<double> Parameters::shown_by_control(std::string_view name) const {
@@ -184,12 +217,19 @@ Result<double> Parameters::get(std::string_view name) const {
 }
 
 Result<void> Parameters::set(int number, double value) {
-    if (number < 1 || number > kLastParameter) {
-        return fail(shown(number) + " is no parameter: they run from #1 to #5602", "correct the number");
+    if (number < 1 || number > last()) {
+        return fail(
+            shown(number) + " cannot be assigned: parameters run from #1 to #" + std::to_string(last()),
+            "correct the number");
     }
-    if (number <= kLocalParameters && frames_.size() > 1) {
-        frames_.back().numbers[static_cast<std::size_t>(number - 1)] = value;
+    if (double* place = local(number)) {
+        *place = value;
         return {};
+    }
+    if (is_fanuc() && number > kLastCommon) {
+        const auto is_set = set_fanuc_system_variable(number, std::isnan(value) ? 0 : value, state_);
+        if (!is_set) return std::unexpected(is_set.error());
+        if (*is_set) return {};
     }
     if (output_.options.dialect == GcodeDialect::linuxcnc) {
         const bool is_offset = number >= kPresetOn && number <= kLastWork;
@@ -202,8 +242,10 @@ Result<void> Parameters::set(int number, double value) {
                         "use another number");
         }
     }
-    if (numbers_.empty()) numbers_.resize(kLastParameter + 1);
-    numbers_[static_cast<std::size_t>(number)] = value;
+    if (numbers_.empty()) numbers_.resize(static_cast<std::size_t>(last()) + 1);
+    auto& place = numbers_[static_cast<std::size_t>(number)];
+    place.reset();
+    if (!std::isnan(value)) place = value;
     return {};
 }
 
@@ -223,8 +265,12 @@ Result<void> Parameters::set(std::string_view name, double value) {
 
 void Parameters::enter(std::span<const double> arguments) {
     Frame& frame = frames_.emplace_back();
-    const std::size_t count = std::min(arguments.size(), frame.numbers.size());
+    const std::size_t count = std::min<std::size_t>(arguments.size(), kLocalParameters);
     std::copy_n(arguments.begin(), count, frame.numbers.begin());
+}
+
+void Parameters::enter_macro(const std::array<double, kMacroParameters>& arguments) {
+    frames_.push_back({arguments, kMacroParameters, {}});
 }
 
 void Parameters::leave() {

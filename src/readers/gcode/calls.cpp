@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/calls.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace tribo::readers::gcode {
+namespace {
+
+bool is_whole(const Word& word, double least) {
+    return word.value >= least && word.value <= kLargestLabel && word.value == std::floor(word.value);
+}
+
+// Variable of each argument of G65, A to Z; 0: no argument.
+constexpr std::array<int, 26> kVariables{1, 2, 3, 7,  8,  9,  0,  11, 4,  5,  6,  0,  13,
+                                         0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
+constexpr int kFirstCentre = 4, kLastCentre = 33;  // I J K, repeated
+
+Result<std::int64_t> times_of(const Word* word, int line, const char* code, const Output& output) {
+    if (word == nullptr) return 1;
+    if (is_whole(*word, 0)) return static_cast<std::int64_t>(word->value);
+    return output.refuse(line, word->column, std::string("L of ") + code + " is no number of times",
+                         "write a whole number");
+}
+
+}  // namespace
+
+Result<bool> call_or_return(Command& command, Flow& flow, Output& output) {
+    const Code code = *command.m(MGroup::subprogram);
+    const Word* number = command.use('P');
+    const int line = command.line();
+    if (code.tenths == 990) {
+        if (number != nullptr && !is_whole(*number, 0)) {
+            return output.refuse(line, number->column, "M99 P is not the number of a line", "correct P");
+        }
+        const auto returned = flow.return_from_program(line, code.column, number);
+        if (returned && !*returned) {
+            output.warn(line, "M99 in the main program would run it again: it ends here");
+        }
+        return returned;
+    }
+    const bool is_local = code.tenths == 970;
+    if (number == nullptr || !is_whole(*number, 1)) {
+        return output.refuse(
+            line, number == nullptr ? code.column : number->column,
+            is_local ? "M97 needs the number of a line as P" : "M98 needs the number of a program as P",
+            is_local ? "write M97 P100 for N100" : "write M98 P1000 for O1000");
+    }
+    const auto times = times_of(command.use('L'), line, is_local ? "M97" : "M98", output);
+    if (!times) return std::unexpected(times.error());
+    if (*times == 0) return true;
+    const auto called =
+        is_local ? flow.call_lines(*number, *times, line) : flow.call_program(*number, *times, line);
+    if (!called) return std::unexpected(called.error());
+    return true;
+}
+
+const Word* macro_call_in(const Block& block) {
+    for (const Word& word : block.words) {
+        if (word.letter == 'G' && word.value == 65) return &word;
+    }
+    return nullptr;
+}
+
+Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const Output& output) {
+    Flow::Arguments arguments;
+    arguments.fill(std::numeric_limits<double>::quiet_NaN());
+    const Word* number = nullptr;
+    const Word* times_word = nullptr;
+    int set = 0, last = -1;  // of I J K
+    for (const Word& word : block.words) {
+        if (&word == &code) continue;
+        if (&word < &code) {
+            return output.refuse(block.line, word.column, "G65 is not the first word of its block",
+                                 "move what is before it to the line above");
+        }
+        if (word.letter == 'P') {
+            number = &word;
+        } else if (word.letter == 'L') {
+            times_word = &word;
+        } else if (word.letter >= 'I' && word.letter <= 'K') {
+            const int letter = word.letter - 'I';
+            if (letter <= last) ++set;
+            last = letter;
+            const int variable = kFirstCentre + 3 * set + letter;
+            if (variable > kLastCentre) {
+                return output.refuse(block.line, word.column, "G65 has more than ten sets of I J K",
+                                     "pass the rest in common variables");
+            }
+            arguments[static_cast<std::size_t>(variable - 1)] = word.value;
+        } else if (const int variable = kVariables[static_cast<std::size_t>(word.letter - 'A')];
+                   variable != 0) {
+            arguments[static_cast<std::size_t>(variable - 1)] = word.value;
+        } else {
+            return output.refuse(block.line, word.column,
+                                 std::string(1, word.letter) + " is no argument of G65",
+                                 "use another letter");
+        }
+    }
+    if (number == nullptr || !is_whole(*number, 1)) {
+        return output.refuse(block.line, number == nullptr ? code.column : number->column,
+                             "G65 needs the number of a program as P", "write G65 P1000 for O1000");
+    }
+    const auto times = times_of(times_word, block.line, "G65", output);
+    if (!times) return std::unexpected(times.error());
+    if (*times == 0) return {};
+    return flow.call_program(*number, *times, block.line, &arguments);
+}
+
+}  // namespace tribo::readers::gcode

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "readers/gcode/passing.hpp"
+
+#include <string>
+
+namespace tribo::readers::gcode {
+namespace {
+
+// Numbers of offsets, tools and times, extrusion of printers: alone they move no axis.
+constexpr std::string_view kHarmless = "DEHLPQ";
+
+std::unexpected<Error> refuse_unused(const Command& command, const Word& word, const Output& output) {
+    const std::string letter(1, word.letter);
+    switch (word.letter) {
+        case 'U':
+        case 'V':
+        case 'W':
+            return output.refuse(command.line(), word.column, "axes U, V and W are not read yet",
+                                 "let the CAM system write the path with X, Y and Z");
+        case 'I':
+        case 'J':
+        case 'K':
+            return output.refuse(command.line(), word.column, letter + " without an arc to use it",
+                                 "write G2 or G3 before it, G43.5 where I J K are the tool's axis, or delete "
+                                 "the word");
+        case 'R':
+            return output.refuse(command.line(), word.column, "R without an arc to use it",
+                                 "write G2 or G3 before it, or delete the word");
+        default:
+            return output.refuse(command.line(), word.column, letter + " without a code that uses it",
+                                 "delete the word, or add the code that it belongs to");
+    }
+}
+
+}  // namespace
+
+void note_writing(const Block& block, Output& output) {
+    if (block.has_nested_comment && output.first(Note::nested_comment)) {
+        output.warn(
+            block.line,
+            "a comment stands inside another one: both are passed over; some controls end them at the "
+            "first ')'");
+    }
+    if (block.has_open_comment && output.first(Note::open_comment)) {
+        output.warn(block.line, "a comment is not closed: it is taken to end with its line");
+    }
+    if (block.has_print && output.first(Note::print)) {
+        output.warn(block.line, "output to a printer or a file (DPRNT and the like) is left out");
+    }
+    if (block.has_deleted_rest && output.first(Note::deleted_rest)) {
+        output.warn(block.line, "what follows '/' in a block is skipped, as with block delete switched on");
+    }
+}
+
+void pass_unknown_codes(Command& command, Output& output) {
+    if (command.unknown_m().empty()) return;
+    for (const Code code : command.unknown_m()) {
+        if (!output.first(Note::unknown_m, code.tenths)) continue;
+        output.warn(command.line(), code_text('M', code.tenths) +
+                                        " is not known: it is taken as a switch of the machine that moves "
+                                        "nothing");
+    }
+    if (!command.g(GGroup::motion) && !command.has_any("XYZABC")) command.use_rest();
+}
+
+Result<void> pass_unused_words(Command& command, State& state, Output& output) {
+    while (const Word* word = command.first_unused()) {
+        // Surface normals of compensation in space, which the programmed path does not need.
+        const bool is_normal = state.compensation.is_on && state.compensation.code % 10 > 1 &&
+                               word->letter >= 'I' && word->letter <= 'K';
+        const bool is_harmless = is_normal || kHarmless.find(word->letter) != std::string_view::npos;
+        if (!is_harmless && word->value != 0) return refuse_unused(command, *word, output);
+        command.use(word->letter);
+        if (word->letter == 'D') {
+            const Compensation& comp = state.compensation;
+            if (comp.is_on && comp.left_mm != 0 && word->value != comp.number) {
+                return output.refuse(command.line(), word->column,
+                                     "D changes the cutter compensation that line " +
+                                         std::to_string(comp.line) + " has switched on",
+                                     "write G40 before it, and G41 or G42 beside D");
+            }
+            state.offset_number = word->value;
+        }
+        if (!output.first(Note::unused_word, word->letter)) continue;
+        std::string text = std::string(1, word->letter) + " is used by no code of its block: it is left out";
+        if (word->letter == 'E') text += "; a program with many E words is one for a printer";
+        output.warn(command.line(), std::move(text));
+    }
+    return {};
+}
+
+void pass_setting(const Block& block, State& state, Output& output) {
+    if (output.first(Note::setting)) {
+        output.warn(block.line, "a line that begins with '$' is for the machine and left out: " +
+                                    std::string(block.setting.substr(0, 20)));
+    }
+    const bool goes_home = block.setting.size() > 1 && to_upper(block.setting[1]) == 'H';
+    if (!goes_home) return;
+    for (Known& known : state.known) {
+        if (known == Known::yes) known = Known::lost;
+    }
+    state.lost_line = block.line;
+}
+
+void note_lathe(const State& state, Output& output) {
+    if (state.plane != Plane::zx || state.has_y || output.moves == 0) return;
+    output.warn(
+        0,
+        "the program moves X and Z alone, in G18: if it is for a lathe, its X are diameters and it is not "
+        "read rightly");
+}
+
+}  // namespace tribo::readers::gcode

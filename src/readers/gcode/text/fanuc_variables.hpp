@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The system variables of a Fanuc control that this reader knows: modes of the program, positions, and the
+// origins of work systems.
+#pragma once
+
+#include <optional>
+
+#include "base/result.hpp"
+
+namespace tribo::readers::gcode {
+
+struct State;
+
+inline constexpr int kLastCommon = 999;  // #100 to #199 and #500 to #999; system variables follow
+// X, Y and Z where the last block ended (#5001), and where the tool is (#5041), in the coordinates of the
+// program.
+inline constexpr int kFirstBlockEnd = 5001, kFirstPlace = 5041;
+inline constexpr int kAlarm = 3000, kStopWithMessage = 3006;
+
+// Returns the value; none where only the control knows it. Lengths are in the unit in force.
+std::optional<double> fanuc_system_variable(int number, const State& state);
+
+// Sets the variable if it changes the state that moves depend on; false otherwise. Refuses values out of
+// range, without a place.
+Result<bool> set_fanuc_system_variable(int number, double value, State& state);
+
+}  // namespace tribo::readers::gcode
