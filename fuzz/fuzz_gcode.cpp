@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Any bytes give moves with finite ends or an error with a remedy; both readings of '/' and both dialects are
-// tried.
+// Any bytes give moves with finite ends or an error with a remedy; both readings of '/', both dialects, and
+// the reading that goes on after a refusal are tried.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <vector>
 
 #include "readers/gcode/reader.hpp"
 
@@ -13,6 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     constexpr std::size_t largest = 1 << 20;
     if (size > largest) return 0;
     for (const bool skip : {true, false}) {
+        std::vector<Error> refusals;
         readers::GcodeOptions options;
         options.source_name = "fuzz.nc";
         options.skip_deletable_blocks = skip;
@@ -21,7 +23,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.max_steps = 2'000;  // loops are no place to spend a fuzzer's time
         options.max_moves = 100'000;
         options.default_feed_mm_per_min = skip ? 100 : 0;
+        if (!skip) options.refusals = &refusals;
         const auto program = readers::read_gcode({reinterpret_cast<const char*>(data), size}, options);
+        if (refusals.size() > readers::GcodeOptions::kMostRefusals) std::abort();
+        for (const Error& refusal : refusals) {
+            if (refusal.cause.empty() || refusal.remedy.empty()) std::abort();
+        }
         if (!program) {
             if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();
             continue;
