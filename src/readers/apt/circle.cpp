@@ -2,7 +2,6 @@
 #include "readers/apt/circle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -11,9 +10,6 @@
 namespace tribo::readers::apt {
 namespace {
 
-// Largest distance of a point from its circle, mm: the rounding of coordinates and radius in inches with
-// three decimals.
-constexpr double kOnCircleMm = 0.02;
 // Ends closer than this count as one point, mm.
 constexpr double kSamePointMm = 1e-6;
 // Largest difference between a stated turn and the turn of the points.
@@ -134,55 +130,6 @@ Result<motion::Arc> arc_to(const Circle& circle, Vec3 start_mm, Vec3 end_mm, con
     }
     turn += (turn < 0 ? -1 : 1) * circle.more_turns * math::kTwoPi;
     return motion::Arc{circle.centre_mm, turn < 0 ? -n : n, std::abs(turn)};
-}
-
-Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward, Path& path, Report& report) {
-    const auto refuse = [&] {
-        return report.refuse(statement.word, "a circle of CATIA in a form that is not known",
-                             "write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)");
-    };
-    // Numbers of CIRCLE and LINE, without words and brackets.
-    Statement plain;
-    plain.word = statement.word;
-    std::array<std::string_view, 2> opens{"(CIRCLE/", "(LINE/"};
-    std::size_t opened = 0;
-    for (Item item : statement.items) {
-        if (opened < 2 && matches(item.text.substr(0, opens[opened].size()), opens[opened])) {
-            item.column += static_cast<int>(opens[opened].size());
-            item.text = trimmed(item.text.substr(opens[opened].size()));
-            if (plain.items.size() != 4 * opened) return refuse();
-            ++opened;
-        } else if (plain.items.size() == 4 && opened == 1) {
-            if (matches(item.text, "ON") || matches(item.text, "INTOF") || matches(item.text, "2")) continue;
-            return refuse();
-        }
-        if (item.text.ends_with(')')) item.text = trimmed(item.text.substr(0, item.text.size() - 1));
-        plain.items.push_back(item);
-    }
-    if (plain.items.size() != 10 || opened != 2) return refuse();
-    const auto centre = path.read_point(plain, 0), end = path.read_point(plain, 7);
-    if (!centre) return std::unexpected(centre.error());
-    if (!end) return std::unexpected(end.error());
-    const auto radius = report.number(plain.items[3], lengths(path.settings.unit_mm));
-    if (!radius) return std::unexpected(radius.error());
-    const Frame& frame = path.frames.to_program();
-    CatiaCircle out;
-    out.circle.at = statement.word;
-    out.circle.centre_mm = frame.point(*centre);
-    out.circle.radius_mm = *radius * path.settings.unit_mm;
-    if (out.circle.radius_mm <= kOnCircleMm)
-        return report.refuse(plain.items[3], "a circle without a radius", kCorrect);
-    out.end_mm = frame.point(*end);
-    // The arc leaves the start along `forward` and turns about the tool axis in either direction.
-    const Vec3 from = path.place()->tip_mm - out.circle.centre_mm;
-    const Vec3 about = cross(from, frame.turn(forward));
-    const Vec3 axis = path.place()->axis;
-    if (std::abs(dot(normalized(about, {}), axis)) < 0.99) {
-        return report.refuse(statement.word, "INDIRV does not lead along the circle about the tool axis",
-                             "let the CAM system write CIRCLE or straight moves");
-    }
-    out.circle.normal = dot(about, axis) > 0 ? axis : -axis;
-    return out;
 }
 
 }  // namespace tribo::readers::apt

@@ -8,6 +8,10 @@
 
 namespace tribo::readers::apt {
 
+// Largest distance of a point from its circle, mm: the rounding of coordinates and radius in inches with
+// three decimals. A circle has a larger radius.
+inline constexpr double kOnCircleMm = 0.02;
+
 // In the frame of the program.
 struct Circle {
     Vec3 centre_mm, normal;  // the arc turns counter-clockwise, seen from the tip of the normal
@@ -30,13 +34,5 @@ bool is_on(const Circle& circle, Vec3 tip_mm);
 // program states agrees only with the opposite direction about the normal, the arc takes that direction.
 Result<motion::Arc> arc_to(const Circle& circle, Vec3 start_mm, Vec3 end_mm, const Item& at,
                            const Report& report);
-
-// Reads TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,xe,ye,ze) of CATIA. `forward` is the direction of INDIRV.
-// The second point of the line is the end.
-struct CatiaCircle {
-    Circle circle;
-    Vec3 end_mm;
-};
-Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward, Path& path, Report& report);
 
 }  // namespace tribo::readers::apt

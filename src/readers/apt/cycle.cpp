@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "readers/text/length_unit.hpp"
+
 namespace tribo::readers::apt {
 namespace {
 
@@ -25,24 +27,30 @@ constexpr std::array kKinds{
     Kind{"REAM", Cycle::Way::bore},     Kind{"BORE", Cycle::Way::bore},
     Kind{"FACE", Cycle::Way::through},  Kind{"CSINK", Cycle::Way::through},
     Kind{"CBORE", Cycle::Way::through}, Kind{"CENTER", Cycle::Way::through},
+    Kind{"DEEPHL", Cycle::Way::peck},   Kind{"DEEPBR", Cycle::Way::chip},
+    Kind{"STANDARD", Cycle::Way::through}, Kind{"SPOT", Cycle::Way::through},
+    Kind{"CDRILL", Cycle::Way::through}, Kind{"NODRAG", Cycle::Way::through},
+    Kind{"DRAG", Cycle::Way::bore},     Kind{"BOREOS", Cycle::Way::through},
 };
 
-enum class Key { depth, clearance, retract, first_peck, peck, dwell, feed };
+// `aside`: a value that moves no tool in the depth, such as the angle at which the spindle stops.
+enum class Key { depth, clear, approach, retract, first_peck, peck, dwell, feed, threads, back, aside };
 struct Word {
     std::string_view text;
     Key key;
 };
 constexpr std::array kWords{
-    Word{"FEDTO", Key::depth},        Word{"DEPTH", Key::depth},    Word{"RAPTO", Key::clearance},
-    Word{"CLEAR", Key::clearance},    Word{"RTRCTO", Key::retract}, Word{"RETURN", Key::retract},
+    Word{"FEDTO", Key::depth},        Word{"DEPTH", Key::depth},    Word{"RAPTO", Key::approach},
+    Word{"CLEAR", Key::clear},    Word{"RTRCTO", Key::retract}, Word{"RETURN", Key::retract},
     Word{"1STPECK", Key::first_peck}, Word{"SUBPECK", Key::peck},   Word{"STEP", Key::peck},
     Word{"STEP1", Key::peck},         Word{"PECK", Key::peck},      Word{"INCR", Key::peck},
-    Word{"DWELL", Key::dwell},        Word{"MMPM", Key::feed},      Word{"MMPR", Key::feed},
-    Word{"IPM", Key::feed},           Word{"IPR", Key::feed},       Word{"PERMIN", Key::feed},
-    Word{"PERREV", Key::feed},
+    Word{"DWELL", Key::dwell},        Word{"TPI", Key::threads},    Word{"BACK", Key::back},
+    Word{"ORIENT", Key::aside},       Word{"RPM", Key::aside},
 };
 
 const Word* find_word(std::string_view text) {
+    static constexpr Word feed{{}, Key::feed};
+    if (feed_unit(text)) return &feed;
     const auto found = std::ranges::find_if(kWords, [&](const Word& w) { return matches(text, w.text); });
     return found == kWords.end() ? nullptr : &*found;
 }
@@ -61,7 +69,10 @@ class CycleReader {
         if (cycle_.depth_mm <= 0) {
             return report_.refuse(cycle_.at, "a cycle without a depth", "write FEDTO or DEPTH and the depth");
         }
-        if (!has_retract_) cycle_.retract_mm = cycle_.clearance_mm;
+        // With both words RAPTO counts from CLEAR down: the tool goes on at rapid.
+        cycle_.clearance_mm = approach_mm_.value_or(clear_mm_.value_or(0));
+        if (clear_mm_ && approach_mm_) cycle_.clearance_mm = *clear_mm_ - *approach_mm_;
+        if (!has_retract_) cycle_.retract_mm = clear_mm_.value_or(cycle_.clearance_mm);
         if (cycle_.first_peck_mm == 0) cycle_.first_peck_mm = cycle_.peck_mm;
         if (cycle_.peck_mm == 0) cycle_.peck_mm = cycle_.first_peck_mm;
         const bool pecks = cycle_.way == Cycle::Way::peck || cycle_.way == Cycle::Way::chip;
@@ -115,10 +126,15 @@ class CycleReader {
             return {};
         }
         if (key == Key::dwell) return read_dwell();
-        if (key == Key::feed) {
+        if (key == Key::feed || key == Key::threads) {
             const auto value = take_number(Range{});
             if (!value) return std::unexpected(value.error());
-            return set_feed(*value, word);
+            if (key == Key::feed) return set_feed(*value, word);
+            return set_threads(*value, word);
+        }
+        if (key == Key::aside) {
+            if (at_ < items_.size() && number_of(items_[at_].text)) ++at_;
+            return {};
         }
         Range range = lengths(unit_mm_);
         if (key == Key::depth || key == Key::retract) range.min = -range.max;
@@ -129,12 +145,19 @@ class CycleReader {
             case Key::depth:
                 cycle_.depth_mm = std::abs(mm);  // NX writes the upward distance, which is negative
                 break;
-            case Key::clearance:
-                cycle_.clearance_mm = mm;
+            case Key::clear:
+                clear_mm_ = mm;
+                break;
+            case Key::approach:
+                approach_mm_ = mm;
+                break;
+            case Key::back:
+                cycle_.chip_mm = mm;
                 break;
             case Key::retract:
+                // RETURN,0 leads to the plane of CLEAR.
+                has_retract_ = mm != 0 || !matches(word.text, "RETURN");
                 cycle_.retract_mm = mm;
-                has_retract_ = true;
                 break;
             case Key::first_peck:
                 cycle_.first_peck_mm = mm;
@@ -160,30 +183,39 @@ class CycleReader {
     }
 
     Result<void> set_feed(double value, const Item& word) {
-        const bool inches = matches(word.text, "IPM") || matches(word.text, "IPR");
-        const bool plain = matches(word.text, "PERMIN") || matches(word.text, "PERREV");
-        const bool per_turn =
-            matches(word.text, "IPR") || matches(word.text, "MMPR") || matches(word.text, "PERREV");
-        const double unit = plain ? unit_mm_ : mm_per(inches ? LengthUnit::inch : LengthUnit::millimetre);
-        const auto feed = feed_of(word, value * unit, per_turn, report_);
+        const FeedUnit& unit = *feed_unit(word.text);
+        const auto feed = feed_of(word, value * (unit.mm > 0 ? unit.mm : unit_mm_), unit.per_turn, report_);
         if (!feed) return std::unexpected(feed.error());
         cycle_.feed = *feed;
         return {};
     }
 
-    // depth, feed (with its unit before or after it), clearance.
+    // The threads in an inch give the feed of a tap.
+    Result<void> set_threads(double per_inch, const Item& word) {
+        const auto feed = feed_of(word, mm_per(LengthUnit::inch) / per_inch, true, report_);
+        if (!feed) return std::unexpected(feed.error());
+        cycle_.feed = *feed;
+        return {};
+    }
+
+    // depth, feed (with its unit before or after it), clearance. A deep hole has its peck as the last number, or
+    // before the feed; a tap has its threads in an inch after the feed.
     Result<void> read_places() {
-        std::array<double, 3> value{};
-        std::size_t count = 0;
+        const bool pecks = cycle_.way == Cycle::Way::peck || cycle_.way == Cycle::Way::chip;
+        const bool taps = matches(items_[0].text, "TAP");
+        const std::size_t most = pecks || taps ? 4 : 3;
+        std::array<double, 4> value{};
+        std::size_t count = 0, at_unit = 0;
         const Item* unit = nullptr;
         for (; at_ < items_.size(); ++at_) {
             const Item& item = items_[at_];
             const Word* word = find_word(item.text);
             if (word && word->key == Key::feed && !unit) {
                 unit = &item;
+                at_unit = count;
             } else if (word && count >= 2) {
                 break;
-            } else if (count == value.size()) {
+            } else if (count == most) {
                 return report_.refuse(item, "more numbers than depth, feed and clearance",
                                       "name them: FEDTO, MMPM, RAPTO, ...");
             } else {
@@ -193,7 +225,13 @@ class CycleReader {
             }
         }
         cycle_.depth_mm = value[0] * unit_mm_;
-        cycle_.clearance_mm = value[2] * unit_mm_;
+        if (count == 4 && at_unit == 3) {
+            std::rotate(value.begin() + 1, value.begin() + 2, value.end());  // depth, peck, feed, clearance
+        } else if (count == 4 && taps) {
+            std::swap(value[2], value[3]);
+        }
+        if (count > 2) approach_mm_ = value[2] * unit_mm_;
+        if (count == 4 && pecks) cycle_.peck_mm = value[3] * unit_mm_;
         if (unit && count >= 2) {
             if (auto ok = set_feed(value[1], *unit); !ok) return ok;
         } else if (count >= 2) {
@@ -208,6 +246,7 @@ class CycleReader {
     double unit_mm_;
     Cycle cycle_;
     std::size_t at_ = 0;
+    std::optional<double> clear_mm_, approach_mm_;
     bool has_retract_ = false;
 };
 
@@ -223,6 +262,7 @@ Result<void> drill(const Cycle& cycle, const motion::ToolPose& point, const Item
     const auto go = [&](double height, MoveKind kind) {
         return path.go({point.tip_mm + height * point.axis, point.axis}, kind, at, {}, cycle.feed);
     };
+    const double chip = cycle.chip_mm > 0 ? cycle.chip_mm : kPeckGapMm;
     const double top = std::max(cycle.retract_mm, cycle.clearance_mm);
     if (auto ok = go(top, MoveKind::rapid); !ok) return ok;
     if (auto ok = go(cycle.clearance_mm, MoveKind::rapid); !ok) return ok;
@@ -235,7 +275,7 @@ Result<void> drill(const Cycle& cycle, const motion::ToolPose& point, const Item
     for (;;) {
         if (auto ok = go(-depth, MoveKind::feed); !ok) return ok;
         if (depth >= cycle.depth_mm) break;
-        const double back = cycle.way == Cycle::Way::chip ? -depth + kPeckGapMm : cycle.clearance_mm;
+        const double back = cycle.way == Cycle::Way::chip ? -depth + chip : cycle.clearance_mm;
         if (auto ok = go(std::min(back, cycle.clearance_mm), MoveKind::rapid); !ok) return ok;
         if (cycle.way == Cycle::Way::peck) {
             const double near = std::min(-depth + kPeckGapMm, cycle.clearance_mm);

@@ -18,16 +18,17 @@ struct Cycle {
     Way way = Way::through;
     // Lengths along the tool axis from the point of the GOTO (the top of the hole), mm.
     double depth_mm = 0;      // FEDTO, DEPTH: below it
-    double clearance_mm = 0;  // RAPTO, CLEAR: above it; the feed begins here
+    double clearance_mm = 0;  // CLEAR, RAPTO, or CLEAR less RAPTO: above it; the feed begins here
     double retract_mm = 0;    // RTRCTO, RETURN: above it; the tool ends here; default: the clearance
     double first_peck_mm = 0, peck_mm = 0;  // 0: no pecks
+    double chip_mm = 0;                     // BACK: way back that breaks a chip; 0: not stated
     double dwell_s = 0;                     // at the bottom
     std::optional<Feed> feed;               // absent: the feed in force
     Item at;
 };
 
 // Reads CYCLE/ with a kind and its values. The values are words (FEDTO, DEPTH, RAPTO, CLEAR, RTRCTO, RETURN,
-// STEP, 1STPECK, SUBPECK, DWELL, MMPM, ...) or, in CATIA and old processors, depth, feed and clearance in
+// STEP, 1STPECK, SUBPECK, DWELL, MMPM, ...) or, in CATIA, Creo and old processors, depth, feed and clearance in
 // this order.
 Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report);
 

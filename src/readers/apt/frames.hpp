@@ -24,16 +24,27 @@ struct Frame {
 
 // The frame of the program is that of its first MSYS. Points of a later MSYS are transformed to it. CSYS
 // defines a rotated plane: with TRNTYP/WORLD the points are still given in the frame of the program, with
-// TRNTYP/LOCAL in the frame of CSYS. TRANS is added last. ORIGIN gives the position of the part in the
-// machine and has no effect on the points.
+// TRNTYP/LOCAL in the frame of CSYS. TRACUT transforms the points as written. TRANS is added last. ORIGIN gives
+// the position of the part in the machine and has no effect on the points. A header with a matrix works like
+// MSYS.
 class Frames {
   public:
     Result<void> set_machine_frame(const Statement& statement, double unit_mm, bool any_points,
                                    Report& report);
+    // MCSYS/ ..., POINT,x,y,z,VECTOR,i,j,k,VECTOR,i,j,k of Autodesk: origin, x and y, as in MSYS.
+    Result<void> set_work_frame(const Statement& statement, double unit_mm, bool any_points, Report& report);
     Result<void> set_frame(const Statement& statement, double unit_mm, Report& report);
     Result<void> set_frame_type(const Statement& statement, Report& report);
     Result<void> set_translation(const Statement& statement, double unit_mm, Report& report);
     Result<void> set_origin(const Statement& statement, Report& report);
+    // The matrix in the header of Creo or CATIA: the points that follow are written in this system.
+    Result<void> set_header_frame(const Statement& statement, double unit_mm, bool any_points,
+                                  Report& report);
+    // TRACUT/ with a matrix of twelve numbers, (MATRIX/TRANSL,x,y,z), (MATRIX/XYROT,angle) or NOMORE.
+    Result<void> set_transform(const Statement& statement, double unit_mm, Report& report);
+    // Called with each point, before to_program() is used. Creo writes points in the system of the machine, or
+    // in that of the operation. The points of a turned operation tell which: with an axis it is the machine's.
+    void settle(bool point_has_axis, Report& report);
 
     const Frame& to_program() const { return to_program_; }
 
@@ -41,8 +52,10 @@ class Frames {
     enum class Type { unsaid, world, local };
     void update();
 
-    std::optional<Frame> first_;
-    Frame machine_, local_, to_program_;
+    std::optional<Frame> first_, first_header_;
+    std::optional<Frame> unsettled_;  // of a header of Creo, until the next point
+    int unsettled_line_ = 0;
+    Frame header_, machine_, local_, transform_, to_program_;
     Vec3 translation_mm_;
     Type type_ = Type::unsaid;
 };

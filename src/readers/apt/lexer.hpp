@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // APT CLDATA text to statements (ISO 4343, ANSI X3.37): a word, a slash, items between commas. '$$' starts a
-// comment, '$' continues the statement on the next line. The lexer does not know the meaning of words.
+// comment, '$' continues the statement on the next line, also past lines of comment. Two kinds of comment are
+// statements all the same: those of Creo after '$$->', and the matrix of CATIA below '$$*CATIA0'. The lexer does
+// not know the meaning of words.
 #pragma once
 
 #include <string>
@@ -22,6 +24,7 @@ struct Statement {
     Item word;                // GOTO; never empty
     std::vector<Item> items;  // after the slash; an item may be empty
     bool is_text = false;     // PARTNO, PPRINT, REMARK, INSERT, ...: free text follows and is not split
+    bool is_header = false;   // written in a comment
 };
 
 // The statements of one text, in order. Blank lines and comments are left out. next() reuses its statement.
@@ -35,6 +38,9 @@ class Lexer {
 
   private:
     bool begin_line();
+    void cut_comment(std::size_t from);
+    Result<void> read_statement(Statement& statement, std::size_t from);
+    void read_catia_matrix(Statement& statement);
     Result<void> read_items(Statement& statement);
     std::unexpected<Error> refuse(std::size_t at, std::string cause, std::string remedy) const;
 

@@ -15,7 +15,7 @@ constexpr double kShortestAxis = 1e-6;
 
 }  // namespace
 
-Result<Vec3> Path::read_point(const Statement& statement, std::size_t first) {
+Result<Vec3> Path::read_point(const Statement& statement, std::size_t first) const {
     Vec3 point;
     for (int k = 0; k < 3; ++k) {
         const auto place = report_.number(statement.items[first + static_cast<std::size_t>(k)],
@@ -26,7 +26,7 @@ Result<Vec3> Path::read_point(const Statement& statement, std::size_t first) {
     return point;
 }
 
-Result<Vec3> Path::read_direction(const Statement& statement, std::size_t first) {
+Result<Vec3> Path::read_direction(const Statement& statement, std::size_t first) const {
     Vec3 direction;
     for (int k = 0; k < 3; ++k) {
         const auto component =
@@ -41,8 +41,13 @@ Result<Vec3> Path::read_direction(const Statement& statement, std::size_t first)
     return normalized(direction);
 }
 
-Result<motion::ToolPose> Path::read_pose(const Statement& statement, std::size_t first, std::size_t count) {
-    if (count != 3 && count != 6) {
+motion::MoveKind Path::take_kind() {
+    return std::exchange(next_is_rapid, false) ? motion::MoveKind::rapid : motion::MoveKind::feed;
+}
+
+Result<motion::ToolPose> Path::read_pose(const Statement& statement) {
+    const std::size_t count = statement.items.size();
+    if (count != 3 && count != 6 && count != 9) {
         return report_.refuse(statement.word,
                               quoted(statement.word.text) + " has " + std::to_string(count) + " numbers",
                               "write x,y,z or x,y,z,i,j,k");
@@ -51,13 +56,20 @@ Result<motion::ToolPose> Path::read_pose(const Statement& statement, std::size_t
         report_.warn(statement.word.line, "no UNITS before the first point: " +
                                               std::string(plural(options_.default_unit)) + " are taken");
     }
-    const auto point = read_point(statement, first);
+    const auto point = read_point(statement, 0);
     if (!point) return std::unexpected(point.error());
-    if (count == 6) {
-        const auto direction = read_direction(statement, first + 3);
+    if (count == 9) {
+        const auto normal = read_direction(statement, 6);
+        if (!normal) return std::unexpected(normal.error());
+        if (report_.first(Note::surface_normal))
+            report_.warn(statement.word.line, "the normals of the surface after the tool axes are not used");
+    }
+    if (count >= 6) {
+        const auto direction = read_direction(statement, 3);
         if (!direction) return std::unexpected(direction.error());
         axis = *direction;
     }
+    frames.settle(count >= 6, report_);
     const Frame& frame = frames.to_program();
     return motion::ToolPose{frame.point(*point), normalized(frame.turn(axis))};
 }

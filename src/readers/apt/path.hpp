@@ -20,15 +20,18 @@ class Path {
 
     Settings settings;
     Frames frames;
-    Vec3 axis{0, 0, 1};  // axis of the next point without an axis, as written
+    Vec3 axis{0, 0, 1};          // axis of the next point without an axis, as written
+    bool next_is_rapid = false;  // RAPID holds for one move
+    motion::MoveKind take_kind();
 
-    // Reads the point of `count` items (3 or 6) from `first` on, in the frame of the program. An axis in the
-    // items becomes the axis in force; a point without an axis gets the axis in force.
-    Result<motion::ToolPose> read_pose(const Statement& statement, std::size_t first, std::size_t count);
+    // Reads the point of the statement (3, 6 or 9 numbers), in the frame of the program. An axis in the items
+    // becomes the axis in force; a point without an axis gets the axis in force. The last three of nine are the
+    // normal of the surface, which moves nothing.
+    Result<motion::ToolPose> read_pose(const Statement& statement);
     // Reads three numbers from `first` on, in mm, as written.
-    Result<Vec3> read_point(const Statement& statement, std::size_t first);
+    Result<Vec3> read_point(const Statement& statement, std::size_t first) const;
     // Reads three numbers from `first` on as a unit direction, as written.
-    Result<Vec3> read_direction(const Statement& statement, std::size_t first);
+    Result<Vec3> read_direction(const Statement& statement, std::size_t first) const;
 
     const std::optional<motion::ToolPose>& place() const { return place_; }
     bool any_points() const { return any_points_; }

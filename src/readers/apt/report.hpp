@@ -28,6 +28,11 @@ enum class Note {
     rapid_speed,
     full_circle,
     pecks,
+    compensation,
+    surface_normal,
+    arc_slope,
+    inch_feeds,
+    tool_name,
     count
 };
 

@@ -15,7 +15,44 @@ namespace {
 // Largest difference between CUTTER/ and the tool described by its diameter and corner, mm or degrees.
 constexpr double kCutterTolerance = 1e-3;
 
+constexpr std::array kFeedUnits{
+    FeedUnit{"MMPM", 1, false},    FeedUnit{"MMPR", 1, true},      FeedUnit{"IPM", 25.4, false},
+    FeedUnit{"IPR", 25.4, true},   FeedUnit{"FPM", 304.8, false},  FeedUnit{"FPR", 304.8, true},
+    FeedUnit{"PERMIN", 0, false},  FeedUnit{"PERREV", 0, true},    FeedUnit{"MMPMIN", 1, false},
+    FeedUnit{"MMPREV", 1, true},   FeedUnit{"INPM", 25.4, false},  FeedUnit{"INPR", 25.4, true},
+};
+
+struct Unit {
+    std::string_view word;
+    double mm;
+};
+constexpr std::array kUnits{
+    Unit{"MM", 1},           Unit{"MILLIMETERS", 1}, Unit{"MILLIMETRES", 1}, Unit{"MILLIMETER", 1},
+    Unit{"METRIC", 1},       Unit{"CM", 10},         Unit{"INCHES", 25.4},   Unit{"INCH", 25.4},
+    Unit{"IN", 25.4},        Unit{"ENGLISH", 25.4},
+};
+
+template <class List>
+const auto* entry_of(const List& list, std::string_view word) {
+    const auto found = std::ranges::find_if(list, [&](const auto& e) { return matches(word, e.word); });
+    return found == list.end() ? nullptr : &*found;
+}
+
+// Words of SPINDL that change no speed. Some have a number after them.
+bool is_word_of_spindle(std::string_view text) {
+    constexpr std::array words{"RPM", "LOCK", "NEUTRL", "LOW", "MEDIUM", "HIGH", "REV", "AUTO"};
+    return std::ranges::any_of(words, [&](const char* word) { return matches(text, word); });
+}
+bool is_value_of_spindle(std::string_view text) {
+    constexpr std::array words{"RANGE", "MAXRPM", "ORIENT", "RADIUS"};
+    return std::ranges::any_of(words, [&](const char* word) { return matches(text, word); });
+}
+
 }  // namespace
+
+const FeedUnit* feed_unit(std::string_view word) {
+    return entry_of(kFeedUnits, word);
+}
 
 Result<Feed> feed_of(const Item& at, double value, bool per_turn, const Report& report) {
     const Limit& limit = per_turn ? kLimits.feed_per_turn : kLimits.feed;
@@ -25,13 +62,11 @@ Result<Feed> feed_of(const Item& at, double value, bool per_turn, const Report& 
 
 Result<void> set_units(const Statement& statement, Settings& settings, Report& report) {
     const Item& item = statement.items.empty() ? statement.word : statement.items.front();
-    if (matches(item.text, "MM") || matches(item.text, "MILLIMETERS")) {
-        settings.unit_mm = mm_per(LengthUnit::millimetre);
-    } else if (matches(item.text, "INCHES") || matches(item.text, "INCH") || matches(item.text, "IN")) {
-        settings.unit_mm = mm_per(LengthUnit::inch);
-    } else {
+    const Unit* unit = entry_of(kUnits, item.text);
+    if (!unit) {
         return report.refuse(item, "units that are neither MM nor INCHES", "write UNITS/MM or UNITS/INCHES");
     }
+    settings.unit_mm = unit->mm;
     settings.unit_stated = true;
     return {};
 }
@@ -44,20 +79,21 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
     for (const Item& item : statement.items) {
         if (inverse && (matches(item.text, "AUTO") || matches(item.text, "ON") || matches(item.text, "OFF")))
             continue;
-        if (matches(item.text, "IPM") || matches(item.text, "IPR")) {
-            scale = mm_per(LengthUnit::inch);
-            per_turn = matches(item.text, "IPR");
-        } else if (matches(item.text, "MMPM") || matches(item.text, "MMPR")) {
-            scale = mm_per(LengthUnit::millimetre);
-            per_turn = matches(item.text, "MMPR");
-        } else if (matches(item.text, "PERREV")) {
-            per_turn = true;
+        if (const FeedUnit* unit = feed_unit(item.text)) {
+            if (unit->mm > 0) scale = unit->mm;
+            per_turn = unit->per_turn;
+            if (unit->mm > 25 && !settings.unit_stated && settings.unit_mm == 1 &&
+                report.first(Note::inch_feeds)) {
+                report.warn(item.line,
+                            "a feed in inches or feet, and no UNITS: write UNITS/INCHES at the start if the "
+                            "points are inches too");
+            }
         } else if (matches(item.text, "INVERS") || matches(item.text, "INVERSE")) {
             inverse = true;
-        } else if (matches(item.text, "FPT")) {
+        } else if (matches(item.text, "FPT") || matches(item.text, "IPT") || matches(item.text, "MMPT")) {
             return report.refuse(item, "a feed per tooth, and APT does not say how many teeth",
                                  "write it per turn or per minute");
-        } else if (!matches(item.text, "PERMIN")) {
+        } else {
             const auto speed = report.number(item);
             if (!speed) return std::unexpected(speed.error());
             if (value) return report.refuse(item, "a second feed rate", "give one number and its unit");
@@ -85,8 +121,8 @@ Result<void> set_spindle(const Statement& statement, Settings& settings, Report&
         const Item& item = statement.items[i];
         if (matches(item.text, "OFF")) {
             settings.spindle_stopped = true;
-        } else if (matches(item.text, "RANGE") || matches(item.text, "MAXRPM")) {
-            ++i;  // skips the value of a gear or a limit
+        } else if (is_value_of_spindle(item.text)) {
+            ++i;
         } else if (matches(item.text, "SFM")) {
             surface_mm = mm_per_foot;
         } else if (matches(item.text, "SMM")) {
@@ -98,7 +134,7 @@ Result<void> set_spindle(const Statement& statement, Settings& settings, Report&
             if (report.first(Note::spindle_backwards)) {
                 report.warn(item.line, "the spindle turns backwards (CCLW): taken as a cut all the same");
             }
-        } else if (!matches(item.text, "RPM")) {
+        } else if (!is_word_of_spindle(item.text)) {
             const auto speed = report.number(item);
             if (!speed) return std::unexpected(speed.error());
             any = true;
@@ -133,6 +169,13 @@ Result<void> load_tool(const Statement& statement, Settings& settings, Report& r
         return report.refuse(statement.word, "no tool number", "write LOADTL/ and the number");
     }
     const Item& item = statement.items[place];
+    if (!item.text.empty() && !number_of(item.text)) {
+        settings.tool = 0;
+        if (report.first(Note::tool_name)) {
+            report.warn(item.line, quoted(item.text) + " names a tool: tools without a number count as tool 0");
+        }
+        return {};
+    }
     const auto tool =
         number_of(item.text) == 0.0 ? Result<double>(0) : report.number(item, kLimits.tool_number);
     if (!tool) return std::unexpected(tool.error());
@@ -144,6 +187,14 @@ Result<void> load_tool(const Statement& statement, Settings& settings, Report& r
 }
 
 Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report) {
+    // CUTTER/DISPLY, CUTTER/READ: how the cutter is shown, or a file with it.
+    if (!statement.items.empty() && !number_of(statement.items[0].text) &&
+        is_letter(statement.items[0].text.empty() ? ' ' : statement.items[0].text[0])) {
+        if (report.first(Note::cutter_shape)) {
+            report.warn(statement.word.line, "CUTTER without numbers: no cutter is taken from it");
+        }
+        return {};
+    }
     std::array<double, 7> value{};
     const std::size_t count = statement.items.size();
     if (count < 1 || count > value.size()) {

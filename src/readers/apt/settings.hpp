@@ -16,6 +16,14 @@ struct Feed {
     bool per_turn = false;
 };
 
+// Of MMPM, MMPR, IPM, IPR, FPM, FPR, PERMIN, PERREV. Null for another word.
+struct FeedUnit {
+    std::string_view word;
+    double mm = 0;  // 0: the unit of the program
+    bool per_turn = false;
+};
+const FeedUnit* feed_unit(std::string_view word);
+
 // Refuses a feed out of its range. `at`: the number, for messages.
 Result<Feed> feed_of(const Item& at, double value, bool per_turn, const Report& report);
 
@@ -31,9 +39,9 @@ struct Settings {
     double diameter_mm = 0;                      // of the last CUTTER; 0: none so far
 };
 
-// UNITS/MM, UNITS/INCHES.
+// UNITS/MM, UNITS/INCHES, UNITS/CM and other spellings.
 Result<void> set_units(const Statement& statement, Settings& settings, Report& report);
-// FEDRAT/ with a number and IPM, MMPM, IPR, MMPR, PERMIN or PERREV in any order. INVERS asks the
+// FEDRAT/ with a number and IPM, MMPM, FPM, IPR, MMPR, FPR, PERMIN or PERREV in any order. INVERS asks the
 // postprocessor for inverse time and does not change the feed.
 Result<void> set_feed(const Statement& statement, Settings& settings, Report& report);
 // SPINDL/ with a speed, RPM, CLW, CCLW, ON or OFF in any order. SFM and SMM are surface speeds at the

@@ -14,8 +14,10 @@ enum class Action {
     feed,           // FEDRAT
     from,           // FROM
     circle,         // CIRCLE, MOVARC
-    direction,      // INDIRV
+    direction,      // INDIRV, INDIRP
+    surface,        // PSIS
     circle_catia,   // TLON,GOFWD
+    arc_slope,      // ARCSLP
     cycle,          // CYCLE
     clearance,      // CLEARP
     retract,        // RETRCT
@@ -27,6 +29,10 @@ enum class Action {
     tool_axis,      // TLAXIS
     units,          // UNITS, UNIT
     machine_frame,  // MSYS
+    work_frame,     // MCSYS
+    transform,      // TRACUT
+    turn,           // ROTATE, ROTABL, ROTHED
+    mode,           // MODE
     frame,          // CSYS
     frame_type,     // TRNTYP
     translation,    // TRANS
@@ -36,15 +42,20 @@ enum class Action {
     machine_code,   // PREFUN, AUXFUN
     end,            // FINI
     nothing,        // no effect on the tool path: MACHIN, COOLNT, ...
-    unread,
+    unread,         // known, and refused
+    unknown,
 };
 
 struct Meaning {
-    Action action = Action::unread;
-    std::string_view what;  // of an unread statement: its purpose; empty: unknown statement
+    Action action = Action::unknown;
+    std::string_view what;  // of an unread statement: its purpose
 };
 
-// Case is ignored.
+// Case is ignored, and blanks after a comma.
 Meaning meaning_of(std::string_view word);
+
+// True for a word of the shape that post-processors use: two letters or more, then letters, digits, '_' and '-'.
+// What follows a comma does not count.
+bool is_post_word(std::string_view word);
 
 }  // namespace tribo::readers::apt

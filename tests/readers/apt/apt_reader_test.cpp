@@ -184,7 +184,6 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"MULTAX/MAYBE\n", 1, 8, "neither ON nor OFF"},
         {"RAPID/ALL\n", 1, 7, "conditions"},
         {"DELAY/2,3\n", 1, 1, "single number"},
-        {"CUTCOM/LEFT\n", 1, 1, "cutter radius compensation"},
     };
     expect_refused(refusals, [](const std::string& text, const char* name) {
         AptOptions options;
