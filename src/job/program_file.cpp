@@ -32,8 +32,13 @@ constexpr std::array kExtensions{
     Extension{".spf", PathKind::gcode},     Extension{".hnc", PathKind::gcode},
     Extension{".apt", PathKind::apt},       Extension{".cls", PathKind::apt},
     Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
-    Extension{".aptsource", PathKind::apt}, Extension{".csv", PathKind::keyframes},
+    Extension{".aptsource", PathKind::apt}, Extension{".ncl", PathKind::apt},
+    Extension{".csv", PathKind::keyframes},
 };
+
+// Of a line of APT, in lower case. The first two are comments of Creo and CATIA.
+constexpr std::array<std::string_view, 9> kAptStarts{"$$->",   "$$*",    "partno",    "goto",   "multax",
+                                                     "loadtl", "fedrat", "tool path", "cutter/"};
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -64,7 +69,7 @@ std::optional<PathKind> detect_by_content(std::string_view bytes) {
         const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
         const std::string_view line = std::string_view(text).substr(at, end - at);
         if (line.starts_with("x,y,z,i,j,k")) return PathKind::keyframes;
-        if (line.starts_with("goto") || line.starts_with("partno") || line.starts_with("multax"))
+        if (std::ranges::any_of(kAptStarts, [&](std::string_view word) { return line.starts_with(word); }))
             return PathKind::apt;
         if (begins_like_gcode(line) || line.find("begin pgm") < 8) return PathKind::gcode;
         at = end + 1;

@@ -81,10 +81,9 @@ Result<void> Arcs::set_slope(const Statement& statement) {
 Result<void> Arcs::set_direction(const Statement& statement) {
     const bool to_point = matches(statement.word.text, "INDIRP");
     if (statement.items.size() != 3) {
-        return report_.refuse(
-            statement.word,
-            to_point ? "INDIRP without a point" : "INDIRV without a direction",
-            to_point ? "write INDIRP/x,y,z" : "write INDIRV/i,j,k");
+        return report_.refuse(statement.word,
+                              to_point ? "INDIRP without a point" : "INDIRV without a direction",
+                              to_point ? "write INDIRP/x,y,z" : "write INDIRV/i,j,k");
     }
     const Frame& frame = path_.frames.to_program();
     if (!to_point) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The circle in force: from CIRCLE or MOVARC to the last GOTO along it, and the circles of CATIA, which are moves
-// of their own.
+// The circle in force: from CIRCLE or MOVARC to the last GOTO along it, and the circles of CATIA, which are
+// moves of their own.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Circles as an APT processor writes them: the tool goes forward (TLON,GOFWD) along a circle or a cylinder to a
-// line, a plane or a point. CATIA and NCL write them, and Creo with APT_FORMAT.
+// Circles as an APT processor writes them: the tool goes forward (TLON,GOFWD) along a circle or a cylinder to
+// a line, a plane or a point. CATIA and NCL write them, and Creo with APT_FORMAT.
 #pragma once
 
 #include <optional>

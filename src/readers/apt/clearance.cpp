@@ -20,8 +20,7 @@ Result<void> Clearance::set(const Statement& statement, const Path& path, Report
     } else if (items.size() == 2) {
         int k = 0;
         while (k < 3 && !matches(items[0].text, planes[k])) ++k;
-        if (k == 3)
-            return report.refuse(items[0], quoted(items[0].text) + " is no plane", "write XYPLAN");
+        if (k == 3) return report.refuse(items[0], quoted(items[0].text) + " is no plane", "write XYPLAN");
         plane.normal = {};
         plane.normal[k] = 1;
         height = 1;
@@ -40,19 +39,20 @@ Result<void> Clearance::set(const Statement& statement, const Path& path, Report
 
 Result<void> Clearance::retract(const Statement& statement, Path& path, Report& report) const {
     if (!statement.items.empty() && !matches(statement.items[0].text, "ON")) {
-        return report.refuse(statement.items[0], "RETRCT with conditions is not read", "let the CAM system write it as GOTO with tool axes");
+        return report.refuse(statement.items[0], "RETRCT with conditions is not read",
+                             "let the CAM system write it as GOTO with tool axes");
     }
     if (!path.place()) return {};
     if (!plane_) {
         return report.refuse(statement.word, "RETRCT without a clearance plane",
-                              "write CLEARP/XYPLAN,z before it");
+                             "write CLEARP/XYPLAN,z before it");
     }
     motion::ToolPose end = *path.place();
     const double rise = dot(end.axis, plane_->normal);
     const double gap = plane_->distance_mm - dot(end.tip_mm, plane_->normal);
     if (rise < 1e-3) {
         return report.refuse(statement.word, "the tool axis does not lead to the clearance plane",
-                              "correct CLEARP");
+                             "correct CLEARP");
     }
     if (gap <= 0) return {};
     end.tip_mm += gap / rise * end.axis;

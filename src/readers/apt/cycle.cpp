@@ -20,17 +20,17 @@ struct Kind {
     Cycle::Way way;
 };
 constexpr std::array kKinds{
-    Kind{"DRILL", Cycle::Way::through}, Kind{"DEEP", Cycle::Way::peck},
-    Kind{"DEEP2", Cycle::Way::peck},    Kind{"DEEPCL", Cycle::Way::peck},
-    Kind{"BRKCHP", Cycle::Way::chip},   Kind{"CHIP", Cycle::Way::chip},
-    Kind{"BREAK", Cycle::Way::chip},    Kind{"TAP", Cycle::Way::bore},
-    Kind{"REAM", Cycle::Way::bore},     Kind{"BORE", Cycle::Way::bore},
-    Kind{"FACE", Cycle::Way::through},  Kind{"CSINK", Cycle::Way::through},
-    Kind{"CBORE", Cycle::Way::through}, Kind{"CENTER", Cycle::Way::through},
-    Kind{"DEEPHL", Cycle::Way::peck},   Kind{"DEEPBR", Cycle::Way::chip},
+    Kind{"DRILL", Cycle::Way::through},    Kind{"DEEP", Cycle::Way::peck},
+    Kind{"DEEP2", Cycle::Way::peck},       Kind{"DEEPCL", Cycle::Way::peck},
+    Kind{"BRKCHP", Cycle::Way::chip},      Kind{"CHIP", Cycle::Way::chip},
+    Kind{"BREAK", Cycle::Way::chip},       Kind{"TAP", Cycle::Way::bore},
+    Kind{"REAM", Cycle::Way::bore},        Kind{"BORE", Cycle::Way::bore},
+    Kind{"FACE", Cycle::Way::through},     Kind{"CSINK", Cycle::Way::through},
+    Kind{"CBORE", Cycle::Way::through},    Kind{"CENTER", Cycle::Way::through},
+    Kind{"DEEPHL", Cycle::Way::peck},      Kind{"DEEPBR", Cycle::Way::chip},
     Kind{"STANDARD", Cycle::Way::through}, Kind{"SPOT", Cycle::Way::through},
-    Kind{"CDRILL", Cycle::Way::through}, Kind{"NODRAG", Cycle::Way::through},
-    Kind{"DRAG", Cycle::Way::bore},     Kind{"BOREOS", Cycle::Way::through},
+    Kind{"CDRILL", Cycle::Way::through},   Kind{"NODRAG", Cycle::Way::through},
+    Kind{"DRAG", Cycle::Way::bore},        Kind{"BOREOS", Cycle::Way::through},
 };
 
 // `aside`: a value that moves no tool in the depth, such as the angle at which the spindle stops.
@@ -41,7 +41,7 @@ struct Word {
 };
 constexpr std::array kWords{
     Word{"FEDTO", Key::depth},        Word{"DEPTH", Key::depth},    Word{"RAPTO", Key::approach},
-    Word{"CLEAR", Key::clear},    Word{"RTRCTO", Key::retract}, Word{"RETURN", Key::retract},
+    Word{"CLEAR", Key::clear},        Word{"RTRCTO", Key::retract}, Word{"RETURN", Key::retract},
     Word{"1STPECK", Key::first_peck}, Word{"SUBPECK", Key::peck},   Word{"STEP", Key::peck},
     Word{"STEP1", Key::peck},         Word{"PECK", Key::peck},      Word{"INCR", Key::peck},
     Word{"DWELL", Key::dwell},        Word{"TPI", Key::threads},    Word{"BACK", Key::back},
@@ -198,8 +198,8 @@ class CycleReader {
         return {};
     }
 
-    // depth, feed (with its unit before or after it), clearance. A deep hole has its peck as the last number, or
-    // before the feed; a tap has its threads in an inch after the feed.
+    // depth, feed (with its unit before or after it), clearance. A deep hole has its peck as the last number,
+    // or before the feed; a tap has its threads in an inch after the feed.
     Result<void> read_places() {
         const bool pecks = cycle_.way == Cycle::Way::peck || cycle_.way == Cycle::Way::chip;
         const bool taps = matches(items_[0].text, "TAP");

@@ -28,8 +28,8 @@ struct Cycle {
 };
 
 // Reads CYCLE/ with a kind and its values. The values are words (FEDTO, DEPTH, RAPTO, CLEAR, RTRCTO, RETURN,
-// STEP, 1STPECK, SUBPECK, DWELL, MMPM, ...) or, in CATIA, Creo and old processors, depth, feed and clearance in
-// this order.
+// STEP, 1STPECK, SUBPECK, DWELL, MMPM, ...) or, in CATIA, Creo and old processors, depth, feed and clearance
+// in this order.
 Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report);
 
 // Makes the moves of the hole at `point`: rapid to the retract height above it, rapid to the clearance, down,

@@ -56,10 +56,10 @@ Result<Frame> matrix_of(const Statement& statement, double unit_mm, Report& repo
     if (!frame) return std::unexpected(frame.error());
     const Vec3 z{v[2], v[6], v[10]};
     if (distance(z, frame->z) > 2 * kSquareTolerance) {
-        return report.refuse(
-            statement.word,
-            "the third axis of " + std::string(statement.word.text) + " is not the cross product of the others",
-            "write the rows of a right-handed 3 x 4 matrix");
+        return report.refuse(statement.word,
+                             "the third axis of " + std::string(statement.word.text) +
+                                 " is not the cross product of the others",
+                             "write the rows of a right-handed 3 x 4 matrix");
     }
     return frame;
 }
@@ -104,7 +104,7 @@ Result<void> Frames::set_machine_frame(const Statement& statement, double unit_m
     machine_ = same ? Frame{} : first_->inverse() * *frame;
     if (!same && report.first(Note::second_frame)) {
         report.warn(statement.word.line, "a second " + std::string(statement.word.text) +
-                                              ": its points are led to the frame of the first");
+                                             ": its points are led to the frame of the first");
     }
     update();
     return {};
@@ -169,10 +169,11 @@ void Frames::settle(bool point_has_axis, Report& report) {
     const Frame frame = *std::exchange(unsettled_, std::nullopt);
     if (!point_has_axis) header_ = frame;
     report.warn(unsettled_line_,
-                point_has_axis ? "a turned coordinate system: its points state their axis, so they are taken as "
-                                 "written in the first system"
-                               : "a turned coordinate system: its points state no axis, so they are led from it "
-                                 "to the first system");
+                point_has_axis
+                    ? "a turned coordinate system: its points state their axis, so they are taken as "
+                      "written in the first system"
+                    : "a turned coordinate system: its points state no axis, so they are led from it "
+                      "to the first system");
     update();
 }
 
@@ -193,13 +194,15 @@ Result<void> Frames::set_transform(const Statement& statement, double unit_mm, R
     }
     // (MATRIX/ kind, numbers )
     const std::size_t slash = head.find('/');
-    const bool is_matrix = slash != std::string_view::npos && matches(trimmed(head.substr(0, slash)), "(MATRIX");
+    const bool is_matrix =
+        slash != std::string_view::npos && matches(trimmed(head.substr(0, slash)), "(MATRIX");
     const std::string_view kind = is_matrix ? trimmed(head.substr(slash + 1)) : "";
     const bool shift = matches(kind, "TRANSL");
     if ((!shift && !matches(kind, "XYROT")) || items.size() != (shift ? 4U : 2U) ||
         !items.back().text.ends_with(')')) {
-        return report.refuse(statement.word, "TRACUT with a matrix in a form that is not read",
-                             "write the rows of the 3 x 4 matrix, or let the CAM system write the moved path");
+        return report.refuse(
+            statement.word, "TRACUT with a matrix in a form that is not read",
+            "write the rows of the 3 x 4 matrix, or let the CAM system write the moved path");
     }
     Statement plain;
     plain.word = statement.word;

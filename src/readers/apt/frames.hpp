@@ -24,9 +24,9 @@ struct Frame {
 
 // The frame of the program is that of its first MSYS. Points of a later MSYS are transformed to it. CSYS
 // defines a rotated plane: with TRNTYP/WORLD the points are still given in the frame of the program, with
-// TRNTYP/LOCAL in the frame of CSYS. TRACUT transforms the points as written. TRANS is added last. ORIGIN gives
-// the position of the part in the machine and has no effect on the points. A header with a matrix works like
-// MSYS.
+// TRNTYP/LOCAL in the frame of CSYS. TRACUT transforms the points as written. TRANS is added last. ORIGIN
+// gives the position of the part in the machine and has no effect on the points. A header with a matrix works
+// like MSYS.
 class Frames {
   public:
     Result<void> set_machine_frame(const Statement& statement, double unit_mm, bool any_points,
@@ -42,8 +42,9 @@ class Frames {
                                   Report& report);
     // TRACUT/ with a matrix of twelve numbers, (MATRIX/TRANSL,x,y,z), (MATRIX/XYROT,angle) or NOMORE.
     Result<void> set_transform(const Statement& statement, double unit_mm, Report& report);
-    // Called with each point, before to_program() is used. Creo writes points in the system of the machine, or
-    // in that of the operation. The points of a turned operation tell which: with an axis it is the machine's.
+    // Called with each point, before to_program() is used. Creo writes points in the system of the machine,
+    // or in that of the operation. The points of a turned operation tell which: with an axis it is the
+    // machine's.
     void settle(bool point_has_axis, Report& report);
 
     const Frame& to_program() const { return to_program_; }

@@ -101,7 +101,8 @@ Result<void> Lexer::read_statement(Statement& statement, std::size_t from) {
     return read_items(statement);
 }
 
-// Reads the name and the three rows of four numbers below the header. Without them the statement has no items.
+// Reads the name and the three rows of four numbers below the header. Without them the statement has no
+// items.
 void Lexer::read_catia_matrix(Statement& statement) {
     const std::size_t indent = line_.find(kCatiaHeader);
     statement.word = {line_.substr(indent + 3, kCatiaHeader.size() - 3), lines_.number(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // APT CLDATA text to statements (ISO 4343, ANSI X3.37): a word, a slash, items between commas. '$$' starts a
 // comment, '$' continues the statement on the next line, also past lines of comment. Two kinds of comment are
-// statements all the same: those of Creo after '$$->', and the matrix of CATIA below '$$*CATIA0'. The lexer does
-// not know the meaning of words.
+// statements all the same: those of Creo after '$$->', and the matrix of CATIA below '$$*CATIA0'. The lexer
+// does not know the meaning of words.
 #pragma once
 
 #include <string>

@@ -25,8 +25,8 @@ class Path {
     motion::MoveKind take_kind();
 
     // Reads the point of the statement (3, 6 or 9 numbers), in the frame of the program. An axis in the items
-    // becomes the axis in force; a point without an axis gets the axis in force. The last three of nine are the
-    // normal of the surface, which moves nothing.
+    // becomes the axis in force; a point without an axis gets the axis in force. The last three of nine are
+    // the normal of the surface, which moves nothing.
     Result<motion::ToolPose> read_pose(const Statement& statement);
     // Reads three numbers from `first` on, in mm, as written.
     Result<Vec3> read_point(const Statement& statement, std::size_t first) const;

@@ -157,8 +157,8 @@ class AptReader {
 
     std::unexpected<Error> refuse_unread(const Statement& statement, const Meaning& meaning) const {
         return report_.refuse(
-            statement.word,
-            quoted(statement.word.text) + " (" + std::string(meaning.what) + ") is not read", kPlainGoto);
+            statement.word, quoted(statement.word.text) + " (" + std::string(meaning.what) + ") is not read",
+            kPlainGoto);
     }
     // What Creo and CATIA write into comments.
     Result<void> header(const Statement& statement) {
@@ -166,7 +166,8 @@ class AptReader {
         if (matches(word, "CSYS") || matches(word, "CATIA0")) {
             if (auto ok = arcs_.leave(); !ok) return ok;
             if (statement.items.empty()) {
-                report_.warn(statement.word.line, "a coordinate system without its matrix: it is taken as none");
+                report_.warn(statement.word.line,
+                             "a coordinate system without its matrix: it is taken as none");
                 return {};
             }
             return path_.frames.set_header_frame(statement, path_.settings.unit_mm, path_.any_points(),
@@ -354,9 +355,10 @@ class AptReader {
                                   "set the output point of the work center to the tool's centre in Creo");
         }
         if (report_.first(Note::compensation)) {
-            report_.warn(statement.word.line,
-                         "CUTCOM: the points are taken as the path of the tool's centre, without a correction "
-                         "of its radius");
+            report_.warn(
+                statement.word.line,
+                "CUTCOM: the points are taken as the path of the tool's centre, without a correction "
+                "of its radius");
         }
         return {};
     }

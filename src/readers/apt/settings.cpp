@@ -16,10 +16,10 @@ namespace {
 constexpr double kCutterTolerance = 1e-3;
 
 constexpr std::array kFeedUnits{
-    FeedUnit{"MMPM", 1, false},    FeedUnit{"MMPR", 1, true},      FeedUnit{"IPM", 25.4, false},
-    FeedUnit{"IPR", 25.4, true},   FeedUnit{"FPM", 304.8, false},  FeedUnit{"FPR", 304.8, true},
-    FeedUnit{"PERMIN", 0, false},  FeedUnit{"PERREV", 0, true},    FeedUnit{"MMPMIN", 1, false},
-    FeedUnit{"MMPREV", 1, true},   FeedUnit{"INPM", 25.4, false},  FeedUnit{"INPR", 25.4, true},
+    FeedUnit{"MMPM", 1, false},   FeedUnit{"MMPR", 1, true},     FeedUnit{"IPM", 25.4, false},
+    FeedUnit{"IPR", 25.4, true},  FeedUnit{"FPM", 304.8, false}, FeedUnit{"FPR", 304.8, true},
+    FeedUnit{"PERMIN", 0, false}, FeedUnit{"PERREV", 0, true},   FeedUnit{"MMPMIN", 1, false},
+    FeedUnit{"MMPREV", 1, true},  FeedUnit{"INPM", 25.4, false}, FeedUnit{"INPR", 25.4, true},
 };
 
 struct Unit {
@@ -27,9 +27,9 @@ struct Unit {
     double mm;
 };
 constexpr std::array kUnits{
-    Unit{"MM", 1},           Unit{"MILLIMETERS", 1}, Unit{"MILLIMETRES", 1}, Unit{"MILLIMETER", 1},
-    Unit{"METRIC", 1},       Unit{"CM", 10},         Unit{"INCHES", 25.4},   Unit{"INCH", 25.4},
-    Unit{"IN", 25.4},        Unit{"ENGLISH", 25.4},
+    Unit{"MM", 1},     Unit{"MILLIMETERS", 1}, Unit{"MILLIMETRES", 1}, Unit{"MILLIMETER", 1},
+    Unit{"METRIC", 1}, Unit{"CM", 10},         Unit{"INCHES", 25.4},   Unit{"INCH", 25.4},
+    Unit{"IN", 25.4},  Unit{"ENGLISH", 25.4},
 };
 
 template <class List>
@@ -172,7 +172,8 @@ Result<void> load_tool(const Statement& statement, Settings& settings, Report& r
     if (!item.text.empty() && !number_of(item.text)) {
         settings.tool = 0;
         if (report.first(Note::tool_name)) {
-            report.warn(item.line, quoted(item.text) + " names a tool: tools without a number count as tool 0");
+            report.warn(item.line,
+                        quoted(item.text) + " names a tool: tools without a number count as tool 0");
         }
         return {};
     }

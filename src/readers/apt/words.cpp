@@ -154,6 +154,7 @@ bool is_word(std::string_view text, std::string_view word) {
 }  // namespace
 
 Meaning meaning_of(std::string_view word) {
+    if (word.ends_with(',')) word.remove_suffix(1);
     for (const Entry& entry : kWords) {
         if (is_word(word, entry.word)) return entry.meaning;
     }
@@ -163,8 +164,8 @@ Meaning meaning_of(std::string_view word) {
 bool is_post_word(std::string_view word) {
     word = trimmed(word.substr(0, word.find(',')));
     if (word.size() < 2 || !is_letter(word[0]) || !is_letter(word[1])) return false;
-    return std::ranges::all_of(
-        word, [](char c) { return is_letter(c) || is_digit(c) || c == '_' || c == '-'; });
+    return std::ranges::all_of(word,
+                               [](char c) { return is_letter(c) || is_digit(c) || c == '_' || c == '-'; });
 }
 
 }  // namespace tribo::readers::apt

@@ -54,8 +54,8 @@ struct Meaning {
 // Case is ignored, and blanks after a comma.
 Meaning meaning_of(std::string_view word);
 
-// True for a word of the shape that post-processors use: two letters or more, then letters, digits, '_' and '-'.
-// What follows a comma does not count.
+// True for a word of the shape that post-processors use: two letters or more, then letters, digits, '_' and
+// '-'. What follows a comma does not count.
 bool is_post_word(std::string_view word);
 
 }  // namespace tribo::readers::apt

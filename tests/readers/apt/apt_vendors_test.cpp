@@ -103,7 +103,8 @@ TEST(AptVendors, TransformsAndWorkFramesMoveThePoints) {
 
 TEST(AptVendors, PassesOverWordsOfPostProcessors) {
     const Program program = program_of(
-        "PPWORD/1,2,3\nSURFPARMS\nswitch/3\nCSI_SPECIAL-2/4,TEXT\nCHANNEL,1\nFROM/0,0,0\nSWITCH/4\nGOTO/1,0,0\n"
+        "PPWORD/1,2,3\nSURFPARMS\nswitch/3\nCSI_SPECIAL-2/4,TEXT\nCHANNEL,1\nFROM/0,0,0\nSWITCH/4\nGOTO/"
+        "1,0,0\n"
         "MODE/ABSOL\nROTATE/TABLE,ATANGL,0\nARCSLP/2\nFINI\n");
     EXPECT_EQ(feed_mm(program), 1);
     EXPECT_TRUE(warns_of(program, 3, "'PPWORD' is a word for a post-processor"));
@@ -133,7 +134,8 @@ TEST(AptVendors, CirclesBetweenGeometry) {
     const double q = 10 / std::sqrt(2.0), third = 2 * kPi / 3;
     const std::string from = "FROM/10,0,5\n", ahead = from + "INDIRV/0,1,0\n";
     const std::string line = "(LINE/0,0,5,0,10,5)\n";
-    expect_arc(ahead + "TLON, GOFWD / (CIRCLE / 0, 0, 5, 10), ON, (LINE / 0, 0, 5, 0, 10, 5)\n", {q, q, 5}, 5 * kPi);
+    expect_arc(ahead + "TLON, GOFWD / (CIRCLE / 0, 0, 5, 10), ON, (LINE / 0, 0, 5, 0, 10, 5)\n", {q, q, 5},
+               5 * kPi);
     expect_arc(ahead + "TLON,\nGOFWD / (CIRCLE / 0,0,5,10),ON," + line, {q, q, 5}, 5 * kPi);
     expect_arc(ahead + "TLON,GOFWD/ CIRCLE/ 0,0,5,10,ON,LINE/ 0,0,5,0,10,5\n", {q, q, 5}, 5 * kPi);
     expect_arc(ahead + "TLON,GOFWD/(CYLNDR/0,0,-7,0,0,-1,10),ON," + line, {q, q, 5}, 5 * kPi);
@@ -146,8 +148,8 @@ TEST(AptVendors, CirclesBetweenGeometry) {
     expect_arc(ahead + "TLON,GOFWD/(CIRCLE/0,0,5,10),ON,2,INTOF,(PLANE/1,0,0,-5)\n",
                {-5, 5 * std::sqrt(3.0), 5}, 20 * third);
     // In the plane of x and z: square on the tool axis only by the direction.
-    expect_arc("FROM/10,0,0\nINDIRV/0,0,1\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,-10,0,0)\n", {0, 0, 10},
-               10 * kPi);
+    expect_arc("FROM/10,0,0\nINDIRV/0,0,1\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,-10,0,0)\n",
+               {0, 0, 10}, 10 * kPi);
 }
 
 TEST(AptVendors, PointsMayCarryTheNormalOfTheSurface) {
@@ -178,8 +180,8 @@ TEST(AptVendors, CyclesOfCreoAndCatia) {
     EXPECT_EQ(heights("CYCLE / DEEP, 5, 80, MMPM, 3, 4"), "r3000 -4000 r3000 r-3746 -5000 r3000");
     EXPECT_EQ(heights("CYCLE / DEEPHL, 5, 4, 80, MMPM, 3"), "r3000 -4000 r3000 r-3746 -5000 r3000");
     EXPECT_EQ(heights("CYCLE / TAP, 5, 80, MMPM, 20, 3"), "r3000 -5000 3000");
-    const Program tap = program_of(
-        "SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
+    const Program tap =
+        program_of("SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
     EXPECT_NEAR(tap.moves.at(1).feed_mm_per_min, 1270, 1e-9);
 }
 
