@@ -21,7 +21,7 @@ struct Kind {
 };
 constexpr std::array kKinds{
     Kind{"DRILL", Cycle::Way::through},    Kind{"DEEP", Cycle::Way::peck},
-    Kind{"DEEP2", Cycle::Way::peck},       Kind{"DEEPCL", Cycle::Way::peck},
+    Kind{"DEEPCL", Cycle::Way::peck},      Kind{"RIGID", Cycle::Way::bore},
     Kind{"BRKCHP", Cycle::Way::chip},      Kind{"CHIP", Cycle::Way::chip},
     Kind{"BREAK", Cycle::Way::chip},       Kind{"TAP", Cycle::Way::bore},
     Kind{"REAM", Cycle::Way::bore},        Kind{"BORE", Cycle::Way::bore},
@@ -47,6 +47,13 @@ constexpr std::array kWords{
     Word{"DWELL", Key::dwell},        Word{"TPI", Key::threads},    Word{"BACK", Key::back},
     Word{"ORIENT", Key::aside},       Word{"RPM", Key::aside},
 };
+
+// Some processors number their kinds: BORE9.
+const Kind* find_kind(std::string_view text) {
+    while (!text.empty() && is_digit(text.back())) text.remove_suffix(1);
+    const auto found = std::ranges::find_if(kKinds, [&](const Kind& k) { return matches(text, k.word); });
+    return found == kKinds.end() ? nullptr : &*found;
+}
 
 const Word* find_word(std::string_view text) {
     static constexpr Word feed{{}, Key::feed};
@@ -91,9 +98,8 @@ class CycleReader {
         if (items_.empty()) return report_.refuse(cycle_.at, "CYCLE without a kind", "write CYCLE/DRILL");
         for (; at_ < items_.size(); ++at_) {
             const Item& item = items_[at_];
-            const auto kind =
-                std::ranges::find_if(kKinds, [&](const Kind& k) { return matches(item.text, k.word); });
-            if (kind == kKinds.end()) break;
+            const Kind* kind = find_kind(item.text);
+            if (!kind) break;
             cycle_.way = kind->way;
         }
         if (at_ > 0) return {};

@@ -109,6 +109,9 @@ class AptReader {
                 return set_spindle(statement, path_.settings, report_);
             case Action::load:
                 return load_tool(statement, path_.settings, report_);
+            case Action::tool_kind:
+                note_tool_kind(statement, report_);
+                return {};
             case Action::cutter:
                 return set_cutter(statement, path_.settings, report_);
             case Action::tool_data:

@@ -33,6 +33,7 @@ enum class Note {
     arc_slope,
     inch_feeds,
     tool_name,
+    turning,
     count
 };
 

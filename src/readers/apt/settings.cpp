@@ -187,6 +187,14 @@ Result<void> load_tool(const Statement& statement, Settings& settings, Report& r
     return {};
 }
 
+void note_tool_kind(const Statement& statement, Report& report) {
+    const bool turns =
+        std::ranges::any_of(statement.items, [](const Item& item) { return matches(item.text, "TURN"); });
+    if (turns && report.first(Note::turning)) {
+        report.warn(statement.word.line, "a turning tool: its path is taken as that of a mill");
+    }
+}
+
 Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report) {
     // CUTTER/DISPLY, CUTTER/READ: how the cutter is shown, or a file with it.
     if (!statement.items.empty() && !number_of(statement.items[0].text) &&

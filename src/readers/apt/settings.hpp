@@ -49,6 +49,8 @@ Result<void> set_feed(const Statement& statement, Settings& settings, Report& re
 Result<void> set_spindle(const Statement& statement, Settings& settings, Report& report);
 // LOADTL/n or LOAD/TOOL,n. The values after them set lengths, which do not move the tip.
 Result<void> load_tool(const Statement& statement, Settings& settings, Report& report);
+// TOOLNO/n,MILL or TURN. A turning tool is warned of.
+void note_tool_kind(const Statement& statement, Report& report);
 // CUTTER/d,r,e,f,a,b,h: diameter, corner radius, position of the corner centre (from the axis, above the
 // tip), angles of bottom and flank, height.
 Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report);

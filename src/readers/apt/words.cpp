@@ -82,7 +82,7 @@ constexpr std::array kWords{
     Entry{"SELECT", kNothing},
     Entry{"SELCTL", kNothing},
     Entry{"CLAMP", kNothing},
-    Entry{"TOOLNO", kNothing},
+    Entry{"TOOLNO", {Action::tool_kind, {}}},
     Entry{"AUTOPS", kNothing},
     Entry{"TOOL PATH", kNothing},
     Entry{"END-OF-PATH", kNothing},

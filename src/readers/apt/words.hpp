@@ -23,6 +23,7 @@ enum class Action {
     retract,        // RETRCT
     spindle,        // SPINDL
     load,           // LOADTL, LOAD
+    tool_kind,      // TOOLNO
     cutter,         // CUTTER
     tool_data,      // TLDATA
     multi_axis,     // MULTAX

@@ -180,6 +180,7 @@ TEST(AptVendors, CyclesOfCreoAndCatia) {
     EXPECT_EQ(heights("CYCLE / DEEP, 5, 80, MMPM, 3, 4"), "r3000 -4000 r3000 r-3746 -5000 r3000");
     EXPECT_EQ(heights("CYCLE / DEEPHL, 5, 4, 80, MMPM, 3"), "r3000 -4000 r3000 r-3746 -5000 r3000");
     EXPECT_EQ(heights("CYCLE / TAP, 5, 80, MMPM, 20, 3"), "r3000 -5000 3000");
+    EXPECT_EQ(heights("CYCLE / BORE9, FEDTO, 5, MMPM, 80, RAPTO, 4"), "r4000 -5000 4000");
     const Program tap =
         program_of("SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
     EXPECT_NEAR(tap.moves.at(1).feed_mm_per_min, 1270, 1e-9);
@@ -194,6 +195,7 @@ TEST(AptVendors, SpellingsOfSettings) {
     EXPECT_NEAR(program.moves.at(2).duration_s, 0.6, 1e-12);
     EXPECT_TRUE(warns_of(program, 2, "'ENDMILL_10' names a tool"));
     EXPECT_TRUE(warns_of(program, 3, "CUTTER without numbers"));
+    EXPECT_TRUE(warns_of(program_of("TOOLNO/1,TURN,1\nFROM/0,0,0\n"), 3, "a turning tool"));
     EXPECT_NEAR(read("UNITS/CM\nFEDRAT/1\nFROM/0,0,0\nGOTO/1,0,0\n").moves.at(0).end.tip_mm.x, 10, 1e-12);
     EXPECT_TRUE(warns_of(read("FROM/0,0,0\nFEDRAT/10,IPM\nGOTO/1,0,0\n"), 2, "write UNITS/INCHES"));
 }
