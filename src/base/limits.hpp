@@ -173,6 +173,23 @@ struct Limits {
                       "`axial_depth_mm`",
                       "As deep as the longest cutting edge. Each mm takes its time."};
 
+    // What bends.
+    Limit mode_frequency{"natural frequency",
+                         "Hz",
+                         {1, 1e5},
+                         "`frequency_hz` of a mode",
+                         "A long boring bar has 50, a micro end mill 10,000 Hz."};
+    Limit mode_damping{"damping ratio",
+                       "",
+                       {1e-5, 0.9},
+                       "`damping_ratio` of a mode",
+                       "Steel alone has 0.001, a damped holder 0.1."};
+    Limit mode_stiffness{"modal stiffness",
+                         "N/mm",
+                         {1e-3, 1e12},
+                         "`stiffness_n_per_mm` of a mode",
+                         "A thin wall has 100, a rigid machine 100,000."};
+
     // The run.
     Limit resolution{"spacing of the grid",
                      "mm",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dynamics/mode.hpp"
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
 #include "motion/curve/keyframe_motion.hpp"
@@ -120,6 +121,8 @@ struct Job {
     JobProcess process;
     JobPath path;
     std::optional<JobEngagement> engagement;
+    // Unit directions in stock axes. Those of a tool are where its axis is +z; they turn with it.
+    std::vector<dynamics::Mode> modes;
     JobSound sound;
     JobHaptics haptics;
     JobMachine machine;

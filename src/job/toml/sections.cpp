@@ -30,6 +30,9 @@ constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpo
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
 constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
+constexpr std::array kModeKeys{"direction"sv, "frequency_hz"sv, "damping_ratio"sv, "stiffness_n_per_mm"sv,
+                               "on"sv};
+constexpr std::array kModeOn{"tool"sv, "part"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv,
                                 "distance_factor"sv,
@@ -163,6 +166,18 @@ JobEngagement read_engagement(TomlFile& file, const toml::table& table) {
                      "ends at 180");
     }
     return engagement;
+}
+
+dynamics::Mode read_mode(TomlFile& file, const toml::table& table) {
+    TomlSection section(file, table, "[[mode]]", kModeKeys);
+    dynamics::Mode mode;
+    if (!section.has("direction")) section.missing("direction");
+    mode.direction = read_direction(section, "direction", mode.direction);
+    mode.frequency_hz = section.required_number("frequency_hz", kLimits.mode_frequency);
+    mode.damping_ratio = section.required_number("damping_ratio", kLimits.mode_damping);
+    mode.stiffness_n_per_mm = section.required_number("stiffness_n_per_mm", kLimits.mode_stiffness);
+    if (section.word("on", kModeOn).value_or(0) == 1) mode.on = dynamics::ModeOn::part;
+    return mode;
 }
 
 template <class Named>

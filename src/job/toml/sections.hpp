@@ -15,6 +15,8 @@ namespace tribo::job {
 
 // Millimetres per unit of a model or of keyframes, where the section says it.
 std::optional<double> read_unit_mm(TomlSection& section);
+// A direction of any length, as a unit vector.
+Vec3 read_direction(TomlSection& section, std::string_view key, Vec3 otherwise);
 readers::ModelFile read_part(TomlFile& file, const toml::table& table);
 JobSolid read_solid(TomlFile& file, const toml::table& table, const std::string& label);
 // [stock]: a solid, or an earlier job.
@@ -27,6 +29,8 @@ JobMaterial read_material(TomlFile& file, const toml::table& table);
 JobProcess read_process(TomlFile& file, const toml::table& table);
 JobPath read_path(TomlFile& file, const toml::table& table);
 JobEngagement read_engagement(TomlFile& file, const toml::table& table);
+// One [[mode]].
+dynamics::Mode read_mode(TomlFile& file, const toml::table& table);
 JobSound read_sound(TomlFile& file, const toml::table& table);
 JobHaptics read_haptics(TomlFile& file, const toml::table& table);
 // Whether [path] names a file that describes a machine, or a machine.

@@ -42,17 +42,16 @@ JobSolid solid_of(TomlSection& section, const char* otherwise) {
     return solid;
 }
 
-// A direction of any length, as a unit vector.
-Vec3 direction(TomlSection& section, std::string_view key, Vec3 otherwise) {
+}  // namespace
+
+Vec3 read_direction(TomlSection& section, std::string_view key, Vec3 otherwise) {
     const Vec3 written = section.point(key, kLimits.direction).value_or(otherwise);
     const double size = length(written);
     if (size > 0 && std::isfinite(size)) return written / size;
     section.fail(key, "'" + std::string(key) + "' is no direction: its length is " + format_decimal(size),
-                 "write the direction in the stock of the earlier job, such as [1, 0, 0]");
+                 "write a direction such as [1, 0, 0]");
     return otherwise;
 }
-
-}  // namespace
 
 std::optional<double> read_unit_mm(TomlSection& section) {
     return section.number("unit_mm", kLimits.unit);
@@ -83,8 +82,8 @@ motion::WorkFrame read_setup(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[setup]", kSetupKeys);
     motion::WorkFrame frame;
     frame.origin_mm = section.point("origin_mm").value_or(Vec3{});
-    frame.x = direction(section, "x_axis", frame.x);
-    frame.z = direction(section, "z_axis", frame.z);
+    frame.x = read_direction(section, "x_axis", frame.x);
+    frame.z = read_direction(section, "z_axis", frame.z);
     const double skew = dot(frame.x, frame.z);
     if (!(std::abs(skew) <= kLargestSkew)) {
         const bool only_z = !section.has("x_axis");

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Will it chatter: the multipliers of a small vibration over a period of the cut.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "dynamics/cut_feedback.hpp"
+#include "dynamics/mode.hpp"
+
+namespace tribo::dynamics {
+
+enum class ChatterKind { stable, quasi_periodic, period_doubling };
+
+struct Stability {
+    double multiplier = 0;  // spectral radius over the period: a vibration grows by it; > 1: chatter
+    double angle_rad = 0;   // of that multiplier, 0 ... pi
+    double chatter_hz = 0;  // of the lines (+-angle / 2 pi + n) / period the one that the modes answer most
+    double period_s = 0;
+    ChatterKind kind = ChatterKind::stable;
+};
+
+// Solves the delayed equations of the modes over one period by collocation in Chebyshev points on each
+// stretch between two events of the cut, the oscillators exactly, and takes the largest eigenvalue of the
+// step from a period to the next (Bayly et al. 2003 and Butcher et al. 2009 do it with other bases). Good to
+// about 1e-8. At least one mode; directions in the frame of `cut`. Any thread; allocates.
+Stability stability(std::span<const Mode> modes, const CutFeedback& cut);
+
+// The border of the stable depths at one speed.
+struct DepthLimit {
+    // The least depth with a multiplier of 1; absent: stable down to the greatest depth asked for.
+    std::optional<double> depth_mm;
+    Stability there;  // just beyond the border, or at the greatest depth
+};
+
+// Walks from depth 0 in steps of a 400th of `most_mm` and halves the first step in which the cut becomes
+// unstable. A narrower island of chatter may be missed.
+DepthLimit depth_limit(const std::function<Stability(double depth_mm)>& at, double most_mm);
+
+}  // namespace tribo::dynamics

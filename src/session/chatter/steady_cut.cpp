@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "session/chatter/steady_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "milling/tool/tool_frame.hpp"
+#include "motion/path/path.hpp"
+#include "session/cut/mill_setup.hpp"
+
+namespace tribo::session {
+namespace {
+
+// The shortest rotation that turns +z to a unit axis.
+Vec3 turned_with(Vec3 axis, Vec3 v) {
+    const Vec3 z{0, 0, 1}, normal = cross(z, axis);
+    const double cosine = dot(z, axis);
+    // Upside down every half turn is a shortest one: about x.
+    if (cosine < -1 + 1e-12) return {v.x, -v.y, -v.z};
+    return cosine * v + cross(normal, v) + (dot(normal, v) / (1 + cosine)) * normal;
+}
+
+Vec3 in_frame(const milling::ToolFrame& frame, Vec3 v) {
+    return {dot(frame.x, v), dot(frame.y, v), dot(frame.z, v)};
+}
+
+// The first feed move that goes across the tool axis by more than along it.
+std::size_t first_cut(const std::vector<motion::Move>& moves) {
+    for (std::size_t n = 0; n < moves.size(); ++n) {
+        const motion::Move& move = moves[n];
+        if (move.kind != motion::MoveKind::feed) continue;
+        const Vec3 way = motion::pose_at(move, 0.01).tip_mm - move.start.tip_mm;
+        const double along = dot(way, move.start.axis);
+        if (length(way - along * move.start.axis) > std::abs(along)) return n;
+    }
+    return moves.size();
+}
+
+}  // namespace
+
+Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings) {
+    if (job.modes.empty()) {
+        return fail_at(
+            job.file, 0, 0, "the job has no [[mode]]: nothing in it can vibrate",
+            "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
+            "stiffness_n_per_mm");
+    }
+    if (!job.engagement) {
+        return fail_at(job.file, 0, 0, "the job has no [engagement]",
+                       "write entry_deg, exit_deg and axial_depth_mm of the cut in question");
+    }
+    auto setup = prepare_moves(job, program, {}, warnings);
+    if (!setup) return std::unexpected(setup.error());
+    const std::size_t n = first_cut(setup->moves);
+    if (n == setup->moves.size()) {
+        return fail_at(program.source, 0, 0, "no feed move goes across the tool axis",
+                       "give the path one along the feed direction of the cut");
+    }
+    const motion::Move& move = setup->moves[n];
+    constexpr double kUpright = 1e-9;
+    if (!program.machine.empty() && length(cross(move.start.axis, {0, 0, 1})) > kUpright) {
+        return fail_at(program.source, move.line, 0, "the machine tilts the tool in the first cut",
+                       "start with a cut of an upright tool, or remove the machine");
+    }
+    SteadyCut cut;
+    cut.cutter = setup->cutters[setup->cutter_of_move[n]];
+    cut.coefficients = setup->coefficients;
+    cut.spindle_rpm = setup->rpm_of_move[n];
+    cut.line = move.line;
+    cut.entry_rad = setup->engagement->entry_rad;
+    cut.exit_rad = setup->engagement->exit_rad;
+    cut.axial_depth_mm = setup->engagement->axial_depth_mm;
+    const Vec3 way = motion::pose_at(move, 0.01).tip_mm - move.start.tip_mm;
+    const milling::ToolFrame frame = milling::tool_frame(move.start.axis, way, {1, 0, 0});
+    for (dynamics::Mode mode : job.modes) {
+        if (mode.on == dynamics::ModeOn::tool) mode.direction = turned_with(move.start.axis, mode.direction);
+        mode.direction = in_frame(frame, mode.direction);
+        cut.modes.push_back(mode);
+    }
+    return cut;
+}
+
+dynamics::Stability SteadyCut::at(double rpm, double depth_mm) const {
+    const milling::EngagementBand band{0, depth_mm, entry_rad, exit_rad};
+    return dynamics::stability(modes, dynamics::CutFeedback(cutter, coefficients, {&band, 1}, rpm));
+}
+
+dynamics::DepthLimit SteadyCut::limit(double rpm) const {
+    return dynamics::depth_limit([&](double depth_mm) { return at(rpm, depth_mm); }, cutter.length_mm);
+}
+
+}  // namespace tribo::session

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Multipliers against published numbers, closed forms and a second computation.
+#include "dynamics/stability.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "base/math.hpp"
+#include "dynamics/semi_discretisation.hpp"
+
+namespace tribo::dynamics {
+namespace {
+
+constexpr double kPi = math::kPi;
+
+// The benchmark of the literature: two teeth, one mode along the feed (Insperger and Stepan 2004).
+const milling::Cutter kCutter{.diameter_mm = 10, .flutes = 2, .helix_deg = 0};
+const milling::CuttingCoefficients kAluminium{600, 200, 0, 0, 0, 0};
+
+Mode benchmark_mode(Vec3 direction = {1, 0, 0}) {
+    constexpr double kMassKg = 0.03993, kHz = 922;
+    const double w = math::kTwoPi * kHz;
+    return {direction, kHz, 0.011, 1e-3 * kMassKg * w * w};
+}
+
+Stability cut(std::span<const Mode> modes, double rpm, double depth, double entry, double exit) {
+    const milling::EngagementBand band{0, depth, entry, exit};
+    return stability(modes, CutFeedback(kCutter, kAluminium, {&band, 1}, rpm));
+}
+
+Stability benchmark(double rpm, double depth, double entry = 0, double exit = kPi) {
+    const Mode mode = benchmark_mode();
+    return cut({&mode, 1}, rpm, depth, entry, exit);
+}
+
+TEST(Stability, of_the_benchmark_slot_is_known_to_seven_digits) {
+    // Computed with a spectral method in another program, with two numbers of nodes.
+    EXPECT_NEAR(benchmark(5000, 0.2).multiplier, 0.81974278, 1e-7);
+    EXPECT_NEAR(benchmark(5000, 0.5).multiplier, 1.07397559, 1e-7);
+    EXPECT_NEAR(benchmark(5000, 0.7).multiplier, 1.22155614, 1e-7);
+    EXPECT_NEAR(benchmark(5000, 1.0).multiplier, 1.40647353, 1e-7);
+    EXPECT_NEAR(benchmark(5000, 0.5).angle_rad, 2.060413, 1e-6);
+    EXPECT_NEAR(benchmark(5000, 0.5).chatter_hz, 945.3, 0.1);
+}
+
+struct Known {
+    double rpm, slot, half_down, tenth_down;
+    const char* kinds;  // of the three: H quasi-periodic, F period doubling
+};
+
+TEST(Stability, has_the_known_critical_depths) {
+    const double half = kPi / 2, tenth = kPi - std::acos(1 - 2 * 0.1);
+    for (const Known& k :
+         {Known{5000, 0.4086, 0.8472, 1.2963, "HHH"}, Known{6000, 0.3532, 1.1388, 1.7329, "HHH"},
+          Known{7000, 1.1520, 2.5506, 2.9878, "HHF"}, Known{8000, 0.6764, 0.7979, 1.2204, "HHH"},
+          Known{9000, 3.0090, 1.5648, 2.4411, "HHH"}, Known{10000, 0.3224, 2.1047, 2.5184, "HFF"},
+          Known{12000, 2.1493, 0.6131, 0.9430, "FHH"}, Known{14000, 2.1400, 3.0905, 6.0260, "HFF"},
+          Known{16000, 0.3185, 2.0724, 3.1158, "HFF"}, Known{18000, 0.6895, 1.6197, 0.8157, "HHF"},
+          Known{20000, 1.4175, 0.7196, 1.2215, "FHH"}, Known{24000, 3.7425, 0.7757, 1.2226, "HHH"}}) {
+        int n = 0;
+        for (const auto& [depth, entry] :
+             {std::pair{k.slot, 0.0}, {k.half_down, half}, {k.tenth_down, tenth}}) {
+            const DepthLimit limit =
+                depth_limit([&, from = entry](double mm) { return benchmark(k.rpm, mm, from); }, 20);
+            ASSERT_TRUE(limit.depth_mm) << k.rpm;
+            EXPECT_NEAR(*limit.depth_mm, depth, 1e-3 * depth) << k.rpm;
+            EXPECT_EQ(limit.there.kind == ChatterKind::period_doubling, k.kinds[n] == 'F')
+                << k.rpm << " " << n;
+            ++n;
+        }
+    }
+}
+
+TEST(Stability, of_a_mode_in_every_direction_knows_no_up_and_down) {
+    const std::array modes{benchmark_mode(), benchmark_mode({0, 1, 0})};
+    for (const double rpm : {5000.0, 10'000.0}) {
+        const double expected = rpm == 5000 ? 0.1271 : 0.1810;
+        for (const double entry : {0.0, kPi / 2}) {
+            const DepthLimit limit =
+                depth_limit([&](double mm) { return cut(modes, rpm, mm, entry, entry + kPi / 2); }, 10);
+            EXPECT_NEAR(*limit.depth_mm, expected, 1e-3 * expected) << rpm;
+        }
+        const double up = cut(modes, rpm, 0.4, 0, kPi / 2).multiplier;
+        EXPECT_NEAR(cut(modes, rpm, 0.4, kPi / 2, kPi).multiplier, up, 1e-9) << rpm;
+    }
+}
+
+TEST(Stability, is_the_same_for_a_mode_of_the_tool_and_of_the_part) {
+    Mode mode = benchmark_mode({1, 0.3, 0});
+    const double tool = cut({&mode, 1}, 8000, 1, 0, kPi).multiplier;
+    mode.on = ModeOn::part;
+    EXPECT_NEAR(cut({&mode, 1}, 8000, 1, 0, kPi).multiplier, tool, 1e-9);
+}
+
+TEST(Stability, without_cutting_is_the_decay_of_the_mode) {
+    const Mode mode = benchmark_mode();
+    // Stays in the air for the whole of its turn.
+    const Stability s = stability({&mode, 1}, CutFeedback(kCutter, kAluminium, {}, 6000));
+    EXPECT_NEAR(s.multiplier, std::exp(-0.011 * math::kTwoPi * 922 * 0.005), 1e-9);
+    EXPECT_EQ(s.kind, ChatterKind::stable);
+}
+
+// Where the force is radial alone and the teeth cut all around, two equal modes feel one constant feedback,
+// as in turning. There the border of stability is known in closed form (Tobias 1965; Altintas, Manufacturing
+// Automation, 2nd ed., 4.2): b = -1 / (2 K Re G), speed from the phase.
+TEST(Stability, all_around_is_that_of_turning) {
+    constexpr int kTeeth = 4;
+    const milling::Cutter cutter{.diameter_mm = 10, .flutes = kTeeth, .helix_deg = 0};
+    const milling::CuttingCoefficients radial{1e-12, 500, 0, 0, 0, 0};
+    const std::array modes{benchmark_mode(), benchmark_mode({0, 1, 0})};
+    const double stiffness = kTeeth * radial.krc / 2;
+    for (const double hz : {925.0, 932.0, 945.0}) {
+        const std::complex<double> g = receptance(modes[0], hz);
+        const double depth = -1 / (2 * stiffness * g.real());
+        for (const int waves : {0, 1, 3}) {
+            // 1 + K b (1 - e^(-iwT)) G = 0.
+            const double phase = std::arg(1.0 + 1.0 / (stiffness * depth * g));
+            const double period_s = (math::kTwoPi * (waves + 1) - phase) / (math::kTwoPi * hz);
+            const milling::EngagementBand band{0, depth, 0, math::kTwoPi};
+            const Stability s =
+                stability(modes, CutFeedback(cutter, radial, {&band, 1}, 60 / (kTeeth * period_s)));
+            EXPECT_NEAR(s.multiplier, 1, 1e-7) << hz << " " << waves;
+            const double turns = hz * s.period_s, apart = turns - std::round(turns);
+            EXPECT_NEAR(s.angle_rad, math::kTwoPi * std::abs(apart), 1e-6) << hz << " " << waves;
+        }
+    }
+}
+
+TEST(Stability, of_helix_unequal_pitch_and_three_modes_is_that_of_another_method) {
+    const std::array modes{Mode{{1, 0.2, 0}, 700, 0.02, 8000}, Mode{{-0.1, 1, 0.1}, 1150, 0.03, 12'000},
+                           Mode{{0.3, 0.5, 1}, 1900, 0.04, 30'000, ModeOn::part}};
+    const milling::CuttingCoefficients k{900, 300, 150, 0, 0, 0};
+    for (const std::vector<double>& pitch : {std::vector<double>{}, {84, 96, 84, 96}, {80, 100, 85, 95}}) {
+        for (const double helix : {0.0, 30.0}) {
+            for (const double depth : {0.4, 2.0}) {
+                const milling::Cutter cutter{
+                    .diameter_mm = 12, .flutes = 4, .helix_deg = helix, .pitch_deg = pitch};
+                const milling::EngagementBand band{0, depth, 0.3, 1.7};
+                const CutFeedback feedback(cutter, k, {&band, 1}, 7000);
+                EXPECT_NEAR(stability(modes, feedback).multiplier / test::growth(modes, feedback), 1, 1e-3)
+                    << pitch.size() << " " << helix << " " << depth;
+            }
+        }
+    }
+}
+
+RC_GTEST_PROP(Stability, of_anything_does_not_depend_on_where_the_cutter_starts, ()) {
+    // The same cut with the flutes numbered from another one.
+    const auto number = [](double from, double to) {
+        return from + (to - from) * 1e-3 * *rc::gen::inRange(0, 1000);
+    };
+    std::vector<double> pitch{number(70, 110), number(70, 110), number(70, 110)};
+    pitch.push_back(360 - pitch[0] - pitch[1] - pitch[2]);
+    const milling::CuttingCoefficients k{number(200, 3000), number(0, 1500), number(-200, 600), 0, 0, 0};
+    const std::array modes{
+        Mode{{1, number(-1, 1), 0}, number(200, 900), number(0.005, 0.1), number(1000, 1e5)},
+        Mode{{number(-1, 1), 1, number(-1, 1)}, number(200, 900), number(0.005, 0.1), 2e4}};
+    const double entry = number(0, 2), width = number(0.1, 3), depth = number(0.1, 8),
+                 rpm = number(6000, 20'000);
+    const double helix = number(-45, 45);
+    std::vector<double> found;
+    for (int turn = 0; turn < 4; ++turn) {
+        const milling::Cutter cutter{.diameter_mm = 10, .flutes = 4, .helix_deg = helix, .pitch_deg = pitch};
+        const milling::EngagementBand band{0, depth, entry, entry + width};
+        found.push_back(stability(modes, CutFeedback(cutter, k, {&band, 1}, rpm)).multiplier);
+        std::rotate(pitch.begin(), pitch.begin() + 1, pitch.end());
+    }
+    for (const double multiplier : found)
+        RC_ASSERT(std::abs(multiplier - found[0]) < 1e-6 * std::max(1.0, found[0]));
+}
+
+}  // namespace
+}  // namespace tribo::dynamics
