@@ -186,7 +186,7 @@ struct Limits {
                        "Steel alone has 0.001, a damped holder 0.1."};
     Limit mode_stiffness{"modal stiffness",
                          "N/mm",
-                         {1e-3, 1e12},
+                         {1e-3, 1e10},
                          "`stiffness_n_per_mm` of a mode",
                          "A thin wall has 100, a rigid machine 100,000."};
 

@@ -147,6 +147,14 @@ Doors job_doors() {
              "is not behind 'entry_deg'"),
         door(l.engagement_angle, more, "[engagement]\nentry_deg = 0\naxial_depth_mm = 1\nexit_deg = ", "\n",
              "is not behind 'entry_deg'"),
+        door(
+            l.mode_frequency, more,
+            "[[mode]]\ndirection = [1, 0, 0]\ndamping_ratio = 0.1\nstiffness_n_per_mm = 10\nfrequency_hz = "),
+        door(l.mode_damping, more,
+             "[[mode]]\ndirection = [1, 0, 0]\nfrequency_hz = 10\nstiffness_n_per_mm = 10\ndamping_ratio = "),
+        door(
+            l.mode_stiffness, more,
+            "[[mode]]\ndirection = [1, 0, 0]\nfrequency_hz = 10\ndamping_ratio = 0.1\nstiffness_n_per_mm = "),
         door(l.axial_depth, more, "[engagement]\nentry_deg = 0\nexit_deg = 90\naxial_depth_mm = "),
         door(l.force_scale, more, "[haptics]\nforce_scale = "),
         door(l.friction, more, "[haptics]\nfriction_static = "),

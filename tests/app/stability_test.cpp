@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// `tribo stability` from outside: the benchmark of the literature, frames, refusals.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/run/program.hpp"
+
+namespace tribo::test {
+namespace {
+
+constexpr const char* kRest = R"([stock]
+box_mm = [[0, 0, -10], [40, 40, 0]]
+[cutter]
+kind = "flat"
+diameter_mm = 10
+flutes = 2
+helix_deg = 0
+length_mm = 20
+[material]
+ktc_n_per_mm2 = 600
+krc_n_per_mm2 = 200
+kac_n_per_mm2 = 0
+kte_n_per_mm = 0
+kre_n_per_mm = 0
+kae_n_per_mm = 0
+[process]
+spindle_rpm = 8000
+feed_mm_per_min = 1600
+[path]
+gcode = "slot.nc"
+)";
+constexpr const char* kEngagement = "[engagement]\nentry_deg = 0\nexit_deg = 180\naxial_depth_mm = 1\n";
+
+std::string mode(const std::string& direction, const std::string& on = "tool") {
+    return "[[mode]]\ndirection = [" + direction +
+           "]\nfrequency_hz = 922\ndamping_ratio = 0.011\nstiffness_n_per_mm = 1340.0496480507\non = \"" +
+           on + "\"\n";
+}
+
+class StabilityVerb : public testing::Test {
+  protected:
+    Outcome run(const std::string& more, std::vector<std::string> flags,
+                const std::string& program = "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n") const {
+        scratch.put("slot.nc", program);
+        scratch.put("job.toml", kRest + more);
+        flags.insert(flags.begin(), {"stability", "job.toml"});
+        return run_tribo(flags, scratch.path());
+    }
+    nlohmann::json answer(
+        const std::string& more, std::vector<std::string> flags,
+        const std::string& program = "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n") const {
+        flags.push_back("--json");
+        const Outcome outcome = run(more, flags, program);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out, nullptr, false);
+    }
+    Scratch scratch;
+};
+
+TEST_F(StabilityVerb, gives_the_benchmark_in_the_order_of_the_call) {
+    const auto json = answer(kEngagement + mode("1, 0, 0"),
+                             {"--at", "5000:0.5", "--at", "5000:0.2", "--limit", "9000", "--limit", "8000"});
+    EXPECT_EQ(json["schema"], "tribo.stability/1");
+    ASSERT_EQ(json["points"].size(), 2u);
+    EXPECT_NEAR(json["points"][0]["multiplier"], 1.07397559, 2e-7);
+    EXPECT_NEAR(json["points"][1]["multiplier"], 0.81974278, 2e-7);
+    EXPECT_EQ(json["points"][0]["kind"], "quasi-periodic");
+    EXPECT_EQ(json["points"][1]["kind"], "stable");
+    EXPECT_NEAR(json["points"][0]["period_s"], 0.006, 1e-12);
+    ASSERT_EQ(json["limits"].size(), 2u);
+    EXPECT_NEAR(json["limits"][0]["limit_mm"], 3.0090, 3e-3);
+    EXPECT_NEAR(json["limits"][1]["limit_mm"], 0.6764, 7e-4);
+    EXPECT_EQ(json["modes"].size(), 1u);
+}
+
+TEST_F(StabilityVerb, turns_the_modes_into_the_frame_of_the_feed) {
+    const auto along_x = answer(kEngagement + mode("1, 0, 0"), {"--at", "5000:0.5"});
+    const auto along_y = answer(kEngagement + mode("0, 3, 0", "part"), {"--at", "5000:0.5"},
+                                "G21 G90 M3 F1600\nG0 X10 Y-8 Z-1\nG1 Y48\nM30\n");
+    EXPECT_NEAR(along_y["points"][0]["multiplier"], along_x["points"][0]["multiplier"], 1e-8);
+    EXPECT_NEAR(along_y["modes"][0]["direction"][0], 1, 1e-12);
+    EXPECT_EQ(along_y["modes"][0]["on"], "part");
+    // Square to the feed half of a slot is another cut.
+    const std::string half = "[engagement]\nentry_deg = 0\nexit_deg = 90\naxial_depth_mm = 1\n";
+    const auto across = answer(half + mode("0, 1, 0"), {"--at", "5000:0.5"});
+    const auto along = answer(half + mode("1, 0, 0"), {"--at", "5000:0.5"});
+    EXPECT_GT(std::abs(across["points"][0]["multiplier"].get<double>() -
+                       along["points"][0]["multiplier"].get<double>()),
+              1e-3);
+}
+
+TEST_F(StabilityVerb, asks_for_the_job_itself_without_flags) {
+    const Outcome outcome = run(kEngagement + mode("1, 0, 0"), {});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("8000 rpm, 1 mm: chatter at 897.6 Hz (quasi-periodic)"), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("8000 rpm: stable up to 0.6764 mm deep"), std::string::npos) << outcome.out;
+}
+
+TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
+    const std::string good = kEngagement + mode("1, 0, 0");
+    struct Case {
+        std::string more;
+        std::vector<std::string> flags;
+        const char* fragment;
+    };
+    for (const Case& c : {
+             Case{kEngagement, {}, "has no [[mode]]"},
+             Case{mode("1, 0, 0"), {}, "has no [engagement]"},
+             Case{kEngagement + mode("0, 0, 0"), {}, "job.toml:26:13: error: 'direction' is no direction"},
+             Case{kEngagement + std::string("[[mode]]\nfrequency_hz = 1\n"), {}, "'direction' is missing"},
+             Case{kEngagement + mode("1, 0, 0", "holder"), {}, "'on'"},
+             Case{good, {"--at", "8000"}, "'8000' is no speed and depth; write RPM:MM"},
+             Case{good, {"--at", "8000:-1"}, "write RPM:MM"},
+             Case{good, {"--at", "8000:1e9"}, "write RPM:MM"},
+             Case{good, {"--limit", "0"}, "--limit"},
+         }) {
+        const Outcome outcome = run(c.more, c.flags);
+        EXPECT_EQ(outcome.code, 2) << c.fragment;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_NE(outcome.err.find(c.fragment), std::string::npos) << outcome.err;
+    }
+    const Outcome outcome = run(good, {}, "G21 G90 M3 F100\nG0 X5 Y5 Z5\nG1 Z-1\nM30\n");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("no feed move goes across the tool axis"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace tribo::test
