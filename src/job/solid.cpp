@@ -48,14 +48,17 @@ Result<void> check_place(const Box3& box_mm) {
     return {};
 }
 
-Result<void> check_room(const Box3& box_mm) {
-    if (auto done = check_place(box_mm); !done) return done;
-    const Vec3 size = box_mm.size();
+Result<void> check_edges(Vec3 size_mm) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (kLimits.edge.range.contains(size[axis])) continue;
-        return fail(out_of_range(kLimits.edge, size[axis]), range_remedy(kLimits.edge));
+        if (kLimits.edge.range.contains(size_mm[axis])) continue;
+        return fail(out_of_range(kLimits.edge, size_mm[axis]), range_remedy(kLimits.edge));
     }
     return {};
+}
+
+Result<void> check_room(const Box3& box_mm) {
+    if (auto done = check_place(box_mm); !done) return done;
+    return check_edges(box_mm.size());
 }
 
 Solid box_solid(const Box3& box_mm) {

@@ -23,8 +23,10 @@ struct Solid {
     std::uint64_t hash = 0;  // of the box or of the mesh
 };
 
-// Refuses coordinates and edges of a box that are out of range (base/limits.hpp). The error has no place.
+// Refuse coordinates and edges of a box that are out of range (base/limits.hpp). The error has no place.
 Result<void> check_place(const Box3& box_mm);
+Result<void> check_edges(Vec3 size_mm);
+// Both.
 Result<void> check_room(const Box3& box_mm);
 
 Solid box_solid(const Box3& box_mm);

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "job/toml/sections.hpp"
+#include "job/words/tool_words.hpp"
 
 namespace tribo::job {
 namespace {
@@ -11,7 +12,6 @@ using namespace std::string_view_literals;
 constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv, "corner_mm"sv,
                                  "flutes"sv,     "helix_deg"sv, "length_mm"sv,   "runout_mm"sv,
                                  "runout_deg"sv, "pitch_deg"sv, "holder"sv,      "core_mm"sv};
-constexpr std::array kKindWords{"flat"sv, "ball"sv, "bull"sv};
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
 
@@ -66,13 +66,13 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
     milling::Cutter cutter;
     cutter.number = section.integer("number", kLimits.tool_number).value_or(0);
     if (!section.has("kind")) section.missing("kind");
-    cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kKindWords).value_or(0));
+    cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kCutterKindWords).value_or(0));
     cutter.diameter_mm = section.required_number("diameter_mm", kLimits.cutter_diameter);
     if (cutter.kind == milling::CutterKind::bull) {
         cutter.corner_mm = section.required_number("corner_mm", kLimits.corner_radius);
     } else if (section.has("corner_mm")) {
         section.fail("corner_mm",
-                     "a " + std::string(kKindWords[static_cast<std::size_t>(cutter.kind)]) +
+                     "a " + std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]) +
                          " cutter has no 'corner_mm'",
                      "remove it or write kind = \"bull\"");
     }
