@@ -33,7 +33,7 @@ constexpr std::string_view name_of(GcodeDialect dialect) {
 
 // Data of a tool for cutter compensation and for machines with rotary axes in the head.
 struct GcodeTool {
-    int number = 0;
+    int number = 0;  // 0: every tool that has no other entry
     double diameter_mm = 0;
     std::optional<double> length_mm{};  // from the spindle nose to the tip
 };

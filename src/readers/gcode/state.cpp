@@ -44,8 +44,9 @@ Result<void> Output::append(const motion::Move& move) {
 }
 
 std::optional<double> Output::tool_diameter_mm(int number) const {
-    for (const auto* tools : {&given_, &declared_}) {
-        if (const auto tool = tools->find(number); tool != tools->end()) return tool->second.diameter_mm;
+    for (const auto& [tools, wanted] :
+         {std::pair{&given_, number}, std::pair{&given_, 0}, std::pair{&declared_, number}}) {
+        if (const auto tool = tools->find(wanted); tool != tools->end()) return tool->second.diameter_mm;
     }
     return std::nullopt;
 }
