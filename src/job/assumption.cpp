@@ -5,89 +5,168 @@
 #include <cmath>
 
 #include "base/text/decimal.hpp"
+#include "job/completion.hpp"
 #include "job/program_tools.hpp"
+#include "job/solid.hpp"
+#include "job/words/stock_words.hpp"
+#include "job/words/tool_words.hpp"
 
 namespace tribo::job {
 namespace {
 
 constexpr double kSpindleRpm = 10000, kFeedMmPerMin = 600, kDiameterMm = 6;
 constexpr const char* kMaterial = "al7075-t6";
-// Material beside and below the path, mm.
+// Material below the path, mm.
 constexpr double kBelowMm = 3;
 
-// Around the feed moves. Where they reach below zero, zero is the top, as programs are mostly written; else
-// the top is what the highest feed move that is not a plunge touches.
-Box3 block(const motion::Program& program, double radius_mm) {
-    Box3 path;
+double or_else(double given, double assumed) {
+    return given > 0 ? given : assumed;
+}
+
+// Of the feed moves of the tip; empty without one.
+Box3 bounds_of_path(const motion::Program& program) {
+    Box3 box;
     for (const motion::Move& move : program.moves) {
-        if (move.kind == motion::MoveKind::feed) path.include(motion::tip_bounds(move));
+        if (move.kind == motion::MoveKind::feed) box.include(motion::tip_bounds(move));
     }
-    if (path.empty()) return path;
+    return box;
+}
+
+// Where the path reaches below zero, zero is the top, as programs are mostly written; else the top is what
+// the highest feed move that is not a plunge touches.
+double top_mm(const Box3& path) {
+    return path.min.z < 0 ? 0 : std::max(path.max.z, path.min.z + 1);
+}
+
+Box3 block_around(const Box3& path, double radius_mm) {
     Box3 box = path.inflated(radius_mm);
-    box.min.z = path.min.z - kBelowMm;
-    box.max.z = path.min.z < 0 ? 0 : std::max(path.max.z, path.min.z + 1);
-    const auto outwards = [](double v) { return v < 0 ? std::floor(v) : std::ceil(v); };
     for (int axis = 0; axis < 2; ++axis) {
         box.min[axis] = std::floor(box.min[axis]);
         box.max[axis] = std::ceil(box.max[axis]);
     }
-    box.min.z = outwards(box.min.z);
+    const double bottom = path.min.z - kBelowMm;
+    box.min.z = bottom < 0 ? std::floor(bottom) : std::ceil(bottom);
+    box.max.z = top_mm(path);
     return box;
 }
 
-std::string corner(Vec3 p) {
-    return "[" + format_decimal(p.x) + ", " + format_decimal(p.y) + ", " + format_decimal(p.z) + "]";
+// Its top as above, its middle on that of the path.
+Box3 block_on(const Box3& path, Vec3 size) {
+    const Vec3 middle = path.centre();
+    const double top = top_mm(path);
+    return {{middle.x - 0.5 * size.x, middle.y - 0.5 * size.y, top - size.z},
+            {middle.x + 0.5 * size.x, middle.y + 0.5 * size.y, top}};
+}
+
+// The first feed move for which `is_such` is true; null without one.
+template <class IsSuch>
+const motion::Move* first_feed_move(const motion::Program& program, IsSuch is_such) {
+    for (const motion::Move& move : program.moves) {
+        if (move.kind == motion::MoveKind::feed && is_such(move)) return &move;
+    }
+    return nullptr;
 }
 
 }  // namespace
 
-Job job_of_program(const std::string& file, PathKind kind) {
+Job job_of_program(const std::string& file, PathKind kind, const ProgramInputs& inputs) {
     Job job;
     job.file = file;
+    if (inputs.stock) job.stock = inputs.stock->solid;
+    job.cutters = inputs.cutters;
+    job.material.name = inputs.material.empty() ? kMaterial : inputs.material;
+    job.process = {or_else(inputs.process.spindle_rpm, kSpindleRpm),
+                   or_else(inputs.process.feed_mm_per_min, kFeedMmPerMin)};
     job.path.kind = kind;
     job.path.file = file;
-    job.process = {kSpindleRpm, kFeedMmPerMin};
-    job.material.name = kMaterial;
+    job.path.machine = inputs.machine;
+    job.path.tools = inputs.tool_table;
+    job.path.dialect = inputs.dialect;
     return job;
 }
 
-Result<void> assume_job(Job& job, const motion::Program& program, Warnings& warnings) {
+Result<void> assume_tools(Job& job, const motion::Program& program, Warnings& warnings) {
+    if (auto done = take_declared_tools(job, program, warnings); !done) return done;
     const auto tools = called_tools(program);
     if (!tools) return std::unexpected(tools.error());
-    const bool speed = std::any_of(program.moves.begin(), program.moves.end(),
-                                   [](const motion::Move& move) { return move.spindle_rpm > 0; });
-    const DeclaredTools declared(program);
-    for (const int tool : *tools) {
-        const bool described = std::any_of(job.cutters.begin(), job.cutters.end(),
-                                           [&](const milling::Cutter& c) { return c.number == tool; });
-        if (described || declared.find(tool) != nullptr) continue;
-        milling::Cutter cutter;
-        cutter.number = tool;
-        cutter.diameter_mm = kDiameterMm;
-        job.cutters.push_back(cutter);
-        warnings.push_back({program.source, 0,
-                            (tool > 0 ? "tool T" + std::to_string(tool) : std::string("the tool")) +
-                                " is not described: a flat end mill of " + format_decimal(kDiameterMm) +
-                                " mm with " + std::to_string(cutter.flutes) + " flutes is assumed"});
+    std::vector<milling::Cutter> assumed;
+    std::string names;
+    for (const int number : *tools) {
+        const bool is_described = std::ranges::any_of(job.cutters, [&](const milling::Cutter& c) {
+            return c.number == number || number == 0 || (c.number == 0 && job.cutters.size() == 1);
+        });
+        if (is_described) continue;
+        names += (assumed.empty() ? "T" : ", T") + std::to_string(number);
+        assumed.emplace_back();
+        assumed.back().number = number;
+        assumed.back().diameter_mm = kDiameterMm;
     }
-    double radius = 0.5 * kDiameterMm;
-    for (const milling::Cutter& c : job.cutters) radius = std::max(radius, c.radius_mm());
-    if (job.stock.box_mm.empty() && !job.stock.model && !program.stock) {
-        job.stock.box_mm = block(program, radius);
-        if (!job.stock.box_mm.empty()) {
-            warnings.push_back({program.source, 0,
-                                "the program declares no stock: a block from " +
-                                    corner(job.stock.box_mm.min) + " to " + corner(job.stock.box_mm.max) +
-                                    " mm is assumed"});
-        }
-    }
-    if (!speed) {
-        warnings.push_back(
-            {program.source, 0,
-             "the program says no spindle speed: " + format_decimal(kSpindleRpm) + " rpm are assumed"});
-    }
-    warnings.push_back({program.source, 0, std::string("the material is assumed: ") + kMaterial});
+    if (assumed.empty()) return {};
+    const bool is_one = assumed.size() == 1;
+    const std::string which = assumed[0].number == 0 ? "the tool is"
+                              : is_one               ? "tool " + names + " is"
+                                                     : "the tools " + names + " are";
+    warnings.push_back({program.source, 0,
+                        which + " not described: a flat end mill of " + format_decimal(kDiameterMm) +
+                            " mm with " + std::to_string(assumed[0].flutes) + " flutes is assumed" +
+                            (is_one ? "" : " for each") + "; write --tool \"" + tool_words(assumed[0]) +
+                            (is_one ? "\"" : "\" and so on") + ", or a [[cutter]] into a job"});
+    job.cutters.insert(job.cutters.end(), assumed.begin(), assumed.end());
     return {};
+}
+
+Result<void> assume_stock(Job& job, const motion::Program& program, const ProgramInputs& inputs,
+                          Warnings& warnings) {
+    const bool has_size = inputs.stock && inputs.stock->size_mm;
+    if (!has_size) {
+        if (auto done = take_declared_stock(job, program, warnings); !done) return done;
+    }
+    if (job.has_stock()) return {};
+    const Box3 path = bounds_of_path(program);
+    if (path.empty()) {
+        return fail_at(program.source, 0, 0, "the program has no feed move: there is nothing to mill",
+                       "check that it is the right program; tribo inspect says what it holds");
+    }
+    double radius_mm = 0;
+    for (const milling::Cutter& cutter : job.cutters) radius_mm = std::max(radius_mm, cutter.radius_mm());
+    job.stock.box_mm = has_size ? block_on(path, *inputs.stock->size_mm) : block_around(path, radius_mm);
+    if (const auto room = check_room(job.stock.box_mm); !room) {
+        return fail_at(program.source, 0, 0, "in the assumed block " + room.error().cause,
+                       "check the unit of the program; write --stock, or [stock] into a job");
+    }
+    const std::string what =
+        has_size ? "the place of the stock is not given: its middle is assumed on that of the path"
+                 : "no stock is described: a block around the path is assumed";
+    warnings.push_back({program.source, 0,
+                        what + "; write --stock \"" + stock_words(job.stock.box_mm) +
+                            "\" (two corners, mm), or [stock] into a job"});
+    return {};
+}
+
+void say_assumed_process(const Job& job, const motion::Program& program, const ProgramInputs& inputs,
+                         Warnings& warnings) {
+    const auto* no_speed = first_feed_move(program, [](const auto& move) { return move.spindle_rpm == 0; });
+    if (no_speed != nullptr && inputs.process.spindle_rpm == 0) {
+        warnings.push_back({program.source, no_speed->line,
+                            "no spindle speed so far: " + format_decimal(job.process.spindle_rpm) +
+                                " rpm are assumed; write an S word, --spindle-rpm, or spindle_rpm into "
+                                "[process] of a job"});
+    }
+    // The readers of programs warn of a missing feed themselves. Keyframes need none.
+    const double feed = job.process.feed_mm_per_min;
+    const auto* no_feed =
+        first_feed_move(program, [&](const auto& move) { return move.feed_mm_per_min == feed; });
+    if (no_feed != nullptr && job.path.kind == PathKind::keyframes && inputs.process.feed_mm_per_min == 0) {
+        warnings.push_back({program.source, no_feed->line,
+                            "keyframes without a feed run at " + format_decimal(feed) +
+                                " mm/min, which is assumed; write --feed-mm-per-min, a column of that name, "
+                                "or feed_mm_per_min into [process] of a job"});
+    }
+    if (inputs.material.empty()) {
+        warnings.push_back({program.source, 0,
+                            "no material is given: " + job.material.name +
+                                " is assumed; write --material NAME, or [material] into a job"});
+    }
 }
 
 }  // namespace tribo::job

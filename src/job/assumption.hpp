@@ -3,16 +3,27 @@
 #pragma once
 
 #include "job/job.hpp"
+#include "job/program_inputs.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::job {
 
-// A job with default feed and spindle speed, for reading the program.
-Job job_of_program(const std::string& file, PathKind kind);
+// A job with the inputs, and with default feed, spindle speed and material where they are absent, for reading
+// the program. Its machine has only its name.
+Job job_of_program(const std::string& file, PathKind kind, const ProgramInputs& inputs);
 
-// Adds everything that complete_job() requires: a block around the path, with its top at zero if the path
-// goes below zero, and a cutter of 6 mm for each undescribed tool. Each assumption gives a warning.
-// Refuses what called_tools() refuses.
-Result<void> assume_job(Job& job, const motion::Program& program, Warnings& warnings);
+// Each assumption is one warning that says what to write instead.
+//
+// Adds the tools that the program declares, and a flat end mill of 6 mm for all that nothing describes.
+// Refuses what take_declared_tools() refuses.
+Result<void> assume_tools(Job& job, const motion::Program& program, Warnings& warnings);
+// Adds the block whose size is given, at the path; else the stock that the program declares; else a block
+// around the path, with its top at zero if the path goes below zero. Call it after assume_tools(). Refuses a
+// program without feed moves that would need a block, and blocks out of range.
+Result<void> assume_stock(Job& job, const motion::Program& program, const ProgramInputs& inputs,
+                          Warnings& warnings);
+// Says which of feed, speed and material are assumed.
+void say_assumed_process(const Job& job, const motion::Program& program, const ProgramInputs& inputs,
+                         Warnings& warnings);
 
 }  // namespace tribo::job

@@ -7,6 +7,7 @@
 #include "base/text/decimal.hpp"
 #include "job/program_tools.hpp"
 #include "job/solid.hpp"
+#include "job/words/tool_words.hpp"
 
 namespace tribo::job {
 namespace {
@@ -27,14 +28,14 @@ milling::Cutter cutter_of(const motion::DeclaredTool& tool, int number) {
 }
 
 std::string description(const milling::Cutter& cutter, const motion::DeclaredTool& tool) {
-    constexpr const char* kinds[] = {"flat", "ball", "bull nose"};
-    std::string text =
-        std::string(kinds[static_cast<std::size_t>(cutter.kind)]) + " D" + format_decimal(cutter.diameter_mm);
+    std::string text = std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]) + " D" +
+                       format_decimal(cutter.diameter_mm);
     if (cutter.kind == milling::CutterKind::bull) text += " corner " + format_decimal(cutter.corner_mm);
     text += tool.flutes > 0 ? ", " + std::to_string(cutter.flutes) + " flutes; " : "; ";
     if (tool.flutes == 0) text += std::to_string(cutter.flutes) + " flutes, ";
     return text + "helix " + format_decimal(cutter.helix_deg) + " deg and " +
-           format_decimal(cutter.length_mm) + " mm of edge are assumed";
+           format_decimal(cutter.length_mm) + " mm of edge are assumed; write --tool \"" +
+           tool_words(cutter) + "\", or a [[cutter]] into a job, to say otherwise";
 }
 
 Result<void> add_cutter(Job& job, const motion::Program& program, const DeclaredTools& declared, int number,
@@ -58,28 +59,36 @@ Result<void> add_cutter(Job& job, const motion::Program& program, const Declared
 
 }  // namespace
 
-Result<void> complete_job(Job& job, const motion::Program& program, Warnings& warnings) {
-    if (!job.stock_from && job.stock.box_mm.empty() && !job.stock.model) {
-        if (!program.stock) {
-            return fail_at(job.file, 0, 0, "the job has no [stock], and the program declares none",
-                           "add [stock] with box_mm or mesh");
-        }
-        job.stock.box_mm = program.stock->box_mm;
-        if (const auto room = check_room(job.stock.box_mm); !room) {
-            return fail_at(program.source, program.stock->line, 0, room.error().cause, room.error().remedy);
-        }
-        warnings.push_back(
-            {program.source, program.stock->line, "the stock is taken from the program (BLK FORM)"});
+Result<void> take_declared_stock(Job& job, const motion::Program& program, Warnings& warnings) {
+    if (job.has_stock() || !program.stock) return {};
+    job.stock.box_mm = program.stock->box_mm;
+    if (const auto room = check_room(job.stock.box_mm); !room) {
+        return fail_at(program.source, program.stock->line, 0, room.error().cause, room.error().remedy);
     }
+    warnings.push_back(
+        {program.source, program.stock->line, "the stock is taken from the program (BLK FORM)"});
+    return {};
+}
+
+Result<void> take_declared_tools(Job& job, const motion::Program& program, Warnings& warnings) {
     const bool one_for_all = job.cutters.size() == 1 && job.cutters[0].number == 0;
-    if (!one_for_all) {
-        const auto tools = called_tools(program);
-        if (!tools) return std::unexpected(tools.error());
-        const DeclaredTools declared(program);
-        for (const int tool : *tools) {
-            if (auto done = add_cutter(job, program, declared, tool, warnings); !done) return done;
-        }
+    if (one_for_all) return {};
+    const auto tools = called_tools(program);
+    if (!tools) return std::unexpected(tools.error());
+    const DeclaredTools declared(program);
+    for (const int tool : *tools) {
+        if (auto done = add_cutter(job, program, declared, tool, warnings); !done) return done;
     }
+    return {};
+}
+
+Result<void> complete_job(Job& job, const motion::Program& program, Warnings& warnings) {
+    if (auto done = take_declared_stock(job, program, warnings); !done) return done;
+    if (!job.has_stock()) {
+        return fail_at(job.file, 0, 0, "the job has no [stock], and the program declares none",
+                       "add [stock] with box_mm or mesh");
+    }
+    if (auto done = take_declared_tools(job, program, warnings); !done) return done;
     if (!job.cutters.empty()) return {};
     return fail_at(job.file, 0, 0,
                    "the job has no [cutter], and neither tool table nor program describes a tool",

@@ -126,6 +126,8 @@ struct Job {
     JobSound sound;
     JobHaptics haptics;
     JobMachine machine;
+
+    bool has_stock() const { return stock_from || stock.model || !stock.box_mm.empty(); }
 };
 
 }  // namespace tribo::job

@@ -8,8 +8,10 @@
 
 #include "job/assumption.hpp"
 #include "job/completion.hpp"
+#include "job/input_kind.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/job_toml.hpp"
+#include "job/toml/machine_file.hpp"
 
 namespace tribo::job {
 namespace {
@@ -85,15 +87,10 @@ struct Reading {
     }
 };
 
-// `is_assumed`: what neither job nor program says is assumed.
-FileResult<void> read_path(Reading& reading, bool is_assumed, Job& job, motion::Program& program) {
+FileResult<void> read_path(Reading& reading, Job& job, motion::Program& program) {
     auto read = reading.program(job);
     if (!read) return std::unexpected(read.error());
     program = *std::move(read);
-    if (is_assumed) {
-        if (auto done = assume_job(job, program, program.warnings); !done)
-            return std::unexpected(FileFailure(done.error()));
-    }
     if (auto done = complete_job(job, program, program.warnings); !done)
         return std::unexpected(FileFailure(done.error()));
     return {};
@@ -177,7 +174,7 @@ class Chain {
         auto read = read_job(files_, file);
         if (!read) return std::unexpected(read.error());
         before.job = *std::move(read);
-        if (auto done = read_path(reading_, false, before.job, before.program); !done) return done;
+        if (auto done = read_path(reading_, before.job, before.program); !done) return done;
         add(before.program.warnings, loaded_.warnings);
         return {};
     }
@@ -188,17 +185,16 @@ class Chain {
     std::vector<Link> links_;  // the jobs on the way back
 };
 
-// All that loaded.job names.
-FileResult<void> load_all(const FileSource& files, bool is_assumed, const LoadOptions& options,
-                          LoadedJob& loaded) {
+// All that loaded.job names besides its program.
+FileResult<void> load_rest(Reading& reading, LoadedJob& loaded) {
     Job& job = loaded.job;
-    Reading reading{files, options};
-    if (auto done = read_path(reading, is_assumed, job, loaded.program); !done) return done;
-    loaded.warnings = loaded.program.warnings;
+    loaded.warnings = loaded.assumptions;
+    add(loaded.program.warnings, loaded.warnings);
     if (auto done = Chain(reading, loaded).load(); !done) return done;
     if (auto done = load_fixtures(reading, loaded); !done) return done;
     loaded.solid_bytes = reading.solid_bytes;
-    if (!options.part.empty()) job.part = readers::ModelFile{options.part, {}};
+    if (const std::string& part = reading.options.part; !part.empty())
+        job.part = readers::ModelFile{part, {}};
     if (!job.part) return {};
     auto part = reading.model(*job.part);
     if (!part) return std::unexpected(part.error());
@@ -208,37 +204,77 @@ FileResult<void> load_all(const FileSource& files, bool is_assumed, const LoadOp
     return {};
 }
 
+Result<void> check(const ProgramInputs& inputs, PathKind kind, const std::string& name) {
+    if (kind == PathKind::gcode) return {};
+    if (!inputs.machine.empty()) {
+        return fail_at(name, 0, 0, "a machine belongs to G-code: other paths hold the tool's axis already",
+                       "leave the machine out");
+    }
+    if (inputs.dialect) return fail_at(name, 0, 0, "a dialect belongs to G-code", "leave the dialect out");
+    if (kind == PathKind::keyframes && !inputs.tool_table.empty()) {
+        return fail_at(name, 0, 0, "a tool table belongs to a program: keyframes call no tool",
+                       "describe the tool in words, as in 'flat 6'");
+    }
+    return {};
+}
+
+// A job for a program: the inputs of the call, what the program declares, and assumptions.
+FileResult<void> load_program(Reading& reading, const std::string& name, PathKind kind, LoadedJob& loaded) {
+    const ProgramInputs& inputs = reading.options.program;
+    if (auto good = check(inputs, kind, name); !good) return std::unexpected(FileFailure(good.error()));
+    Job& job = loaded.job;
+    job = job_of_program(name, kind, inputs);
+    if (!inputs.machine.empty()) {
+        auto machine = read_machine_named(reading.files, inputs.machine);
+        if (!machine) return std::unexpected(machine.error());
+        job.machine = *std::move(machine);
+    }
+    const Budget before = reading.budget;
+    auto program = reading.program(job);
+    if (!program) return std::unexpected(program.error());
+    const std::size_t given = job.cutters.size();
+    if (auto done = assume_tools(job, *program, loaded.assumptions); !done)
+        return std::unexpected(FileFailure(done.error()));
+    if (job.cutters.size() > given) {
+        // Cutter compensation follows the tools, so the program is read as a job with these tools reads it.
+        *program = {};
+        reading.budget = before;
+        program = reading.program(job);
+        if (!program) return std::unexpected(program.error());
+    }
+    if (auto done = assume_stock(job, *program, inputs, loaded.assumptions); !done)
+        return std::unexpected(FileFailure(done.error()));
+    say_assumed_process(job, *program, inputs, loaded.assumptions);
+    loaded.program = *std::move(program);
+    loaded.is_program = true;
+    return {};
+}
+
 }  // namespace
 
 FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job, const LoadOptions& options) {
     motion::Program program;
     Reading reading{files, options};
-    if (auto done = read_path(reading, false, job, program); !done) return std::unexpected(done.error());
+    if (auto done = read_path(reading, job, program); !done) return std::unexpected(done.error());
     return program;
 }
 
 FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name, const LoadOptions& options) {
-    auto job = read_job(files, name);
-    if (!job) return std::unexpected(job.error());
     FileResult<LoadedJob> loaded;
-    loaded->job = *std::move(job);
-    if (auto done = load_all(files, false, options, *loaded); !done) return std::unexpected(done.error());
-    return loaded;
-}
-
-FileResult<LoadedJob> load_program(const FileSource& files, const std::string& name,
-                                   const LoadOptions& options) {
-    const auto bytes = files.read(name, kLargestProgramBytes);
-    if (!bytes) return std::unexpected(bytes.error());
-    const auto kind = detect_program(*bytes, name);
-    if (!kind) {
-        return std::unexpected(
-            FileFailure({name, 0, 0, "this is no job and no program that is known here",
-                         "drop a job (.toml) with its files, G-code, APT or keyframes (.csv)"}));
+    FileResult<void> done;
+    Reading reading{files, options};
+    const auto input = kind_of_input(files, name);
+    if (!input) return std::unexpected(input.error());
+    if (input->program) {
+        done = load_program(reading, name, *input->program, *loaded);
+    } else {
+        auto job = read_job(files, name);
+        if (!job) return std::unexpected(job.error());
+        loaded->job = *std::move(job);
+        done = read_path(reading, loaded->job, loaded->program);
     }
-    FileResult<LoadedJob> loaded;
-    loaded->job = job_of_program(name, *kind);
-    if (auto done = load_all(files, true, options, *loaded); !done) return std::unexpected(done.error());
+    if (done) done = load_rest(reading, *loaded);
+    if (!done) return std::unexpected(done.error());
     return loaded;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The loader of jobs: reads and checks a job with all its files, from any FileSource. Used by the program, by
-// the module of the page and by the tests. session::prepare_mill() makes a run from the result.
+// the module of the page and by the tests. session::prepare_mill() makes a run from the result. A program may
+// stand in place of a job; what it does not say is assumed.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "job/file_source.hpp"
 #include "job/job.hpp"
+#include "job/program_inputs.hpp"
 #include "job/solid.hpp"
 #include "motion/path/program.hpp"
 
@@ -30,6 +32,8 @@ struct LoadedJob {
     std::vector<Solid> fixtures;
     std::uint64_t solid_bytes = 0;       // memory of blank and fixtures that are meshes, about
     std::optional<readers::Model> part;  // the designed surface
+    bool is_program = false;             // a program stood in place of the job
+    Warnings assumptions;                // about such a program; also the first of `warnings`
     Warnings warnings;
 };
 
@@ -39,6 +43,7 @@ struct LoadOptions {
     // before it is allocated. 0: only the limits of the readers.
     std::uint64_t memory_bytes = 0;
     std::function<double()> clock_s{};  // ends endless loops of programs; see readers::GcodeOptions
+    ProgramInputs program{};            // for a program in place of a job; a job does not use them
 };
 
 // Largest number of earlier jobs in a chain; more are probably a mistake.
@@ -50,12 +55,12 @@ inline constexpr std::uint64_t kMostFixtureTriangles = readers::kMaxTriangles;
 // Reads the job, its program, its blank or earlier jobs, fixtures and designed surface. Of earlier jobs only
 // the files that decide the stock are read, no designed surfaces, fixtures and sounds. Refuses cycles of
 // jobs and chains longer than kLongestChain, with the place of `from`.
+//
+// If `name` is a program (by its name or content), reads it with the inputs of the options. What they leave
+// out is taken from the program or assumed, with warnings. The job is then complete: written to a file
+// (toml/job_writer.hpp) and loaded again it gives the same run. Refuses a file that is neither.
 FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
                                const LoadOptions& options = {});
-
-// The same for a program without a job. Each missing value is assumed, with a warning.
-FileResult<LoadedJob> load_program(const FileSource& files, const std::string& name,
-                                   const LoadOptions& options = {});
 
 // Reads only the program of a job, and completes the job from it with complete_job(). Its warnings are added
 // to those of the program.

@@ -13,7 +13,7 @@ Result<std::vector<int>> called_tools(const motion::Program& program) {
     int last = -1;
     for (const motion::Move& move : program.moves) {
         if (std::exchange(last, move.tool) == move.tool) continue;
-        if (!known.insert(move.tool).second) continue;
+        if (move.tool == 0 || !known.insert(move.tool).second) continue;
         if (tools.size() == kMostTools) {
             return fail_at(program.source, move.line, 0,
                            "the program calls more than " + std::to_string(kMostTools) + " different tools",
@@ -21,6 +21,7 @@ Result<std::vector<int>> called_tools(const motion::Program& program) {
         }
         tools.push_back(move.tool);
     }
+    if (tools.empty() && !program.moves.empty()) tools.push_back(0);
     return tools;
 }
 

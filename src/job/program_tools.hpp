@@ -13,7 +13,8 @@ namespace tribo::job {
 // Largest number of different tools of a program: a magazine holds a few hundred.
 inline constexpr std::size_t kMostTools = 1000;
 
-// Returns the numbers of the tools in the order of their first moves. Refuses more than kMostTools.
+// Returns the numbers of the tools in the order of their first moves. Moves before the first tool call count
+// only if no tool is called at all: the number is then 0. Refuses more than kMostTools.
 Result<std::vector<int>> called_tools(const motion::Program& program);
 
 // Finds declared tools by number. The program must outlive the object.

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/text/decimal.hpp"
-#include "base/text/file_names.hpp"
 #include "base/text/limit_text.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
@@ -65,10 +64,9 @@ Mill::~Mill() = default;
 
 FileResult<Mill> Mill::open(const std::string& file, const MillOptions& options) {
     if (auto good = check(options); !good) return std::unexpected(FileFailure(good.error()));
-    const auto load = extension_of(file) == ".toml" ? job::load_job : job::load_program;
     const job::LoadOptions limits =
         files::machine_limits(static_cast<std::uint64_t>(options.memory_mb.value_or(0) * kMegabyte));
-    auto loaded = load(files::DiskSource(), file, limits);
+    auto loaded = job::load_job(files::DiskSource(), file, limits);
     if (!loaded) return std::unexpected(loaded.error());
     auto state = std::make_unique<State>();
     state->file = file;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/text/decimal.hpp"
-#include "base/text/file_names.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "session/live/live_mill.hpp"
 
@@ -35,11 +34,10 @@ Result<void> check_memory(const session::MillSetup& setup, const std::string& na
 
 Result<LoadedMill> load_mill(const job::FileSource& files, const std::string& name, const std::string& part,
                              std::optional<double> cell_mm) {
-    const auto load = extension_of(name) == ".toml" ? job::load_job : job::load_program;
     job::LoadOptions limits;
     limits.part = part;
     limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
-    auto loaded = load(files, name, limits);
+    auto loaded = job::load_job(files, name, limits);
     if (!loaded) return std::unexpected(Error(loaded.error()));
     LoadedMill mill;
     mill.warnings = std::move(loaded->warnings);

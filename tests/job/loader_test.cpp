@@ -79,20 +79,47 @@ TEST(Loader, reads_a_job_with_all_that_it_names) {
     EXPECT_EQ(other->part->mesh.triangles.size(), 4u);
 }
 
-TEST(Loader, assumes_what_a_program_alone_does_not_say) {
-    const Shelf shelf;
-    const auto loaded = load_program(shelf, "slot.nc");
-    ASSERT_TRUE(loaded) << loaded.error().text();
-    EXPECT_EQ(loaded->job.path.file, "slot.nc");
-    EXPECT_GT(loaded->blank.volume_mm3, 0);
-    EXPECT_EQ(loaded->job.cutters.size(), 1u);
-    EXPECT_GE(loaded->warnings.size(), 2u);
-    Shelf other;
-    other.memory.put("note.txt", "buy milk\n");
-    EXPECT_EQ(
-        load_program(other, "note.txt").error().text(),
-        "note.txt: error: this is no job and no program that is known here; drop a job (.toml) with its "
-        "files, G-code, APT or keyframes (.csv)");
+TEST(Loader, tells_jobs_and_programs_apart_by_name_and_content) {
+    Shelf shelf;
+    const std::string job = std::string(kBox) + kRest;
+    shelf.memory.put("job", job);
+    shelf.memory.put("slot.dat", kSlot);
+    shelf.memory.put("keys", "x,y,z,i,j,k\n0,0,-1,0,0,1\n9,0,-1,0,0,1\n");
+    shelf.memory.put("tool.path", "PARTNO/A\nUNITS/MM\nFEDRAT/100,MMPM\nGOTO/0,0,-1\nGOTO/9,0,-1\n");
+    shelf.memory.put("O0001", "0 BEGIN PGM A MM\n1 L X+0 Y+0 Z-1 R0 FMAX\n2 L X+9 F100 M3\n3 END PGM A MM\n");
+    const std::pair<const char*, bool> cases[] = {{"job", false}, {"slot.nc", true}, {"slot.dat", true},
+                                                  {"keys", true}, {"O0001", true},   {"tool.path", true}};
+    for (const auto& [name, is_program] : cases) {
+        const auto loaded = load_job(shelf, name);
+        ASSERT_TRUE(loaded) << loaded.error().text();
+        EXPECT_EQ(loaded->is_program, is_program) << name;
+        EXPECT_EQ(loaded->assumptions.empty(), !is_program) << name;
+        EXPECT_GT(loaded->blank.volume_mm3, 0) << name;
+        EXPECT_EQ(loaded->job.cutters.size(), 1u) << name;
+    }
+}
+
+TEST(Loader, refuses_other_files_with_what_they_look_like) {
+    using namespace std::string_literals;
+    Shelf shelf;
+    const std::pair<std::string, const char*> cases[] = {
+        {"buy milk\n", "looks like a text without blocks of a program"},
+        {" \n", "is empty"},
+        {"solid a\nfacet normal 0 0 1\nouter loop\n", "looks like a model (STL)"},
+        {"\x89PNG\r\n\x1a\n", "looks like a picture"},
+        {"RIFF....WAVEfmt ", "looks like a recording"},
+        {"PK\x03\x04....", "is packed (zip)"},
+        {"{\"schema\": \"tribo.material/1\"}", "looks like JSON"},
+        {"<html>", "looks like XML or HTML"},
+        {"a\0b"s, "is no text"},
+    };
+    for (const auto& [bytes, likeness] : cases) {
+        shelf.memory.put("file", bytes);
+        EXPECT_EQ(shelf.refusal_of("file"),
+                  "file: error: is neither a job nor a program: it "s + likeness +
+                      "; give a job (.toml), or a program: G-code, Heidenhain, Siemens, APT or keyframes "
+                      "(x,y,z,i,j,k)");
+    }
 }
 
 TEST(Loader, reads_earlier_jobs_back_to_the_first) {
@@ -219,8 +246,7 @@ TEST(Loader, keeps_to_the_memory_that_it_may_take) {
         shelf.memory.put("a.toml", text);
         LoadOptions options;
         options.memory_bytes = bytes;
-        const auto load = name == "a.toml" ? load_job : load_program;
-        const auto loaded = load(shelf, name, options);
+        const auto loaded = load_job(shelf, name, options);
         return loaded ? "" : loaded.error().text();
     };
     const std::string rest = kRest;
@@ -255,7 +281,7 @@ TEST(Loader, takes_as_many_different_tools_as_a_magazine_holds) {
     for (int n = 1; n <= 1001; ++n)
         text += "T" + std::to_string(n) + " M6\nG1 X" + std::to_string(n % 2) + "\n";
     shelf.memory.put("tools.nc", text + "M30\n");
-    const auto loaded = load_program(shelf, "tools.nc");
+    const auto loaded = load_job(shelf, "tools.nc");
     ASSERT_FALSE(loaded);
     EXPECT_EQ(loaded.error().text(),
               "tools.nc:2004: error: the program calls more than 1000 different tools; split it, or number "
@@ -269,7 +295,7 @@ TEST(Loader, ends_loops_of_programs_by_the_clock) {
     LoadOptions options;
     double now_s = 0;
     options.clock_s = [&] { return now_s += 1; };
-    const auto loaded = load_program(shelf, "loop.nc", options);
+    const auto loaded = load_job(shelf, "loop.nc", options);
     ASSERT_FALSE(loaded);
     EXPECT_NE(loaded.error().cause.find("have run for 3 s"), std::string::npos) << loaded.error().text();
 }

@@ -24,11 +24,8 @@ constexpr std::array kCoefficientLimits{kLimits.ktc, kLimits.krc, kLimits.krc,
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                    "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
 constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
-constexpr std::array kPathKinds{std::pair{"keyframes"sv, PathKind::keyframes},
-                                std::pair{"gcode"sv, PathKind::gcode}, std::pair{"apt"sv, PathKind::apt}};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
-constexpr std::array kDialectWords{"linuxcnc"sv, "fanuc"sv, "siemens"sv, "heidenhain"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
 constexpr std::array kModeKeys{"direction"sv, "frequency_hz"sv, "damping_ratio"sv, "stiffness_n_per_mm"sv,
                                "on"sv};
@@ -105,7 +102,8 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[path]", kPathKeys);
     JobPath path;
     std::string_view kind;
-    for (const auto& [key, of_key] : kPathKinds) {
+    for (std::size_t n = 0; n < kPathKindWords.size(); ++n) {
+        const std::string_view key = kPathKindWords[n];
         if (!section.has(key)) continue;
         if (!kind.empty()) {
             section.fail(key, "[path] has both '" + std::string(kind) + "' and '" + std::string(key) + "'",
@@ -113,7 +111,7 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
             return path;
         }
         kind = key;
-        path.kind = of_key;
+        path.kind = static_cast<PathKind>(n);
         path.file = section.required_path(kind);
     }
     if (kind.empty()) {
@@ -138,7 +136,7 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
     if (path.kind != PathKind::gcode && section.has("dialect")) {
         section.fail("dialect", "'dialect' belongs to G-code", "remove it");
     }
-    if (const auto dialect = section.word("dialect", kDialectWords)) {
+    if (const auto dialect = section.word("dialect", readers::kDialectWords)) {
         path.dialect = static_cast<readers::Dialect>(*dialect);
     }
     path.interpolation =

@@ -13,6 +13,9 @@
 
 namespace tribo::job {
 
+// The keys of [path] that name a program, in the order of PathKind.
+inline constexpr std::array<std::string_view, 3> kPathKindWords{"keyframes", "gcode", "apt"};
+
 // Millimetres per unit of a model or of keyframes, where the section says it.
 std::optional<double> read_unit_mm(TomlSection& section);
 // A direction of any length, as a unit vector.

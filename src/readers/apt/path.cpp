@@ -116,7 +116,8 @@ Result<double> Path::feed_in_force(const Item& at) {
                               "add FEDRAT before it, or RAPID where it does not cut");
     }
     if (report_.first(Note::feed)) {
-        report_.warn(at.line, "no feed rate so far: " + short_decimal(given) + " mm/min is taken");
+        report_.warn(at.line, "no feed rate so far: " + short_decimal(given) +
+                                  " mm/min is taken; write FEDRAT before it, or another feed_mm_per_min");
     }
     return given;
 }

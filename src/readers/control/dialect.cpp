@@ -55,6 +55,12 @@ bool is_program_number(std::string_view text) {
 
 }  // namespace
 
+std::optional<Dialect> dialect_of(std::string_view word) {
+    const auto found = std::ranges::find(kDialectWords, word);
+    if (found == kDialectWords.end()) return std::nullopt;
+    return static_cast<Dialect>(found - kDialectWords.begin());
+}
+
 std::string_view name_of(Dialect dialect) {
     constexpr std::string_view names[] = {"LinuxCNC", "Fanuc", "Siemens", "Heidenhain"};
     return names[static_cast<std::size_t>(dialect)];

@@ -2,12 +2,19 @@
 // Detects from the text of a program for which control it is written.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
 namespace tribo::readers {
 
 enum class Dialect { linuxcnc, fanuc, siemens, heidenhain };
+
+// Their words in job files and flags, in their order.
+inline constexpr std::array<std::string_view, 4> kDialectWords{"linuxcnc", "fanuc", "siemens", "heidenhain"};
+
+// None for another word.
+std::optional<Dialect> dialect_of(std::string_view word);
 
 // "LinuxCNC", "Fanuc", "Siemens", "Heidenhain".
 std::string_view name_of(Dialect dialect);

@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/heidenhain/interpreter.hpp"
+#include "readers/text/decimal_text.hpp"
 #include "readers/text/length_unit.hpp"
 
 namespace tribo::readers::heidenhain {
@@ -263,7 +264,8 @@ Result<void> Interpreter::go(bool rapid, Vec3 to, const std::optional<motion::Ar
     if (!rapid) {
         if (!path_.feed_mm_per_min && path_.options.default_feed_mm_per_min > 0) {
             path_.feed_mm_per_min = path_.options.default_feed_mm_per_min;
-            path_.warn(line_.number, "no feed so far: the job's is taken");
+            path_.warn(line_.number, "no feed rate so far: " + short_decimal(*path_.feed_mm_per_min) +
+                                         " mm/min is taken; write F before it, or another feed_mm_per_min");
         }
         if (!path_.spindle_on && path_.first(kSpindleOff)) {
             path_.warn(line_.number, "feed move with the spindle off: it is taken as running (M3)");

@@ -66,7 +66,9 @@ Door siemens(const Limit& limit, const std::string& before) {
     return {&limit, "Siemens: " + before, [=](double value) {
                 const std::string text = "G71 G90 G0 X=10 Y=0 Z=5\nS1000 M3\nCYCLE800()\n" + before +
                                          written(value) + "\nG1 X20 F200\nM30\n";
-                return error_of(job::load_program(job::MemorySource({{"p.mpf", text}}), "p.mpf"));
+                job::LoadOptions options;  // a block around the path has limits of its own
+                options.program.stock = {{}, job::JobSolid{{{0, 0, 0}, {10, 10, 10}}, {}}};
+                return error_of(job::load_job(job::MemorySource({{"p.mpf", text}}), "p.mpf", options));
             }};
 }
 
@@ -78,7 +80,7 @@ Door blank_form() {
                     written(value) +
                     " Z+10\n3 TOOL CALL 1 Z S2000 F500\n4 L X+0 Y+0 Z+10 R0 FMAX M3\n"
                     "5 L X+10 F200\n6 END PGM P MM\n";
-                return error_of(job::load_program(job::MemorySource({{"p.h", text}}), "p.h"));
+                return error_of(job::load_job(job::MemorySource({{"p.h", text}}), "p.h"));
             }};
 }
 

@@ -182,7 +182,8 @@ Result<void> set_feed(motion::Move& move, Command& command, const State& state, 
         move.feed_mm_per_min = output.options.default_feed_mm_per_min;
         if (output.first(Note::default_feed)) {
             output.warn(command.line(),
-                        "no feed rate so far: " + short_decimal(move.feed_mm_per_min) + " mm/min is taken");
+                        "no feed rate so far: " + short_decimal(move.feed_mm_per_min) +
+                            " mm/min is taken; write F before it, or another feed_mm_per_min");
         }
         return {};
     }
