@@ -23,12 +23,13 @@ struct Limit {
 
 struct Limits {
     // The path.
-    Limit coordinate{"coordinate",
-                     "mm",
-                     {-1e6, 1e6},
-                     "points of a job, `--arm-at`, `finger`; X Y Z, I J K, R of programs, GOTO; x y z of "
-                     "keyframes and strokes",
-                     "No machine is a kilometre long. Products of larger numbers lose the micrometre."};
+    Limit coordinate{
+        "coordinate",
+        "mm",
+        {-1e6, 1e6},
+        "points of a job, `--arm-at`, `--stock`, `finger`; X Y Z, I J K, R of programs, GOTO; x y z of "
+        "keyframes and strokes",
+        "No machine is a kilometre long. Products of larger numbers lose the micrometre."};
     Limit direction{"component of a direction",
                     "",
                     {-1e9, 1e9},
@@ -52,7 +53,7 @@ struct Limits {
     Limit feed{"feed",
                "mm/min",
                {1e-3, 1e6},
-               "`feed_mm_per_min`; F, FEDRAT; keyframes",
+               "`feed_mm_per_min`, `--feed-mm-per-min`; F, FEDRAT; keyframes",
                "A millimetre in 17 hours to a kilometre a minute. F0 is read, but no move may use it."};
     Limit feed_per_turn{"feed per turn",
                         "mm",
@@ -64,11 +65,12 @@ struct Limits {
                        {1e-4, 1e6},
                        "F in G93",
                        "A move takes a week at most, and 60 microseconds at least."};
-    Limit spindle_speed{"spindle speed",
-                        "rpm",
-                        {0.01, 1e6},
-                        "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`; S, TOOL CALL S, SPINDL",
-                        "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
+    Limit spindle_speed{
+        "spindle speed",
+        "rpm",
+        {0.01, 1e6},
+        "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`, `--spindle-rpm`; S, TOOL CALL S, SPINDL",
+        "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
     Limit dwell{"dwell", "s", {0, 86400}, "G4, CYCL DEF 9, dwells of cycles", "A day at most."};
     Limit rapid{"rapid rate",
                 "mm/min",
@@ -85,33 +87,42 @@ struct Limits {
     Limit tool_number{"tool number",
                       "",
                       {1, 999'999'999},
-                      "`number`; T, TOOL CALL, LOADTL; tool tables",
+                      "`number`; T, TOOL CALL, LOADTL; tool tables; `--tool`",
                       "Controls have nine digits at most. T0 is read: no tool."};
     Limit cutter_diameter{"cutter diameter",
                           "mm",
                           {0.01, 1000},
-                          "`diameter_mm` of a cutter, also in tool tables, and D there; CUTTER",
+                          "`diameter_mm` of a cutter, also in tool tables, and D there; CUTTER; `--tool`",
                           "Micro end mills begin at 0.01 mm; face mills and fly cutters end below a metre."};
     Limit offset_diameter{"diameter of the cutter compensation",
                           "mm",
                           {0, 1000},
                           "D of G41.1 and G42.1, twice R of G10 L1",
                           "0 is none, and wear alone a few hundredths."};
-    Limit corner_radius{
-        "corner radius", "mm", {0, 500}, "`corner_mm`, CUTTER", "At most the radius of the largest cutter."};
-    Limit core_diameter{
-        "core diameter", "mm", {0, 1000}, "`core_mm`", "At most the diameter of the largest cutter."};
+    Limit corner_radius{"corner radius",
+                        "mm",
+                        {0, 500},
+                        "`corner_mm`, CUTTER, `--tool`",
+                        "At most the radius of the largest cutter."};
+    Limit core_diameter{"core diameter",
+                        "mm",
+                        {0, 1000},
+                        "`core_mm`, `--tool`",
+                        "At most the diameter of the largest cutter."};
     Limit cutting_length{"length of the cutting edges",
                          "mm",
                          {0.01, 1000},
-                         "`length_mm` of a cutter",
+                         "`length_mm` of a cutter, `--tool`",
                          "Micro end mills have a few hundredths; no edge is a metre long."};
-    Limit flutes{
-        "flutes", "", {1, 64}, "`flutes`, also in tool tables", "Large face mills have up to 64 inserts."};
+    Limit flutes{"flutes",
+                 "",
+                 {1, 64},
+                 "`flutes`, also in tool tables; `--tool`",
+                 "Large face mills have up to 64 inserts."};
     Limit helix{"helix angle",
                 "deg",
                 {-85, 85},
-                "`helix_deg`, also on the page",
+                "`helix_deg`, also on the page; `--tool`",
                 "Beyond, a flute is a thread, and the lag of the edge per mm has no meaning."};
     Limit pitch{"pitch angle",
                 "deg",
@@ -135,7 +146,7 @@ struct Limits {
     Limit edge{"edge of a box",
                "mm",
                {1e-3, 1e5},
-               "`box_mm` of stock and fixtures",
+               "`box_mm` of stock and fixtures, `--stock`",
                "Thinner than a micrometre is no solid; the largest gantry mills move 60 m."};
     Limit unit{"length of a file's unit",
                "mm",

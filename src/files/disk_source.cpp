@@ -24,11 +24,18 @@ fs::path resolved(const std::string& file) {
 }  // namespace
 
 FileResult<std::string> DiskSource::read(const std::string& path, std::uint64_t limit_bytes) const {
-    return read_file(path, limit_bytes, pipes_);
+    std::error_code error;
+    if (policy_ == Pipes::refuse || !fs::is_fifo(path, error)) return read_file(path, limit_bytes, policy_);
+    const std::lock_guard lock(mutex_);
+    const auto known = pipes_.find(path);
+    if (known != pipes_.end()) return known->second;
+    auto bytes = read_file(path, limit_bytes);
+    if (bytes) pipes_.emplace(path, *bytes);
+    return bytes;
 }
 
 FileResult<readers::Model> DiskSource::read_model(const readers::ModelFile& file) const {
-    return read_model_file(file, pipes_);
+    return read_model_file(file, policy_);
 }
 
 FileResult<job::StockSource> DiskSource::stock_source(const std::string& path) const {

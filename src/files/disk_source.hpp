@@ -2,6 +2,8 @@
 // The files of a job on the disk.
 #pragma once
 
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "files/files.hpp"
@@ -9,10 +11,12 @@
 
 namespace tribo::files {
 
+// Any thread.
 class DiskSource final : public job::FileSource {
   public:
-    explicit DiskSource(Pipes pipes = Pipes::read) : pipes_(pipes) {}
+    explicit DiskSource(Pipes pipes = Pipes::read) : policy_(pipes) {}
 
+    // A pipe gives its text once; it is kept, so that a source gives it again.
     FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override;
     // Models of every format; see model/model_file.hpp.
     FileResult<readers::Model> read_model(const readers::ModelFile& file) const override;
@@ -23,7 +27,9 @@ class DiskSource final : public job::FileSource {
     std::string identity(const std::string& path) const override;
 
   private:
-    Pipes pipes_;
+    Pipes policy_;
+    mutable std::mutex mutex_;
+    mutable std::map<std::string, std::string> pipes_;  // the text of each pipe, by name
 };
 
 // Returns `file` relative to `folder`.

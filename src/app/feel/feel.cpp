@@ -194,6 +194,8 @@ FileResult<void> read_model(const FeelCall& call, Part& part) {
         return std::unexpected(FileFailure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
     };
     if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
+    if (auto good = refuse_flags(call.program, call.job, "this is a model", "leave the flag out"); !good)
+        return std::unexpected(FileFailure(good.error()));
     auto model = files::read_model_file({call.job, call.unit_mm});
     if (!model) return std::unexpected(model.error());
     part.warnings = std::move(model->warnings);
@@ -229,7 +231,7 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
                                             "set 'unit_mm' in the job, or give a model"}));
     }
     const job::LoadOptions limits = files::machine_limits();
-    auto loaded = job::load_job(files::DiskSource(), call.job, limits);
+    auto loaded = load_job(call.job, call.program, limits);
     if (!loaded) return std::unexpected(loaded.error());
     part.warnings = std::move(loaded->warnings);
     session::MillOptions options{call.resolution_mm, call.until_s};
@@ -247,6 +249,7 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
         if (!in_pieces) return std::unexpected(FileFailure(in_pieces.error()));
         part.in_time = std::move(*in_pieces);
     }
+    if (auto written = write_job_out(call.program, *loaded); !written) return written;
     part.job = std::move(loaded->job);
     return {};
 }

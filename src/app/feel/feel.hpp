@@ -6,11 +6,13 @@
 #include <string>
 
 #include "app/feel/arm_call.hpp"
+#include "app/render/program_flags.hpp"
 
 namespace tribo::app {
 
 struct FeelCall {
-    std::string job, stroke, out;
+    std::string job, stroke, out;  // job: also a program or a model
+    ProgramFlags program;
     std::string mode = "inspect", device = "simulated", stats;
     double rate_hz = 1000;
     double probe_mm = 0;

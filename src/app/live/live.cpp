@@ -29,7 +29,7 @@ Result<std::unique_ptr<haptics::Device>> open_device(const LiveCall& call, const
 // pipes.
 FileResult<PreparedJob> read_job(const LiveCall& call, std::optional<int> sound_rate_hz) {
     const session::MillOptions options{call.resolution_mm, {}, session::LiveMill::kPieceMm};
-    auto read = prepare_job(call.job, options, sound_rate_hz, files::Pipes::refuse);
+    auto read = prepare_job(call.job, call.program, options, sound_rate_hz, files::Pipes::refuse);
     if (!read) return read;
     const RunOutputs made{.mesh = true, .report = false, .sound = sound_rate_hz.has_value()};
     if (auto fits = check_memory(call.job, read->setup, read->part, made, call.memory_mb); !fits)
@@ -64,7 +64,11 @@ LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
 }  // namespace
 
 int live(const LiveCall& call) {
-    if (call.job.empty()) return live_without_job(call);
+    if (call.job.empty()) {
+        if (auto good = refuse_flags(call.program, "", "none is named", "name the program"); !good)
+            return report(good.error());
+        return live_without_job(call);
+    }
     const bool sounds = call.audio == "native";
     auto first =
         read_job(call, sounds ? std::optional(sound::SoundtrackOptions().sample_rate_hz) : std::nullopt);
@@ -106,10 +110,12 @@ int live(const LiveCall& call) {
     if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
 
     // When the clock is set back, the program begins again from the current files.
-    const auto load_again = [call]() -> Result<session::MillSetup> {
-        auto again = read_job(call, {});
-        if (!again) return std::unexpected(Error(again.error()));
-        return std::move(again->setup);
+    LiveCall again = call;
+    again.program.job_out.clear();
+    const auto load_again = [again]() -> Result<session::MillSetup> {
+        auto read = read_job(again, {});
+        if (!read) return std::unexpected(Error(read.error()));
+        return std::move(read->setup);
     };
     show_how.make_setup = load_again;
     std::optional<session::MillSetup> ready = std::move(first->setup);

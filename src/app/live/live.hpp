@@ -7,13 +7,15 @@
 #include <string>
 
 #include "app/feel/arm_call.hpp"
+#include "app/render/program_flags.hpp"
 
 namespace tribo::app {
 
 inline constexpr std::uint16_t kLivePort = 8317;
 
 struct LiveCall {
-    std::string job;  // empty: no job
+    std::string job;  // a job or a program; empty: none
+    ProgramFlags program;
     std::uint16_t port = kLivePort;
     std::string listen = "127.0.0.1";      // an address in digits
     std::string tls_certificate, tls_key;  // files in PEM; both or none

@@ -81,7 +81,7 @@ int render(const RenderCall& call) {
     const auto sound_rate_hz = call.wants("sound") ? std::optional(call.sample_rate_hz) : std::nullopt;
     session::MillOptions options{call.resolution_mm, call.until_s};
     options.memory_bytes = static_cast<std::uint64_t>(call.memory_mb.value_or(0) * kMegabyte);
-    auto loaded = prepare_job(call.job, options, sound_rate_hz);
+    auto loaded = prepare_job(call.job, call.program, options, sound_rate_hz);
     if (!loaded) return report(loaded.error());
     const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound")};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
@@ -119,7 +119,13 @@ int render(const RenderCall& call) {
     if (!session.run(sinks)) return interrupted_exit_code();
     progress.reset();
     report::Summary summary = summary_of(call, *loaded, session);
-    summary.stock_record->job = files::relative_to(folder->path(), call.job);
+    // Only a job can be run again as it was.
+    const std::string& record = loaded->is_program ? call.program.job_out : call.job;
+    if (record.empty()) {
+        summary.stock_record.reset();
+    } else {
+        summary.stock_record->job = files::relative_to(folder->path(), record);
+    }
     if (auto done = outputs.finish(session, summary); !done) return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

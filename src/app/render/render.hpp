@@ -7,10 +7,13 @@
 #include <set>
 #include <string>
 
+#include "app/render/program_flags.hpp"
+
 namespace tribo::app {
 
 struct RenderCall {
-    std::string job, out;
+    std::string job, out;  // a job or a program; a folder
+    ProgramFlags program;
     std::optional<double> resolution_mm, until_s;
     int sample_rate_hz = 48000;
     std::set<std::string> only;  // of summary, forces, sound, mesh, report; empty: all

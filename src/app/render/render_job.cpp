@@ -49,10 +49,24 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
 
 }  // namespace
 
-FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
-                                    std::optional<int> sound_rate_hz, files::Pipes pipes) {
-    const job::LoadOptions limits = files::machine_limits(options.memory_bytes);
+FileResult<job::LoadedJob> load_job(const std::string& file, const ProgramFlags& flags,
+                                    job::LoadOptions limits, files::Pipes pipes) {
+    auto inputs = program_inputs(flags);
+    if (!inputs) return std::unexpected(FileFailure(inputs.error()));
+    limits.program = *std::move(inputs);
     auto loaded = job::load_job(files::DiskSource(pipes), file, limits);
+    if (!loaded || loaded->is_program) return loaded;
+    const auto good = refuse_flags(flags, file, "this is a job",
+                                   "change the job, or name its program: " + loaded->job.path.file);
+    if (!good) return std::unexpected(FileFailure(good.error()));
+    return loaded;
+}
+
+FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags& flags,
+                                    const session::MillOptions& options, std::optional<int> sound_rate_hz,
+                                    files::Pipes pipes) {
+    const job::LoadOptions limits = files::machine_limits(options.memory_bytes);
+    auto loaded = load_job(file, flags, limits, pipes);
     if (!loaded) return std::unexpected(loaded.error());
     session::MillOptions limited = options;
     limited.memory_bytes = limits.memory_bytes;
@@ -68,11 +82,13 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const session::Mill
     }
     auto setup = session::prepare_mill(*loaded, limited, prepared.warnings);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
+    if (auto written = write_job_out(flags, *loaded); !written) return std::unexpected(written.error());
     prepared.setup = std::move(*setup);
     prepared.material = *session::job_material(loaded->job);
     for (const job::EarlierJob& earlier : loaded->earlier) {
         if (!earlier.source.folder.empty()) prepared.stock_folders.push_back(earlier.source.folder);
     }
+    prepared.is_program = loaded->is_program;
     prepared.job = std::move(loaded->job);
     prepared.part = std::move(loaded->part);
     return prepared;

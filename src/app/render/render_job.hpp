@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Loads a job for the command line and checks that it fits into memory.
+// Loads a job, or a program in its place, for the command line and checks that it fits into memory.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/render/program_flags.hpp"
 #include "base/file_result.hpp"
 #include "files/files.hpp"
 #include "job/loader.hpp"
@@ -20,6 +21,7 @@ inline constexpr const char* kReadSofaVerb = "read-sofa";
 
 struct PreparedJob {
     job::Job job;
+    bool is_program = false;  // a program stood in place of the job
     milling::WorkpieceMaterial material;
     session::MillSetup setup;
     std::vector<std::string> stock_folders;  // render folders of the stock; absolute, without links
@@ -28,9 +30,15 @@ struct PreparedJob {
     Warnings warnings;
 };
 
-// Loads from the disk, within options.memory_bytes or half of the machine's memory. Reads sound files only if
-// `sound_rate_hz` is set.
-FileResult<PreparedJob> prepare_job(const std::string& file, const session::MillOptions& options,
+// Loads a job or a program from the disk. Refuses flags of a program beside a job. `limits`: see
+// files/machine_limits.hpp; its `program` is set here.
+FileResult<job::LoadedJob> load_job(const std::string& file, const ProgramFlags& flags,
+                                    job::LoadOptions limits, files::Pipes pipes = files::Pipes::read);
+
+// Loads and prepares, within options.memory_bytes or half of the machine's memory. Reads sound files only if
+// `sound_rate_hz` is set. Writes the file of --job-out.
+FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags& flags,
+                                    const session::MillOptions& options,
                                     std::optional<int> sound_rate_hz = {},
                                     files::Pipes pipes = files::Pipes::read);
 

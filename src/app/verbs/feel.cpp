@@ -15,7 +15,8 @@ void add_feel(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<FeelCall>();
     const auto texture = std::make_shared<std::string>("on"), scaling = std::make_shared<std::string>("gain");
     CLI::App* verb = program.add_subcommand("feel", "Touch the milled part along a stroke: a force per tick");
-    verb->add_option("JOB", call->job, "Job file (TOML), or a model to touch as it is")->required();
+    add_job(*verb, call->job, "Job file (TOML), a program, or a model to touch as it is", call->program)
+        ->required();
     verb->add_option("--stroke", call->stroke, "Where the hand goes: t_s,x_mm,y_mm,z_mm")
         ->required()
         ->type_name("CSV");

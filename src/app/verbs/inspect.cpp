@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/exit.hpp"
+#include "app/options.hpp"
 #include "app/outputs.hpp"
 #include "app/verbs/verbs.hpp"
 #include "base/text/printable.hpp"
@@ -17,6 +18,7 @@
 #include "files/gzip.hpp"
 #include "files/machine_limits.hpp"
 #include "files/model/model_file.hpp"
+#include "job/input_kind.hpp"
 #include "job/loader.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/job_toml.hpp"
@@ -37,7 +39,7 @@ struct Call {
     std::string file;
     bool json = false;
     std::string picture;
-    std::string machine;
+    std::string machine, dialect;
 };
 
 // Results: facts to print, and geometry to draw.
@@ -97,6 +99,7 @@ FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job:
     job::ProgramFileOptions options;
     if (machine.kinematics) options.machine = &*machine.kinematics;
     options.clock_s = files::machine_limits().clock_s;
+    options.dialect = readers::dialect_of(call.dialect);
     const bool draws = !call.picture.empty();
     PathWatcher path(draws);
     const Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
@@ -154,7 +157,7 @@ FileResult<Found> inspect_file(const Call& call, std::vector<Error>& refusals) {
     if (readers::detect_model_format(*bytes, file) && !program) return inspect_model(file);
     if (program) return inspect_program(*bytes, call, *program, refusals);
     return std::unexpected(FileFailure(
-        {file, 0, 0, bytes->empty() ? "is empty" : "is no kind of file that tribo knows",
+        {file, 0, 0, "is no kind of file that tribo knows: it " + job::likeness(*bytes, file),
          "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl), "
          "a job (.toml) or a material (.json)"}));
 }
@@ -200,6 +203,10 @@ void add_inspect(CLI::App& program, int& exit_code) {
     verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
     verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")
         ->type_name("NAME|F.toml");
+    verb->add_option("--dialect", call->dialect,
+                     "Read G-code as linuxcnc, fanuc, siemens or heidenhain; else told by the text")
+        ->check(one_of({readers::kDialectWords.begin(), readers::kDialectWords.end()}))
+        ->type_name("NAME");
     verb->callback([call, &exit_code] { exit_code = inspect(*call); });
 }
 

@@ -14,9 +14,11 @@ namespace tribo::app {
 void add_live(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<LiveCall>();
     CLI::App* verb = program.add_subcommand("live", "Mill a job before the eyes of a browser");
-    verb->add_option("JOB", call->job,
-                     "Job file (TOML); without one the bench is empty and mills what is "
-                     "dropped into the page");
+    add_job(
+        *verb, call->job,
+        "Job file (TOML), or a program; without one the bench is empty and mills what is dropped into the "
+        "page",
+        call->program);
     verb->add_option("--port", call->port, "Port to serve on; 0 takes any that is free")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();

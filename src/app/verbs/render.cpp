@@ -15,8 +15,10 @@ namespace tribo::app {
 void add_render(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<RenderCall>();
     const auto only = std::make_shared<std::vector<std::string>>();
-    CLI::App* verb = program.add_subcommand("render", "Mill a job: part, forces, sound and report as files");
-    verb->add_option("JOB", call->job, "Job file (TOML)")->required();
+    CLI::App* verb =
+        program.add_subcommand("render", "Mill a job or a program: part, forces, sound and report as files");
+    add_job(*verb, call->job, "Job file (TOML), or a program; - is standard input", call->program)
+        ->required();
     verb->add_option("--out", call->out, "Folder for the results; an older one of Tribo's is replaced whole")
         ->required()
         ->type_name("DIR");

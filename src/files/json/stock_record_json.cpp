@@ -50,8 +50,8 @@ FileResult<job::StockRecord> read_stock_record(const std::string& folder) {
     }
     const auto found = json.find(kKey);
     if (found == json.end() || !found->is_object()) {
-        return refuse("was rendered by a version that does not say which stock it shows",
-                      "render its job again, or name the job itself");
+        return refuse("was rendered from a program without a job, or by an early version",
+                      "render it again with --job-out FIRST.toml, or name the job itself");
     }
     job::StockRecord record;
     record.version = text_of(json, "version");

@@ -34,7 +34,7 @@ class ToolChoice {
             if (!warned_) {
                 warnings_.push_back({program_.source, move.line,
                                      "tool T" + std::to_string(move.tool) +
-                                         " has no [cutter] of that number; the job's only one stands in"});
+                                         " has no [cutter] of that number; the only one stands in"});
             }
             warned_ = true;
             return 0;
@@ -136,8 +136,9 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
     if (program.has_rotary_words && program.machine.empty()) {
         return fail_at(program.source, program.first_rotary_line, 0,
                        "rotary words mean nothing without a machine",
-                       "add machine = \"NAME\" to [path], NAME being one of " + motion::machine_names() +
-                           " or a .toml file that describes one");
+                       "add machine = \"NAME\" to [path] of the job, or --machine NAME to the call; NAME is "
+                       "one of " +
+                           motion::machine_names() + " or a .toml file that describes one");
     }
     if (program.moves.empty()) {
         return fail_at(program.source, 0, 0, "the program moves nothing", "give it at least one feed move");

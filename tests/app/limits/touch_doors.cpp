@@ -96,7 +96,8 @@ Doors live_doors() {
 
 Doors flag_doors() {
     const Limits& l = kLimits;
-    const std::vector<std::string> render{"render", "none.toml", "--out", "out"}, live{"live", "none.toml"},
+    const std::vector<std::string> render{"render", "none.toml", "--out", "out"},
+        program{"render", "none.nc", "--out", "out"}, live{"live", "none.toml"},
         feel{"feel", "none.toml", "--stroke", "none.csv", "--out", "trace.csv"},
         learn{"learn", "--recording", "100:none.wav", "--out", "m.json"},
         press{"press", "none.json", "--stroke", "none.csv", "--out", "out"},
@@ -105,6 +106,15 @@ Doors flag_doors() {
         call.push_back(name + "={}");
         return flag(limit, call, name);
     };
+    const auto worded = [&](const Limit& limit, const std::string& name, const std::string& words,
+                            const std::string& other_rule = "") {
+        std::vector<std::string> call = program;
+        call.push_back(name + "=" + words);
+        Door door = flag(limit, call, name);
+        door.name += " " + words;
+        door.other_rule = other_rule;
+        return door;
+    };
     return {
         with(l.resolution, render, "--resolution"),
         with(l.resolution, live, "--resolution"),
@@ -112,6 +122,18 @@ Doors flag_doors() {
         with(l.until, render, "--until"),
         with(l.until, feel, "--until"),
         with(l.memory, render, "--memory"),
+        with(l.spindle_speed, program, "--spindle-rpm"),
+        with(l.feed, program, "--feed-mm-per-min"),
+        worded(l.tool_number, "--tool", "T{} flat 6"),
+        worded(l.cutter_diameter, "--tool", "flat {}"),
+        worded(l.corner_radius, "--tool", "bull 1000 length 600 corner {}", "not between 0 and the radius"),
+        worded(l.flutes, "--tool", "flat 6 flutes {}"),
+        worded(l.helix, "--tool", "flat 6 helix {}"),
+        worded(l.cutting_length, "--tool", "flat 6 length {}"),
+        worded(l.core_diameter, "--tool", "flat 1000 core {}"),
+        worded(l.edge, "--stock", "80 {} 20"),
+        worded(l.edge, "--stock", "0 0 0 80 60 {}"),
+        worded(l.coordinate, "--stock", "-999990 0 0 {} 60 20", "edge of a box"),
         with(l.servo_rate, feel, "--rate"),
         with(l.probe_radius, feel, "--probe-mm"),
         with(l.surface_stiffness, feel, "--stiffness"),
