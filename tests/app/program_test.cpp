@@ -104,6 +104,26 @@ TEST(Program, and_the_job_that_stands_for_it_give_the_same_forces) {
     }
 }
 
+TEST(Program, of_two_tools_with_one_in_the_call_says_that_it_stands_in) {
+    const Scratch folder;
+    const std::string one = "G21 G90 M3 S9000\nT4 M6\nG0 X0 Y5 Z5\nG1 Z-2 F300\nG1 X12\n";
+    folder.put("one.nc", one);
+    folder.put("two.nc", one + "G0 Z5\nT2 M6\nG1 X0 Z-3\n");
+    const Outcome alone = render(folder, "one.nc", {"--tool", "flat 6", "--only", "summary"});
+    ASSERT_EQ(alone.code, 0) << alone.err;
+    EXPECT_NE(
+        alone.err.find("one.nc:4: warning: tool T4 is not described; the only cutter stands in for it\n"),
+        std::string::npos)
+        << alone.err;
+    const Outcome both = render(folder, "two.nc", {"--tool", "flat 6", "--only", "summary"});
+    ASSERT_EQ(both.code, 0) << both.err;
+    EXPECT_NE(
+        both.err.find("two.nc:8: warning: tool T2 is not described; the only cutter stands in for it as for "
+                      "T4\n"),
+        std::string::npos)
+        << both.err;
+}
+
 TEST(Program, leaves_a_stock_to_another_job_only_with_a_job_of_its_own) {
     const Scratch folder;
     folder.put("p.nc", kSlot);

@@ -63,7 +63,7 @@ TEST(ToolWords, are_read_in_any_order_and_spelling) {
 TEST(ToolWords, that_are_wrong_are_refused_with_the_nearest) {
     const std::pair<const char*, const char*> cases[] = {
         {"flta 6", "error: 'flta' is no word of a tool; try 'flat'"},
-        {"flat 6 flute", "error: 'flute' has no number behind it; write 'flute 2', for example"},
+        {"flat 6 helix", "error: 'helix' has no number behind it; write 'helix 2', for example"},
         {"flat 6 fluts 2", "error: 'fluts' is no word of a tool; try 'flutes'"},
         {"6", "error: the tool has no kind; write flat, ball or bull, as in 'flat 6'"},
         {"", "error: the tool has no diameter; write it in mm, as in 'flat 6'"},

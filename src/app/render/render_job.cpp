@@ -72,6 +72,9 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags&
     limited.memory_bytes = limits.memory_bytes;
     PreparedJob prepared;
     prepared.warnings = std::move(loaded->warnings);
+    auto setup = session::prepare_mill(*loaded, limited, prepared.warnings);
+    if (!setup) return std::unexpected(FileFailure(setup.error()));
+    if (auto written = write_job_out(flags, *loaded); !written) return std::unexpected(written.error());
     if (sound_rate_hz) {
         const job::JobSound& sound = loaded->job.sound;
         auto head = head_of(sound, *sound_rate_hz, file, SofaReader{"/proc/self/exe", kReadSofaVerb},
@@ -80,9 +83,6 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags&
         prepared.track.head = std::move(*head);
         if (auto read = read_voices(sound, prepared.track); !read) return std::unexpected(read.error());
     }
-    auto setup = session::prepare_mill(*loaded, limited, prepared.warnings);
-    if (!setup) return std::unexpected(FileFailure(setup.error()));
-    if (auto written = write_job_out(flags, *loaded); !written) return std::unexpected(written.error());
     prepared.setup = std::move(*setup);
     prepared.material = *session::job_material(loaded->job);
     for (const job::EarlierJob& earlier : loaded->earlier) {

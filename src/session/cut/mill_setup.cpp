@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
@@ -31,12 +32,15 @@ class ToolChoice {
         if (move.tool == 0) return 0;
         if (const auto known = index_.find(move.tool); known != index_.end()) return known->second;
         if (cutters.size() == 1 && cutters[0].number == 0) {
-            if (!warned_) {
+            // The first two are named: with one cutter in mind the second is the surprise.
+            const bool is_first = first_ == 0;
+            if (is_first) first_ = move.tool;
+            if (is_first || (move.tool != first_ && !std::exchange(warned_, true))) {
                 warnings_.push_back({program_.source, move.line,
                                      "tool T" + std::to_string(move.tool) +
-                                         " has no [cutter] of that number; the only one stands in"});
+                                         " is not described; the only cutter stands in for it" +
+                                         (is_first ? "" : " as for T" + std::to_string(first_))});
             }
-            warned_ = true;
             return 0;
         }
         return fail_at(program_.source, move.line, 0,
@@ -49,7 +53,8 @@ class ToolChoice {
     const motion::Program& program_;
     Warnings& warnings_;
     std::map<int, std::size_t> index_;  // of the cutter, by its number
-    bool warned_ = false;
+    int first_ = 0;                     // the tool that the only cutter, without a number, stood in for first
+    bool warned_ = false;               // of a second one
 };
 
 // A move and its copies while vectors grow.
