@@ -2,7 +2,6 @@
 // `tribo live` as a program: what it says, how it ends. What it shows: web/mill/test/live.test.ts.
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "app/run/live_viewer.hpp"
 #include "app/run/program.hpp"
 #include "net/certificates.hpp"
 #include "net/raw_client.hpp"
@@ -21,8 +21,6 @@ namespace tribo::test {
 namespace {
 
 using net::test::RawClient;
-
-constexpr const char* kProtocol = "tribo.live.1";
 
 constexpr const char* kJob =
     "[stock]\nbox_mm = [[0,0,-5],[20,10,0]]\n[cutter]\nkind = \"flat\"\ndiameter_mm = 6\nflutes = 2\n"
@@ -58,24 +56,6 @@ TEST_F(Live, says_what_is_missing) {
     run = live({"--port", "0", "--web-root", "."});
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(run.err.find("p.nc:2"), std::string::npos) << run.err;
-}
-
-// The address that was printed first, in its parts.
-struct Address {
-    std::string scheme, host, token;
-    std::uint16_t port = 0;
-};
-Address address_in(const std::string& out) {
-    Address a;
-    const std::size_t at = out.find(" live at ") + 9, slashes = out.find("://", at);
-    if (at < 9 || slashes == std::string::npos) return a;
-    const std::size_t colon = out.find(':', slashes + 3), end = out.find_first_of(" \n", slashes);
-    a.scheme = out.substr(at, slashes - at);
-    a.host = out.substr(slashes + 3, colon - slashes - 3);
-    a.port = static_cast<std::uint16_t>(std::stoi(out.substr(colon + 1)));
-    const std::size_t token = out.find("?token=", slashes);
-    if (token < end) a.token = out.substr(token + 7, end - token - 7);
-    return a;
 }
 
 TEST_F(Live, serves_an_empty_bench_without_a_job) {
@@ -173,47 +153,6 @@ TEST_F(Live, comes_back_whole_after_a_resume) {
     EXPECT_TRUE(third.upgrade("/live?resume=" + resume, kProtocol, third.origin(), third.host())
                     .starts_with("HTTP/1.1 403"));
 }
-
-// What a viewer is told of the files after the clock was set forth and back, and the first state after it.
-class Viewer {
-  public:
-    explicit Viewer(std::uint16_t port) : client_(port) { EXPECT_TRUE(client_.join(kProtocol)); }
-
-    bool say(const std::string& text) { return client_.send_frame(1, text); }
-    // The next text with this word; empty if the engine has gone or does not say it for twenty seconds.
-    std::string text_with(const std::string& word) {
-        return next([&](const RawClient::Frame& frame) {
-            return frame.opcode == 1 && frame.payload.find(word) != std::string::npos;
-        });
-    }
-    // Waits for a state of at least, or at most, this time (docs/live-protocol.md).
-    bool state(bool at_least, double t_s) {
-        return !next([&](const RawClient::Frame& frame) {
-                    if (frame.opcode != 2 || frame.payload.front() != 3) return false;
-                    double now_s = 0;
-                    std::memcpy(&now_s, frame.payload.data() + 8, sizeof now_s);
-                    return at_least ? now_s >= t_s : now_s <= t_s;
-                }).empty();
-    }
-    bool step_back() {
-        return say(R"({"op":"seek","t_s":2})") && state(true, 2) && say(R"({"op":"seek","t_s":0})") &&
-               state(false, 0);
-    }
-
-  private:
-    template <class Wanted>
-    std::string next(const Wanted& wanted) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-        while (std::chrono::steady_clock::now() < end) {
-            const auto frame = client_.frame();
-            if (!frame) break;
-            if (wanted(*frame)) return frame->payload;
-        }
-        return {};
-    }
-
-    RawClient client_;
-};
 
 TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
     const std::string program = scratch_.get("p.nc"), job = scratch_.get("job.toml");
