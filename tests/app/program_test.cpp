@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <thread>
 
+#include "app/run/live_viewer.hpp"
+
 namespace tribo::test {
 namespace {
 
@@ -158,6 +160,7 @@ TEST(Program, with_wrong_flags_is_refused_with_the_remedy) {
          "write a "
          "size, as in '80 60 20', two corners, or the name of a model\n"},
         {{"--stock", "gone.stl"}, "gone.stl: error: cannot read: No such file or directory"},
+        {{"--stock", ""}, "error: --stock: is empty; leave it out, or write a value"},
         {{"--material", "stel"}, "error: --material 'stel': "},
         {{"--machine", "xyzac-trd"}, "there is no machine 'xyzac-trd'; try 'xyzac-trt'"},
         {{"--dialect", "fanuk"}, "try 'fanuc'"},
@@ -217,8 +220,8 @@ TEST(Program, is_read_from_a_pipe_and_under_any_name) {
         const Outcome outcome = render(folder, "pipe", {"--only", "forces", "--job-out", "j.toml"}, "more");
         EXPECT_EQ(outcome.code, 2);
         EXPECT_EQ(outcome.err,
-                  "error: --job-out 'j.toml': a job cannot name the pipe pipe; save the program to a "
-                  "file first\n");
+                  "error: --job-out 'j.toml': a job cannot name pipe, which is no file; save the "
+                  "program to a file first\n");
     }
 }
 
@@ -251,6 +254,66 @@ TEST(Program, is_shown_live) {
     EXPECT_NE(live.err().find("no stock is described"), std::string::npos) << live.err();
     EXPECT_NE(folder.get("j.toml").find("# The job that stands for p.nc.\n"), std::string::npos);
     EXPECT_EQ(live.stop().code, 130);
+}
+
+TEST(Program, of_a_live_cut_may_be_wrong_for_a_while) {
+    const Scratch folder;
+    folder.put("p.nc", kSlot);
+    folder.put("index.html", "<p>page");
+    RunningTribo live(
+        {"live", "p.nc", "--resolution", "0.5", "--port", "0", "--web-root", ".", "--job-out", "j.toml"},
+        folder.path());
+    Viewer viewer(address_in(live.out_with("Ctrl-C")).port);
+    ASSERT_TRUE(viewer.step_back());
+    const std::string job = folder.get("j.toml");
+    for (const auto& [text, says] :
+         {std::pair{"G21 G90\nG0 X0 Y5 Z5\nG1 Zx-2\n", R"("line":3)"},
+          std::pair{"G21 G90\nG0 X0 Y5 Z5\n", "no feed move"}, std::pair{"[stock]\nbox_mm = 5\n", "p.nc"}}) {
+        SCOPED_TRACE(text);
+        folder.put("p.nc", text);
+        ASSERT_TRUE(viewer.step_back());
+        // Who comes now is told.
+        Viewer latecomer(address_in(live.out_with("Ctrl-C")).port);
+        const std::string said = latecomer.text_with(R"("files")");
+        EXPECT_NE(said.find(says), std::string::npos) << said;
+        folder.put("p.nc", kSlot);
+        ASSERT_TRUE(viewer.step_back());
+        EXPECT_NE(latecomer.text_with(R"("files")").find(R"("wrong":null)"), std::string::npos);
+    }
+    // A longer program is milled in a longer block; the job of the first stays.
+    folder.put("p.nc", std::string(kSlot) + "G1 X40\n");
+    ASSERT_TRUE(viewer.step_back());
+    EXPECT_TRUE(viewer.say(R"({"op":"seek","t_s":6})") && viewer.state(true, 6));
+    EXPECT_EQ(folder.get("j.toml"), job);
+    const Outcome end = live.stop();
+    EXPECT_EQ(end.code, 130);
+    EXPECT_NE(end.err.find("the cut before goes on"), std::string::npos) << end.err;
+}
+
+TEST(Program, is_not_replaced_by_its_job_or_a_result) {
+    const Scratch folder;
+    folder.put("p.nc", kSlot);
+    folder.put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,6,5,1\n0.2,6,5,1\n");
+    fs::create_hard_link(folder / "p.nc", folder / "p.toml");
+    const Outcome over = render(folder, "p.nc", {"--job-out", "p.toml"});
+    EXPECT_EQ(over.code, 2);
+    EXPECT_EQ(
+        over.err.substr(over.err.rfind("p.toml")),
+        "p.toml: error: is an input of this run and would be replaced; name another file for the output\n");
+    EXPECT_EQ(folder.get("p.nc"), kSlot);
+    // Nor is a job written that could not name it.
+    const std::string odd = "p\xff\x1b.nc";
+    folder.put(odd, kSlot);
+    const Outcome unnamed = render(folder, odd, {"--job-out", "odd.toml"});
+    EXPECT_EQ(unnamed.code, 2);
+    EXPECT_NE(unnamed.err.find("a job cannot name p\\xff\\x1b.nc: not all of it is text; rename it first"),
+              std::string::npos)
+        << unnamed.err;
+    const Outcome twice = run_tribo(
+        {"feel", "p.nc", "--stroke", "stroke.csv", "--out", "a.toml", "--job-out", "a.toml"}, folder.path());
+    EXPECT_EQ(twice.code, 2);
+    EXPECT_NE(twice.err.find("a.toml: error: is named for two outputs"), std::string::npos) << twice.err;
+    EXPECT_FALSE(fs::exists(folder / "a.toml"));
 }
 
 }  // namespace

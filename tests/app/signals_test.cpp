@@ -80,6 +80,7 @@ class Signals : public testing::Test {
 TEST_F(Signals, end_every_verb_that_waits_for_its_input) {
     const std::vector<std::vector<std::string>> calls{
         {"render", "pipe.toml", "--out", "out"},
+        {"render", "pipe", "--out", "out"},
         {"inspect", "pipe"},
         {"learn", "--recording", "100:pipe.wav", "--out", "new.json"},
         {"rub", "pipe", "--stroke", "rub.csv", "--out", "new.wav"},

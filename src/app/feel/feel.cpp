@@ -249,7 +249,8 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
         if (!in_pieces) return std::unexpected(FileFailure(in_pieces.error()));
         part.in_time = std::move(*in_pieces);
     }
-    if (auto written = write_job_out(call.program, *loaded); !written) return written;
+    if (auto written = write_job_out(call.program, *loaded, {call.out, call.stats, call.bake}); !written)
+        return written;
     part.job = std::move(loaded->job);
     return {};
 }

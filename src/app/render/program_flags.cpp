@@ -5,7 +5,9 @@
 #include <functional>
 
 #include "app/options.hpp"
+#include "app/outputs.hpp"
 #include "base/text/file_names.hpp"
+#include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
 #include "job/toml/job_writer.hpp"
@@ -17,6 +19,8 @@ namespace tribo::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kStandardInput = "/dev/stdin";
 
 // The flag and its text, before what is wrong with it.
 Error with_flag(const char* flag, const std::string& text, const Error& error) {
@@ -59,9 +63,14 @@ Result<void> read_tools(const ProgramFlags& flags, job::ProgramInputs& inputs) {
 
 CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags) {
     const std::function<std::string(std::string)> standard_input = [](std::string name) {
-        return name == "-" ? "/dev/stdin" : name;
+        return name == "-" ? kStandardInput : name;
     };
     CLI::Option* option = verb.add_option("JOB", job, description)->transform(standard_input);
+    const CLI::Validator says_something(
+        [](const std::string& text) {
+            return std::string(text.empty() ? "is empty; leave it out, or write a value" : "");
+        },
+        "");
     const std::string group = "For a program in place of a job (what is absent is assumed)";
     verb.add_option("--tool", flags.tools,
                     "A tool in words: \"flat 6\", \"T2 ball 8 flutes 3\", \"bull 10 corner 1\"; or a tool "
@@ -71,12 +80,15 @@ CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& descri
         ->group(group);
     verb.add_option("--stock", flags.stock,
                     "\"80 60 20\" (size), \"0 0 -20 80 60 0\" (two corners), or a model; mm")
+        ->check(says_something)
         ->type_name("STOCK")
         ->group(group);
     verb.add_option("--material", flags.material, "Of the stock: al7075-t6, steel ... (docs/job.md)")
+        ->check(says_something)
         ->type_name("NAME")
         ->group(group);
     verb.add_option("--machine", flags.machine, "For rotary words of G-code (docs/machines.md)")
+        ->check(says_something)
         ->type_name("NAME|F.toml")
         ->group(group);
     verb.add_option("--dialect", flags.dialect,
@@ -93,6 +105,7 @@ CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& descri
         ->type_name("FEED")
         ->group(group);
     verb.add_option("--job-out", flags.job_out, "Write the job that stands for this call")
+        ->check(says_something)
         ->type_name("F.toml")
         ->group(group);
     return option;
@@ -132,7 +145,8 @@ Result<void> refuse_flags(const ProgramFlags& flags, const std::string& file, co
     return {};
 }
 
-FileResult<void> write_job_out(const ProgramFlags& flags, const job::LoadedJob& loaded) {
+FileResult<void> write_job_out(const ProgramFlags& flags, const job::LoadedJob& loaded,
+                               std::vector<std::string> outputs) {
     if (flags.job_out.empty()) return {};
     const auto refuse = [&](std::string cause, std::string remedy) {
         return std::unexpected(FileFailure(
@@ -140,15 +154,24 @@ FileResult<void> write_job_out(const ProgramFlags& flags, const job::LoadedJob& 
     };
     std::error_code error;
     const std::string& program = loaded.job.path.file;
-    if (!fs::is_regular_file(program, error))
-        return refuse("a job cannot name the pipe " + program, "save the program to a file first");
+    if (program == kStandardInput || !fs::is_regular_file(program, error))
+        return refuse("a job cannot name " + program + ", which is no file",
+                      "save the program to a file first");
     if (extension_of(flags.job_out) != ".toml")
         return refuse("a job is named .toml", "try " + flags.job_out + ".toml");
     const fs::path folder = fs::weakly_canonical(fs::absolute(flags.job_out, error).parent_path(), error);
-    const std::string text = job::job_text(
-        loaded, [&](const std::string& file) { return files::relative_to(folder.string(), file); });
+    std::string odd;
+    const std::string text = job::job_text(loaded, [&](const std::string& file) {
+        std::string name = files::relative_to(folder.string(), file);
+        if (printable(name) != name) odd = name;
+        return name;
+    });
+    if (!odd.empty())
+        return refuse("a job cannot name " + odd + ": not all of it is text", "rename it first");
+    outputs.push_back(flags.job_out);
+    if (auto checked = check_outputs(outputs); !checked) return checked;
     if (fs::exists(flags.job_out, error)) {
-        const auto older = files::read_file(flags.job_out);
+        const auto older = files::read_file(flags.job_out, files::kLargestInputBytes, files::Pipes::refuse);
         if (!older) return std::unexpected(older.error());
         if (*older == text) return {};
         return refuse("is there already, and says something else", "remove it, or name another file");

@@ -26,7 +26,9 @@ Result<job::ProgramInputs> program_inputs(const ProgramFlags& flags);
 // Refuses any of the flags beside something that is no program. `is_what` follows "and": "this is a job".
 Result<void> refuse_flags(const ProgramFlags& flags, const std::string& file, const std::string& is_what,
                           const std::string& remedy);
-// Writes the job to the file of --job-out, if that is given. An older file is not replaced by another text.
-FileResult<void> write_job_out(const ProgramFlags& flags, const job::LoadedJob& loaded);
+// Writes the job to the file of --job-out, if that is given. Refuses to replace a file that says something
+// else or was read, and a name that is one of `outputs`, the other files of the run.
+FileResult<void> write_job_out(const ProgramFlags& flags, const job::LoadedJob& loaded,
+                               std::vector<std::string> outputs = {});
 
 }  // namespace tribo::app
