@@ -4,11 +4,14 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "readers/control/run_limit.hpp"
+#include "readers/gcode/state.hpp"
+#include "readers/heidenhain/contour.hpp"
 #include "readers/heidenhain/line.hpp"
 #include "readers/heidenhain/path.hpp"
 
@@ -28,10 +31,18 @@ enum Note {
     kDisengage,
     kCylinder,
     kDeltas,
+    kSkipped,
+    kDatumTable,
+    kTimedFeed,
+    kProbing,
+    kNoRadius,
+    kSpotAngle,
+    kCirclePlane,
 };
 
-// The drilling cycle in force: its number, and its parameters by Q number.
-struct DrillingCycle {
+// The cycle in force: its number, and its parameters by Q number. The old cycles 1, 2 and 17 keep their
+// words .1 to .5 under 1 to 5.
+struct Cycle {
     int number = 0;  // 0: none
     Place place;
     std::map<int, double> q;  // lengths in mm, feeds in mm/min
@@ -48,26 +59,45 @@ class Interpreter {
     Result<motion::Program> run();
 
   private:
-    // Flow and data (interpreter.cpp)
+    // Blocks (interpreter.cpp)
     Result<void> take_line();
     Result<bool> goes_on();
+    Result<void> all_items(LineReader& in, std::vector<Item>& items);
     Result<void> execute(LineReader& in);
-    Result<void> begin(LineReader& in);
+    Result<void> execute_path(LineReader& in);
+    Result<void> pass_over(const std::string& what);
+    Result<void> skip_continuation();
+    Result<void> begin();
+    Result<motion::Program> finish();
+
+    // Labels, parameters and FN (flow.cpp)
+    Result<void> assign(LineReader& in);
+    Result<void> assign_text(LineReader& in);
+    Result<void> function(LineReader& in);
+    Result<void> jump_if(LineReader& in, int operation);
+    Result<void> read_system(LineReader& in);
+    Result<void> call(LineReader& in);
+    Result<void> leave_out_program(std::string name);
+    Result<void> end_label();
+    Result<void> go_to(const std::string& label, int column);
+
+    // Stock and tools (tools.cpp)
     Result<void> blank_form(LineReader& in);
     Result<void> define_tool(LineReader& in);
     Result<void> call_tool(LineReader& in);
-    Result<void> assign(LineReader& in);
-    Result<void> function(LineReader& in);
-    Result<void> jump_if(LineReader& in, int operation);
-    Result<void> call_label(LineReader& in);
-    Result<void> end_label();
-    Result<void> go_to(const std::string& label, int column);
-    Result<motion::Program> finish();
+    void number_tools();
+    int number_of_tool(const std::string& name);
+    void declare_commented_tool(std::string_view comment);
 
-    // Moves (motion.cpp)
+    // Words of a block (words.cpp)
     struct Words;  // the sorted words of a path function
     Result<Words> read_words(LineReader& in, std::string_view own);
+    Result<void> sort_word(LineReader& in, const Item& item, std::string_view own, Words& words);
     Result<void> apply_feed(const Words& words);
+    Result<void> miscellaneous(const Words& words);
+    Result<void> retract(const Words& words);
+
+    // Moves (motion.cpp, circles.cpp, corners.cpp)
     Result<Vec3> target(const Words& words);
     Result<Vec3> polar_target(const Words& words);
     Result<Vec3> rotary_target(const Words& words);
@@ -76,68 +106,127 @@ class Interpreter {
     Result<void> pole(LineReader& in);
     Result<void> circle(LineReader& in);
     Result<void> circle_of_radius(LineReader& in);
-    Result<void> tangent_circle(LineReader& in);
+    Result<void> tangent_circle(LineReader& in, bool polar);
     Result<void> polar_circle(LineReader& in);
+    Result<void> corner(LineReader& in, bool is_chamfer);
+    Result<void> approach(LineReader& in);
+    Result<void> depart(LineReader& in);
+    Result<void> contour_end(LineReader& in, ContourEnd& shape, bool& polar);
+    Result<void> contour_end_sizes(const Words& words, int column, ContourEndShape& shape);
+    Result<double> compensation_radius(Place where);
+    bool corner_follows() const;
+    double plane_scale() const;
+    Result<void> refuse_uneven_scale(int column) const;
+    int turning(int direction, gcode::Plane plane) const;
+    Result<void> find_plane(Vec3 to, int column);
     Result<void> travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
-    Result<void> miscellaneous(const Words& words);
+    Result<bool> add_to_contour(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc,
+                                bool turns);
+    Result<void> close_contour();
+    Result<void> choose_side(const Words& words);
+    Result<void> check_start(bool rapid);
     Result<void> go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
     Result<void> require_start();
+    // The programmed position in the frame: with radius compensation that of the contour.
+    Vec3 here() const { return contour_.programmed().value_or(path_.tip()); }
+    ContourWords contour_words(bool rapid) const;
 
-    // Cycles and planes (cycles.cpp)
-    Result<void> define_cycle(LineReader& in);
-    Result<void> define_drilling(LineReader& in, int number);
-    Result<void> read_parameters(LineReader& in, DrillingCycle& cycle);
-    Result<void> read_parameters_of_line(LineReader& in, DrillingCycle& cycle);
+    // Frames (frames.cpp, planes.cpp)
     Result<void> set_datum(LineReader& in);
-    Result<void> shift_datum(LineReader& in);
-    Result<void> call_cycle(Place place);
-    Result<void> drill();
-    Result<void> bore();
-    Result<void> go_to_height(double z, double feed_mm_per_min);
+    Result<void> mirror(LineReader& in);
+    Result<void> set_scale(LineReader& in, int number);
+    Result<void> transform(LineReader& in);
     Result<void> plane(LineReader& in);
-    Result<void> tip_control(LineReader& in);
+    Result<void> working_plane(LineReader& in);
+    Result<void> tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column);
+    Result<void> machine_function(LineReader& in);
     void set_frame();
+
+    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp)
+    Result<void> define_cycle(LineReader& in);
+    Result<void> define_q_cycle(LineReader& in, int number);
+    Result<void> define_old_cycle(LineReader& in, int number, int part);
+    Result<void> check_cycle(const Cycle& cycle) const;
+    Result<void> read_parameters(LineReader& in, Cycle& cycle);
+    Result<void> call_cycle(LineReader& in);
+    Result<void> run_cycle(Place place);
+    Result<void> go_to_height(double z, double feed_mm_per_min);
+    Result<void> go_to_place(double x, double y, double feed_mm_per_min);
+    Result<void> drill();
+    Result<void> peck_deep();
+    Result<void> bore();
+    Result<void> tap();
+    Result<void> mill_bore();
+    Result<void> drill_as_of_old();
+    Result<void> return_from(double surface, double feed_mm_per_min);
+    Result<double> cutter_radius(Place place);
+    Result<void> define_pattern(LineReader& in);
+    Result<void> add_pattern(const std::string& kind, const std::map<std::string, double>& words, int column);
+    Result<void> run_point_pattern(const Cycle& pattern);
+    Vec3 in_frame(double x, double y, double z) const;
+    Result<void> run_at(const std::vector<Vec3>& points, Place place);
 
     Place place(int column) const { return {line_.number, column}; }
 
     std::string source_name_;
     Path path_;
+    Contour contour_;
     std::vector<std::string_view> lines_;
     std::map<std::string, std::size_t> labels_;  // line after the LBL
     std::map<std::size_t, long> repeats_;        // runs left, by the line of CALL LBL REP
     std::vector<std::size_t> calls_;             // lines to return to
     std::size_t at_ = 0;                         // index of the running line
     Line line_;
-    bool ended_ = false, begun_ = false, moved_ = false;
+    bool ended_ = false, begun_ = false;
     RunLimit limit_;
+    std::set<std::string> passed_over_;       // words without effect that were warned of
+    std::map<std::string, int> named_tools_;  // their numbers
+    std::set<int> numbered_tools_;            // numbers that the text uses itself
 
     Parameters parameters_;
+    std::map<int, double> general_;  // GLOBAL DEF: values for Q...=PREDEF
     double unit_mm_ = 1;
     std::optional<Vec3> blank_min_;
-    double tool_feed_ = 0;       // of TOOL CALL, for F AUTO
-    bool shortest_way_ = false;  // M126
-    std::optional<Vec3> pole_;   // in the frame
-    Vec3 tangent_;               // of the last move, in the frame; 0: none
-    motion::WorkFrame plane_;    // of PLANE; its origin is the datum in force at the PLANE
-    Vec3 shift_mm_;              // datum shift in the plane
-    Vec3 untilted_shift_mm_;     // datum shift restored by PLANE RESET
-    double rotation_deg_ = 0;    // CYCL DEF 10
-    DrillingCycle cycle_;
+    double tool_feed_ = 0;         // of TOOL CALL, for F AUTO
+    double tool_oversize_mm_ = 0;  // DR of TOOL CALL
+    bool feed_per_turn_ = false;   // M136
+    bool shortest_way_ = false;    // M126
+    bool last_was_rapid_ = false;  // for APPR
+    int side_ = 0;                 // RL +1, RR -1, R0 0
+    std::optional<Vec3> pole_;     // in the frame
+    gcode::Plane pole_plane_ = gcode::Plane::xy;
+    bool pole_has_plane_ = true;    // false: CC names all three axes
+    Vec3 tangent_;                  // of the last move, in the frame; 0: none
+    motion::WorkFrame plane_;       // of PLANE; its origin is the datum in force at the PLANE
+    Vec3 shift_mm_;                 // datum shift in the plane
+    Vec3 untilted_shift_mm_;        // datum shift restored by PLANE RESET
+    double rotation_deg_ = 0;       // CYCL DEF 10
+    std::optional<int> datum_row_;  // of the datum table
+    Vec3 mirror_{1, 1, 1};          // CYCL DEF 8: -1 for a mirrored axis
+    Vec3 scale_{1, 1, 1};           // CYCL DEF 11 and 26
+    Vec3 scale_centre_mm_;
+    Cycle cycle_;
+    std::string called_program_;            // CYCL DEF 12
+    std::vector<Vec3> pattern_;             // PATTERN DEF, in the frame; z adds to the surface
     bool cycle_at_every_position_ = false;  // M89
 };
 
 // The words of a path function.
 struct Interpreter::Words {
     std::vector<Item> items;
-    std::optional<double> axis[3], increment[3];  // X Y Z, mm
+    std::optional<double> axis[3], increment[3];  // X Y Z in the frame, mm
     std::optional<double> rotary[3], turn[3];     // A B C, deg: absolute, incremental
     std::optional<double> vector[3];              // TX TY TZ
     std::optional<double> polar_radius, polar_angle, polar_turn;
     bool polar_radius_increment = false;
-    std::optional<double> radius;  // R of CR, mm
+    std::optional<double> radius;  // R of CR, RND, APPR, DEP, mm
+    std::optional<double> length;  // LEN, mm, and the side of CHF
+    std::optional<double> angle;   // CCA, deg
+    std::optional<int> side;       // RL +1, RR -1, R0 0
     int direction = 0;             // DR: +1 or -1
     bool fast = false;
     bool machine_position = false;  // M91, M92
+    std::optional<double> retract;  // MB, mm; infinite for MB MAX
     std::vector<int> m;
     int first_column = 1;
 };

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/math.hpp"
 #include "base/text/decimal.hpp"
 #include "base/text/limit_text.hpp"
 #include "readers/text/text_lines.hpp"
@@ -13,17 +12,12 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr int kDeepestNesting = 60;
 // Longest number, digits. No control writes half as many.
 constexpr std::size_t kLongestNumber = 64;
 constexpr double kLargestNumber = 1e15;
 
 bool is_word(char c) {
     return is_letter(c) || c == '_';
-}
-
-double rounded_toward_zero(double x) {
-    return x < 0 ? std::ceil(x) : std::floor(x);
 }
 
 }  // namespace
@@ -96,26 +90,91 @@ bool LineReader::take(char character) {
 Result<std::optional<int>> LineReader::parameter() {
     skip_blanks();
     if (to_upper(peek()) != 'Q' || at_ + 1 >= line_.text.size()) return std::nullopt;
-    const char next = to_upper(line_.text[at_ + 1]);
     const int start = column();
-    if ((next == 'L' || next == 'R' || next == 'S') && at_ + 2 < line_.text.size() &&
-        is_digit(line_.text[at_ + 2])) {
-        return refuse(start, std::string("parameters Q") + next + " are not read yet", "use Q parameters");
-    }
-    if (!is_digit(next)) return std::nullopt;
-    ++at_;
+    const char kind = to_upper(line_.text[at_ + 1]);
+    const bool has_kind = kind == 'L' || kind == 'R';
+    const std::size_t digits = at_ + (has_kind ? 2 : 1);
+    if (digits >= line_.text.size() || !is_digit(line_.text[digits])) return std::nullopt;
+    at_ = digits;
     int index = 0;
     while (is_digit(peek())) {
         if (index < kParameters) index = 10 * index + (peek() - '0');
         ++at_;
     }
-    if (!Parameters::has(index))
-        return refuse(start, "there is no parameter beyond Q1999", "correct its number");
+    const int most = has_kind ? kParameters - kRemanent : kLocal;
+    if (index >= most) {
+        const std::string name = has_kind ? std::string{'Q', kind} : "Q";
+        return refuse(start, "there is no parameter beyond " + name + std::to_string(most - 1),
+                      "correct its number");
+    }
+    return index + (kind == 'L' ? kLocal : kind == 'R' ? kRemanent : 0);
+}
+
+std::optional<int> LineReader::text_parameter() {
+    skip_blanks();
+    if (at_ + 2 >= line_.text.size() || to_upper(peek()) != 'Q' || to_upper(line_.text[at_ + 1]) != 'S' ||
+        !is_digit(line_.text[at_ + 2])) {
+        return std::nullopt;
+    }
+    at_ += 2;
+    int index = 0;
+    while (is_digit(peek())) {
+        if (index < kParameters) index = 10 * index + (peek() - '0');
+        ++at_;
+    }
     return index;
 }
 
+Result<std::optional<std::string>> LineReader::text() {
+    std::string whole;
+    for (;;) {
+        skip_blanks();
+        const int start = column();
+        if (const auto index = text_parameter()) {
+            const auto known = parameters_.texts.find(*index);
+            if (known == parameters_.texts.end()) {
+                return refuse(start, "the text QS" + std::to_string(*index) + " is not known",
+                              "write the text in quotes");
+            }
+            whole += known->second;
+        } else if (peek() == '"') {
+            const std::size_t end = line_.text.find('"', at_ + 1);
+            if (end == std::string_view::npos)
+                return refuse(start, "the name has no second quote", "close it");
+            whole += line_.text.substr(at_ + 1, end - at_ - 1);
+            at_ = end + 1;
+        } else if (whole.empty()) {
+            return std::nullopt;
+        } else {
+            return refuse(start, "a text is missing", "write a text in quotes or a QS parameter");
+        }
+        if (whole.size() > kLongestBlock) return refuse(start, "the text is too long", "shorten it");
+        if (!take("||")) return whole;
+    }
+}
+
+Result<std::optional<double>> LineReader::last_number() {
+    std::optional<double> last;
+    while (!at_end()) {
+        const bool is_point = (peek() == '.' || peek() == ',') &&
+                              !(at_ + 1 < line_.text.size() && is_digit(line_.text[at_ + 1]));
+        if (is_point) {  // V.ZEIT
+            ++at_;
+            continue;
+        }
+        const auto value = number();
+        if (!value) return value;
+        if (*value) {
+            last = *value;
+        } else {
+            ++at_;
+        }
+    }
+    return last;
+}
+
 Result<std::optional<double>> LineReader::number() {
-    skip_blanks();
+    const int first_column = column();
     const std::size_t start = at_;
     double sign = 1;
     if (peek() == '+' || peek() == '-') {
@@ -127,6 +186,10 @@ Result<std::optional<double>> LineReader::number() {
     if (!q) return std::unexpected(q.error());
     if (*q) {
         skip_blanks();
+        if (peek() != '=' && !parameters_.knows(**q)) {
+            return refuse(first_column, Parameters::name(**q) + " holds a value that only the machine knows",
+                          "set it in the program, for example " + Parameters::name(**q) + " = 5");
+        }
         if (peek() != '=') return sign * parameters_.get(**q);
         at_ = start;  // Q200=2 of a cycle is a separate word
         return std::nullopt;
@@ -152,145 +215,12 @@ Result<std::optional<double>> LineReader::number() {
     return sign * value;
 }
 
-Result<double> LineReader::formula() {
-    return sum(0);
-}
-
-Result<double> LineReader::sum(int depth) {
-    auto value = product(depth);
-    if (!value) return value;
-    for (;;) {
-        const bool plus = take('+');
-        if (!plus && !take('-')) return value;
-        const auto next = product(depth);
-        if (!next) return next;
-        value = plus ? *value + *next : *value - *next;
-    }
-}
-
-Result<double> LineReader::product(int depth) {
-    auto value = power(depth);
-    if (!value) return value;
-    for (;;) {
-        const int start = column();
-        enum { times, over, length, angle } operation;
-        if (take('*')) {
-            operation = times;
-        } else if (take('/') || take("DIV")) {
-            operation = over;
-        } else if (take("LEN")) {
-            operation = length;
-        } else if (take("ANG")) {
-            operation = angle;
-        } else {
-            return value;
-        }
-        const auto next = power(depth);
-        if (!next) return next;
-        if (operation == over && *next == 0)
-            return refuse(start, "division by zero", "correct the parameters");
-        value = operation == times    ? *value * *next
-                : operation == over   ? *value / *next
-                : operation == length ? math::hypot(*value, *next)
-                                      : math::atan2(*value, *next) * math::kDegPerRad;
-    }
-}
-
-Result<double> LineReader::power(int depth) {
-    auto value = factor(depth);
-    if (!value) return value;
-    while (take('^')) {
-        const auto next = factor(depth);
-        if (!next) return next;
-        value = math::pow(*value, *next);
-    }
-    if (!std::isfinite(*value)) return refuse(column(), "the result is no number", "correct the parameters");
-    return value;
-}
-
-Result<double> LineReader::factor(int depth) {
-    if (depth > kDeepestNesting) return refuse(column(), "the formula is nested too deeply", "split it");
-    if (take('(')) {
-        const auto value = sum(depth + 1);
-        if (!value) return value;
-        if (!take(')')) return refuse(column(), "a ')' is missing", "close the parenthesis");
-        return value;
-    }
-    skip_blanks();
-    const std::size_t start = at_;
-    if (peek() == '+' || peek() == '-') {
-        const bool minus = peek() == '-';
-        ++at_;
-        const auto value = factor(depth + 1);
-        if (!value) return value;
-        return minus ? -*value : *value;
-    }
-    const auto plain = number();
-    if (!plain) return std::unexpected(plain.error());
-    if (*plain) return **plain;
-    while (is_word(peek())) ++at_;
-    std::string name(line_.text.substr(start, at_ - start));
-    std::transform(name.begin(), name.end(), name.begin(), to_upper);
-    if (name.empty()) {
-        return refuse(column(), at_end() ? "a number is missing" : shown_character(peek()) + " is no number",
-                      "write a number, a Q parameter or a function");
-    }
-    if (name == "PI") return math::kPi;
-    at_ = start;
-    const int place = column();
-    at_ += name.size();
-    const auto argument = factor(depth + 1);
-    if (!argument) return argument;
-    const double x = *argument, rad = x * math::kRadPerDeg;
-    double value = 0;
-    if (name == "SIN")
-        value = math::sin(rad);
-    else if (name == "COS")
-        value = math::cos(rad);
-    else if (name == "TAN")
-        value = math::tan(rad);
-    else if (name == "ASIN")
-        value = math::asin(x) * math::kDegPerRad;
-    else if (name == "ACOS")
-        value = math::acos(x) * math::kDegPerRad;
-    else if (name == "ATAN")
-        value = math::atan(x) * math::kDegPerRad;
-    else if (name == "SQRT")
-        value = std::sqrt(x);
-    else if (name == "SQ")
-        value = x * x;
-    else if (name == "LN")
-        value = math::log(x);
-    else if (name == "LOG")
-        value = math::log10(x);
-    else if (name == "EXP")
-        value = math::exp(x);
-    else if (name == "NEG")
-        value = -x;
-    else if (name == "ABS")
-        value = std::abs(x);
-    else if (name == "INT")
-        value = rounded_toward_zero(x);
-    else if (name == "FRAC")
-        value = x - rounded_toward_zero(x);
-    else if (name == "SGN")
-        value = x > 0 ? 1 : x < 0 ? -1 : 0;
-    else
-        return refuse(place, "the function " + name + " is not known", "use SIN, COS, SQRT, ABS ...");
-    if (!std::isfinite(value)) return refuse(place, name + " has no value here", "correct its argument");
-    return value;
-}
-
 Result<std::string> LineReader::label() {
     skip_blanks();
     const int start = column();
-    if (peek() == '"') {
-        const std::size_t end = line_.text.find('"', at_ + 1);
-        if (end == std::string_view::npos) return refuse(start, "the name has no second quote", "close it");
-        std::string name(line_.text.substr(at_ + 1, end - at_ - 1));
-        at_ = end + 1;
-        return "\"" + name;
-    }
+    const auto name = text();
+    if (!name) return std::unexpected(name.error());
+    if (*name) return "\"" + **name;
     const auto value = number();
     if (!value) return std::unexpected(value.error());
     constexpr double most = 65535;
@@ -303,17 +233,26 @@ Result<std::string> LineReader::label() {
 Result<std::optional<Item>> LineReader::item() {
     if (at_end()) return std::nullopt;
     Item item;
+    item.line = line_.number;
     item.column = column();
     const std::size_t start = at_;
-    if (peek() == '"') {
-        const auto name = label();
-        if (!name) return std::unexpected(name.error());
-        item.name = *name;
+    const auto quoted = text();
+    if (!quoted) return std::unexpected(quoted.error());
+    if (*quoted) {
+        item.name = "\"" + **quoted;
         return item;
     }
     while (is_word(peek())) ++at_;
-    // FQ5 and X+Q5: the parameter is the value, not a part of the word.
-    if (at_ - start > 1 && to_upper(line_.text[at_ - 1]) == 'Q' && is_digit(peek())) --at_;
+    // FQ5 and FQL5: the parameter is the value, not a part of the word.
+    if (is_digit(peek())) {
+        for (const std::size_t size : {1, 2}) {
+            if (at_ - start > size && to_upper(line_.text[at_ - size]) == 'Q' &&
+                (size == 1 || to_upper(line_.text[at_ - 1]) == 'L' || to_upper(line_.text[at_ - 1]) == 'R')) {
+                at_ -= size;
+                break;
+            }
+        }
+    }
     for (std::size_t i = start; i < at_; ++i) item.name += to_upper(line_.text[i]);
     if (item.name == "Q" && is_digit(peek())) {
         at_ = start;
@@ -326,7 +265,7 @@ Result<std::optional<Item>> LineReader::item() {
         }
         item.name = "Q" + std::to_string(**index);
         item.parameter = **index;
-        for (const std::string_view word : {"FAUTO", "FMAX"}) {
+        for (const std::string_view word : {"FAUTO", "FMAX", "MAX", "AUTO", "PREDEF"}) {
             if (take(word)) item.word = word;
         }
         if (!item.word.empty()) {

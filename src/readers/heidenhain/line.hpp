@@ -30,8 +30,8 @@ struct Item {
     std::optional<double> value;
     int sign = 0;        // of a word with a sign but no number: +1 or -1
     int parameter = -1;  // 200 for Q200=2
-    std::string word;    // FAUTO or FMAX as the value of a parameter
-    int column = 0;
+    std::string word;    // FAUTO, FMAX, MAX or PREDEF as the value of a parameter
+    int line = 0, column = 0;
 };
 
 // Reads a line from left to right.
@@ -49,10 +49,16 @@ class LineReader {
     // Reads a number with an optional sign, or a Q parameter.
     Result<std::optional<double>> number();
     Result<double> formula();
-    // Reads the index of a parameter after its Q.
+    // Reads the index of a parameter after its Q, QL or QR.
     Result<std::optional<int>> parameter();
-    // Reads the name of a label: a number or a text in quotes.
+    // Reads the number of a text after its QS.
+    std::optional<int> text_parameter();
+    // Reads texts in quotes and QS parameters joined by '||'; none if there is no text next.
+    Result<std::optional<std::string>> text();
+    // Reads the name of a label: a number, a text in quotes or a QS parameter.
     Result<std::string> label();
+    // Skips words up to the last number of the line, and returns it: DIST 2, V.ZEIT 0.5, F250.
+    Result<std::optional<double>> last_number();
     // Returns the next item; absent at the end.
     Result<std::optional<Item>> item();
     // Appends all items up to the end of the line.

@@ -158,6 +158,26 @@ void Path::declare(const motion::DeclaredTool& declared) {
     if (declaring_lines_.insert(declared.line).second) program.tools.push_back(declared);
 }
 
+std::optional<double> Path::tool_radius_mm() const {
+    const auto known = [&](int number) -> std::optional<double> {
+        for (auto given = options.tools.rbegin(); given != options.tools.rend(); ++given) {
+            if (given->number == number && given->diameter_mm > 0) return given->diameter_mm / 2;
+        }
+        return std::nullopt;
+    };
+    if (const auto given = known(tool)) return given;
+    const auto declared = declared_radii_mm_.find(tool);
+    if (declared != declared_radii_mm_.end()) return declared->second;
+    return known(0);  // an unnumbered tool of the job stands for every one
+}
+
+int Path::flutes() const {
+    for (const motion::DeclaredTool& declared : program.tools) {
+        if (declared.number == tool && declared.flutes > 0) return declared.flutes;
+    }
+    return 0;
+}
+
 void Path::measure_tool() {
     if (!machine) return;
     std::optional<double> length_mm;
@@ -183,9 +203,10 @@ void Path::switch_tip_control(bool on, int line) {
 
 bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line) {
     if (!machine) {
+        const bool turns = distance(axis_, plane.z) > 1e-12;
         frame = plane;
         axis_ = aim_ = plane.z;
-        if (!keep_tip) lose(line);
+        if (turns && !keep_tip) lose(line);
         return true;
     }
     const motion::Kinematics& kinematics = machine->kinematics();

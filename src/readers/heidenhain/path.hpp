@@ -69,6 +69,12 @@ class Path {
 
     // Adds a tool of TOOL DEF to the program; once for a line, which a loop may run again.
     void declare(const motion::DeclaredTool& tool);
+    // Keeps the radius that TOOL DEF gives a tool; also 0.
+    void define_radius(int number, double radius_mm) { declared_radii_mm_[number] = radius_mm; }
+    // Radius of the tool in the spindle by the options, else by TOOL DEF; none if nothing states it.
+    std::optional<double> tool_radius_mm() const;
+    // Number of its teeth; 0: not known.
+    int flutes() const;
     // Takes the length of the tool in the spindle from the options, else from TOOL DEF of the program.
     void measure_tool();
 
@@ -95,13 +101,14 @@ class Path {
 
     MoveSink* sink_;
     std::map<int, double> given_lengths_mm_, declared_lengths_mm_;  // by number of the tool
+    std::map<int, double> declared_radii_mm_;
     std::set<int> declaring_lines_;
     Vec3 place_mm_;  // tip in the frame of the stock; on a machine without tip control its X Y Z
     std::array<Known, 3> known_{Known::unstated, Known::unstated, Known::unstated};
     int lost_line_ = 0;
     Vec3 now_rad_;
     Vec3 axis_{0, 0, 1}, aim_{0, 0, 1};
-    std::array<bool, 32> noted_{};
+    std::array<bool, 64> noted_{};
 };
 
 }  // namespace tribo::readers::heidenhain

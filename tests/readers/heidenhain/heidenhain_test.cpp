@@ -1,46 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 
-#include "readers/heidenhain/reader.hpp"
-#include "readers/program_checks.hpp"
+#include "readers/heidenhain/heidenhain_text.hpp"
 
 namespace tribo::readers {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-motion::Program conversational(std::string_view text, const GcodeOptions& options = {}) {
-    const auto program = read_heidenhain(text, options);
-    if (!program) {
-        ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
-        return {};
-    }
-    return *program;
-}
-
-motion::Program on(const char* name, std::string_view text) {
-    const motion::Machine machine = *motion::named_machine(name);
-    GcodeOptions options;
-    options.machine = &machine;
-    return conversational(text, options);
-}
-
-std::string fault(std::string_view text) {
-    GcodeOptions options;
-    options.source_name = "p.h";
-    options.max_steps = 10'000;
-    const auto program = read_heidenhain(text, options);
-    return program ? "" : program.error().text();
-}
-
-constexpr std::string_view kStart =
-    "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S2000 F500\n2 L X+0 Y+0 Z+10 R0 FMAX M3\n";
-
-std::string after_start(std::string_view text) {
-    return std::string(kStart) + std::string(text) + "99 END PGM P MM\n";
-}
 
 TEST(Heidenhain, ReadsLinesStockAndToolOfAPlainProgram) {
     const motion::Program program = conversational(
@@ -301,7 +266,7 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         const char* message;
     } cases[] = {
         {"3 L X+10\n", ""},
-        {"3 L X+10 RL F100\n", "p.h:4:10: error: radius compensation (RL) is not read yet"},
+        {"3 L X+10 R+ F100\n", "p.h:4:10: error: radius compensation in one axis (R) is not read"},
         {"3 L X+1e F100\n", "p.h:4:8: error: 'E' does not belong into a block L"},
         {"3 C X+1 Y+1 DR+\n", "p.h:4:5: error: a circle without a centre"},
         {"3 CC X+5 Y+0\n4 C X+5 Y+9\n", "p.h:5:5: error: a circle without DR+ or DR-"},
@@ -310,27 +275,27 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         {"3 CT X+10 Y+10\n", ""},
         {"3 L X+5 F100\n4 CT X+10\n", "p.h:5:6: error: the end of CT lies straight ahead"},
         {"3 CALL LBL 7\n", "p.h:4:8: error: there is no LBL 7"},
-        {"3 CALL PGM OTHER\n", "p.h:4:8: error: only CALL LBL is read"},
-        {"3 RND R5\n", "p.h:4:3: error: RND is not read yet"},
+        {"3 CALL OTHER\n", "p.h:4:8: error: only CALL LBL and CALL PGM are read"},
+        {"3 RND R5\n", "p.h:4:7: error: RND without a path function before it"},
         {"3 CYCL CALL\n", "p.h:4:12: error: a cycle is called, but none is defined"},
-        {"3 CYCL DEF 208 BORE MILLING\n", "p.h:4:12: error: cycle 208 is not read yet"},
+        {"3 CYCL DEF 251 RECTANGULAR POCKET\n", "p.h:4:12: error: cycle 251 is not read yet"},
         {"3 CYCL DEF 200 DRILLING ~\nQ200=2 ~\nQ201=-5 ~\nQ206=100\n",
          "p.h:4:3: error: cycle 200 lacks Q203"},
         {"3 CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q203=0\n", "the depth Q201 is not below zero"},
         {"3 FN 4: Q1 = +5 DIV +0\n", "p.h:4:17: error: division by zero"},
-        {"3 FN 18: SYSREAD Q1 = ID1\n", "p.h:4:6: error: FN 18 is not read"},
+        {"3 FN 18: SYSREAD Q1 = ID1\n4 L X+Q1 F100\n",
+         "p.h:5:6: error: Q1 holds a value that only the machine knows"},
+        {"3 FN 39: X\n", "p.h:4:6: error: FN 39 is not read"},
         {"3 Q1 = SQRT -1\n", "p.h:4:8: error: SQRT has no value here"},
         {"3 Q1 = ( 2 + 3\n", "a ')' is missing"},
         {"3 Q1 = 2 +\n", "a number is missing"},
         {"3 Q2000 = 2\n", "there is no parameter beyond Q1999"},
-        {"3 QL1 = 2\n", "parameters QL are not read yet"},
+        {"3 QL500 = 2\n", "there is no parameter beyond QL499"},
         {"3 LBL 1\n4 FN 9: IF +1 EQU +1 GOTO LBL 1\n", "does not seem to end"},
         {"3 LBL 1\n4 CALL LBL 1\n", "subprograms are nested too deeply"},
-        {"3 L X+10 M77\n", "M77 is not known"},
         {"3 HELLO\n", "p.h:4:3: error: the block 'HELLO' is not known"},
         {"3 PLANE AXIAL B+45\n", "p.h:4:9: error: this way to give a plane is not read"},
         {"3 TOOL CALL 1 Y\n", "a tool along Y is not read"},
-        {"3 TOOL CALL \"MILL\" Z\n", "a tool with a name instead of a number"},
         {"3 BLK FORM 0.2 X+1 Y+1 Z+1\n", "BLK FORM 0.2 without 0.1"},
         {"3 L X+2000000 F100\n", "the coordinate of 2000000 mm is out of range"},
         {"3 L Z-5 M91\n4 L X+5 F100\n", "p.h:5:3: error: the feed move starts at an unknown X, which line 4"},

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Tilted planes and tool tip control: PLANE, CYCL DEF 19, FUNCTION.
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/heidenhain/interpreter.hpp"
+
+namespace tribo::readers::heidenhain {
+namespace {
+
+constexpr int kAnglesParameter = 120;
+
+// A frame turned about the fixed axes: x, then y, then z; degrees.
+motion::WorkFrame spatial_frame(double a, double b, double c) {
+    return motion::WorkFrame{}
+        .turned({0, 0, 1}, c * math::kRadPerDeg)
+        .turned({0, 1, 0}, b * math::kRadPerDeg)
+        .turned({1, 0, 0}, a * math::kRadPerDeg);
+}
+
+}  // namespace
+
+// PLANE SPATIAL, EULER, VECTOR and RELATIV: the plane of the following blocks, with the tool normal to it.
+Result<void> Interpreter::plane(LineReader& in) {
+    const int column = in.column();
+    enum { spatial, euler, vector, relative, reset } kind;
+    if (in.take("SPATIAL")) {
+        kind = spatial;
+    } else if (in.take("EULER")) {
+        kind = euler;
+    } else if (in.take("VECTOR")) {
+        kind = vector;
+    } else if (in.take("RELATIV") || in.take("RELATIVE")) {
+        kind = relative;
+    } else if (in.take("RESET")) {
+        kind = reset;
+    } else {
+        return in.refuse(column, "this way to give a plane is not read",
+                         "write PLANE SPATIAL, EULER, VECTOR or RELATIV");
+    }
+    std::vector<Item> items;
+    if (auto done = all_items(in, items); !done) return done;
+    const auto has = [&](std::string_view name) {
+        return std::any_of(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+    };
+    const auto value = [&](std::string_view name) {
+        for (const Item& item : items) {
+            if (item.name == name) return item.value.value_or(0);
+        }
+        return 0.0;
+    };
+    const auto rad = [&](std::string_view name) { return value(name) * math::kRadPerDeg; };
+    motion::WorkFrame turned;
+    if (kind == spatial) {
+        turned = spatial_frame(value("SPA"), value("SPB"), value("SPC"));
+    } else if (kind == relative) {  // about an axis of the plane in force
+        turned =
+            plane_.turned({1, 0, 0}, rad("SPA")).turned({0, 1, 0}, rad("SPB")).turned({0, 0, 1}, rad("SPC"));
+    } else if (kind == euler) {
+        turned = turned.turned({0, 0, 1}, rad("EULPR"))
+                     .turned({1, 0, 0}, rad("EULNU"))
+                     .turned({0, 0, 1}, rad("EULROT"));
+    } else if (kind == vector) {
+        const Vec3 base{value("BX"), value("BY"), value("BZ")}, normal{value("NX"), value("NY"), value("NZ")};
+        turned.z = normalized(normal);
+        const Vec3 x = base - dot(base, turned.z) * turned.z;
+        if (!(length(normal) > 1e-6) || !(length(x) > 1e-6)) {
+            return in.refuse(column, "the vectors of the plane do not span it", "correct BX BY BZ, NX NY NZ");
+        }
+        turned.x = normalized(x);
+        turned.y = cross(turned.z, turned.x);
+    }
+    return tilt(turned, kind == reset, has("MOVE"), column);
+}
+
+// Makes the plane that of the following blocks. Its frame has no place yet.
+Result<void> Interpreter::tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column) {
+    if (auto done = close_contour(); !done) return done;
+    contour_.leave();
+    if (!plane_.is_tilted()) untilted_shift_mm_ = shift_mm_;
+    turned.origin_mm = resets ? Vec3{} : path_.frame.origin_mm;
+    plane_ = turned;
+    shift_mm_ = resets ? untilted_shift_mm_ : Vec3{};
+    const motion::WorkFrame frame =
+        plane_.shifted(shift_mm_).turned({0, 0, 1}, rotation_deg_ * math::kRadPerDeg);
+    pole_.reset();
+    if (!path_.tilt(frame, keeps_tip, line_.number)) {
+        return path_.refuse(place(column),
+                            "the machine " + path_.machine->machine().name + " cannot turn its tool there",
+                            "name the machine that the program is written for");
+    }
+    // The control sets Q120 to Q122 to the angles of the axes, for a block that turns them.
+    for (int k = 0; k < 3; ++k) {
+        if (path_.machine) {
+            parameters_.set(kAnglesParameter + k, path_.rotary_rad()[k] * math::kDegPerRad);
+        } else {
+            parameters_.set(kAnglesParameter + k, 0);
+        }
+    }
+    return {};
+}
+
+// CYCL DEF 19.1 A+0 B+45 C+0: like PLANE SPATIAL STAY; 19.1 without angles resets.
+Result<void> Interpreter::working_plane(LineReader& in) {
+    const int column = in.column();
+    std::vector<Item> items;
+    if (auto done = all_items(in, items); !done) return done;
+    double angle_deg[3]{};
+    bool turns = false;
+    for (const Item& item : items) {
+        const std::size_t axis = item.name.size() == 1 ? std::string_view("ABC").find(item.name[0]) : 3;
+        if (axis < 3 && item.value) {
+            if (auto good = in.in_range(kLimits.rotary_angle, *item.value, item.column); !good) return good;
+            angle_deg[axis] = *item.value;
+            turns = turns || *item.value != 0;
+        } else if (axis >= 3 && item.name != "F" && item.name != "FMAX" && item.name != "ABST" &&
+                   item.name != "SETUP" && item.name != "DIST" && item.name != "SET" && item.name != "UP") {
+            return in.refuse(item.column, "only A, B and C are read here", "write for example A+0 B+45 C+0");
+        }
+    }
+    return tilt(spatial_frame(angle_deg[0], angle_deg[1], angle_deg[2]), !turns, false, column);
+}
+
+// FUNCTION TCPM ..., FUNCTION RESET TCPM, and functions without effect on the path.
+Result<void> Interpreter::machine_function(LineReader& in) {
+    const int column = in.column();
+    const bool off = in.take("RESET");
+    if (in.take("TCPM")) {
+        if (auto done = close_contour(); !done) return done;
+        contour_.leave();
+        if (!off && !path_.machine) path_.note_machine_needed(line_.number, "tool tip control (TCPM)");
+        path_.switch_tip_control(!off, line_.number);
+        return skip_continuation();
+    }
+    if (off) return pass_over("FUNCTION RESET");
+    if (in.take("MODE")) {
+        if (in.take("MILL")) return {};
+        if (in.take("SET")) return pass_over("FUNCTION MODE SET");
+        return in.refuse(column, "only FUNCTION MODE MILL is read", "turning and grinding are not read");
+    }
+    if (in.take("FEED")) return skip_continuation();
+    if (in.take("DWELL")) {
+        std::vector<Item> items;
+        if (auto done = all_items(in, items); !done) return done;
+        if (auto done = close_contour(); !done) return done;
+        for (const Item& item : items) {
+            if (item.name.starts_with("TIME") && item.value) return path_.dwell(*item.value, place(column));
+            if (item.name == "REV" && item.value && path_.spindle_rpm > 0) {
+                return path_.dwell(60 * *item.value / path_.spindle_rpm, place(column));
+            }
+        }
+        return {};
+    }
+    for (const std::string_view word : {"PARAXCOMP", "PARAXMODE", "POLARKIN", "TURNDATA", "CORRDATA"}) {
+        if (in.take(word)) {
+            return in.refuse(column, "FUNCTION " + std::string(word) + " is not read",
+                             "write the path without it");
+        }
+    }
+    for (const std::string_view word :
+         {"S", "COUNT", "DCM", "AFC", "LIFTOFF", "PROG", "FILE", "REPORT", "DRESS"}) {
+        if (in.take(word)) return pass_over("FUNCTION " + std::string(word));
+    }
+    return in.refuse(column, "this FUNCTION is not read", "write FUNCTION TCPM or FUNCTION RESET TCPM");
+}
+
+}  // namespace tribo::readers::heidenhain

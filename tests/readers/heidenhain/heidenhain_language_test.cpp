@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Conversational programs as posts and people write them: what is passed over and said, names, parameters,
+// the cycles and patterns beyond 200 to 203.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "readers/heidenhain/heidenhain_text.hpp"
+#include "readers/refusals.hpp"
+
+namespace tribo::readers {
+namespace {
+
+TEST(HeidenhainLanguage, PassesOverAndSaysWhatDoesNotMoveTheTool) {
+    const motion::Program program = conversational(after_start(R"(* - operation 1
+3 L X+10 F100 M77 M88
+4 SEL TABLE "TNC:\A.D"
+5 FUNCTION FEED DWELL F5 S1
+6 STOP M5
+7 FN 16: F-PRINT A.A / SCREEN:
+8 CYCLE DEF 32.0 TOLERANCE
+9 CYCL DEF 32.1 T0.01
+/ L X+500
+10 FN 26: TABOPEN A.TAB
+11 L X+20 M77
+)"));
+    ASSERT_EQ(program.moves.size(), 2U);
+    EXPECT_TRUE(warns_of(program, 5, "M77 is passed over"));
+    EXPECT_TRUE(warns_of(program, 5, "M88 is passed over"));
+    EXPECT_TRUE(warns_of(program, 6, "SEL is passed over"));
+    EXPECT_TRUE(warns_of(program, 12, "begin with '/'"));
+    EXPECT_FALSE(warns_of(program, 14, "M77"));
+}
+
+TEST(HeidenhainLanguage, NumbersNamedTools) {
+    const motion::Program program = conversational(after_start(R"(3 QS1 = "CUT" || "TER"
+4 TOOL CALL "MILL ; 10" Z S1000 F300 DR2+0.1
+5 L X+10 M3
+6 TOOL CALL QS1 S500
+7 L X+20
+8 TOOL CALL "MILL ; 10"
+9 L X+30
+10 TOOL CALL 3.1 Z
+)"));
+    ASSERT_EQ(program.moves.size(), 3U);
+    EXPECT_EQ(program.moves[0].tool, 2);
+    EXPECT_EQ(program.moves[1].tool, 4);
+    EXPECT_EQ(program.moves[1].spindle_rpm, 500);
+    EXPECT_EQ(program.moves[2].tool, 2);
+    EXPECT_TRUE(warns_of(program, 5, "the tool \"MILL ; 10\" counts as tool 2"));
+    EXPECT_TRUE(warns_of(program, 7, "the tool \"CUTTER\" counts as tool 4"));
+}
+
+TEST(HeidenhainLanguage, TakesToolsFromTheListInTheHeader) {
+    const motion::Program program = conversational(
+        "0 BEGIN PGM P MM\n1 ; Tools\n2 ;  #3 D=10 CR=0.5 - ZMIN=-4.5 - flat end mill\n3 TOOL CALL 3 Z "
+        "S100\n");
+    ASSERT_EQ(program.tools.size(), 1U);
+    EXPECT_EQ(program.tools[0].number, 3);
+    EXPECT_EQ(program.tools[0].diameter_mm, 10);
+    EXPECT_EQ(program.tools[0].corner_mm, 0.5);
+}
+
+TEST(HeidenhainLanguage, KeepsLocalAndRemanentParametersApart) {
+    const motion::Program program = conversational(after_start(
+        "Q1 = 1\nQL1 = Q1 + 10\nQR1 = QL1 + 100\nL X+QL1 Y+QR1 Z + Q1 FQL1\nQS2 = \"UP\"\nCALL LBL QS2\n"
+        "M30\nLBL \"UP\"\nL IZ+1\nLBL 0\n"));
+    ASSERT_EQ(program.moves.size(), 2U);
+    expect_near(program.moves[0].end.tip_mm, {11, 111, 1});
+    EXPECT_EQ(program.moves[0].feed_mm_per_min, 11);
+    expect_near(program.moves[1].end.tip_mm, {11, 111, 2});
+}
+
+TEST(HeidenhainLanguage, ReadsOfTheSystemWhatTheProgramHasSet) {
+    const motion::Program program = conversational(
+        after_start("L X+4 F100\nFN18: SYSREAD Q1 = ID270 NR1 IDX1\nL Y+Q1\nFN 18: SYSREAD Q2 = ID20 NR4\n"
+                    "L X+Q2\nFN 18: SYSREAD Q3 = ID230 NR2\n"));
+    ASSERT_EQ(program.moves.size(), 3U);
+    expect_near(program.moves[1].end.tip_mm, {4, 4, 10});
+    expect_near(program.moves[2].end.tip_mm, {2000, 4, 10});
+    EXPECT_TRUE(warns_of(program, 9, "Q3 has no value"));
+}
+
+TEST(HeidenhainLanguage, LeavesOutProgramsThatAreNotAtHand) {
+    const motion::Program program =
+        conversational(after_start("CALL PGM TNC:\\HOME.H\nL X+5 Y+5 FMAX\nL Z+5 FMAX\nL X+9 F100\n"));
+    ASSERT_EQ(program.moves.size(), 1U);
+    expect_near(program.moves[0].start.tip_mm, {5, 5, 5});
+    EXPECT_TRUE(warns_of(program, 4, "TNC:\\HOME.H is not at hand"));
+}
+
+TEST(HeidenhainLanguage, CountsFeedsPerTurn) {
+    const motion::Program program = conversational(
+        after_start("L X+5 FU0.1\nL X+9 F100\nL X+12 F0.2 M136\nL X+15 F0.2\nL X+20 F300 M137\n"
+                    "L X+30 F300\n"));
+    ASSERT_EQ(program.moves.size(), 6U);
+    EXPECT_NEAR(program.moves[0].feed_mm_per_min, 200, 1e-9);
+    EXPECT_NEAR(program.moves[3].feed_mm_per_min, 400, 1e-9);
+    EXPECT_NEAR(program.moves[5].feed_mm_per_min, 300, 1e-9);
+}
+
+TEST(HeidenhainLanguage, RetractsAlongTheTool) {
+    const motion::Program program =
+        conversational(after_start("L Z-5 F100\nL M140 MB 20 FMAX\nM140 MB MAX\nL Z+3 FMAX\nL X+5\n"));
+    ASSERT_EQ(program.moves.size(), 3U);
+    expect_near(program.moves[1].end.tip_mm, {0, 0, 15});
+    EXPECT_EQ(program.moves[1].kind, motion::MoveKind::rapid);
+    // After MB MAX X and Y stand, Z is stated again.
+    expect_near(program.moves[2].start.tip_mm, {0, 0, 3});
+}
+
+TEST(HeidenhainLanguage, DrillsInPatterns) {
+    const std::string cycle =
+        "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=150 Q202=5 Q210=0 Q203=0 Q204=20 Q211=0\n";
+    const struct {
+        const char* pattern;
+        std::vector<Vec3> holes;  // bottoms
+    } cases[] = {
+        {"PATTERN DEF ~\nPOS1 (X+10 Y+20 Z+0) ~\nPOS2 ( X+30 Y+40 Z-1 )\nCYCL CALL PAT FMAX M3\n",
+         {{10, 20, -5}, {30, 40, -6}}},
+        {"PATTERN DEF ROW1 (X+10 Y+0 D+5 NUM3 ROT+90 Z+0)\nCYCL CALL PAT\n",
+         {{10, 0, -5}, {10, 5, -5}, {10, 10, -5}}},
+        {"PATTERN DEF PAT1 (X+1 Y+2 DX+10 DY+20 NUMX2 NUMY2 ROT+0 ROTX+0 ROTY+0 Z+0)\nCYCL CALL PAT\n",
+         {{1, 2, -5}, {11, 2, -5}, {11, 22, -5}, {1, 22, -5}}},
+        {"PATTERN DEF FRAME1 (X+0 Y+0 DX+10 DY+10 NUMX3 NUMY3 ROT+0 Z+0)\nCYCL CALL PAT\n",
+         {{0, 0, -5},
+          {10, 0, -5},
+          {20, 0, -5},
+          {20, 10, -5},
+          {0, 10, -5},
+          {0, 20, -5},
+          {10, 20, -5},
+          {20, 20, -5}}},
+        {"PATTERN DEF CIRC1 (X+50 Y+0 D+20 START+0 NUM4 Z+0)\nCYCL CALL PAT\n",
+         {{60, 0, -5}, {50, 10, -5}, {40, 0, -5}, {50, -10, -5}}},
+        {"PATTERN DEF PITCHCIRC1 (X+0 Y+0 D+20 START+90 STEP-90 NUM2 Z+0)\nCYCL CALL PAT\n",
+         {{0, 10, -5}, {10, 0, -5}}},
+        {"CYCL DEF 220 PATTERN ~\nQ216=+50 ~\nQ217=+0 ~\nQ244=20 ~\nQ245=+0 ~\nQ246=+360 ~\nQ247=0 ~\nQ241=4 "
+         "~\nQ200=2 ~\nQ203=+1 ~\nQ204=20 ~\nQ301=1\n",
+         {{60, 0, -4}, {50, 10, -4}, {40, 0, -4}, {50, -10, -4}}},
+        {"CYCL DEF 221 PATTERN ~\nQ225=+1 ~\nQ226=+2 ~\nQ237=10 ~\nQ238=20 ~\nQ242=2 ~\nQ243=2 ~\nQ224=0\n",
+         {{1, 2, -5}, {11, 2, -5}, {11, 22, -5}, {1, 22, -5}}},
+    };
+    for (const auto& c : cases) {
+        const motion::Program program = conversational(after_start(cycle + c.pattern));
+        std::vector<Vec3> holes;
+        for (const motion::Move& move : program.moves) {
+            if (move.kind == motion::MoveKind::feed) holes.push_back(move.end.tip_mm);
+        }
+        ASSERT_EQ(holes.size(), c.holes.size()) << c.pattern;
+        for (std::size_t k = 0; k < holes.size(); ++k) expect_near(holes[k], c.holes[k], 1e-9);
+        EXPECT_EQ(program.moves.back().end.tip_mm.z, c.holes.back().z + 25) << c.pattern;
+    }
+}
+
+TEST(HeidenhainLanguage, PecksDeepAndTapsAndCentres) {
+    const motion::Program deep = conversational(after_start(
+        "CYCL DEF 205 UNIVERSAL PECKING ~\nQ200=2 ~\nQ201=-10 ~\nQ206=150 ~\nQ202=6 ~\nQ203=+0 ~\nQ204=2 ~\n"
+        "Q212=0 ~\nQ205=0 ~\nQ258=0.5 ~\nQ259=0.5 ~\nQ257=4 ~\nQ256=0.2 ~\nQ211=0 ~\nQ379=0 ~\nQ253=750\n"
+        "L M99\n"));
+    EXPECT_EQ(heights(deep), (std::vector<double>{2, -4, -3.8, -6, 2, -5.5, -10, 2}));
+
+    const motion::Program tapped = conversational(after_start(
+        "CYCL DEF 207 RIGID TAPPING ~\nQ200=3 ~\nQ201=-10 ~\nQ239=+1.5 ~\nQ203=+0 ~\nQ204=20\nCYCL CALL\n"));
+    EXPECT_EQ(heights(tapped), (std::vector<double>{3, -10, 3, 20}));
+    EXPECT_EQ(tapped.moves[1].feed_mm_per_min, 3000);
+    EXPECT_EQ(tapped.moves[2].feed_mm_per_min, 3000);
+
+    const motion::Program centred =
+        conversational(after_start("CYCL DEF 240 CENTERING ~\nQ200=2 ~\nQ343=1 ~\nQ201=-2 ~\nQ344=-6 "
+                                   "~\nQ206=150 ~\nQ211=0 ~\nQ203=+0 ~\n"
+                                   "Q204=2\nCYCL CALL\n"));
+    EXPECT_NEAR(centred.moves[1].end.tip_mm.z, -3, 1e-12);  // a cone of 90 degrees, 6 mm wide
+    EXPECT_TRUE(warns_of(centred, 4, "a point of 90 degrees is taken"));
+
+    const motion::Program lip = conversational(after_start(
+        "CYCL DEF 241 SINGLE-LIP D.H.DRLNG Q200=2 Q201=-50 Q206=100 Q211=0 Q203=0 Q204=5 Q379=10 Q253=700 "
+        "Q208=900\nCYCL CALL\n"));
+    EXPECT_EQ(heights(lip), (std::vector<double>{2, -10, -50, 2, 5}));
+    EXPECT_EQ(lip.moves[1].feed_mm_per_min, 700);
+    EXPECT_EQ(lip.moves[3].feed_mm_per_min, 900);
+}
+
+TEST(HeidenhainLanguage, RunsTheCyclesOfOldControls) {
+    const motion::Program pecked = conversational(after_start(
+        "CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP 10\nCYCL DEF 1.2 DEPTH-8\nCYCL DEF 1.3 PECKG5\n"
+        "CYCL DEF 1.4 V.ZEIT 0.5\nCYCL DEF 1.5 F671\nL X+5 FMAX M99\n"));
+    // From 10 above the surface: 5, back to 0.6 above it, 8, and out.
+    EXPECT_EQ(heights(pecked), (std::vector<double>{10, -5, 10, -4.4, -8, 10}));
+    EXPECT_EQ(pecked.moves[1].feed_mm_per_min, 671);
+
+    const motion::Program tapped = conversational(after_start(
+        "CYCL DEF 17.0 RIGID TAPPING\nCYCL DEF 17.1 SET UP 10\nCYCL DEF 17.2 DEPTH-8\nCYCL DEF 17.3 PITCH+1\n"
+        "CYCL CALL\n"));
+    EXPECT_EQ(heights(tapped), (std::vector<double>{-8, 10}));
+    EXPECT_EQ(tapped.moves[1].feed_mm_per_min, 2000);
+}
+
+TEST(HeidenhainLanguage, MillsABoreAlongAHelix) {
+    const motion::Program program = conversational(
+        "0 BEGIN PGM P MM\n1 TOOL DEF 1 L+0 R+5\n2 TOOL CALL 1 Z S2000 F500\n3 L X+0 Y+0 Z+2 FMAX M3\n"
+        "4 CYCL DEF 208 BORE MILLING ~\nQ200=2 ~\nQ201=-8 ~\nQ206=150 ~\nQ334=4 ~\nQ203=+0 ~\nQ204=50 ~\n"
+        "Q335=30 ~\nQ342=0 ~\nQ351=1\n5 CYCL CALL\n");
+    // Half a circle of radius 5 to the orbit of radius 10, two and a half turns over 10 mm, a full circle,
+    // back.
+    ASSERT_EQ(program.moves.size(), 6U);
+    EXPECT_NEAR(length_of(program, 0), 5 * kPi, 1e-9);
+    EXPECT_NEAR(length_of(program, 1), std::hypot(2.5 * 20 * kPi, 10), 1e-9);
+    EXPECT_NEAR(length_of(program, 2), 20 * kPi, 1e-9);
+    expect_near(program.moves[2].end.tip_mm, {-10, 0, -8}, 1e-9);
+    EXPECT_NEAR(length_of(program, 3), 10, 1e-9);
+    expect_near(program.moves[5].end.tip_mm, {0, 0, 50}, 1e-9);
+}
+
+TEST(HeidenhainLanguage, TiltsWithCycle19) {
+    const motion::Program program = conversational(after_start(R"(3 CYCL DEF 19.0 WORKING PLANE
+4 CYCL DEF 19.1 A+0 B+90 C+0 F2000
+5 L B+Q121 C+Q122 R0 FMAX
+6 L X+0 Y+0 Z+20 R0 FMAX
+7 L Z+1 F100
+8 CYCL DEF 19.0 WORKING PLANE
+9 CYCL DEF 19.1 A+0 B+0 C+0
+)"));
+    ASSERT_EQ(program.moves.size(), 1U);
+    expect_near(program.moves[0].start.tip_mm, {20, 0, 0}, 1e-12);
+    expect_near(program.moves[0].end.axis, {1, 0, 0}, 1e-12);
+}
+
+TEST(HeidenhainLanguage, TurnsAPlaneFromTheOneInForce) {
+    const motion::Program program = conversational(
+        after_start("PLANE SPATIAL SPA+0 SPB+60 SPC+0 STAY\nPLANE RELATIV SPB+30 STAY\nL X+0 Y+0 Z+20 FMAX\n"
+                    "PLANE RELATIV SPB+0 TURN FMAX\nL Z+1 F100\n"));
+    ASSERT_EQ(program.moves.size(), 1U);  // a plane that does not turn keeps the place
+    expect_near(program.moves[0].start.tip_mm, {20, 0, 0}, 1e-12);
+    expect_near(program.moves[0].end.axis, {1, 0, 0}, 1e-12);
+}
+
+TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
+    const std::string drilling = "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=150 Q202=5 Q203=0\n";
+    const Refusal refusals[] = {
+        {after_start("L X+Q150 F100\nTCH PROBE 0.0 X\nL X+Q150\n"), 6, 4, "Q150 holds a value that only"},
+        {after_start("TOOL CALL QS7 Z\n"), 4, 11, "the text QS7 is not known"},
+        {after_start("FL X+5 F100\n"), 4, 1, "FL is not read"},
+        {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=1 Q203=0 Q335=9\nCYCL CALL\n"), 4, 1,
+         "cycle 208 needs the radius of tool 1"},
+        {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=0 Q203=0 Q335=9\n"), 4, 1,
+         "Q334 or Q335 is out of range"},
+        {after_start("CYCL DEF 240 SPOT Q200=2 Q343=1 Q344=0 Q206=90 Q203=0\n"), 4, 1, "Q344 is zero"},
+        {after_start("TOOL CALL 1 S0\nCYCL DEF 207 TAP Q200=2 Q201=-5 Q239=1 Q203=0\nCYCL CALL\n"), 5, 1,
+         "a thread without a speed"},
+        {after_start("CYCL DEF 200 DRILL Q200=PREDEF Q201=-5 Q206=90 Q203=0\n"), 4, 20,
+         "no GLOBAL DEF gives it"},
+        {after_start("CYCL DEF 1.0 PECKING\nCYCL CALL\n"), 4, 1, "cycle 1 lacks its depth or feed"},
+        {after_start("CYCL DEF 1.2 DEPTH-5\n"), 4, 14, "has no place or no value"},
+        {after_start(drilling + "CYCL CALL PAT\n"), 5, 11, "CYCL CALL PAT without a pattern"},
+        {after_start("PATTERN DEF POS1 (X+5 Y+5)\nCYCL CALL PAT\n"), 5, 11, "a pattern without a cycle"},
+        {after_start("PATTERN DEF STAR1 (X+5 Y+5)\n"), 4, 27, "the pattern 'STAR' is not known"},
+        {after_start("PATTERN DEF ROW1 (X+5 Y+5 D5 NUM0)\n"), 4, 34, "no points, or more than 10000"},
+        {after_start("PATTERN DEF POS1 (X+5 Y+5\n"), 4, 1, "a pattern has no ')'"},
+        {after_start("FUNCTION MODE TURN\n"), 4, 10, "only FUNCTION MODE MILL is read"},
+        {after_start("FUNCTION PARAXMODE X Y W\n"), 4, 10, "FUNCTION PARAXMODE is not read"},
+        {after_start("L X+5 FZ0.1\n"), 4, 7, "FZ without a speed, or without the number of teeth"},
+        {after_start("CC Z+5\n"), 4, 4, "a pole needs two axes"},
+    };
+    expect_refused(refusals, [](const std::string& text, const std::string& name) {
+        GcodeOptions options;
+        options.source_name = name;
+        return read_heidenhain(text, options);
+    });
+}
+
+}  // namespace
+}  // namespace tribo::readers
