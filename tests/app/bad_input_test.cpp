@@ -115,7 +115,7 @@ const BadInput kCases[] = {
     {"apt_is_empty", [](Parts& p) { p.path = kApt, p.apt = ""; }, "p.apt"},
     {"apt_number_is_text", [](Parts& p) { p.path = kApt, p.apt = "UNITS/MM\nFEDRAT/5\nGOTO/0,0,zero\n"; },
      "p.apt:3:"},
-    {"apt_word_is_unknown", [](Parts& p) { p.path = kApt, p.apt = "UNITS/MM\nSPINN/5\n"; }, "p.apt:2"},
+    {"apt_line_is_junk", [](Parts& p) { p.path = kApt, p.apt = "UNITS/MM\nN10 G1 X5\n"; }, "p.apt:2"},
     // Models.
     {"model_is_empty", [](Parts& p) { p.stock = stock_from("m.stl"); }, "m.stl: error: the file is empty"},
     {"model_is_not_one", [](Parts& p) { p.stock = stock_from("m.stl"), p.model = "dear diary"; }, "m.stl"},
