@@ -245,7 +245,7 @@ Result<std::optional<Item>> LineReader::item() {
     while (is_word(peek())) ++at_;
     // FQ5 and FQL5: the parameter is the value, not a part of the word.
     if (is_digit(peek())) {
-        for (const std::size_t size : {1, 2}) {
+        for (const std::size_t size : {std::size_t{1}, std::size_t{2}}) {
             if (at_ - start > size && to_upper(line_.text[at_ - size]) == 'Q' &&
                 (size == 1 || to_upper(line_.text[at_ - 1]) == 'L' || to_upper(line_.text[at_ - 1]) == 'R')) {
                 at_ -= size;
