@@ -64,6 +64,7 @@ class ProgramReader {
         const auto found = lexer_.next(block);
         if (!found) return std::unexpected(found.error());
         if (!*found) {
+            is_over_ = true;
             if (auto done = flow_.end_text(block.line); !done) return std::unexpected(done.error());
             return false;
         }

@@ -333,6 +333,12 @@ TEST(GcodeReader, GivesAllRefusalsAtOnce) {
         EXPECT_FALSE(refusals[i].remedy.empty());
     }
 
+    // A text that ends inside a subprogram ends the reading too.
+    refusals.clear();
+    EXPECT_FALSE(read_gcode("G21\nM98 P7\nM30\nO7\nG12 I5\n", options).has_value());
+    ASSERT_EQ(refusals.size(), 2U);
+    EXPECT_NE(refusals[1].text().find("the text ends before M99"), std::string::npos) << refusals[1].text();
+
     // No more than are worth reading; a program without refusals leaves none.
     refusals.clear();
     std::string many = "G21\n";
