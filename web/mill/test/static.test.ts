@@ -418,7 +418,7 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
       await told("p.nc: error: the file is not here", file("job.toml", JOB));
       await told("bad.nc:2:", file("bad.nc", "G21 G90\nG1 X[1/0] F100\n"));
       await told("a model alone says no path", file("a.stl", ""), file("b.stl", ""));
-      await told("this is no job and no program", file("letter.doc", "Dear all,\n"));
+      await told("is neither a job nor a program", file("letter.doc", "Dear all,\n"));
       const big = join(folder, "big.nc");
       writeFileSync(big, "");
       truncateSync(big, 100e6);

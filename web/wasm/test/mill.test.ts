@@ -269,6 +269,6 @@ test("wrong files are refused with their place", async () => {
   refused("a.toml", "[stok]\n", /^a\.toml:1:2: error: unknown key 'stok'.*\[?stock/);
   refused("a.nc", "G1 X[\n", /^a\.nc:1:/);
   refused("a.csv", "x,y,z,i,j,k\n1,2,3\n", /^a\.csv:2:/);
-  refused("a.bin", "\0\0\0", /no job and no program/);
+  refused("a.bin", "\0\0\0", /neither a job nor a program/);
   refused("a.apt", "GOTO/1,2\n", /^a\.apt:1:/);
 });
