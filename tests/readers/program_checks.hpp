@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 #include <string_view>
 
+#include "base/math.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::readers {
+
+using math::kPi;
 
 inline double feed_mm(const motion::Program& program) {
     double sum = 0;

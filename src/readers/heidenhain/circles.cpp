@@ -69,6 +69,13 @@ Result<void> Interpreter::find_plane(Vec3 to, int column) {
     return {};
 }
 
+// True if start, end and pole share X or Y.
+bool Interpreter::lies_flat(Vec3 to) const {
+    const Vec3 from = here() - *pole_, end = to - *pole_;
+    return (std::abs(from.x) < kFlatMm && std::abs(end.x) < kFlatMm) ||
+           (std::abs(from.y) < kFlatMm && std::abs(end.y) < kFlatMm);
+}
+
 Result<void> Interpreter::circle(LineReader& in) {
     const auto words = read_words(in, "C");
     if (!words) return std::unexpected(words.error());
@@ -84,12 +91,25 @@ Result<void> Interpreter::circle(LineReader& in) {
     if (math::hypot(from[axes[0]], from[axes[1]]) < kFlatMm) pole_has_plane_ = false;
     if (auto done = find_plane(*to, words->first_column); !done) return done;
     if (auto done = refuse_uneven_scale(words->first_column); !done) return done;
-    gcode::ArcEnds ends;
-    ends.plane = pole_plane_;
-    ends.clockwise = turning(words->direction, pole_plane_) < 0;
-    ends.start_mm = here();
-    ends.end_mm = *to;
-    const auto arc = gcode::arc_about_centre(ends, *pole_, unit_mm_);
+    const auto about_pole = [&] {
+        gcode::ArcEnds ends;
+        ends.plane = pole_plane_;
+        ends.clockwise = turning(words->direction, pole_plane_) < 0;
+        ends.start_mm = here();
+        ends.end_mm = *to;
+        return gcode::arc_about_centre(ends, *pole_, unit_mm_);
+    };
+    auto arc = about_pole();
+    const bool rises = words->axis[2] || words->increment[2];
+    if (!arc && pole_plane_ == gcode::Plane::xy && rises && lies_flat(*to)) {
+        // NX writes CC X Y also for circles on X Y, about the Z of the CC before.
+        pole_has_plane_ = false;
+        if (auto done = find_plane(*to, words->first_column); !done) return done;
+        if (path_.first(kPoleOfBefore)) {
+            path_.warn(line_.number, "the circle fits only about the Z of an earlier CC: it is taken so");
+        }
+        arc = about_pole();
+    }
     if (!arc)
         return in.refuse(words->first_column, arc.error().cause, "correct the end, or the centre in CC");
     return travel(*words, *to, *arc, path_.rotary_rad());

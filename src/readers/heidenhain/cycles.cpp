@@ -49,6 +49,17 @@ Line from_first_parameter(Line line, std::size_t at) {
     return line;
 }
 
+// True for a line of a cycle that some posts write without '~' on the line before: Q206=150 alone, without a
+// block number.
+bool is_parameter_line(std::string_view text) {
+    text = trimmed(text);
+    std::size_t digits = 1;
+    while (digits < text.size() && is_digit(text[digits])) ++digits;
+    while (digits < text.size() && is_blank(text[digits])) ++digits;
+    return text.size() > 4 && to_upper(text[0]) == 'Q' && (text[1] == '2' || text[1] == '3') &&
+           is_digit(text[2]) && is_digit(text[3]) && digits < text.size() && text[digits] == '=';
+}
+
 template <std::size_t n>
 bool contains(const std::array<int, n>& list, int q) {
     return std::find(list.begin(), list.end(), q) != list.end();
@@ -125,8 +136,15 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
 Result<void> Interpreter::read_parameters(LineReader& in, Cycle& cycle) {
     std::vector<Item> items;
     const Line rest = from_first_parameter(line_, static_cast<std::size_t>(in.column() - line_.column));
+    const bool is_list = line_.goes_on;
     LineReader parameters(rest, source_name_, parameters_);
     if (auto done = all_items(parameters, items); !done) return done;
+    while (is_list && at_ + 1 < lines_.size() && is_parameter_line(lines_[at_ + 1])) {
+        ++at_;
+        if (auto taken = take_line(); !taken) return taken;
+        LineReader next(line_, source_name_, parameters_);
+        if (auto done = all_items(next, items); !done) return done;
+    }
     for (const Item& item : items) {
         const int q = item.parameter;
         if (q < 0) continue;

@@ -38,6 +38,7 @@ enum Note {
     kNoRadius,
     kSpotAngle,
     kCirclePlane,
+    kPoleOfBefore,
 };
 
 // The cycle in force: its number, and its parameters by Q number. The old cycles 1, 2 and 17 keep their
@@ -119,6 +120,7 @@ class Interpreter {
     Result<void> refuse_uneven_scale(int column) const;
     int turning(int direction, gcode::Plane plane) const;
     Result<void> find_plane(Vec3 to, int column);
+    bool lies_flat(Vec3 to) const;
     Result<void> travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
     Result<bool> add_to_contour(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc,
                                 bool turns);

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "readers/apt/reader.hpp"
-#include "readers/program_checks.hpp"
+#include "readers/apt/apt_text.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -14,21 +13,10 @@ using motion::Move;
 using motion::MoveKind;
 using motion::Program;
 
-constexpr double kPi = 3.14159265358979323846;
-
-Program program_of(const std::string& text) {
-    const auto program = read_apt("UNITS/MM\nFEDRAT/100\n" + text);
-    if (!program) {
-        ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
-        return {};
-    }
-    return *program;
-}
-
 // The only move's arc: its turn, its middle and its length are those of the closed form.
 void expect_arc(const std::string& text, Vec3 middle, double length_mm) {
     SCOPED_TRACE(text);
-    const Program program = program_of(text);
+    const Program program = apt_in_mm(text);
     ASSERT_EQ(program.moves.size(), 1U);
     const Move& move = program.moves[0];
     EXPECT_EQ(move.kind, MoveKind::feed);
@@ -81,7 +69,7 @@ TEST(AptMotion, CirclesOfCatiaStartAlongTheirDirection) {
 
 TEST(AptMotion, PointsAlongACircleBelongToIt) {
     // Two quarter turns written as points, then a straight cut to the centre.
-    const Program program = program_of(
+    const Program program = apt_in_mm(
         "FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0\nGOTO/0,10,0\nGOTO/-10,0,0\nGOTO/0,0,0\nGOTO/"
         "10,0,0\n");
     ASSERT_EQ(program.moves.size(), 4U);
@@ -91,26 +79,26 @@ TEST(AptMotion, PointsAlongACircleBelongToIt) {
     EXPECT_TRUE(program.warnings.empty());
     // Another statement ends the circle.
     const Program chord =
-        program_of("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nFEDRAT/50\nGOTO/-10,0,0\n");
+        apt_in_mm("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\nFEDRAT/50\nGOTO/-10,0,0\n");
     EXPECT_NEAR(feed_mm(chord), 5 * kPi + 10 * std::sqrt(2.0), 1e-9);
 }
 
 TEST(AptMotion, ACircleThatEndsWhereItStartsIsAFullTurn) {
     for (const char* after : {"", "FEDRAT/50\n", "GOTO/20,0,0\n"}) {
         const Program program =
-            program_of("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0\n" + std::string(after));
+            apt_in_mm("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\nGOTO/10,0,0\n" + std::string(after));
         ASSERT_GE(program.moves.size(), 1U);
         EXPECT_NEAR(path_length_mm(program.moves[0]), 20 * kPi, 1e-9);
         EXPECT_EQ(program.moves[0].line, 5);
         EXPECT_TRUE(warns_of(program, 5, "full turn"));
     }
-    EXPECT_TRUE(warns_of(program_of("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\n"), 4, "without a point"));
+    EXPECT_TRUE(warns_of(apt_in_mm("FROM/10,0,0\nCIRCLE/0,0,0,0,0,1,10\n"), 4, "without a point"));
 }
 
 // The heights of the moves' ends over the hole, rapid ones with an r.
 std::string heights(const std::string& cycle) {
     const Program program =
-        program_of("SPINDL/1000\nFROM/0,0,50\n" + cycle + "\nGOTO/0,0,0\nCYCLE/OFF\nGOTO/0,0,9\n");
+        apt_in_mm("SPINDL/1000\nFROM/0,0,50\n" + cycle + "\nGOTO/0,0,0\nCYCLE/OFF\nGOTO/0,0,9\n");
     std::string text;
     for (const Move& move : program.moves) {
         const long rounded = std::lround(move.end.tip_mm.z * 1000);
@@ -141,7 +129,7 @@ TEST(AptMotion, CyclesDrillAtEachPointUntilTheyAreOff) {
 }
 
 TEST(AptMotion, CyclesGoOnAtOtherPointsAndTiltedAxes) {
-    const Program program = program_of(
+    const Program program = apt_in_mm(
         "SPINDL/1000\nFROM/0,0,50\nCYCLE/INIT\nCYCLE/TAP,FEDTO,5,MMPR,1.25,RAPTO,2\nGOTO/0,0,0\nCYCLE/OFF\n"
         "GOTO/0,0,50\nCYCLE/ON\nRAPID\nGOTO/20,0,0,1,0,0\n");
     ASSERT_EQ(program.moves.size(), 7U);
@@ -153,7 +141,7 @@ TEST(AptMotion, CyclesGoOnAtOtherPointsAndTiltedAxes) {
 }
 
 TEST(AptMotion, IncrementsHomesAndRetractions) {
-    const Program program = program_of(
+    const Program program = apt_in_mm(
         "FROM/0,0,0\nGODLTA/1,2,3\nTLAXIS/0,0.6,0.8\nGOTO/1,2,3\nGODLTA/-10\nRAPID\nGODLTA/0,0,1\nCLEARP/"
         "XYPLAN,"
         "20\nRETRCT\nRETRCT\nGOHOME/0,0,99,0,0,1\nGOHOME\nGOTO/5,5,5\nGOTO/6,5,5\n");
@@ -171,7 +159,7 @@ TEST(AptMotion, IncrementsHomesAndRetractions) {
 
 TEST(AptMotion, FramesLeadPointsToThatOfTheProgram) {
     // NX: the second system stands on its side, 100 mm to the right of the first.
-    const Program nx = program_of(
+    const Program nx = apt_in_mm(
         "MSYS/10,0,0,1,0,0,0,1,0\nFROM/0,0,0\nGOTO/1,2,3\nMSYS/110,0,0,0,1,0,0,0,1\nGOTO/1,2,3\nGODLTA/"
         "1,0,0\n"
         "CIRCLE/0,2,3,0,0,1,2\nGOTO/0,4,3\n");
@@ -186,15 +174,15 @@ TEST(AptMotion, FramesLeadPointsToThatOfTheProgram) {
     EXPECT_EQ(nx.warnings.size(), 1U);
 
     const std::string tilted = "CSYS/0,-0.8,-0.6,10,1,0,0,0,0,-0.6,0.8,0\nFROM/0,0,0\nGOTO/0,0,5\n";
-    const Program world = program_of("TRNTYP/WORLD,0,0,0\n" + tilted);
+    const Program world = apt_in_mm("TRNTYP/WORLD,0,0,0\n" + tilted);
     expect_near(world.moves.at(0).end.tip_mm, {0, 0, 5});
     EXPECT_TRUE(world.warnings.empty());
-    const Program local = program_of("TRNTYP/LOCAL\n" + tilted);
+    const Program local = apt_in_mm("TRNTYP/LOCAL\n" + tilted);
     expect_near(local.moves.at(0).end.tip_mm, {7, 0, 4}, 1e-9);
     expect_near(local.moves.at(0).end.axis, {-0.6, 0, 0.8}, 1e-9);
     EXPECT_TRUE(warns_of(local, 3, "TRNTYP/LOCAL"));
 
-    const Program moved = program_of("ORIGIN/1,1,1\nTRANS/0,0,5\nFROM/0,0,0\nTRANS/0,0,0\nGOTO/1,0,0\n");
+    const Program moved = apt_in_mm("ORIGIN/1,1,1\nTRANS/0,0,5\nFROM/0,0,0\nTRANS/0,0,0\nGOTO/1,0,0\n");
     expect_near(moved.moves.at(0).start.tip_mm, {0, 0, 5});
     expect_near(moved.moves.at(0).end.tip_mm, {1, 0, 0});
     EXPECT_TRUE(warns_of(moved, 3, "ORIGIN"));
@@ -202,7 +190,7 @@ TEST(AptMotion, FramesLeadPointsToThatOfTheProgram) {
 }
 
 TEST(AptMotion, ToolsAndSpeedsInTheSpellingsOfVendors) {
-    const Program program = program_of(
+    const Program program = apt_in_mm(
         "TOOL PATH/CAVITY,TOOL,MILL_D10\nTLDATA/MILL,10.0,2.0,75.0,0,0\nPAINT/PATH\nLOAD/TOOL,1\n"
         "SPINDL/SMM,314.15926535897932,CLW,RANGE,2\nFEDRAT/INVERS,AUTO\nTPRINT/T1 End Mill D 10 "
         "$$\nRAPID/MMPM,9000\n"

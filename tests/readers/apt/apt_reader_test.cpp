@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "motion/path/summary.hpp"
-#include "readers/apt/reader.hpp"
-#include "readers/program_checks.hpp"
+#include "readers/apt/apt_text.hpp"
 #include "readers/real_files.hpp"
-#include "readers/refusals.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers {
@@ -19,38 +17,29 @@ using motion::Move;
 using motion::MoveKind;
 using motion::Program;
 
-Program program_of(std::string_view text, const AptOptions& options = {}) {
-    const auto program = read_apt(text, options);
-    if (!program) {
-        ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
-        return {};
-    }
-    return *program;
-}
-
 TEST(AptReader, ReadsAFiveAxisProgram) {
-    const Program program = program_of(
-        "PARTNO  wheel, $ and more\n"
-        "$$ a comment\n"
-        "MACHIN/PWORKS,0\n"
-        "UNITS/MM\n"
-        "MULTAX/ON\n"
-        "LOADTL/4,LENGTH,80\n"
-        "CUTTER/16,2,6,2,0,0,40\n"
-        "SPINDL/RPM,9000,CLW\n"
-        "COOLNT/ON\n"
-        "RAPID\n"
-        "GOTO/0,0,50,0,0,1\n"
-        "RAPID\n"
-        "GOTO/0,0,10\n"
-        "FEDRAT/250,MMPM\n"
-        "GOTO  /   0.0, 0.0, .5, 0., 0.6, 0.8\n"
-        "goto/ 10., $ the rest follows\n"
-        "      0, -1.5E-1\n"
-        "GOTO/10,0,-.15,0,.6,.8\n"
-        "DELAY/2\n"
-        "SPINDL/OFF\n"
-        "FINI\n");
+    const Program program =
+        apt("PARTNO  wheel, $ and more\n"
+            "$$ a comment\n"
+            "MACHIN/PWORKS,0\n"
+            "UNITS/MM\n"
+            "MULTAX/ON\n"
+            "LOADTL/4,LENGTH,80\n"
+            "CUTTER/16,2,6,2,0,0,40\n"
+            "SPINDL/RPM,9000,CLW\n"
+            "COOLNT/ON\n"
+            "RAPID\n"
+            "GOTO/0,0,50,0,0,1\n"
+            "RAPID\n"
+            "GOTO/0,0,10\n"
+            "FEDRAT/250,MMPM\n"
+            "GOTO  /   0.0, 0.0, .5, 0., 0.6, 0.8\n"
+            "goto/ 10., $ the rest follows\n"
+            "      0, -1.5E-1\n"
+            "GOTO/10,0,-.15,0,.6,.8\n"
+            "DELAY/2\n"
+            "SPINDL/OFF\n"
+            "FINI\n");
     ASSERT_EQ(program.moves.size(), 4U);
     const Move& approach = program.moves[0];
     EXPECT_EQ(approach.kind, MoveKind::rapid);
@@ -89,8 +78,8 @@ TEST(AptReader, ConvertsFeedsByTheirUnit) {
         {"FEDRAT/0.2,MMPR", 200}, {"FEDRAT/0.01,PERREV", 254},
     };
     for (const Case& c : cases) {
-        const Program program = program_of(std::string("UNITS/INCHES\nSPINDL/1000\n") + c.statement +
-                                           "\nGOTO/0,0,0\nGOTO/1,0,0\n");
+        const Program program =
+            apt(std::string("UNITS/INCHES\nSPINDL/1000\n") + c.statement + "\nGOTO/0,0,0\nGOTO/1,0,0\n");
         ASSERT_EQ(program.moves.size(), 1U);
         EXPECT_NEAR(program.moves[0].feed_mm_per_min, c.feed_mm_per_min, 1e-9) << c.statement;
         EXPECT_NEAR(program.moves[0].end.tip_mm.x, 25.4, 1e-12);
@@ -99,19 +88,19 @@ TEST(AptReader, ConvertsFeedsByTheirUnit) {
 
 TEST(AptReader, TakesMillimetresWithAWarningWhereNoUnitIsStated) {
     const char* const text = "CUTTER/2\nFEDRAT/10\nGOTO/0,0,0\nGOTO/1,0,0\n";
-    const Program metric = program_of(text);
+    const Program metric = apt(text);
     EXPECT_TRUE(warns_of(metric, 3, "millimetres"));
     EXPECT_EQ(metric.moves[0].end.tip_mm.x, 1);
     AptOptions inches;
     inches.default_unit = LengthUnit::inch;
-    const Program imperial = program_of(text, inches);
+    const Program imperial = apt(text, inches);
     EXPECT_TRUE(warns_of(imperial, 3, "inches"));
     EXPECT_EQ(imperial.moves[0].end.tip_mm.x, 25.4);
     EXPECT_EQ(imperial.tools[0].diameter_mm, 50.8);
 }
 
 TEST(AptReader, KeepsTheAxisUntilMultaxOff) {
-    const Program program = program_of(
+    const Program program = apt(
         "UNITS/MM\nFEDRAT/10\nMULTAX\nFROM/0,0,0,1,0,0\nGOTO/1,0,0\nMULTAX/OFF\nGOTO/2,0,0\nGOTO/2,0,0\n");
     ASSERT_EQ(program.moves.size(), 2U);
     EXPECT_EQ(program.moves[0].start.axis, (Vec3{1, 0, 0}));
@@ -120,20 +109,20 @@ TEST(AptReader, KeepsTheAxisUntilMultaxOff) {
 }
 
 TEST(AptReader, DeclaresEachCutterOnceForTheToolThatHoldsIt) {
-    const Program program = program_of(
-        "UNITS/MM\nFEDRAT/10\nCUTTER/6\nLOADTL/1\nGOTO/0,0,0\nCUTTER/6\nGOTO/1,0,0\n"
-        "CUTTER/10,5\nLOAD/TOOL,2,ADJUST,1\nGOTO/2,0,0\n");
+    const Program program =
+        apt("UNITS/MM\nFEDRAT/10\nCUTTER/6\nLOADTL/1\nGOTO/0,0,0\nCUTTER/6\nGOTO/1,0,0\n"
+            "CUTTER/10,5\nLOAD/TOOL,2,ADJUST,1\nGOTO/2,0,0\n");
     ASSERT_EQ(program.tools.size(), 2U);
     EXPECT_EQ(program.tools[0].number, 1);
     EXPECT_EQ(program.tools[1].number, 2);
     EXPECT_EQ(program.tools[1].corner_mm, 5);
     EXPECT_EQ(program.moves[0].tool, 1);
     EXPECT_EQ(program.moves[1].tool, 2);
-    EXPECT_TRUE(warns_of(program_of("UNITS/MM\nCUTTER/22,.1,0,.1,0,-89,.2\nGOTO/0,0,0\n"), 2, "cone"));
+    EXPECT_TRUE(warns_of(apt("UNITS/MM\nCUTTER/22,.1,0,.1,0,-89,.2\nGOTO/0,0,0\n"), 2, "cone"));
 }
 
 TEST(AptReader, WarnsOfASpindleThatDoesNotCut) {
-    const Program program = program_of(
+    const Program program = apt(
         "UNITS/MM\nFEDRAT/10\nSPINDL/100,CCLW\nSPINDL/OFF\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\nFINI\nGOTO/"
         "3,0,0\n");
     EXPECT_TRUE(warns_of(program, 3, "backwards"));
@@ -185,11 +174,7 @@ TEST(AptReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"RAPID/ALL\n", 1, 7, "conditions"},
         {"DELAY/2,3\n", 1, 1, "single number"},
     };
-    expect_refused(refusals, [](const std::string& text, const char* name) {
-        AptOptions options;
-        options.source_name = name;
-        return read_apt(text, options);
-    });
+    expect_refused_apt(refusals);
     AptOptions few;
     few.max_moves = 1;
     EXPECT_FALSE(read_apt("FEDRAT/1\nGOTO/0,0,0\nGOTO/1,0,0\nGOTO/2,0,0\n", few).has_value());
@@ -229,7 +214,7 @@ TEST(AptReader, ReadsARealProgramToTheLengthOfAnIndependentScript) {
     AptOptions options;
     options.default_unit = LengthUnit::inch;
     options.default_feed_mm_per_min = 1000;
-    const Program program = program_of(*bytes, options);
+    const Program program = apt(*bytes, options);
     const motion::ProgramSummary summary = motion::describe(program);
     EXPECT_EQ(summary.moves, 3684U);
     EXPECT_NEAR(summary.path_mm, 4220.786663, 1e-6);
@@ -244,7 +229,7 @@ TEST(AptReader, ReadsARealProgramToTheLengthOfAnIndependentScript) {
 TEST(AptReader, ReadsARealProgramWithFramesAndCycles) {
     const auto bytes = real_file("aptpost-3x-tilt-support.apt");
     if (!bytes) GTEST_SKIP() << "no ../shared/data/gcode";
-    const Program program = program_of(*bytes);
+    const Program program = apt(*bytes);
     const motion::ProgramSummary summary = motion::describe(program);
     EXPECT_EQ(summary.tools, (std::vector<int>{4, 6, 16}));
     EXPECT_EQ(program.tools.size(), 3U);

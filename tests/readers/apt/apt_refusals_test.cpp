@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "readers/apt/reader.hpp"
-#include "readers/refusals.hpp"
+#include "readers/apt/apt_text.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -116,11 +115,7 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {"GOFWD/L1\n", 1, 1, "'GOFWD' (moves that an APT processor computes) is not read"},
         {"GOLFT/L1\n", 1, 1, "'GOLFT' (moves that an APT processor computes) is not read"},
     };
-    expect_refused(refusals, [](const std::string& text, const char* name) {
-        AptOptions options;
-        options.source_name = name;
-        return read_apt(text, options);
-    });
+    expect_refused_apt(refusals);
 }
 
 }  // namespace

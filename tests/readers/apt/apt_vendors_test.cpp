@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "readers/apt/reader.hpp"
-#include "readers/program_checks.hpp"
+#include "readers/apt/apt_text.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -15,25 +14,10 @@ using motion::Move;
 using motion::MoveKind;
 using motion::Program;
 
-constexpr double kPi = 3.14159265358979323846;
-
-Program read(const std::string& text) {
-    const auto program = read_apt(text);
-    if (!program) {
-        ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
-        return {};
-    }
-    return *program;
-}
-
-Program program_of(const std::string& text) {
-    return read("UNITS/MM\nFEDRAT/100\n" + text);
-}
-
 constexpr const char* kIdentity = "1.0, 0.0, 0.0, 0.0, $\n 0.0, 1.0, 0.0, 0.0, $\n 0.0, 0.0, 1.0, 0.0\n";
 
 TEST(AptVendors, ReadsAProgramOfCreo) {
-    const Program program = read(
+    const Program program = apt(
         "$$*          Pro/CLfile  Version 9.0\r\n$$-> MFGNO / TEST\r\nPARTNO / TEST\r\n$$-> FEATNO / 25\r\n"
         "MACHIN / UNCX01, 1\r\n$$-> CUTCOM_GEOMETRY_TYPE / OUTPUT_ON_CENTER\r\nUNITS / INCHES\r\n"
         "LOADTL / 1, OSETNO, 1\r\n$$-> CUTTER / 0.500000\r\n$$-> CSYS / " +
@@ -57,16 +41,16 @@ TEST(AptVendors, ReadsTheMatrixOfCatiaAndLeadsLaterOnesToIt) {
     };
     const std::string first = header("$$ 1.0 0.0 0.0 0.0\n$$ 0.0 1.0 0.0 0.0\n$$ 0.0 0.0 1.0 0.0\n");
     const std::string second = header("$$ 0.0 0.0 1.0 100.0\n$$ 1.0 0.0 0.0 0.0\n$$ 0.0 1.0 0.0 0.0\n");
-    const Program same = program_of(first + "FROM/0,0,0\nGOTO/1,2,3\n" + first + "GOTO/4,5,6\n");
+    const Program same = apt_in_mm(first + "FROM/0,0,0\nGOTO/1,2,3\n" + first + "GOTO/4,5,6\n");
     expect_near(same.moves.at(1).end.tip_mm, {4, 5, 6});
     EXPECT_TRUE(same.warnings.empty());
     // (x, y, z) of the second lies at (100 + z, x, y) of the first.
-    const Program other = program_of(first + "FROM/0,0,0\nGOTO/1,2,3\n" + second + "GOTO/4,5,6\n");
+    const Program other = apt_in_mm(first + "FROM/0,0,0\nGOTO/1,2,3\n" + second + "GOTO/4,5,6\n");
     expect_near(other.moves.at(1).end.tip_mm, {106, 4, 5});
     expect_near(other.moves.at(1).end.axis, {1, 0, 0});
     EXPECT_TRUE(warns_of(other, 10, "a second coordinate system"));
     // Comments of another kind below the name are no matrix.
-    const Program lathe = program_of("$$*CATIA0\n$$ PGM\n$$ text\nFROM/0,0,0\nGOTO/1,2,3\n");
+    const Program lathe = apt_in_mm("$$*CATIA0\n$$ PGM\n$$ text\nFROM/0,0,0\nGOTO/1,2,3\n");
     EXPECT_TRUE(warns_of(lathe, 3, "without its matrix"));
     EXPECT_EQ(lathe.moves.size(), 1U);
 }
@@ -74,19 +58,19 @@ TEST(AptVendors, ReadsTheMatrixOfCatiaAndLeadsLaterOnesToIt) {
 TEST(AptVendors, ATurnedSystemOfCreoIsThatOfPointsWithoutAnAxis) {
     const std::string start = "$$-> CSYS / " + std::string(kIdentity) + "MULTAX / ON\nFROM/0,0,0\n";
     const std::string turned = "$$-> CSYS / 0,0,1,100, $\n1,0,0,0, $\n0,1,0,0\n";
-    const Program local = program_of(start + turned + "GOTO/4,5,6\nGOTO/5,5,6\n");
+    const Program local = apt_in_mm(start + turned + "GOTO/4,5,6\nGOTO/5,5,6\n");
     expect_near(local.moves.at(0).end.tip_mm, {106, 4, 5});
     expect_near(local.moves.at(0).end.axis, {1, 0, 0});
     expect_near(local.moves.at(1).end.tip_mm, {106, 5, 5});
     EXPECT_TRUE(warns_of(local, 8, "state no axis"));
-    const Program machine = program_of(start + turned + "GOTO/4,5,6,1,0,0\nGOTO/5,5,6\n");
+    const Program machine = apt_in_mm(start + turned + "GOTO/4,5,6,1,0,0\nGOTO/5,5,6\n");
     expect_near(machine.moves.at(0).end.tip_mm, {4, 5, 6});
     expect_near(machine.moves.at(1).end.tip_mm, {5, 5, 6});
     EXPECT_TRUE(warns_of(machine, 8, "taken as written"));
 }
 
 TEST(AptVendors, TransformsAndWorkFramesMoveThePoints) {
-    const Program moved = program_of(
+    const Program moved = apt_in_mm(
         "FROM/0,0,0\nTRACUT/(MATRIX/TRANSL,10,0,5)\nGOTO/1,2,3\nTRACUT/(MATRIX/XYROT,90)\nGOTO/1,2,3\n"
         "TRACUT/1,0,0,7,0,0,-1,8,0,1,0,9\nGOTO/1,2,3\nTRACUT/NOMORE\nGOTO/1,2,3\n");
     expect_near(moved.moves.at(0).end.tip_mm, {11, 2, 8});
@@ -94,7 +78,7 @@ TEST(AptVendors, TransformsAndWorkFramesMoveThePoints) {
     expect_near(moved.moves.at(2).end.tip_mm, {8, 5, 11});
     expect_near(moved.moves.at(2).end.axis, {0, -1, 0});
     expect_near(moved.moves.at(3).end.tip_mm, {1, 2, 3});
-    const Program work = program_of(
+    const Program work = apt_in_mm(
         "MCSYS/ NUM, 1, POINT, 0, 0, 0, VECTOR, 1, 0, 0, VECTOR, 0, 1, 0\nFROM/0,0,0\n"
         "MCSYS/ NUM, 2, POINT, 0, 0, 50, VECTOR, 0, 1, 0, VECTOR, 0, 0, 1\nGOTO/1,2,3\n");
     expect_near(work.moves.at(0).end.tip_mm, {3, 1, 52});
@@ -102,7 +86,7 @@ TEST(AptVendors, TransformsAndWorkFramesMoveThePoints) {
 }
 
 TEST(AptVendors, PassesOverWordsOfPostProcessors) {
-    const Program program = program_of(
+    const Program program = apt_in_mm(
         "PPWORD/1,2,3\nSURFPARMS\nswitch/3\nCSI_SPECIAL-2/4,TEXT\nCHANNEL,1\nFROM/0,0,0\nSWITCH/4\nGOTO/"
         "1,0,0\n"
         "MODE/ABSOL\nROTATE/TABLE,ATANGL,0\nARCSLP/2\nFINI\n");
@@ -116,14 +100,14 @@ TEST(AptVendors, PassesOverWordsOfPostProcessors) {
     EXPECT_EQ(program.warnings.size(), 6U);
     std::string many = "FROM/0,0,0\nGOTO/1,0,0\n";
     for (char c = 'A'; c < 'A' + 25; ++c) many += std::string("WORD") + c + "\n";
-    EXPECT_EQ(program_of(many).warnings.size(), 21U);
-    EXPECT_TRUE(warns_of(program_of(many), 0, "5 statements"));
+    EXPECT_EQ(apt_in_mm(many).warnings.size(), 21U);
+    EXPECT_TRUE(warns_of(apt_in_mm(many), 0, "5 statements"));
 }
 
 // The only move's arc: its middle and its length are those of the closed form.
 void expect_arc(const std::string& text, Vec3 middle, double length_mm) {
     SCOPED_TRACE(text);
-    const Program program = program_of(text);
+    const Program program = apt_in_mm(text);
     ASSERT_EQ(program.moves.size(), 1U);
     EXPECT_NEAR(path_length_mm(program.moves[0]), length_mm, 1e-9);
     expect_near(pose_at(program.moves[0], 0.5).tip_mm, middle, 1e-9);
@@ -153,7 +137,7 @@ TEST(AptVendors, CirclesBetweenGeometry) {
 }
 
 TEST(AptVendors, PointsMayCarryTheNormalOfTheSurface) {
-    const Program program = program_of("FROM/0,0,0,0,0,1,0,0,1\nGOTO/1,2,3,0,0.6,0.8,0,0,1\n");
+    const Program program = apt_in_mm("FROM/0,0,0,0,0,1,0,0,1\nGOTO/1,2,3,0,0.6,0.8,0,0,1\n");
     expect_near(program.moves.at(0).end.tip_mm, {1, 2, 3});
     expect_near(program.moves.at(0).end.axis, {0, 0.6, 0.8});
     EXPECT_TRUE(warns_of(program, 3, "normals of the surface"));
@@ -161,7 +145,7 @@ TEST(AptVendors, PointsMayCarryTheNormalOfTheSurface) {
 
 // The heights of the ends over one hole, um; rapid ones with an r.
 std::string heights(const std::string& cycle) {
-    const Program program = program_of("SPINDL/1000\nFROM/0,0,50\n" + cycle + "\nGOTO/0,0,0\nCYCLE/OFF\n");
+    const Program program = apt_in_mm("SPINDL/1000\nFROM/0,0,50\n" + cycle + "\nGOTO/0,0,0\nCYCLE/OFF\n");
     std::string text;
     for (const Move& move : program.moves) {
         text += (text.empty() ? "" : " ") + std::string(move.kind == MoveKind::rapid ? "r" : "") +
@@ -182,22 +166,22 @@ TEST(AptVendors, CyclesOfCreoAndCatia) {
     EXPECT_EQ(heights("CYCLE / TAP, 5, 80, MMPM, 20, 3"), "r3000 -5000 3000");
     EXPECT_EQ(heights("CYCLE / BORE9, FEDTO, 5, MMPM, 80, RAPTO, 4"), "r4000 -5000 4000");
     const Program tap =
-        program_of("SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
+        apt_in_mm("SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
     EXPECT_NEAR(tap.moves.at(1).feed_mm_per_min, 1270, 1e-9);
 }
 
 TEST(AptVendors, SpellingsOfSettings) {
-    const Program program = read(
-        "units / inch\nLOADTL/ENDMILL_10\nCUTTER/DISPLY,ON\nSPINDL/1000,RPM,CLW,RANGE,HIGH,LOCK\n"
-        "FEDRAT/2,FPM\nFROM/0,0,0\nGOTO/1,0,0\nFEDRAT/0.001,FPR\nGOTO/2,0,0\nDELAY/REV,10\n");
+    const Program program =
+        apt("units / inch\nLOADTL/ENDMILL_10\nCUTTER/DISPLY,ON\nSPINDL/1000,RPM,CLW,RANGE,HIGH,LOCK\n"
+            "FEDRAT/2,FPM\nFROM/0,0,0\nGOTO/1,0,0\nFEDRAT/0.001,FPR\nGOTO/2,0,0\nDELAY/REV,10\n");
     EXPECT_NEAR(program.moves.at(0).feed_mm_per_min, 609.6, 1e-9);
     EXPECT_NEAR(program.moves.at(1).feed_mm_per_min, 304.8, 1e-9);
     EXPECT_NEAR(program.moves.at(2).duration_s, 0.6, 1e-12);
     EXPECT_TRUE(warns_of(program, 2, "'ENDMILL_10' names a tool"));
     EXPECT_TRUE(warns_of(program, 3, "CUTTER without numbers"));
-    EXPECT_TRUE(warns_of(program_of("TOOLNO/1,TURN,1\nFROM/0,0,0\n"), 3, "a turning tool"));
-    EXPECT_NEAR(read("UNITS/CM\nFEDRAT/1\nFROM/0,0,0\nGOTO/1,0,0\n").moves.at(0).end.tip_mm.x, 10, 1e-12);
-    EXPECT_TRUE(warns_of(read("FROM/0,0,0\nFEDRAT/10,IPM\nGOTO/1,0,0\n"), 2, "write UNITS/INCHES"));
+    EXPECT_TRUE(warns_of(apt_in_mm("TOOLNO/1,TURN,1\nFROM/0,0,0\n"), 3, "a turning tool"));
+    EXPECT_NEAR(apt("UNITS/CM\nFEDRAT/1\nFROM/0,0,0\nGOTO/1,0,0\n").moves.at(0).end.tip_mm.x, 10, 1e-12);
+    EXPECT_TRUE(warns_of(apt("FROM/0,0,0\nFEDRAT/10,IPM\nGOTO/1,0,0\n"), 2, "write UNITS/INCHES"));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // otherwise. Lengths follow from the words.
 #include <cmath>
 #include <gtest/gtest.h>
-#include <numbers>
 #include <span>
 #include <string>
 
@@ -11,8 +10,6 @@
 
 namespace tribo::readers {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A program, a warning of it, and the length of its feed moves.
 struct Passed {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "readers/heidenhain/heidenhain_text.hpp"
-#include "readers/refusals.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -160,6 +159,18 @@ TEST(HeidenhainContour, FindsThePlaneOfAPoleWithThreeAxes) {
     EXPECT_TRUE(warns_of(program, 9, "that of the move before is taken"));
 }
 
+TEST(HeidenhainContour, TakesTheHeightOfAnEarlierPoleWhereOnlyThatFits) {
+    const motion::Program program = conversational(after_start(R"(3 L X+5 Y+3 Z+4 F100
+4 CC X+5 Y+0 Z+0
+5 C X+5 Y-3 Z+4 DR+
+6 CC X+5 Y+0
+7 C X+5 Y+5 Z+0 DR-
+)"));
+    ASSERT_EQ(program.moves.size(), 3U);
+    EXPECT_NEAR(length_of(program, 2), 5 * (kPi - std::atan2(4, 3)), 1e-9);
+    EXPECT_TRUE(warns_of(program, 8, "about the Z of an earlier CC"));
+}
+
 TEST(HeidenhainContour, MirrorsAndScales) {
     const motion::Program program = conversational(after_start(R"(4 CYCL DEF 8.0 MIRROR IMAGE
 5 CYCL DEF 8.1 X
@@ -202,11 +213,7 @@ TEST(HeidenhainContour, RefusesWhatDoesNotFit) {
         {after_start("CYCL DEF 26.1 X 2 Y 1\nCC X+5 Y+0\nC X+1 Y+1 DR+ F9\n"), 6, 3, "different scales"},
         {after_start("CYCL DEF 7.1 #1\nCYCL DEF 7.1 #2\n"), 5, 15, "a second row of the datum table"},
     };
-    expect_refused(refusals, [](const std::string& text, const std::string& name) {
-        GcodeOptions options;
-        options.source_name = name;
-        return read_heidenhain(text, options);
-    });
+    expect_refused_conversational(refusals);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "readers/heidenhain/heidenhain_text.hpp"
-#include "readers/refusals.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -172,6 +171,12 @@ TEST(HeidenhainLanguage, PecksDeepAndTapsAndCentres) {
     EXPECT_NEAR(centred.moves[1].end.tip_mm.z, -3, 1e-12);  // a cone of 90 degrees, 6 mm wide
     EXPECT_TRUE(warns_of(centred, 4, "a point of 90 degrees is taken"));
 
+    // As a post of NX writes it: only the first line has a '~'.
+    const motion::Program listed =
+        conversational(after_start("4 CYCL DEF 240 CENTERING ~\n  Q200=2 ;CLEARANCE\n  Q201=-3 ;DEPTH\n"
+                                   "  Q206=150 ;FEED\n  Q203=+0 ;SURFACE\n  Q204=2\n5 L X+5 FMAX M99\n"));
+    EXPECT_EQ(heights(listed), (std::vector<double>{10, 2, -3, 2}));
+
     const motion::Program lip = conversational(after_start(
         "CYCL DEF 241 SINGLE-LIP D.H.DRLNG Q200=2 Q201=-50 Q206=100 Q211=0 Q203=0 Q204=5 Q379=10 Q253=700 "
         "Q208=900\nCYCL CALL\n"));
@@ -261,11 +266,7 @@ TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
         {after_start("L X+5 FZ0.1\n"), 4, 7, "FZ without a speed, or without the number of teeth"},
         {after_start("CC Z+5\n"), 4, 4, "a pole needs two axes"},
     };
-    expect_refused(refusals, [](const std::string& text, const std::string& name) {
-        GcodeOptions options;
-        options.source_name = name;
-        return read_heidenhain(text, options);
-    });
+    expect_refused_conversational(refusals);
 }
 
 }  // namespace

@@ -3,16 +3,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "readers/heidenhain/reader.hpp"
 #include "readers/program_checks.hpp"
+#include "readers/refusals.hpp"
 
 namespace tribo::readers {
-
-inline constexpr double kPi = std::numbers::pi;
 
 inline motion::Program conversational(std::string_view text, const GcodeOptions& options = {}) {
     const auto program = read_heidenhain(text, options);
@@ -36,6 +35,14 @@ inline std::string fault(std::string_view text) {
     options.max_steps = 10'000;
     const auto program = read_heidenhain(text, options);
     return program ? "" : program.error().text();
+}
+
+inline void expect_refused_conversational(std::span<const Refusal> refusals) {
+    expect_refused(refusals, [](const std::string& text, const std::string& name) {
+        GcodeOptions options;
+        options.source_name = name;
+        return read_heidenhain(text, options);
+    });
 }
 
 inline constexpr std::string_view kStart =
