@@ -2,7 +2,8 @@
 // Checks of the values of flags, with the error messages of the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>  // without CLI11's formatter, which every file would compile again
+#include <CLI/Validators.hpp>
 #include <string_view>
 #include <vector>
 

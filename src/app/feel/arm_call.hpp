@@ -2,7 +2,6 @@
 // Flags for position, scale and delay of a haptic arm, for all verbs that use one.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,10 @@
 #include "base/vec3.hpp"
 #include "devices/arm/mounting.hpp"
 #include "haptics/device/device_limits.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace tribo::app {
 

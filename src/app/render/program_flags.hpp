@@ -2,12 +2,16 @@
 // Flags for a program that stands in place of a job, for all verbs that take a job.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "job/loader.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace tribo::app {
 

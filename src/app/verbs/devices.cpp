@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `tribo devices`: lists arms and sound cards, with the reasons why an arm is missing.
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `tribo read-sofa FILE`: the program starts it as a child process, in which a crash is harmless.
+#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 

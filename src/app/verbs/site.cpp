@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `tribo site --out DIR`: the static site, ready for any web server.
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -3,7 +3,9 @@
 // it stores the exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace tribo::app {
 
