@@ -55,10 +55,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             check(command.error());
     }
     if (commands.empty()) return 0;
-    protocol::LiveSettings of_job;
-    of_job.material = "al7075-t6";
-    const std::unique_ptr<session::LiveMill> mill = *session::LiveMill::create(slot, serial_for);
-    session::LiveController controller(*mill, {}, nullptr, of_job);
+    const auto job = []() -> Result<session::LiveInput> {
+        return session::LiveInput(*slot(), {.material = "al7075-t6"});
+    };
+    const std::unique_ptr<session::LiveMill> mill = *session::LiveMill::create(job, serial_for);
+    session::LiveController controller(*mill, {}, nullptr, {});
     for (const protocol::LiveCommand& command : commands) {
         const protocol::LiveSettings before = controller.settings();
         if (const auto done = controller.obey(command); !done) {

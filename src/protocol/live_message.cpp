@@ -64,12 +64,21 @@ Result<LiveCommand> parse_live_command(std::string_view text) {
     return command;
 }
 
+namespace {
+
+files::Json lines_of(const Warnings& warnings) {
+    files::Json lines = files::Json::array();
+    for (const Warning& warning : warnings) lines.push_back(warning.message());
+    return lines;
+}
+
+}  // namespace
+
 std::string live_server_info(const LiveServerInfo& info) {
     files::Json json;
     json["op"] = "serverInfo";
     json["version"] = info.version;
-    json["warnings"] = files::Json::array();
-    for (const Warning& warning : info.warnings) json["warnings"].push_back(warning.message());
+    json["warnings"] = lines_of(info.warnings);
     if (!info.job.empty()) {
         json["job"] = info.job;
         json["materials"] = info.materials;
@@ -92,9 +101,10 @@ std::string live_refusal(const Error& error) {
     return files::dump(json);
 }
 
-std::string live_files(const std::optional<Error>& wrong) {
+std::string live_files(const std::optional<Error>& wrong, const Warnings& warnings) {
     files::Json json;
     json["op"] = "files";
+    json["warnings"] = lines_of(warnings);
     json["wrong"] = nullptr;
     if (wrong) {
         json["wrong"] = {{"file", wrong->file},

@@ -33,9 +33,9 @@ struct LiveServerInfo {
 std::string live_server_info(const LiveServerInfo& info);
 // That a command was refused.
 std::string live_refusal(const Error& error);
-// What is wrong with the files of the job, which was not read again: the cut before goes on. None: they were
-// read again and are good.
-std::string live_files(const std::optional<Error>& wrong);
+// The files of the job were read again. `wrong`: their fault, with which the cut before goes on; none: they
+// are good. `warnings`: of the cut that is milled now.
+std::string live_files(const std::optional<Error>& wrong, const Warnings& warnings);
 // That frames were dropped: the page asks for all of them with resync.
 std::string live_lost();
 

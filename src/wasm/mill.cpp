@@ -74,28 +74,20 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
     auto loaded = wasm::load_mill(mill().files, job, surface, cell);
     if (!loaded) return refuse(loaded.error());
     std::string warnings;
-    const std::string material = loaded->material;
-    for (const Warning& w : loaded->warnings) warnings += w.message() + "\n";
-    session::LiveExtras extras{loaded->listening, {}};
-    if (loaded->part) extras.designed = std::make_shared<const TriangleMesh>(*std::move(loaded->part));
+    for (const Warning& w : loaded->extras.warnings) warnings += w.message() + "\n";
     // When the clock is set back, the program begins again from the files.
-    auto ready = std::make_shared<std::optional<session::MillSetup>>(std::move(loaded->setup));
-    const auto make_setup = [=]() -> Result<session::MillSetup> {
+    auto ready = std::make_shared<std::optional<session::LiveInput>>(*std::move(loaded));
+    const auto make_input = [=]() -> Result<session::LiveInput> {
         if (*ready) return *std::exchange(*ready, std::nullopt);
-        auto again = wasm::load_mill(mill().files, job, surface, cell);
-        if (!again) return std::unexpected(again.error());
-        return std::move(again->setup);
+        return wasm::load_mill(mill().files, job, surface, cell);
     };
-    auto live = session::LiveMill::create(make_setup, serial_for, std::move(extras));
+    auto live = session::LiveMill::create(make_input, serial_for);
     if (!live) return refuse(live.error());
-    protocol::LiveSettings settings;
-    settings.helix_deg = (*live)->session().setup().cutters.front().helix_deg;
-    settings.material = material;
     mill().touch.reset();
     mill().controller.reset();
     mill().live = std::move(*live);
     mill().controller = std::make_unique<session::LiveController>(*mill().live, session::LiveForceOptions{},
-                                                                  nullptr, std::move(settings));
+                                                                  nullptr, protocol::LiveSettings());
     mill().touch = std::make_unique<session::SingleThreadedTouch>(*mill().controller);
     mill().text = warnings;
     return true;

@@ -5,7 +5,6 @@
 
 #include "base/text/decimal.hpp"
 #include "session/cut/memory_estimate.hpp"
-#include "session/live/live_mill.hpp"
 
 namespace tribo::wasm {
 namespace {
@@ -32,24 +31,23 @@ Result<void> check_memory(const session::MillSetup& setup, const std::string& na
 
 }  // namespace
 
-Result<LoadedMill> load_mill(const job::FileSource& files, const std::string& name, const std::string& part,
-                             std::optional<double> cell_mm) {
+Result<session::LiveInput> load_mill(const job::FileSource& files, const std::string& name,
+                                     const std::string& part, std::optional<double> cell_mm) {
     job::LoadOptions limits;
     limits.part = part;
     limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
     auto loaded = job::load_job(files, name, limits);
     if (!loaded) return std::unexpected(Error(loaded.error()));
-    LoadedMill mill;
-    mill.warnings = std::move(loaded->warnings);
+    session::LiveExtras told;
+    told.warnings = std::move(loaded->warnings);
     const session::MillOptions options{cell_mm, {}, session::LiveMill::kPieceMm, limits.memory_bytes};
-    auto setup = session::prepare_mill(*loaded, options, mill.warnings);
+    auto setup = session::prepare_mill(*loaded, options, told.warnings);
     if (!setup) return std::unexpected(setup.error());
     if (auto fits = check_memory(*setup, name); !fits) return std::unexpected(fits.error());
-    mill.setup = std::move(*setup);
-    mill.material = loaded->job.material.name;
-    mill.listening = job::listening_to(loaded->job, mill.setup.blank->bounds_mm());
-    if (loaded->part) mill.part = std::move(loaded->part->mesh);
-    return mill;
+    told.material = loaded->job.material.name;
+    told.listening = job::listening_to(loaded->job, setup->blank->bounds_mm());
+    if (loaded->part) told.designed = std::make_shared<const TriangleMesh>(std::move(loaded->part->mesh));
+    return session::LiveInput(*std::move(setup), std::move(told));
 }
 
 }  // namespace tribo::wasm

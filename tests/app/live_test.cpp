@@ -208,6 +208,13 @@ TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
         ASSERT_TRUE(viewer.step_back());
         EXPECT_NE(latecomer.text_with(R"("files")").find(R"("wrong":null)"), std::string::npos);
     }
+    // What a new program warns of is told, also to who comes later.
+    scratch_.put("p.nc", program + "M123\n");
+    Viewer witness(address_in(engine.out_with("Ctrl-C")).port);
+    ASSERT_TRUE(viewer.step_back());
+    EXPECT_NE(witness.text_with("M123").find(R"("wrong":null)"), std::string::npos);
+    Viewer newcomer(address_in(engine.out_with("Ctrl-C")).port);
+    EXPECT_NE(newcomer.text_with("M123").find("serverInfo"), std::string::npos);
     // A new program is milled as it is.
     scratch_.put("p.nc", "G21 G90\nG0 X-5 Y5 Z2\nG1 Z-1\nG1 X25\nG1 Y8\nG1 X-5\n");
     ASSERT_TRUE(viewer.step_back());

@@ -20,6 +20,15 @@ Result<MillSetup> slot() {
 
 class Controlled : public testing::Test {
   protected:
+    // The files of the job, as long as nobody edits them.
+    double helix_deg = 35;
+    std::string material = "al7075-t6";
+    Result<LiveInput> read_files() const {
+        MillSetup setup = *slot();
+        setup.cutters.front().helix_deg = helix_deg;
+        return LiveInput(std::move(setup), {.material = material});
+    }
+
     static protocol::LiveSettings job_settings() {
         protocol::LiveSettings s;
         s.helix_deg = 35;
@@ -34,8 +43,8 @@ class Controlled : public testing::Test {
         return obeyed;
     }
 
-    std::unique_ptr<LiveMill> mill = *LiveMill::create(slot, serial_for);
-    LiveController controller{*mill, {}, nullptr, job_settings()};
+    std::unique_ptr<LiveMill> mill = *LiveMill::create([this] { return read_files(); }, serial_for);
+    LiveController controller{*mill, {}, nullptr, {}};
 };
 
 TEST_F(Controlled, TheClockObeys) {
@@ -83,6 +92,33 @@ TEST_F(Controlled, OfASliderTheNewestValueWins) {
     EXPECT_EQ(controller.force_changes(), 1);
     controller.apply();
     EXPECT_EQ(controller.force_changes(), 1);
+}
+
+TEST_F(Controlled, MaterialAndHelixFollowTheFiles) {
+    const auto read_again = [&] {
+        mill->set_clock(1);
+        mill->tick(0, [] { return true; }, [](auto) {});
+        mill->set_clock(0);
+        mill->tick(0, [] { return true; }, [](auto) {});
+        controller.apply();
+    };
+    helix_deg = 20;
+    material = "ti6al4v";
+    read_again();
+    EXPECT_EQ(controller.settings().helix_deg, 20);
+    EXPECT_EQ(controller.settings().material, "ti6al4v");
+    EXPECT_TRUE(mill->change().none());
+    EXPECT_EQ(controller.force_changes(), 0);
+    // What a viewer chose stays.
+    ASSERT_TRUE(say(R"({"op":"set","key":"helix_deg","value":45})"));
+    helix_deg = 10;
+    material = "";
+    read_again();
+    EXPECT_EQ(controller.settings().helix_deg, 45);
+    EXPECT_EQ(mill->change().helix_deg, 45);
+    EXPECT_EQ(controller.settings().material, "");
+    ASSERT_TRUE(say(R"({"op":"set","key":"helix_deg","value":10})"));
+    EXPECT_TRUE(mill->change().none());
 }
 
 TEST_F(Controlled, WhatIsRefusedChangesNothing) {

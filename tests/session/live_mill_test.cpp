@@ -16,6 +16,10 @@ namespace {
 
 using namespace test;
 
+LiveMill::MakeInput designed_as(std::shared_ptr<const TriangleMesh> designed) {
+    return [=]() -> Result<LiveInput> { return LiveInput(*slot(), {.designed = designed}); };
+}
+
 TEST(LiveMill, ShowsThePartAsItIsCut) {
     auto live = *LiveMill::create(slot, serial_for);
     Viewer viewer;
@@ -130,7 +134,7 @@ TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
     const auto top = static_cast<float>(-sunk_mm);
     designed->positions = {{0, 0, top}, {40, 0, top}, {40, 20, top}, {0, 20, top}};
     designed->triangles = {{0, 1, 2}, {0, 2, 3}};
-    auto live = *LiveMill::create(slot, serial_for, {{}, designed});
+    auto live = *LiveMill::create(designed_as(designed), serial_for);
     std::map<protocol::LiveChunkPlace, protocol::LiveChunk> chunks;
     const auto keep = [&](std::span<const std::uint8_t> frame) {
         protocol::LiveChunk chunk;
@@ -174,7 +178,7 @@ TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
     MillSession alone(*slot(), serial_for);
     ASSERT_TRUE(alone.run({}));
     const auto designed = std::make_shared<const TriangleMesh>(field::contour(alone.stock()));
-    auto live = *LiveMill::create(slot, serial_for, {{}, designed});
+    auto live = *LiveMill::create(designed_as(designed), serial_for);
     std::size_t compared = 0;
     const auto keep = [&](std::span<const std::uint8_t> frame) {
         protocol::LiveChunk chunk;
@@ -187,6 +191,58 @@ TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
     live->set_clock(live->duration_s());
     live->tick(0, always, keep);
     EXPECT_GT(compared, 100u);
+}
+
+// What the files said before is forgotten with them.
+TEST(LiveMill, TellsListenerAndDesignOfTheFilesAsTheyAreNow) {
+    LiveExtras told;
+    told.listening.emplace();
+    told.listening->listener_mm = {1, 2, 3};
+    told.designed = std::make_shared<const TriangleMesh>(
+        TriangleMesh{{{0, 0, -1}, {40, 0, -1}, {40, 20, -1}, {0, 20, -1}}, {{0, 1, 2}, {0, 2, 3}}, {}});
+    told.warnings = {{"p.nc", 3, "no S word"}};
+    auto live = *LiveMill::create([&] { return Result<LiveInput>(LiveInput(*slot(), told)); }, serial_for);
+    Vec3 ear;
+    float below_mm = 0;
+    int designs = 0, compared = 0;
+    const auto keep = [&](std::span<const std::uint8_t> frame) {
+        job::Listening listening;
+        protocol::LiveDesigned designed;
+        protocol::LiveChunk chunk;
+        if (protocol::read_frame(frame, listening)) ear = listening.listener_mm;
+        if (protocol::read_frame(frame, designed)) {
+            ++designs;
+            below_mm = designed.mesh.positions.front()[2];
+        }
+        if (protocol::read_frame(frame, chunk)) compared += chunk.deviations_mm.empty() ? 0 : 1;
+    };
+    const auto mill_again = [&] {
+        live->set_clock(1);
+        live->tick(0, always, keep);
+        designs = compared = 0;
+        live->set_clock(0);
+        live->tick(0, always, keep);
+    };
+    live->tick(0, always, keep);
+    EXPECT_EQ(ear, (Vec3{1, 2, 3}));
+    EXPECT_EQ(below_mm, -1);
+    EXPECT_EQ(live->extras().warnings.size(), 1u);
+
+    told.listening->listener_mm = {7, 8, 9};
+    TriangleMesh lower = *told.designed;
+    for (Point3f& p : lower.positions) p[2] = -2;
+    told.designed = std::make_shared<const TriangleMesh>(lower);
+    told.warnings.clear();
+    mill_again();
+    EXPECT_EQ(ear, (Vec3{7, 8, 9}));
+    EXPECT_EQ(below_mm, -2);
+    EXPECT_GT(compared, 0);
+    EXPECT_TRUE(live->extras().warnings.empty());
+
+    told.designed = nullptr;
+    mill_again();
+    EXPECT_EQ(designs, 0);
+    EXPECT_EQ(compared, 0);
 }
 
 TEST(LiveMill, OfAJobThatCannotBeSetUpIsRefused) {

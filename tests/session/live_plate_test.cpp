@@ -74,7 +74,8 @@ TEST(LivePlate, SoundsTheSameFromStructsAndFromFrames) {
     const auto loaded = loaded_plate();
     ASSERT_TRUE(loaded) << loaded.error().text();
     const job::Listening heard = job::listening_to(loaded->job, loaded->blank.box_mm);
-    auto live = LiveMill::create(plate, serial_for, {heard, {}});
+    const auto heard_plate = [&]() -> Result<LiveInput> { return LiveInput(*plate(), {heard}); };
+    auto live = LiveMill::create(heard_plate, serial_for);
     ASSERT_TRUE(live) << live.error().text();
     sound::SoundtrackOptions options;
     options.head = sound::Head::sphere(options.sample_rate_hz);

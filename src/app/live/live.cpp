@@ -37,25 +37,29 @@ FileResult<PreparedJob> read_job(const LiveCall& call, std::optional<int> sound_
     return read;
 }
 
+session::LiveInput live_input(PreparedJob job) {
+    session::LiveExtras extras;
+    extras.listening = job::listening_to(job.job, job.setup.blank->bounds_mm());
+    if (job.part) extras.designed = std::make_shared<const TriangleMesh>(std::move(job.part->mesh));
+    extras.material = job.material.name;
+    extras.warnings = std::move(job.warnings);
+    return {std::move(job.setup), std::move(extras)};
+}
+
 LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
                              const contact::JndProfile& profile, const haptics::DeviceLimits& limits) {
     LiveViewOptions options;
     options.info.version = TRIBO_VERSION;
     options.info.job = call.job;
-    options.info.warnings = loaded.warnings;
     options.profile = profile;
-    options.settings.helix_deg = loaded.setup.cutters.front().helix_deg;
     options.settings.force_scale = loaded.job.haptics.force_scale;
     options.settings.jnd = contact::ForceTableOptions{}.most_jnd;
-    options.settings.material = loaded.material.name;
     const job::JobHaptics& h = loaded.job.haptics;
     haptics::ContactOptions& contact = options.feel.contact;
     options.feel.delay_s = call.arm.delay_s();
-    Warnings less;
-    contact.stiffness_n_per_mm =
-        stable_stiffness(h.stiffness_n_per_mm, limits, options.feel.rate_hz, call.arm, call.job, less);
-    report(less);
-    options.info.warnings.insert(options.info.warnings.end(), less.begin(), less.end());
+    contact.stiffness_n_per_mm = stable_stiffness(h.stiffness_n_per_mm, limits, options.feel.rate_hz,
+                                                  call.arm, call.job, options.arm_warnings);
+    report(options.arm_warnings);
     contact.friction_kinetic = h.friction_kinetic.value_or(0);
     contact.friction_static = std::max(h.friction_static.value_or(0), contact.friction_kinetic);
     return options;
@@ -105,27 +109,26 @@ int live(const LiveCall& call) {
         }
     }
 
-    session::LiveExtras extras;
-    extras.listening = job::listening_to(first->job, first->setup.blank->bounds_mm());
-    if (first->part) extras.designed = std::make_shared<const TriangleMesh>(first->part->mesh);
-
     // When the clock is set back, the program begins again from the current files.
     LiveCall again = call;
     again.program.job_out.clear();
-    const auto load_again = [again]() -> Result<session::MillSetup> {
+    const auto load_again = [again]() -> Result<session::LiveInput> {
         auto read = read_job(again, {});
         if (!read) return std::unexpected(Error(read.error()));
-        return std::move(read->setup);
+        return live_input(*std::move(read));
     };
-    show_how.make_setup = load_again;
-    std::optional<session::MillSetup> ready = std::move(first->setup);
-    const auto make_setup = [&]() -> Result<session::MillSetup> {
+    show_how.make_setup = [load_again]() -> Result<session::MillSetup> {
+        auto input = load_again();
+        if (!input) return std::unexpected(input.error());
+        return std::move(input->setup);
+    };
+    std::optional<session::LiveInput> ready = live_input(*std::move(first));
+    const auto make_input = [&]() -> Result<session::LiveInput> {
         if (ready) return *std::exchange(ready, std::nullopt);
         return load_again();
     };
     auto mill = session::LiveMill::create(
-        make_setup, parallel_for_over(call.threads > 0 ? call.threads : available_threads()),
-        std::move(extras));
+        make_input, parallel_for_over(call.threads > 0 ? call.threads : available_threads()));
     if (!mill) return report(mill.error());
 
     LiveView show(**mill, std::move(show_how), *std::move(arm), std::move(audio));

@@ -49,8 +49,10 @@ LiveView::LiveView(session::LiveMill& mill, LiveViewOptions options, std::unique
     options_.info.max_force_n = finger_.limits().max_force_n;
     options_.info.rate_hz = options_.feel.rate_hz;
     options_.info.arm = finger_.has_arm();
+    options_.info.warnings = warnings();
     if (audio_)
         mill_.set_sound_listener([this](session::LiveSoundUpdate news) { audio_->take(std::move(news)); });
+    files_told_ = files_message();
     follow_files();
     servo_ = std::make_unique<devices::ServoThread>(devices::ServoThreadOptions{options_.feel.rate_hz},
                                                     [this](double now_s) { return finger_.tick(now_s); });
@@ -88,8 +90,10 @@ void LiveView::run(net::Server& server) {
         const auto has_time = [&] { return Clock::now() - now < kMillingTime && !interrupted(); };
         mill_.tick(dt, has_time, frames);
         if (audio_) audio_->follow(mill_.clock_s(), mill_.speed(), mill_.playing());
-        show_input_error(server);
-        follow_files();
+        if (sessions_ != mill_.sessions()) {
+            show_files(server);
+            follow_files();
+        }
         collect_forces();
         finger_.show(controller_.scene(), mill_.state().tip_mm, frames);
         if (pictures_++ % kServoEvery == 0) show_servo(server, frames);
@@ -110,21 +114,33 @@ void LiveView::show_changes(net::Server& server) {
     server.send_text_all(protocol::live_settings(sent_settings_));
 }
 
-void LiveView::show_input_error(net::Server& server) {
-    const std::optional<Error>& error = mill_.input_error();
-    std::string text = error ? error->text() : "";
-    if (text == input_error_) return;
-    input_error_ = std::move(text);
-    if (error) {
+Warnings LiveView::warnings() const {
+    Warnings all = mill_.extras().warnings;
+    all.insert(all.end(), options_.arm_warnings.begin(), options_.arm_warnings.end());
+    return all;
+}
+
+std::string LiveView::files_message() const {
+    return protocol::live_files(mill_.input_error(), options_.info.warnings);
+}
+
+// Tells what came of the files that were read again.
+void LiveView::show_files(net::Server& server) {
+    options_.info.warnings = warnings();
+    std::string told = files_message();
+    if (told == files_told_) return;
+    files_told_ = std::move(told);
+    if (const std::optional<Error>& error = mill_.input_error()) {
         report(*error);
         std::fprintf(stderr, "the cut before goes on\n");
+    } else {
+        report(mill_.extras().warnings);
     }
-    server.send_text_all(protocol::live_files(error));
+    server.send_text_all(files_told_);
 }
 
 // Mills ahead for the hand, again when the files have changed the cut.
 void LiveView::follow_files() {
-    if (sessions_ == mill_.sessions()) return;
     sessions_ = mill_.sessions();
     const std::uint64_t key = session::bake_key(mill_.session().setup(), {});
     if (builder_ && key == built_of_) return;
@@ -176,8 +192,7 @@ void LiveView::answer(const net::Inbox::Event& event, net::Server& server) {
             options_.info.resumed = event.resume.resumed;
             server.send_text(event.client, protocol::live_server_info(options_.info));
             server.send_text(event.client, protocol::live_settings(controller_.settings()));
-            if (mill_.input_error())
-                server.send_text(event.client, protocol::live_files(mill_.input_error()));
+            if (mill_.input_error()) server.send_text(event.client, files_told_);
             replay(event.client, server);
             break;
         case Kind::overflowed:

@@ -19,10 +19,11 @@
 namespace tribo::app {
 
 struct LiveViewOptions {
-    protocol::LiveServerInfo info;  // materials and device are added here
+    protocol::LiveServerInfo info;  // materials, device and the warnings of the job are added here
     protocol::LiveSettings settings;
     contact::JndProfile profile;
     session::LiveForceOptions feel;
+    Warnings arm_warnings;
     std::function<Result<session::MillSetup>()> make_setup;  // may be called on any thread
 };
 
@@ -46,7 +47,9 @@ class LiveView {
     void replay(net::ClientId to, net::Server& server);
     void replay_where_asked(net::Server& server);
     void show_changes(net::Server& server);
-    void show_input_error(net::Server& server);
+    Warnings warnings() const;
+    std::string files_message() const;
+    void show_files(net::Server& server);
     void follow_files();
     void request_forces();
     void collect_forces();
@@ -69,7 +72,7 @@ class LiveView {
     int force_changes_ = 0;       // last requested from the builder
     int sessions_ = 0;            // of the mill, seen last
     std::uint64_t built_of_ = 0;  // key of the cut that the builder mills
-    std::string input_error_;     // last reported problem of the files
+    std::string files_told_;      // last message about the files
     std::unique_ptr<LiveAudio> audio_;
     std::unique_ptr<devices::ServoThread> servo_;
     int pictures_ = 0;

@@ -21,8 +21,9 @@ LiveController::LiveController(LiveMill& mill, const LiveForceOptions& options,
     : mill_(mill),
       job_settings_(std::move(settings)),
       settings_(job_settings_),
-      applied_(job_settings_),
+      applied_(settings_),
       finger_(options, std::move(arm), mill.session().stock().blank().bounds_mm().max) {
+    follow_job();
     mill_.set_session_observer([this](MillSession* session) { finger_.force_source().set_session(session); });
 }
 
@@ -89,7 +90,21 @@ Result<void> LiveController::obey(const protocol::LiveCommand& command) {
     return {};
 }
 
+void LiveController::follow_job() {
+    if (sessions_ == mill_.sessions()) return;
+    sessions_ = mill_.sessions();
+    const auto follow = [this]<class Value>(Value protocol::LiveSettings::* setting, const Value& of_job) {
+        for (protocol::LiveSettings* followed : {&settings_, &applied_}) {
+            if (followed->*setting == job_settings_.*setting) followed->*setting = of_job;
+        }
+        job_settings_.*setting = of_job;
+    };
+    follow(&protocol::LiveSettings::helix_deg, mill_.session().setup().cutters.front().helix_deg);
+    follow(&protocol::LiveSettings::material, mill_.extras().material);
+}
+
 void LiveController::apply() {
+    follow_job();
     const bool recut = cut_of(settings_) != cut_of(applied_);
     const bool rescaled = settings_.force_scale != applied_.force_scale || settings_.jnd != applied_.jnd;
     applied_ = settings_;

@@ -13,8 +13,8 @@ namespace tribo::session {
 
 class LiveController {
   public:
-    // `mill` must outlive this object. `arm`: null for a pointer device, moved by commands. `settings`
-    // contains material and helix of the job.
+    // `mill` must outlive this object. `arm`: null for a pointer device, moved by commands. Material and
+    // helix are those of the job.
     LiveController(LiveMill& mill, const LiveForceOptions& options, std::unique_ptr<haptics::Device> arm,
                    protocol::LiveSettings settings);
     ~LiveController();  // after the servo has stopped
@@ -23,7 +23,8 @@ class LiveController {
 
     // A refused command changes nothing. The caller must handle resync: it keeps the frames.
     Result<void> obey(const protocol::LiveCommand& command);
-    // Applies the newest settings to cut and force: once per frame, before LiveMill::tick().
+    // Applies the newest settings to cut and force: once per frame, before LiveMill::tick(). Material and
+    // helix follow the files of the job, unless a viewer chose others.
     void apply();
 
     LiveMill& mill() { return mill_; }
@@ -40,12 +41,13 @@ class LiveController {
     void set_force(contact::ForceTable table);
 
   private:
+    void follow_job();
     CutChange change() const;
     void use_force();
 
     LiveMill& mill_;
-    const protocol::LiveSettings job_settings_;
-    protocol::LiveSettings settings_, applied_;
+    protocol::LiveSettings job_settings_, settings_, applied_;
+    int sessions_ = 0;  // of the mill, seen last
     LiveFinger finger_;
     contact::ForceTable table_;
     int force_changes_ = 0;

@@ -66,33 +66,25 @@ protocol::LiveCutter live_cutter(const milling::Cutter& cutter) {
 
 }  // namespace
 
-LiveMill::LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras)
-    : make_setup_(std::move(make_setup)),
-      parallel_(std::move(parallel)),
-      extras_(std::move(extras)),
-      cut_(parallel_) {
-    if (!extras_.designed) return;
-    if (auto made = surface::DesignedSurface::make(*extras_.designed))
-        compared_ = std::make_shared<const surface::DesignedSurface>(*std::move(made));
-}
+LiveMill::LiveMill(MakeInput make_input, ParallelFor parallel)
+    : make_input_(std::move(make_input)), parallel_(std::move(parallel)), cut_(parallel_) {}
 
-Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeSetup make_setup, ParallelFor parallel,
-                                                   LiveExtras extras) {
-    std::unique_ptr<LiveMill> live(
-        new LiveMill(std::move(make_setup), std::move(parallel), std::move(extras)));
+Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeInput make_input, ParallelFor parallel) {
+    std::unique_ptr<LiveMill> live(new LiveMill(std::move(make_input), std::move(parallel)));
     if (auto begun = live->begin(); !begun) return std::unexpected(begun.error());
     return live;
 }
 
 Result<void> LiveMill::begin() {
-    auto setup = make_setup_();
-    if (!setup && !session_) return std::unexpected(setup.error());
-    input_error_ = setup ? std::nullopt : std::optional(setup.error());
+    auto input = make_input_();
+    if (!input && !session_) return std::unexpected(input.error());
+    input_error_ = input ? std::nullopt : std::optional(input.error());
     if (session_observer_) session_observer_(nullptr);
     picture_.reset();
-    if (!setup) setup = session_->release_setup();
+    if (input) take(std::move(input->extras));
+    MillSetup setup = input ? std::move(input->setup) : session_->release_setup();
     session_.reset();  // before the next one: two of them need twice the memory
-    session_ = std::make_unique<MillSession>(*std::move(setup), parallel_);
+    session_ = std::make_unique<MillSession>(std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
     cut_.begin(session_->setup());
@@ -103,6 +95,18 @@ Result<void> LiveMill::begin() {
     set_back_ = false;
     if (session_observer_) session_observer_(session_.get());
     return {};
+}
+
+void LiveMill::take(LiveExtras extras) {
+    const bool same = extras.designed && extras_.designed &&
+                      extras.designed->positions == extras_.designed->positions &&
+                      extras.designed->triangles == extras_.designed->triangles;
+    extras_ = std::move(extras);
+    if (same) return;
+    compared_ = nullptr;
+    if (!extras_.designed) return;
+    if (auto made = surface::DesignedSurface::make(*extras_.designed))
+        compared_ = std::make_shared<const surface::DesignedSurface>(*std::move(made));
 }
 
 void LiveMill::set_session_observer(std::function<void(MillSession*)> observer) {

@@ -7,6 +7,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "base/limits.hpp"
 #include "base/result.hpp"
@@ -18,34 +20,43 @@
 
 namespace tribo::session {
 
-// Additional data for a viewer.
+// What a job tells a viewer beside its cut.
 struct LiveExtras {
     std::optional<job::Listening> listening{};  // none: at the centre of the top of the blank
     std::shared_ptr<const TriangleMesh> designed{};
+    std::string material{};  // its name; empty: coefficients of the job's own
+    Warnings warnings{};
+};
+
+// What the files of a job make.
+struct LiveInput {
+    LiveInput(MillSetup cut, LiveExtras told = {}) : setup(std::move(cut)), extras(std::move(told)) {}
+    MillSetup setup;
+    LiveExtras extras;
 };
 
 class LiveMill {
   public:
-    // Makes the setup from its files. Called again when the clock is set back; if it then fails, the setup
-    // before is milled again (input_error()). Moves should be short (MillOptions::longest_piece_mm): the part
-    // is shown only between moves.
-    using MakeSetup = std::function<Result<MillSetup>()>;
+    // Reads the files. Called again when the clock is set back; if it then fails, the input before is milled
+    // again (input_error()). Moves should be short (MillOptions::longest_piece_mm): the part is shown only
+    // between moves.
+    using MakeInput = std::function<Result<LiveInput>()>;
     static constexpr double kPieceMm = 2;
     static constexpr double kFastest = kLimits.play_speed.range.max;  // program seconds per second
 
-    static Result<std::unique_ptr<LiveMill>> create(MakeSetup make_setup, ParallelFor parallel,
-                                                    LiveExtras extras = {});
+    static Result<std::unique_ptr<LiveMill>> create(MakeInput make_input, ParallelFor parallel);
 
     double duration_s() const { return session_->duration_s(); }
     double clock_s() const { return clock_s_; }
     bool playing() const { return playing_; }
     protocol::LiveState state() const;
     const MillSession& session() const { return *session_; }
+    const LiveExtras& extras() const { return extras_; }
     // Number of sessions so far: a new one begins after the clock was set back.
     int sessions() const { return sessions_; }
     // The rows so far.
     const CutRecord& record() const { return cut_.record(); }
-    // The error of the last call of MakeSetup; none: it made a setup.
+    // The error of the last call of MakeInput; none: it read the files.
     const std::optional<Error>& input_error() const { return input_error_; }
 
     // play(true) at the end starts again from the beginning.
@@ -68,8 +79,9 @@ class LiveMill {
     void tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
-    LiveMill(MakeSetup make_setup, ParallelFor parallel, LiveExtras extras);
+    LiveMill(MakeInput make_input, ParallelFor parallel);
     Result<void> begin();
+    void take(LiveExtras extras);
     void show_job(const protocol::FrameSink& frames);
     void show_part(const Box3& box_mm, const protocol::FrameSink& frames);
     void show_collisions(const protocol::FrameSink& frames);
@@ -78,7 +90,7 @@ class LiveMill {
     job::Listening listening() const;
     void show_state(const protocol::FrameSink& frames);
 
-    MakeSetup make_setup_;
+    MakeInput make_input_;
     ParallelFor parallel_;
     LiveExtras extras_;
     // Null: there is no designed surface, or it has no area.

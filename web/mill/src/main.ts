@@ -55,7 +55,10 @@ const listener: Listener = {
   line(there, why) {
     say(there ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
   },
-  files: showFileFault,
+  files({ wrong, warnings }) {
+    showFileFault(wrong);
+    showWarnings(warnings);
+  },
   refused: say,
 };
 

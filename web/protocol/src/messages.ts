@@ -60,6 +60,8 @@ export interface FileFault {
 export interface Files {
   op: "files";
   wrong: FileFault | null;
+  /** Of the cut that is milled now. */
+  warnings: string[];
 }
 
 /** Frames were dropped; `resync` requests them again. */

@@ -75,7 +75,7 @@ export class Connection implements Source {
     } else if (message.op === "lost") {
       this.send({ op: "resync" });
     } else if (message.op === "files") {
-      this.tell((to) => to.files(message.wrong));
+      this.tell((to) => to.files(message));
     } else if (message.op === "refused") {
       this.tell((to) => to.refused([message.why, message.remedy].filter(Boolean).join("; ")));
     }

@@ -3,7 +3,7 @@
 // for all.
 
 import type { Frame } from "@tribo/protocol/frames";
-import type { Command, FileFault, ServerInfo, Settings } from "@tribo/protocol/messages";
+import type { Command, Files, ServerInfo, Settings } from "@tribo/protocol/messages";
 
 export interface Listener {
   // `bytes` is the undecoded frame; it may be kept.
@@ -13,7 +13,7 @@ export interface Listener {
   // Reports whether the source is connected; `why` is a text for users.
   line(open: boolean, why: string): void;
   // Reports a fault in the files of the job, which were read again; null: there is none any more.
-  files(wrong: FileFault | null): void;
+  files(news: Files): void;
   // Reports a refused command with the reason.
   refused(why: string): void;
 }
