@@ -20,8 +20,6 @@ void add(const Warnings& more, Warnings& warnings) {
     warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-// A move, and its copies in vectors that grow and in the setup.
-constexpr std::uint64_t kMoveBytes = 3 * sizeof(motion::Move);
 // A triangle with its vertices, and with the tree and the normals of field::MeshDistance.
 constexpr std::uint64_t kTriangleBytes = 170;
 
@@ -31,12 +29,10 @@ class Budget {
     explicit Budget(std::uint64_t bytes)
         : left_(bytes == 0 ? std::numeric_limits<std::uint64_t>::max() : bytes) {}
 
-    std::size_t moves() const {
-        return static_cast<std::size_t>(std::min<std::uint64_t>(readers::kMostMoves, left_ / kMoveBytes));
-    }
+    std::size_t moves() const { return readers::most_moves(left_); }
     std::uint64_t triangles() const { return std::min(readers::kMaxTriangles, left_ / kTriangleBytes); }
 
-    void take(const motion::Program& program) { take(program.moves.size() * kMoveBytes); }
+    void take(const motion::Program& program) { take(program.moves.size() * readers::kMoveBytes); }
     void take(const TriangleMesh& mesh) { take(mesh.triangles.size() * kTriangleBytes); }
 
   private:

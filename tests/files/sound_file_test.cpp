@@ -122,7 +122,7 @@ void expect_as_grainy(const noise::Recording& recording) {
 }
 
 // Of the level deviation of real friction most is the hand's; the modulation is tested in
-// tests/app/rub_recordings_test.cpp.
+// tests/app/touch/rub_recordings_test.cpp.
 TEST(RealFriction, is_played_as_grainy_as_it_was_recorded) {
     const std::string folder = std::string(TRIBO_SOURCE_DIR) + "/../shared/data/audio/";
     for (const char* name : {"lmt_carpet.wav", "lmt_rough_paper.wav"}) {

@@ -57,13 +57,8 @@ class ToolChoice {
     bool warned_ = false;               // of a second one
 };
 
-// A move and its copies while vectors grow.
-constexpr std::uint64_t kMoveBytes = 3 * sizeof(motion::Move);
-
 std::size_t most_moves(const MillOptions& options) {
-    if (options.memory_bytes == 0) return readers::kMostMoves;
-    return static_cast<std::size_t>(
-        std::min<std::uint64_t>(readers::kMostMoves, options.memory_bytes / kMoveBytes));
+    return options.memory_bytes == 0 ? readers::kMostMoves : readers::most_moves(options.memory_bytes);
 }
 
 // Counts the pieces of all moves before any is made.

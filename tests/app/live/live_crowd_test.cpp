@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "app/run/live_engine.hpp"
+#include "app/run/live_viewer.hpp"
 #include "net/raw_client.hpp"
 
 namespace tribo::test {
@@ -22,8 +23,6 @@ using net::test::RawClient;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using std::chrono::duration;
-
-constexpr const char* kProtocol = "tribo.live.1";
 
 double seconds_since(Clock::time_point then) {
     return duration<double>(Clock::now() - then).count();

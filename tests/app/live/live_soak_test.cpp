@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "app/run/live_engine.hpp"
+#include "app/run/live_viewer.hpp"
 #include "net/raw_client.hpp"
 
 namespace tribo::test {
@@ -30,10 +31,10 @@ Played play(seconds time, int silent_clients) {
     std::vector<std::unique_ptr<RawClient>> silent;
     for (int n = 0; n < silent_clients; ++n) {
         silent.push_back(std::make_unique<RawClient>(port));
-        EXPECT_TRUE(silent.back()->join("tribo.live.1"));
+        EXPECT_TRUE(silent.back()->join(kProtocol));
     }
     RawClient player(port);
-    EXPECT_TRUE(player.join("tribo.live.1"));
+    EXPECT_TRUE(player.join(kProtocol));
     player.send_frame(1, R"({"op":"speed","value":1000})");
     player.send_frame(1, R"({"op":"play"})");
     Played played;
