@@ -61,16 +61,16 @@ TRIBO_LANES F to_float(U v) {
 
 TRIBO_LANES F load(const float* p) {
     F v;
-    std::memcpy(&v, p, sizeof v);
+    __builtin_memcpy(&v, p, sizeof v);
     return v;
 }
 TRIBO_LANES U load(const std::uint32_t* p) {
     U v;
-    std::memcpy(&v, p, sizeof v);
+    __builtin_memcpy(&v, p, sizeof v);
     return v;
 }
 TRIBO_LANES void store(float* p, F v) {
-    std::memcpy(p, &v, sizeof v);
+    __builtin_memcpy(p, &v, sizeof v);
 }
 
 // A bijection of 32 bits with little bias (found by search, C. Wellons 2018, "lowbias32").

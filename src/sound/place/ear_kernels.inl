@@ -46,8 +46,8 @@ void read(const float* line, const InterpolatorTable& table, Course delay, Cours
         whole += __builtin_convertvector(whole, F8) > place;  // a mask is -1 where it holds
         const F8 share = (place - __builtin_convertvector(whole, F8)) * splat(float{kInterpolatorRows});
         const I8 nearest = __builtin_convertvector(share + splat(0.5f), I8) * kInterpolatorTaps;
-        std::memcpy(from + frame, &whole, sizeof whole);
-        std::memcpy(row + frame, &nearest, sizeof nearest);
+        __builtin_memcpy(from + frame, &whole, sizeof whole);
+        __builtin_memcpy(row + frame, &nearest, sizeof nearest);
     }
     const float* first = line - (kInterpolatorAhead - 1);
     for (int frame = 0; frame < kFrames; frame += kLanes) {
@@ -71,7 +71,7 @@ constexpr int kWide = sizeof(Wide) / sizeof(float);
 
 TRIBO_LANES Wide wide(const float* p) {
     Wide v;
-    std::memcpy(&v, p, sizeof v);
+    __builtin_memcpy(&v, p, sizeof v);
     return v;
 }
 TRIBO_LANES Wide all(float f) {
@@ -86,7 +86,7 @@ TRIBO_LANES Wide kept(const float* p) {
     return v;
 }
 TRIBO_LANES void put(float* p, Wide v) {
-    std::memcpy(p, &v, sizeof v);
+    __builtin_memcpy(p, &v, sizeof v);
 }
 
 // sum[b] += the taps k and k + 8, of frame `frame` + kWide b on: what one tap sees at a frame the other sees
