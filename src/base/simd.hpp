@@ -19,8 +19,8 @@ namespace tribo::simd {
 namespace {
 
 #define TRIBO_LANES [[gnu::always_inline, maybe_unused]] inline
-// Lanes go to and from memory by __builtin_memcpy. The checked std::memcpy of a hardened build (_FORTIFY_SOURCE)
-// keeps g++ from holding them in registers: a sound source then takes a quarter longer.
+// Lanes go to and from memory by __builtin_memcpy. The checked std::memcpy of a hardened build
+// (_FORTIFY_SOURCE) keeps g++ from holding them in registers: a sound source then takes a quarter longer.
 
 using F8 = float __attribute__((vector_size(32)));
 using I8 = int __attribute__((vector_size(32)));

@@ -119,7 +119,7 @@ FileResult<Material> read_material(const std::string& path) {
 }
 
 std::string material_json(const Material& material) {
-    return files::pretty(files::Json::parse(material_text(material)));
+    return files::pretty(files::parse(material_text(material)));
 }
 
 bool looks_like_material(std::string_view text) {

@@ -287,7 +287,7 @@ class Client : public std::enable_shared_from_this<Client> {
         }
     }
 
-    websocket::stream<Connection> socket_;
+    websocket::stream<Connection, false> socket_;  // no message is compressed
     Shared& shared_;
     Admission admission_;
     std::string origin_;

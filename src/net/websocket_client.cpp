@@ -21,7 +21,7 @@ using tcp = asio::ip::tcp;
 // A read that exceeds its time continues: cancelling would lose the state of the stream.
 struct WebSocketClient::Connection {
     asio::io_context context;
-    beast::websocket::stream<beast::tcp_stream> socket{context};
+    beast::websocket::stream<beast::tcp_stream, false> socket{context};
     beast::flat_buffer buffer;
     std::chrono::milliseconds timeout{0};
     bool reading = false, read = false, closed = false;

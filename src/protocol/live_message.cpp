@@ -52,7 +52,7 @@ Result<void> read_argument(const LiveOperation& operation, const files::Json& js
 }  // namespace
 
 Result<LiveCommand> parse_live_command(std::string_view text) {
-    const files::Json json = files::Json::parse(text, nullptr, false);
+    const files::Json json = files::parse(text);
     if (!json.is_object() || !json.contains("op") || !json["op"].is_string())
         return fail("the message is no JSON object with an op", "send {\"op\": \"play\"}");
     const auto operation = find_live_operation(json["op"].get<std::string>());

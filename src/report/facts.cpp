@@ -144,7 +144,7 @@ void add_material(Builder& b, const job::JobMaterial& material) {
 
 // Adds the facts of a named file under their own key. Its lines follow the name; its warnings are appended.
 void add_inner(Builder& b, const char* name, const Facts& inner) {
-    b.json[name] = files::Json::parse(inner.json);
+    b.json[name] = files::parse(inner.json);
     b.json[name].erase("schema");
     for (const auto& [line_name, text] : inner.lines) b.line(std::string(name) + " " + line_name, text);
     b.facts.warnings.insert(b.facts.warnings.end(), inner.warnings.begin(), inner.warnings.end());

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace tribo::files {
 namespace {
 
@@ -41,6 +43,14 @@ void append(std::string& text, const Json& json, std::size_t depth) {
 }
 
 }  // namespace
+
+Json parse(std::string_view text) {
+    return Json::parse(text, nullptr, false);
+}
+
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string pretty(const Json& json) {
     std::string text;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/vec3.hpp"
 
@@ -21,11 +22,14 @@ inline void set(Json& object, const char* key, std::optional<double> value) {
 inline Json triple(Vec3 v) {
     return Json::array({v.x, v.y, v.z});
 }
+// Reads a text. The result is_discarded() if it is no JSON.
+Json parse(std::string_view text);
 // One line. Bytes that are not UTF-8 (a Latin-1 comment in a program) become replacement characters.
-inline std::string dump(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string dump(const Json& json);
 // Indented, with arrays of plain values on one line. Ends with a line end.
 std::string pretty(const Json& json);
 
 }  // namespace tribo::files
+
+// Compiled once, in json.cpp.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
