@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "readers/siemens/siemens_text.hpp"
+#include "readers/siemens/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace tribo;

@@ -10,7 +10,7 @@
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"
-#include "readers/siemens/siemens_text.hpp"
+#include "readers/siemens/reader.hpp"
 #include "readers/tables/keyframes_csv.hpp"
 #include "readers/tables/tool_table.hpp"
 
@@ -122,8 +122,9 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
     }
-    const std::optional<readers::Dialect> told =
-        options.dialect ? options.dialect : readers::detect_dialect(bytes);
+    std::optional<readers::Dialect> told = options.dialect ? options.dialect : readers::detect_dialect(bytes);
+    const std::string extension = lower(extension_of(path));
+    if (!told && (extension == ".mpf" || extension == ".spf")) told = readers::Dialect::siemens;
     const readers::Dialect dialect = told.value_or(readers::Dialect::linuxcnc);
     if (dialect == readers::Dialect::heidenhain) {
         return sink != nullptr ? readers::read_heidenhain(bytes, gcode, *sink)

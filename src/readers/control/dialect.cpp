@@ -26,6 +26,19 @@ constexpr std::array kSigns{
     Sign{"SUPA", Dialect::siemens},        Sign{"_N_", Dialect::siemens},
     Sign{"CR=", Dialect::siemens},         Sign{"A3=", Dialect::siemens},
     Sign{"=AC(", Dialect::siemens},        Sign{"=IC(", Dialect::siemens},
+    Sign{"GOTOF", Dialect::siemens},       Sign{"GOTOB", Dialect::siemens},
+    Sign{"ATRANS", Dialect::siemens},      Sign{"AROT", Dialect::siemens},
+    Sign{"POCKET", Dialect::siemens},      Sign{"HOLES1(", Dialect::siemens},
+    Sign{"HOLES2(", Dialect::siemens},     Sign{"LONGHOLE(", Dialect::siemens},
+    Sign{"CUT2D", Dialect::siemens},       Sign{"DIAMOF", Dialect::siemens},
+    Sign{"COMPCAD", Dialect::siemens},     Sign{"COMPON", Dialect::siemens},
+    Sign{"FFWON", Dialect::siemens},       Sign{"ORIWKS", Dialect::siemens},
+    Sign{"WORKPIECE(", Dialect::siemens},  Sign{"EXTCALL", Dialect::siemens},
+    Sign{"TURN=", Dialect::siemens},       Sign{"RND=", Dialect::siemens},
+    Sign{"CHF=", Dialect::siemens},        Sign{"CHR=", Dialect::siemens},
+    Sign{"T=\"", Dialect::siemens},        Sign{"$P_", Dialect::siemens},
+    Sign{"$TC_", Dialect::siemens},        Sign{"G642", Dialect::siemens},
+    Sign{"G500", Dialect::siemens},        Sign{"G710", Dialect::siemens},
     Sign{"O<", Dialect::linuxcnc},         Sign{"#<", Dialect::linuxcnc},
     Sign{"M428", Dialect::linuxcnc},       Sign{"M429", Dialect::linuxcnc},
     Sign{"G43.4", Dialect::fanuc},         Sign{"G43.5", Dialect::fanuc},
@@ -34,6 +47,31 @@ constexpr std::array kSigns{
     Sign{"]THEN", Dialect::fanuc},         Sign{"G65P", Dialect::fanuc},
     Sign{"DPRNT[", Dialect::fanuc},        Sign{"#3000=", Dialect::fanuc},
 };
+
+// Beginnings of a Siemens block, behind its number.
+constexpr std::string_view kSiemensBlocks[] = {
+    "DEFREAL",  "DEFINT",  "DEFBOOL", "DEFSTRING", "DEFAXIS", "DEFCHAR", "ENDIF", "ENDFOR",
+    "ENDWHILE", "ENDLOOP", "TRANSX",  "TRANSY",    "TRANSZ",  "ROTX",    "ROTY",  "ROTZ",
+    "ROTRPL",   "MIRRORX", "MIRRORY", "SCALEX",    "SLOT1(",  "SLOT2(",  "CYCLE"};
+
+// R1=5, X=R1, and blocks that begin with a word of that language alone.
+bool looks_like_siemens(std::string_view text) {
+    std::string_view block = text;
+    if (block.size() > 1 && (block[0] == 'N' || block[0] == ':') && is_digit(block[1])) {
+        block.remove_prefix(std::min(block.find_first_not_of("0123456789", 1), block.size()));
+    }
+    for (const std::string_view begin : kSiemensBlocks) {
+        if (block.starts_with(begin)) return true;
+    }
+    const std::size_t digits = block.starts_with("R") ? block.find_first_not_of("0123456789", 1) : 1;
+    if (digits > 1 && digits < block.size() && block[digits] == '=') return true;
+    for (std::size_t i = text.find('='); i != std::string_view::npos; i = text.find('=', i + 1)) {
+        const bool is_axis = i > 0 && text[i - 1] >= 'X' && text[i - 1] <= 'Z';
+        const bool is_whole = i < 2 || is_digit(text[i - 2]) || text[i - 2] == '.' || text[i - 2] == ')';
+        if (is_axis && is_whole && i + 1 < text.size() && text[i + 1] != '=') return true;
+    }
+    return false;
+}
 
 // To upper case, without blanks and comments.
 std::string plain(std::string_view line) {
@@ -76,6 +114,7 @@ std::optional<Dialect> detect_dialect(std::string_view bytes) {
         for (const Sign& sign : kSigns) {
             if (text.find(sign.text) != std::string::npos) return sign.dialect;
         }
+        if (looks_like_siemens(text)) return Dialect::siemens;
     }
     return std::nullopt;
 }

@@ -20,8 +20,8 @@ std::optional<Dialect> dialect_of(std::string_view word);
 std::string_view name_of(Dialect dialect);
 
 // Detects the control from clear signs in the first lines. Heidenhain: BEGIN PGM. Siemens: TRAORI, CYCLE800,
-// MSG(, words with '='. Fanuc: an O word alone at the start, GOTO, WHILE DO, G65, G43.4, G68.2. LinuxCNC:
-// o<name>, M428, named parameters. Returns none without a sign; callers then assume LinuxCNC.
+// MSG(, GOTOF, DEF, words with '='. Fanuc: an O word alone at the start, GOTO, WHILE DO, G65, G43.4, G68.2.
+// LinuxCNC: o<name>, M428, named parameters. Returns none without a sign; callers then assume LinuxCNC.
 std::optional<Dialect> detect_dialect(std::string_view bytes);
 
 }  // namespace tribo::readers

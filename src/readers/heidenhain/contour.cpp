@@ -90,10 +90,11 @@ void Contour::add(Vec3 to, const std::optional<motion::Arc>& arc, const ContourW
     programmed_ = to;
 }
 
-void Contour::corner(double size_mm, bool is_chamfer, const ContourWords& words) {
+void Contour::corner(double size_mm, bool is_chamfer, const ContourWords& words, bool is_own_length) {
     Piece piece;
     piece.is_corner = true;
     piece.is_chamfer = is_chamfer;
+    piece.is_own_length = is_own_length;
     piece.size_mm = size_mm;
     piece.words = words;
     pieces_.push_back(piece);
@@ -133,6 +134,7 @@ Result<Contour::Pieces> Contour::with_corners(const Path& path) const {
             done.push_back(next);
             continue;
         }
+        if (corner.is_own_length) corner.size_mm /= 2 * math::cos(turn / 2);
         if (corner.is_chamfer) {
             fits = !before.element.is_arc() && !next.element.is_arc() &&
                    corner.size_mm < before.element.length() && corner.size_mm < next.element.length();

@@ -52,7 +52,8 @@ class Contour {
     void open(Vec3 tip, int side, double radius_mm, bool has_entry);
     void approach(const ContourEndShape& shape, const ContourWords& words);
     void add(Vec3 to, const std::optional<motion::Arc>& arc, const ContourWords& words);
-    void corner(double size_mm, bool is_chamfer, const ContourWords& words);
+    // The size of a chamfer is what it takes from each element, or its own length.
+    void corner(double size_mm, bool is_chamfer, const ContourWords& words, bool is_own_length = false);
     // Ends the contour with DEP. Returns the position after it.
     void depart(const ContourEndShape& shape, const ContourWords& words);
 
@@ -63,7 +64,7 @@ class Contour {
     struct Piece {
         gcode::Element element;  // start = end: along the tool axis
         double from_z = 0, to_z = 0;
-        bool is_corner = false, is_chamfer = false;
+        bool is_corner = false, is_chamfer = false, is_own_length = false;
         double size_mm = 0;
         ContourWords words;
 

@@ -5,6 +5,7 @@
 
 #include "base/math.hpp"
 #include "base/text/limit_text.hpp"
+#include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::readers::heidenhain {
@@ -98,7 +99,7 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     axis_ = aim_;
     if (kind == motion::MoveKind::feed) {
         if (!feed_mm_per_min) {
-            return refuse(place, "a feed move before any F", "write F, or FMAX for a rapid");
+            return refuse(place, "a feed move before any F", "write F, or make it a rapid");
         }
         if (auto good = in_range(kLimits.feed, *feed_mm_per_min, place); !good) return good;
         move.feed_mm_per_min = *feed_mm_per_min;
@@ -132,19 +133,55 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     return {};
 }
 
+motion::ToolPose Path::pose_in_stock() const {
+    if (!machine) return {place_mm_, axis_};
+    motion::MachineBlock block;
+    block.tip_control = in_stock();
+    block.start_mm = block.end_mm = place_mm_;
+    block.start_rad = block.end_rad = now_rad_;
+    return motion::pose_at(machine->kinematics(), block, 0);
+}
+
+Result<void> Path::follow(const motion::BSpline<motion::HomogeneousPoint>& curve, Place place) {
+    if (!feed_mm_per_min) return refuse(place, "a feed move before any F", "write F before it");
+    if (auto good = in_range(kLimits.feed, *feed_mm_per_min, place); !good) return good;
+    const motion::ToolPose from = pose_in_stock();
+    motion::BSplineMotion motion;
+    motion.spline.degree = curve.degree;
+    motion.spline.knots = curve.knots;
+    for (const motion::HomogeneousPoint& p : curve.control) {
+        place_mm_ = frame.in_stock(p.point());
+        for (int k = 0; k < 3; ++k) {
+            if (auto good = in_range(kLimits.coordinate, place_mm_[k], place); !good) return good;
+        }
+        motion.spline.control.push_back(
+            p.w * motion::displacement(motion::ToolPose{pose_in_stock().tip_mm, from.axis}));
+    }
+    motion::Move like;
+    like.start = like.end = from;
+    like.feed_mm_per_min = *feed_mm_per_min;
+    like.spindle_rpm = spindle_rpm;
+    like.tool = tool;
+    like.line = place.line;
+    std::vector<motion::Move> pieces;
+    if (!motion::append_moves(motion, motion.start(), motion.end(), like, {}, options.max_moves - moves,
+                              pieces))
+        return refuse_more_moves(options.source_name, place.line, options.max_moves);
+    if (pieces.empty()) return {};
+    pieces.front().start = from;
+    pieces.back().end = pose_in_stock();
+    for (const motion::Move& piece : pieces) {
+        if (auto done = append(piece); !done) return done;
+    }
+    return {};
+}
+
 Result<void> Path::dwell(double seconds, Place place) {
     if (!knows_tip() || !(seconds > 0)) return {};
     if (auto good = in_range(kLimits.dwell, seconds, place); !good) return good;
     motion::Move move;
     move.kind = motion::MoveKind::dwell;
-    motion::ToolPose pose{place_mm_, axis_};
-    if (machine) {
-        motion::MachineBlock block;
-        block.tip_control = in_stock();
-        block.start_mm = block.end_mm = place_mm_;
-        block.start_rad = block.end_rad = now_rad_;
-        pose = motion::pose_at(machine->kinematics(), block, 0);
-    }
+    const motion::ToolPose pose = pose_in_stock();
     move.start = move.end = pose;
     move.duration_s = seconds;
     move.spindle_rpm = spindle_rpm;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/limits.hpp"
+#include "motion/curve/bspline_motion.hpp"
 #include "motion/machine/work_frame.hpp"
 #include "motion/path/program.hpp"
 #include "readers/control/machine_run.hpp"
@@ -59,6 +60,9 @@ class Path {
     // `to_rad`. The tip must be known.
     Result<void> move(motion::MoveKind kind, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad,
                       Place place);
+    // Adds the moves of a curve in coordinates of the frame, which begins where the tip is. The tool does not
+    // turn. Pieces keep within motion::PieceTolerance.
+    Result<void> follow(const motion::BSpline<motion::HomogeneousPoint>& curve, Place place);
     Result<void> dwell(double seconds, Place place);
     // Sets the rotary axes while the tip is not known.
     void set_rotary(Vec3 to_rad) { now_rad_ = to_rad; }
@@ -96,6 +100,8 @@ class Path {
 
   private:
     Result<void> append(const motion::Move& move);
+    // The tool where it stands; the tip must be known.
+    motion::ToolPose pose_in_stock() const;
     // True when coordinates are those of the tip in the stock. Without a machine this is always so.
     bool in_stock() const { return !machine || tip_control || frame.is_tilted(); }
 

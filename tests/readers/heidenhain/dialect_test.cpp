@@ -24,6 +24,11 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"N10 G1 X1 A3 = 0.5\n", Dialect::siemens},
         {"g2 x1 y1 cr=5\n", Dialect::siemens},
         {"N10 CYCLE800(0,\"\")\n", Dialect::siemens},
+        {"N20 R1=0\nG0 X1\n", Dialect::siemens},
+        {"G0 X1\nN30 g1 z = r6\n", Dialect::siemens},
+        {"DEF REAL _F\n", Dialect::siemens},
+        {"IF R1==5 GOTOF END\n", Dialect::siemens},
+        {"#<max>=5\nG1 X1\n", Dialect::linuxcnc},
         {"\xEF\xBB\xBF"
          "0 BEGIN PGM X MM\r\n",
          Dialect::heidenhain},

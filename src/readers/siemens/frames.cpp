@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// Frames: work offsets, TRANS, ROT, SCALE, MIRROR, and the swivelled planes of CYCLE800.
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/siemens/interpreter.hpp"
+
+namespace tribo::readers::siemens {
+namespace {
+
+constexpr Range kScale{1e-3, 1e3};
+constexpr std::string_view kAxes = "XYZ";
+
+// `inner`, given in the coordinates of `outer`.
+motion::WorkFrame joined(const motion::WorkFrame& outer, const motion::WorkFrame& inner) {
+    return {outer.in_stock(inner.origin_mm), outer.direction_in_stock(inner.x),
+            outer.direction_in_stock(inner.y), outer.direction_in_stock(inner.z)};
+}
+
+Vec3 unit(int axis) {
+    Vec3 direction;
+    direction[axis] = 1;
+    return direction;
+}
+
+// The angles of ROT turn about z, then about the new y, then about the new x.
+motion::WorkFrame turned_by(motion::WorkFrame frame, const Vec3& rad) {
+    for (const int k : {2, 1, 0}) {
+        if (rad[k] != 0) frame = frame.turned(unit(k), rad[k]);
+    }
+    return frame;
+}
+
+}  // namespace
+
+motion::WorkFrame Interpreter::settable_frame() const {
+    const auto found = offsets_.find(work_offset_);
+    return found == offsets_.end() ? motion::WorkFrame{} : found->second;
+}
+
+void Interpreter::set_work_offset(int code) {
+    work_offset_ = code;
+    if (code <= 54 || code == 500 || offsets_.contains(code)) return;
+    if (passed_over_.insert("G" + std::to_string(code)).second) {
+        path_.warn(line_number(),
+                   "G" + std::to_string(code) +
+                       " is not placed by the program: its zero is taken at that of the stock");
+    }
+}
+
+// Makes the frame of the modes that of the path. The tool does not move.
+Result<void> Interpreter::set_frame(int line) {
+    if (auto done = close_contour(); !done) return done;
+    contour_.leave();
+    const motion::WorkFrame frame = joined(joined(settable_frame(), swivelled_), turned_);
+    const bool turns = frame.x != path_.frame.x || frame.y != path_.frame.y || frame.z != path_.frame.z;
+    const bool is_partly_known =
+        !path_.knows_tip() &&
+        (path_.known(0) == Known::yes || path_.known(1) == Known::yes || path_.known(2) == Known::yes);
+    path_.frame = frame;
+    if (turns && is_partly_known) path_.lose(line);
+    if (turns) tangent_ = {};
+    pole_.reset();
+    return {};
+}
+
+// TRANS, ROT, SCALE and MIRROR delete what was before them; ATRANS, AROT, ASCALE and AMIRROR add to it.
+Result<void> Interpreter::transform(const Words& words) {
+    const bool adds = words.frame[0] == 'A';
+    const std::string kind = adds ? words.frame.substr(1) : words.frame;
+    if (!adds) {
+        turned_ = {};
+        scale_ = {1, 1, 1};
+    }
+    for (const auto& word : words.linear) {
+        if (!word) continue;
+        const Limit& limit = kind == "ROT" ? kLimits.rotary_angle : kLimits.coordinate;
+        const double value = kind == "TRANS" ? word->value * unit_mm_ : word->value;
+        if (auto good = path_.in_range(limit, value, place(word->column)); !good) return good;
+    }
+    if (words.has_rotary() && kind == "TRANS" && (words.rotary[0] ? words.rotary[0]->value : 0) == 0 &&
+        (words.rotary[1] ? words.rotary[1]->value : 0) == 0 &&
+        (words.rotary[2] ? words.rotary[2]->value : 0) == 0) {
+        // nothing to shift
+    } else if (words.has_rotary()) {
+        return path_.refuse(place(words.first_column), words.frame + " of a rotary axis is not read",
+                            "write the angles in the blocks");
+    }
+    if (kind == "ROT") {
+        if (auto done = turn_frame(words); !done) return done;
+        return set_frame(line_number());
+    }
+    Vec3 shift;
+    for (int k = 0; k < 3; ++k) {
+        const auto& word = words.linear[static_cast<std::size_t>(k)];
+        if (!word) continue;
+        if (kind == "TRANS") shift[k] = word->value * unit_mm_;
+        if (kind == "MIRROR") scale_[k] = -scale_[k];
+        if (kind != "SCALE") continue;
+        if (!kScale.contains(word->value) || !kScale.contains(std::abs(scale_[k] * word->value))) {
+            return path_.refuse(place(word->column), "the scale is out of range",
+                                "write a factor of 0.001 to 1000");
+        }
+        scale_[k] *= word->value;
+    }
+    if (kind == "TRANS") turned_ = turned_.shifted(in_frame(shift));
+    return set_frame(line_number());
+}
+
+// ROT X Y Z, and RPL in the plane.
+Result<void> Interpreter::turn_frame(const Words& words) {
+    Vec3 rad;
+    for (int k = 0; k < 3; ++k) {
+        const auto& word = words.linear[static_cast<std::size_t>(k)];
+        if (word) rad[k] = word->value * math::kRadPerDeg;
+    }
+    if (words.plane_turn) {
+        if (auto good = path_.in_range(kLimits.rotary_angle, *words.plane_turn, place(words.first_column));
+            !good)
+            return good;
+        rad[axes()[2]] = *words.plane_turn * math::kRadPerDeg;
+    }
+    // In mirrored coordinates a turn about an axis is one about its image, to the other side.
+    const double mirrored = scale_.x * scale_.y * scale_.z < 0 ? -1 : 1;
+    for (int k = 0; k < 3; ++k) {
+        const int first = (k + 1) % 3, second = (k + 2) % 3;
+        if (rad[k] != 0 && std::abs(scale_[first]) != std::abs(scale_[second])) {
+            return path_.refuse(place(words.first_column),
+                                "a turn of a frame with different scales is not read",
+                                "write the same factor for the axes that turn");
+        }
+        rad[k] *= mirrored * (scale_[k] < 0 ? -1 : 1);
+    }
+    turned_ = turned_by(turned_, rad);
+    return {};
+}
+
+// CYCLE800(_FR, _TC, _ST, _MODE, _X0, _Y0, _Z0, _A, _B, _C, _X1, _Y1, _Z1, _DIR, _FR_I): a plane, with the
+// tool normal to it.
+Result<void> Interpreter::swivel(const Call& call) {
+    const Place where{call.line, call.column};
+    if (auto done = close_contour(); !done) return done;
+    contour_.leave();
+    const bool resets = call.given.size() < 4 && !call.has(3);
+    const bool adds = static_cast<long long>(call.at(2)) % 10 == 1;
+    const int mode = static_cast<int>(std::clamp(call.at(3), 0.0, 255.0));
+    Vec3 before, after, angle;
+    for (int k = 0; k < 3; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        before[k] = call.at(4 + i) * unit_mm_;
+        angle[k] = call.at(7 + i);
+        after[k] = call.at(10 + i) * unit_mm_;
+        if (auto good = path_.in_range(kLimits.coordinate, before[k], where); !good) return good;
+        if (auto good = path_.in_range(kLimits.coordinate, after[k], where); !good) return good;
+        if (auto good = path_.in_range(kLimits.rotary_angle, angle[k], where); !good) return good;
+        angle[k] *= math::kRadPerDeg;
+    }
+    motion::WorkFrame plane = adds ? joined(swivelled_, turned_) : motion::WorkFrame{};
+    if (resets) {
+        plane = {};
+    } else {
+        plane = plane.shifted(before);
+        if (mode / 64 == 0) {  // about one axis after the other; two bits name each
+            for (int k = 0; k < 3; ++k) {
+                const int axis = (mode >> (2 * k)) & 3;
+                if (axis == 0 && angle[k] != 0) {
+                    return path_.refuse(where, "the swivel mode of CYCLE800 names no axis for an angle",
+                                        "write for example 57: about X, Y and Z");
+                }
+                if (axis != 0 && angle[k] != 0) plane = plane.turned(unit(axis - 1), angle[k]);
+            }
+        } else if (mode / 64 == 1) {  // solid angles: about Z, then Y
+            plane = plane.turned(unit(2), angle.x).turned(unit(1), angle.y);
+        } else {
+            return path_.refuse(where,
+                                mode / 64 == 3
+                                    ? "CYCLE800 by the angles of the machine's own axes is not read"
+                                    : "CYCLE800 by projected angles is not read",
+                                "write the swivel mode 57 with angles about X, Y and Z");
+        }
+        plane = plane.shifted(after);
+    }
+    swivelled_ = plane;
+    turned_ = {};
+    scale_ = {1, 1, 1};
+    pole_.reset();
+    tangent_ = {};
+    const bool retracts = !resets && call.at(0) >= 1;
+    if (!path_.tilt(joined(settable_frame(), swivelled_), false, line_number())) {
+        return path_.refuse(where,
+                            "the machine " + path_.machine->machine().name + " cannot turn its tool there",
+                            "name the machine that the program is written for");
+    }
+    if (retracts && path_.knows_tip()) {
+        path_.put(path_.tip(), {path_.known(0), path_.known(1), Known::lost}, line_number());
+    }
+    return {};
+}
+
+// $P_UIFR[1]=CTRANS(X,1,Y,2) and $P_UIFR[1,X,TR]=1: the work offsets G54, G55 ... of the program itself.
+Result<void> Interpreter::place_offset(const std::vector<Value>& index, Cursor& in) {
+    const std::size_t at = in.at;
+    const double* given = index.empty() ? nullptr : std::get_if<double>(&index[0]);
+    if (given == nullptr || !(*given >= 0 && *given <= 99)) {
+        return in.refuse(at, "$P_UIFR without the number of a work offset", "write $P_UIFR[1] for G54");
+    }
+    const int number = static_cast<int>(*given);
+    const int code = number == 0 ? 500 : number <= 4 ? 53 + number : 500 + number;
+    motion::WorkFrame& frame = offsets_[code];
+    if (index.size() == 1) {
+        const auto found = frame_formula(in);
+        if (!found) return std::unexpected(found.error());
+        frame = *found;
+    } else {
+        const auto value = Formula(in, variables_, *this).number();
+        if (!value) return std::unexpected(value.error());
+        const std::string axis = text_of(index[1]), part = index.size() > 2 ? text_of(index[2]) : "TR";
+        const std::size_t k = axis.size() == 1 ? kAxes.find(axis[0]) : std::string_view::npos;
+        if (k > 2 || (part != "TR" && part != "FI" && *value != 0)) {
+            if (*value == 0) return {};
+            return in.refuse(at, "this part of a work offset is not read", "write TR of X, Y or Z");
+        }
+        const double mm = *value * unit_mm_;
+        if (auto good = path_.in_range(kLimits.coordinate, mm, place(static_cast<int>(at) + 1)); !good)
+            return good;
+        if (part == "TR") frame.origin_mm[static_cast<int>(k)] = mm;
+    }
+    return code == work_offset_ ? set_frame(line_number()) : Result<void>{};
+}
+
+// CTRANS(X,1,Y,2):CROT(Z,30)
+Result<motion::WorkFrame> Interpreter::frame_formula(Cursor& in) {
+    motion::WorkFrame frame;
+    for (;;) {
+        in.skip_blanks();
+        const std::size_t at = in.at;
+        const std::string name = name_at(in);
+        in.at += name.size();
+        const auto call = call_at(in, name, at);
+        if (!call) return std::unexpected(call.error());
+        if (name != "CTRANS" && name != "CROT") {
+            return in.refuse(at, "the frame '" + name.substr(0, 20) + "' is not read",
+                             "write CTRANS and CROT");
+        }
+        Vec3 values;
+        for (std::size_t i = 0; i + 1 < call->given.size(); i += 2) {
+            const std::string axis = call->text(i);
+            const std::size_t k = axis.size() == 1 ? kAxes.find(axis[0]) : std::string_view::npos;
+            if (k > 2) return in.refuse(at, "a frame along an unknown axis", "write X, Y and Z");
+            values[static_cast<int>(k)] = call->at(i + 1);
+            const Limit& limit = name == "CROT" ? kLimits.rotary_angle : kLimits.coordinate;
+            if (auto good = path_.in_range(limit, call->at(i + 1), place(static_cast<int>(at) + 1)); !good)
+                return std::unexpected(good.error());
+        }
+        frame =
+            name == "CTRANS" ? frame.shifted(values * unit_mm_) : turned_by(frame, values * math::kRadPerDeg);
+        if (in.peek_after_blanks() != ':') return frame;
+        ++in.at;
+    }
+}
+
+}  // namespace tribo::readers::siemens

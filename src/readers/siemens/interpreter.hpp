@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// Runs the blocks of a program one by one.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "readers/control/run_limit.hpp"
+#include "readers/gcode/cursor.hpp"
+#include "readers/gcode/motion/arc.hpp"
+#include "readers/heidenhain/contour.hpp"
+#include "readers/heidenhain/path.hpp"
+#include "readers/siemens/formula.hpp"
+#include "readers/siemens/text.hpp"
+#include "readers/siemens/words.hpp"
+
+namespace tribo::readers::siemens {
+
+using gcode::Cursor;
+using heidenhain::Known;
+using heidenhain::Path;
+using heidenhain::Place;
+
+// Notes with one warning per program.
+enum Note {
+    kNoUnit,
+    kUnstatedAxes,
+    kMachinePlace,
+    kSpindleOff,
+    kSpindleStands,
+    kSkipped,
+    kToolLength,
+    kNoRadius,
+    kWorkOffset,
+    kOtherPrograms,
+    kEulerAngles,
+    kComment,
+    kReferencePlane,
+    kSpatial,
+    kSurfaceSpeed,
+    kDwellInContour,
+    kRadiusWord,
+    kShank,
+    kPocket,
+    kSmoothing,
+    kTipControl,
+};
+
+class Interpreter : private SystemValues {
+  public:
+    Interpreter(std::string_view bytes, const GcodeOptions& options, MoveSink* sink);
+    Result<motion::Program> run();
+
+  private:
+    // Blocks (interpreter.cpp)
+    Result<void> run_lines(std::size_t begin, std::size_t end);
+    Result<void> run_line();
+    bool goes_on_after(const Error& error);
+    Result<void> execute(Cursor& in);
+    Result<void> run_words(Words& words);
+    Result<motion::Program> finish();
+
+    // Structures and jumps (flow.cpp)
+    Result<bool> run_structure(const std::string& word, Cursor& in);
+    Result<void> run_if(Cursor& in);
+    Result<void> begin_loop(const std::string& word, Cursor& in);
+    Result<void> end_loop(const std::string& word, Cursor& in);
+    Result<bool> condition(Cursor& in);
+    Result<bool> step_for(Cursor& in, bool begins);
+    Result<void> choose_case(Cursor& in);
+    Result<void> jump(const std::string& word, Cursor& in);
+    Result<void> repeat(Cursor& in, bool one_block);
+    Result<std::string> label(Cursor& in);
+    void go_to(std::size_t line);
+
+    // Variables and programs (programs.cpp)
+    Result<void> define(Cursor& in);
+    Result<void> define_macro(Cursor& in);
+    Result<Call> call_at(Cursor& in, const std::string& name, std::size_t at);
+    Result<void> run_call(const Call& call);
+    Result<void> run_unit(const Unit& unit, const Call& call);
+    struct Returned {  // a VAR parameter, what the caller gave for it, and its value at the end
+        std::string name, given;
+        Value value;
+    };
+    Result<void> take_parameters(const Unit& unit, const Call& call, std::vector<Returned>& returned);
+    Result<void> leave_out_program(const Call& call);
+    Result<void> call_by_text(const std::string& word, Cursor& in);
+    Result<void> assign(const std::string& name, std::size_t at, Cursor& in);
+    Result<void> assign_system(Cursor& in);
+    Result<void> set_element(Variable& variable, std::size_t place, const Value& value, std::size_t at,
+                             Cursor& in) const;
+
+    // Words (words.cpp, addresses.cpp)
+    Result<void> read_words(Cursor& in, Words& words, int depth = 0);
+    Result<void> read_word(Cursor& in, Words& words, int depth);
+    Result<void> read_name(Cursor& in, Words& words, int depth);
+    Result<void> read_named_value(Cursor& in, const std::string& name, std::size_t at, Words& words);
+    Result<void> read_indexed(Cursor& in, const std::string& name, std::size_t at, Words& words);
+    Result<bool> read_keyword(Cursor& in, const std::string& name, Words& words);
+    Result<void> skip_parentheses(Cursor& in);
+    Result<Amount> amount(Cursor& in);
+    Result<void> take_address(Cursor& in, const std::string& name, Amount amount, Words& words);
+    Result<void> choose_tool(Cursor& in, std::size_t at, Words& words);
+
+    // Codes and modes (codes.cpp)
+    Result<void> apply_codes(Words& words);
+    Result<void> apply_g(Words& words, const Code& code);
+    void apply_m_before(const Words& words);
+    Result<void> apply_m_after(const Words& words);
+    Result<void> apply_feed(const Words& words);
+    Result<void> apply_spindle(const Words& words);
+    Result<void> dwell(const Words& words);
+
+    // Tools and variables of the control (tools.cpp)
+    void number_tools();
+    int number_of_tool(const std::string& name);
+    void load_tool(int number);
+    void declare_commented_tool(std::string_view line);
+    std::optional<Value> system_value(const std::string& name,
+                                      const std::vector<Value>& index) const override;
+
+    // Moves (motion.cpp, circles.cpp, orientation.cpp)
+    Result<void> move(const Words& words);
+    Result<bool> find_target(const Words& words, Vec3& to);
+    Result<void> polar_target(const Words& words, Vec3& to);
+    Result<void> angled_target(const Words& words, Vec3& to);
+    void assume_start();
+    Result<void> leave_for_machine(const Words& words);
+    Result<void> travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
+    Result<void> go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
+    void check_start(bool rapid);
+    Result<void> set_block_feed(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
+    Result<motion::Arc> circle(const Words& words, Vec3& to);
+    Result<motion::Arc> circle_about(const Words& words, Vec3& to, bool clockwise);
+    Result<motion::Arc> circle_through(const Words& words, Vec3 to);
+    Result<motion::Arc> tangent_circle(const Words& words, Vec3 to);
+    Result<void> set_pole(const Words& words, int code);
+    Result<void> orient(const Words& words);
+    Result<Vec3> rotary_target(const Words& words);
+    Result<void> switch_tip_control(bool on);
+    bool is_rapid(const Words& words) const { return motion_ == Motion::rapid || words.positions; }
+
+    // Splines (splines.cpp)
+    Result<void> add_to_spline(const Words& words, Vec3 to);
+    Result<void> close_spline();
+    Result<void> run_polynomial(const Words& words, Vec3 to);
+
+    // Corners and radius compensation (corners.cpp)
+    Result<bool> add_to_contour(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
+    Result<void> close_contour();
+    Result<double> cutter_radius(Place where, const char* what);
+    heidenhain::ContourWords contour_words(bool rapid) const;
+
+    // Frames (frames.cpp)
+    Result<void> transform(const Words& words);
+    Result<void> turn_frame(const Words& words);
+    Result<void> swivel(const Call& call);
+    Result<void> set_frame(int line);
+    void set_work_offset(int code);
+    Result<void> place_offset(const std::vector<Value>& index, Cursor& in);
+    Result<motion::WorkFrame> frame_formula(Cursor& in);
+    motion::WorkFrame settable_frame() const;
+    Vec3 in_frame(Vec3 programmed) const {
+        return {scale_.x * programmed.x, scale_.y * programmed.y, scale_.z * programmed.z};
+    }
+    Vec3 from_frame(Vec3 p) const { return {p.x / scale_.x, p.y / scale_.y, p.z / scale_.z}; }
+
+    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp)
+    Result<bool> run_cycle(const Call& call);
+    Result<void> set_modal(Cursor& in);
+    Result<void> run_modal();
+    Result<bool> prepare_cycle(const Call& call);
+    Result<void> run_at(const std::vector<Vec3>& points, const Call& call);
+    Result<void> run_pattern(const Call& call);
+    Result<void> drill(const Call& call);
+    struct Depths {  // in the frame, along the tool: RTP, RFP, RFP + SDIS, DP
+        double back = 0, top = 0, near = 0, bottom = 0;
+    };
+    struct Pocket {
+        Depths depths;
+        Vec3 centre;  // in the plane
+        double half_length = 0, half_width = 0, corner = 0, angle_rad = 0;
+        double radius = 0;                           // of the tool
+        double infeed = 0, step = 0, allowance = 0;  // MID, MIDA, FAL
+        double feed = 0, plunge = 0;                 // FFP1, FFD, mm/min
+        bool clockwise = false, along_edge = false;  // along its edge only
+    };
+    static bool is_milling_cycle(const std::string& name);
+    Result<Depths> depths_of(const Call& call, std::size_t increment, std::size_t mode) const;
+    Result<double> cycle_feed(const Call& call, std::size_t at) const;
+    Result<void> run_milling_cycle(const Call& call);
+    Result<void> mill_pocket(const Pocket& pocket, Place where);
+    Result<void> mill_ring(const Pocket& pocket, double a, double b, double corner, double z);
+    Result<void> mill_face(const Call& call);
+    Result<void> mill_thread(const Call& call);
+    Result<void> mill_to(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc);
+    Result<void> mill_round(Vec3 centre, double turn_rad, double z, double feed);
+
+    Place place(int column) const { return {static_cast<int>(at_) + 1, column}; }
+    int line_number() const { return static_cast<int>(at_) + 1; }
+    // The programmed position in the frame: with radius compensation that of the contour, within a spline its
+    // last point.
+    Vec3 here() const {
+        if (spline_) return spline_->control.back().xyz;
+        return contour_.programmed() ? from_plane(*contour_.programmed()) : path_.tip();
+    }
+    std::array<int, 3> axes() const { return gcode::axes_of(plane_); }
+    // Contours lie in x y: the coordinates of the plane in force, in their order.
+    Vec3 to_plane(Vec3 p) const { return {p[axes()[0]], p[axes()[1]], p[axes()[2]]}; }
+    Vec3 from_plane(Vec3 p) const {
+        Vec3 turned;
+        for (int k = 0; k < 3; ++k) turned[axes()[static_cast<std::size_t>(k)]] = p[k];
+        return turned;
+    }
+
+    std::string source_name_;
+    Text text_;
+    Path path_;
+    heidenhain::Contour contour_;
+    RunLimit limit_;
+    std::size_t at_ = 0;  // index of the running line
+    bool ended_ = false, returned_ = false, is_over_ = false, jumped_ = false, began_ = false;
+    int depth_ = 0;  // of calls and repeats
+    const Unit* unit_ = nullptr;
+    std::set<std::string> passed_over_;  // words without effect that were warned of
+    Variables variables_;
+    std::map<std::string, std::string> macros_;
+    std::map<std::string, int> named_tools_;
+    std::set<int> numbered_tools_;
+    struct ToolData {  // $TC_DP3, 6 and 7
+        double length_mm = 0, radius_mm = 0, corner_mm = 0;
+    };
+    std::map<int, ToolData> tool_data_;
+    int selected_tool_ = 0;
+    bool changes_with_m6_ = false;
+
+    double unit_mm_ = 1;
+    bool has_unit_ = false;
+    bool incremental_ = false;
+    Motion motion_ = Motion::rapid;
+    gcode::Plane plane_ = gcode::Plane::xy;
+    int feed_mode_ = 94;
+    double feed_ = 0;  // as written, for G93 and G95; 0: none
+    int side_ = 0;     // G41 +1, G42 -1, G40 0
+    double modal_rounding_mm_ = 0;
+    std::optional<Vec3> pole_;  // in the frame
+    Vec3 tangent_;              // at the end of the last move, in the frame; 0: none
+    std::size_t left_out_ = 0;  // moves that begin where only the machine knows
+    int left_out_line_ = 0;
+
+    std::map<int, motion::WorkFrame> offsets_;  // that the program sets itself, by their G code
+    int work_offset_ = 500;
+    motion::WorkFrame swivelled_;               // of CYCLE800, within the work offset
+    motion::WorkFrame turned_;                  // TRANS and ROT, within it
+    Vec3 scale_{1, 1, 1};                       // SCALE, and MIRROR: negative; along the axes of turned_
+    Vec3 target_rad_;                           // of the rotary axes at the end of the block
+    bool turns_ = false;                        // the tool or a rotary axis turns in the block
+    bool euler_ = true, euler_stated_ = false;  // A2 B2 C2 are Euler angles, not roll, pitch and yaw
+    bool is_spatial_ = false;                   // CUT3DC and the like: compensation in space
+
+    std::optional<Call> modal_;  // MCALL
+    int old_cycle_ = 0;          // G81 or G82
+    bool runs_modal_ = false;
+
+    struct Spline {  // BSPLINE: its control points so far
+        std::vector<motion::HomogeneousPoint> control;
+        std::size_t degree = 3;
+        std::optional<double> knot_step;  // PL
+        Place place;
+    };
+    std::optional<Spline> spline_;
+};
+
+}  // namespace tribo::readers::siemens

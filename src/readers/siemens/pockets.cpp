@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// Milling cycles: POCKET1 to POCKET4, SLOT1, LONGHOLE, CYCLE61, CYCLE71 and CYCLE90. Where the manual leaves
+// the way of the tool to the control, rings and lines are taken, with a warning.
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/siemens/interpreter.hpp"
+
+namespace tribo::readers::siemens {
+namespace {
+
+constexpr double kMostPasses = 10'000;
+constexpr double kSameMm = 1e-6;
+constexpr double kUsualStep = 0.8;  // of the tool's diameter, from ring to ring
+
+// The places of the parameters of a pocket or slot; kNone: it has none of it.
+constexpr std::size_t kNone = 99;
+struct Layout {
+    std::string_view name;
+    std::size_t increment, count, length, width, radius, centre_u, centre_v, from_centre, angle, step_angle,
+        infeed, allowance, floor_allowance, feed, plunge, direction, kind, step, mode;
+};
+constexpr Layout kLayouts[] = {
+    {"POCKET1", 4, kNone, 5, 6, 7, 8, 9, kNone, 10, kNone, 13, 15, kNone, 12, 11, 14, 16, kNone, kNone},
+    {"POCKET2", 4,  kNone, kNone, kNone, 5, 6,  7,  kNone, kNone,
+     kNone,     10, 12,    kNone, 9,     8, 11, 13, kNone, kNone},
+    {"POCKET3", kNone, kNone, 4, 5, 6, 7, 8, kNone, 9, kNone, 10, 11, 12, 13, 14, 15, 16, 17, 28},
+    {"POCKET4", kNone, kNone, kNone, kNone, 4, 5, 6, kNone, kNone, kNone, 7, 8, 9, 10, 11, 12, 13, 14, 25},
+    {"SLOT1", 4, 5, 6, 7, kNone, 8, 9, 10, 11, 12, 15, 17, kNone, 14, 13, 16, 18, kNone, kNone},
+    {"LONGHOLE", 4,  5,     6,     kNone, kNone, 7,     8,     9,     10,
+     11,         14, kNone, kNone, 13,    12,    kNone, kNone, kNone, kNone},
+};
+
+}  // namespace
+
+bool Interpreter::is_milling_cycle(const std::string& name) {
+    return name == "CYCLE90" || name == "CYCLE71" || name == "CYCLE61" ||
+           std::any_of(std::begin(kLayouts), std::end(kLayouts),
+                       [&](const Layout& known) { return known.name == name; });
+}
+
+// Moves in the plane and along the tool; `to` in its coordinates. No feed: a rapid.
+Result<void> Interpreter::mill_to(Vec3 to, std::optional<double> feed,
+                                  const std::optional<motion::Arc>& arc) {
+    for (int k = 0; k < 3; ++k) {
+        if (auto good = path_.in_range(kLimits.coordinate, to[k], place(1)); !good) return good;
+    }
+    std::optional<motion::Arc> turned = arc;
+    if (turned) {
+        turned->centre_mm = from_plane(arc->centre_mm);
+        turned->normal = from_plane(arc->normal);
+    }
+    const auto before = path_.feed_mm_per_min;
+    if (feed) path_.feed_mm_per_min = *feed;
+    auto done = go(!feed, from_plane(to), turned, path_.rotary_rad());
+    path_.feed_mm_per_min = before;
+    return done;
+}
+
+// Turns about a centre in the plane by an angle, while the tool goes on to a height.
+Result<void> Interpreter::mill_round(Vec3 centre, double turn_rad, double z, double feed) {
+    const Vec3 from = to_plane(path_.tip());
+    const double c = math::cos(turn_rad), s = math::sin(turn_rad), u = from.x - centre.x,
+                 v = from.y - centre.y;
+    motion::Arc arc;
+    arc.centre_mm = {centre.x, centre.y, from.z};
+    arc.normal = {0, 0, turn_rad < 0 ? -1.0 : 1.0};
+    arc.turn_rad = std::abs(turn_rad);
+    return mill_to({centre.x + c * u - s * v, centre.y + s * u + c * v, z}, feed, arc);
+}
+
+Result<Interpreter::Depths> Interpreter::depths_of(const Call& call, std::size_t increment,
+                                                   std::size_t mode) const {
+    const Place where{call.line, call.column};
+    const double scale = scale_[axes()[2]] * unit_mm_;
+    Depths depths;
+    depths.back = call.at(0) * scale;
+    depths.top = call.at(1) * scale;
+    depths.near = depths.top + std::abs(call.at(2)) * scale;
+    const bool by_increment = call.at(increment) != 0;
+    const bool is_relative = static_cast<int>(std::clamp(call.at(mode), 0.0, 1e6)) % 10 == 1;
+    depths.bottom = by_increment  ? depths.top - std::abs(call.at(increment)) * scale
+                    : is_relative ? depths.top - std::abs(call.at(3)) * scale
+                                  : call.at(3) * scale;
+    for (const double z : {depths.back, depths.top, depths.near, depths.bottom}) {
+        if (auto good = path_.in_range(kLimits.coordinate, z, where); !good)
+            return std::unexpected(good.error());
+    }
+    const bool has_depth = by_increment || call.has(3);
+    if (scale < 0 || !has_depth || !(depths.bottom < depths.top) || depths.back < depths.top) {
+        return path_.refuse(where, call.name + ": the depth is not below RFP, or RTP is not above it",
+                            "correct the cycle");
+    }
+    return depths;
+}
+
+Result<double> Interpreter::cycle_feed(const Call& call, std::size_t at) const {
+    const double feed = call.at(at) > 0 ? call.at(at) * unit_mm_ : path_.feed_mm_per_min.value_or(0);
+    const Place where{call.line, call.column};
+    if (!(feed > 0)) return path_.refuse(where, call.name + " without a feed", "write F before it");
+    if (auto good = path_.in_range(kLimits.feed, feed, where); !good) return std::unexpected(good.error());
+    return feed;
+}
+
+Result<void> Interpreter::run_milling_cycle(const Call& call) {
+    const auto ready = prepare_cycle(call);
+    if (!ready) return std::unexpected(ready.error());
+    if (!*ready) return {};
+    const auto [u, v, w] = axes();
+    if (std::abs(scale_[u]) != std::abs(scale_[v]) || scale_[u] * scale_[v] < 0) {
+        return path_.refuse({call.line, call.column}, call.name + " in a mirrored or unevenly scaled frame",
+                            "end SCALE and MIRROR before it");
+    }
+    check_start(false);
+    if (call.name == "CYCLE90") return mill_thread(call);
+    if (path_.first(kPocket)) {
+        path_.warn(line_number(),
+                   "the way of the tool within " + call.name +
+                       " is the control's own: rings from the inside outwards, and lines there "
+                       "and back, are taken");
+    }
+    if (call.name == "CYCLE71" || call.name == "CYCLE61") return mill_face(call);
+    const Layout& at = *std::find_if(std::begin(kLayouts), std::end(kLayouts),
+                                     [&](const Layout& known) { return known.name == call.name; });
+    const Place where{call.line, call.column};
+    const auto depths = depths_of(call, at.increment, at.mode);
+    if (!depths) return std::unexpected(depths.error());
+    const double scale = std::abs(scale_[u]) * unit_mm_;
+    const auto size = [&](std::size_t i) { return std::abs(call.at(i)) * scale; };
+    Pocket pocket;
+    pocket.depths = *depths;
+    if (at.floor_allowance != kNone) pocket.depths.bottom += size(at.floor_allowance);
+    pocket.half_width = at.width == kNone ? size(at.radius) : size(at.width) / 2;
+    pocket.half_length = at.length == kNone ? pocket.half_width : size(at.length) / 2;
+    pocket.infeed = size(at.infeed);
+    pocket.step = size(at.step);
+    pocket.allowance = size(at.allowance);
+    pocket.along_edge = static_cast<int>(std::clamp(call.at(at.kind), 0.0, 1e6)) % 10 == 2;
+    if (pocket.along_edge) pocket.allowance = 0;
+    const int direction = static_cast<int>(std::clamp(call.at(at.direction), 0.0, 9.0));
+    pocket.clockwise = direction == 2 || (direction == 1 && at.width != kNone && call.name != "SLOT1");
+    const auto feed = cycle_feed(call, at.feed), plunge = cycle_feed(call, at.plunge);
+    if (!feed) return std::unexpected(feed.error());
+    if (!plunge) return std::unexpected(plunge.error());
+    pocket.feed = *feed;
+    pocket.plunge = *plunge;
+    const auto radius = path_.tool_radius_mm();
+    if (!radius && path_.first(kNoRadius)) {
+        path_.warn(line_number(),
+                   "nothing states the radius of tool " + std::to_string(path_.tool) +
+                       ": it is taken as half as wide as the pocket; give the tool to the job");
+    }
+    if (call.name == "LONGHOLE") pocket.half_width = radius.value_or(0);
+    pocket.radius = radius.value_or(pocket.half_width / 2);
+    pocket.corner = at.width == kNone || at.radius == kNone ? pocket.half_width
+                                                            : std::min(size(at.radius), pocket.half_width);
+    if (pocket.half_length < pocket.half_width && at.radius == kNone) {
+        return path_.refuse(where, call.name + ": the slot is shorter than wide", "correct LENG or WID");
+    }
+    const double most = pocket.half_width - pocket.radius - pocket.allowance;
+    if (!(std::min(pocket.half_length - pocket.radius, most) >= -kSameMm) || !(pocket.half_length > 0)) {
+        return path_.refuse(where, call.name + ": the tool does not fit into it", "take a smaller tool");
+    }
+    Vec3 centre = path_.tip();
+    if (call.has(at.centre_u)) centre[u] = scale_[u] * call.at(at.centre_u) * unit_mm_;
+    if (call.has(at.centre_v)) centre[v] = scale_[v] * call.at(at.centre_v) * unit_mm_;
+    centre = to_plane(centre);
+    const double count = at.count == kNone ? 1 : std::floor(call.at(at.count));
+    if (!(count >= 1 && count <= kMostPasses)) {
+        return path_.refuse(where, call.name + " has no number of slots from 1 to 10000", "correct NUM");
+    }
+    const double step_angle = call.at(at.step_angle) != 0 ? call.at(at.step_angle) : 360 / count;
+    for (const double deg : {call.at(at.angle), step_angle * count}) {
+        if (auto good = path_.in_range(kLimits.rotary_angle, deg, where); !good) return good;
+    }
+    for (double i = 0; i < count; ++i) {
+        pocket.angle_rad = (call.at(at.angle) + i * step_angle) * math::kRadPerDeg;
+        const double out = at.from_centre == kNone ? 0 : size(at.from_centre) + pocket.half_length;
+        pocket.centre = centre + out * Vec3{math::cos(pocket.angle_rad), math::sin(pocket.angle_rad), 0};
+        if (auto done = mill_pocket(pocket, where); !done) return done;
+    }
+    return {};
+}
+
+// Rings from the inside outwards at each depth; a slot as wide as the tool is a line there and back.
+Result<void> Interpreter::mill_pocket(const Pocket& pocket, Place where) {
+    const Depths& depths = pocket.depths;
+    const double c = math::cos(pocket.angle_rad), s = math::sin(pocket.angle_rad);
+    const auto at = [&](double x, double y, double z) {
+        return Vec3{pocket.centre.x + c * x - s * y, pocket.centre.y + s * x + c * y, z};
+    };
+    const double height = depths.top - depths.bottom;
+    const double passes = pocket.infeed > 0 ? std::max(1.0, std::ceil(height / pocket.infeed - 1e-9)) : 1;
+    const double outer = pocket.radius + pocket.allowance;
+    const double width = pocket.half_width - outer, length = pocket.half_length - outer;
+    const double step = pocket.step > 0 ? pocket.step : kUsualStep * 2 * pocket.radius;
+    const double rings =
+        pocket.along_edge || !(step > 0) ? 1 : std::floor(std::min(width, length) / step + 1e-9) + 1;
+    if (passes * rings > kMostPasses) {
+        return path_.refuse(where, "the pocket needs more than 10000 rings", "take a larger infeed");
+    }
+    const double start = std::max(0.0, length - std::max(width, 0.0));  // of the line within a slot
+    if (auto done = mill_to({to_plane(path_.tip()).x, to_plane(path_.tip()).y, depths.back}, {}, {}); !done)
+        return done;
+    if (auto done = mill_to(at(-start, 0, depths.back), {}, {}); !done) return done;
+    if (auto done = mill_to(at(-start, 0, depths.near), {}, {}); !done) return done;
+    for (double pass = 1; pass <= passes; ++pass) {
+        const double z = depths.top - height * pass / passes;
+        if (auto done = mill_to(at(-start, 0, z), pocket.plunge, {}); !done) return done;
+        for (double ring = rings - 1; ring >= 0; --ring) {
+            const double a = std::max(length - ring * step, 0.0), b = std::max(width - ring * step, 0.0);
+            if (b < kSameMm) {
+                if (auto done = mill_to(at(a, 0, z), pocket.feed, {}); !done) return done;
+                if (auto done = mill_to(at(-a, 0, z), pocket.feed, {}); !done) return done;
+                continue;
+            }
+            const double corner = std::clamp(pocket.corner - outer - ring * step, 0.0, std::min(a, b));
+            if (auto done = mill_ring(pocket, a, b, corner, z); !done) return done;
+        }
+        if (auto done = mill_to(at(-start, 0, z), pocket.feed, {}); !done) return done;
+    }
+    return mill_to(at(-start, 0, depths.back), {}, {});
+}
+
+// A rectangle of half sides a and b with round corners, from the middle of its lower side.
+Result<void> Interpreter::mill_ring(const Pocket& pocket, double a, double b, double corner, double z) {
+    const double c = math::cos(pocket.angle_rad), s = math::sin(pocket.angle_rad);
+    const double way = pocket.clockwise ? -1 : 1;
+    const auto at = [&](double x, double y) {
+        x *= way;  // clockwise: the same ring, seen in a mirror
+        return Vec3{pocket.centre.x + c * x - s * y, pocket.centre.y + s * x + c * y, z};
+    };
+    struct Corner {
+        double x, y;    // of the corner
+        double dx, dy;  // of the side that leads to it
+    };
+    const Corner corners[] = {{a, -b, 1, 0}, {a, b, 0, 1}, {-a, b, -1, 0}, {-a, -b, 0, -1}};
+    if (auto done = mill_to(at(0, -b), pocket.feed, {}); !done) return done;
+    for (const Corner& to : corners) {
+        if (auto done = mill_to(at(to.x - corner * to.dx, to.y - corner * to.dy), pocket.feed, {}); !done)
+            return done;
+        if (!(corner > kSameMm)) continue;
+        const Vec3 centre = at(to.x - corner * (to.dx + to.dy), to.y - corner * (to.dy - to.dx));
+        if (auto done = mill_round(centre, way * math::kHalfPi, z, pocket.feed); !done) return done;
+    }
+    return mill_to(at(0, -b), pocket.feed, {});
+}
+
+// CYCLE71(RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1) and
+// CYCLE61(RTP, RFP, SDIS, DP, PA, PO, LENG, WID, MID, MIDA, FALZ, FF1, VARI, ...): lines over a face.
+Result<void> Interpreter::mill_face(const Call& call) {
+    const bool is_old = call.name == "CYCLE71";
+    const Place where{call.line, call.column};
+    auto depths = depths_of(call, kNone, is_old ? kNone : 15);
+    if (!depths) return std::unexpected(depths.error());
+    const auto feed = cycle_feed(call, is_old ? 13 : 11);
+    if (!feed) return std::unexpected(feed.error());
+    const auto radius = cutter_radius(where, call.name.c_str());
+    if (!radius) return std::unexpected(radius.error());
+    const auto [u, v, w] = axes();
+    const double scale = scale_[u] * unit_mm_;
+    const int kind = static_cast<int>(std::clamp(call.at(is_old ? 14 : 12), 0.0, 99.0));
+    const bool along_v = kind / 10 == 2 || kind / 10 == 4;
+    const double left = kind % 10 == 2 ? 0 : std::abs(call.at(is_old ? 12 : 10)) * scale;
+    const double bottom = depths->bottom + left, height = depths->top - bottom;
+    const double infeed = std::abs(call.at(is_old ? 9 : 8)) * scale;
+    const double passes = infeed > 0 && kind % 10 != 2 ? std::max(1.0, std::ceil(height / infeed - 1e-9)) : 1;
+    const double length = call.at(along_v ? 7 : 6) * scale, width = call.at(along_v ? 6 : 7) * scale;
+    double step = std::abs(call.at(is_old ? 10 : 9)) * scale;
+    if (!(step > 0)) step = kUsualStep * 2 * *radius;
+    const double lines = step > 0 ? std::max(1.0, std::ceil(std::abs(width) / step - 1e-9)) : 1;
+    if (!(passes * lines <= kMostPasses) || !(height > 0)) {
+        return path_.refuse(where, call.name + " needs no lines, or more than 10000", "correct its infeeds");
+    }
+    const double over = *radius + (is_old ? std::abs(call.at(15)) * scale : 0);
+    const double angle = is_old ? call.at(8) : 0;
+    if (auto good = path_.in_range(kLimits.rotary_angle, angle, where); !good) return good;
+    const double c = math::cos(angle * math::kRadPerDeg), s = math::sin(angle * math::kRadPerDeg);
+    const double pu = call.at(4) * scale, pv = call.at(5) * scale;
+    const auto at = [&](double along, double across, double z) {
+        const double x = along_v ? across : along, y = along_v ? along : across;
+        return Vec3{pu + c * x - s * y, pv + s * x + c * y, z};
+    };
+    const double sign = length < 0 ? -1 : 1;
+    double from = -sign * over, to = length + sign * over;
+    const Vec3 now = to_plane(path_.tip());
+    if (auto done = mill_to({now.x, now.y, depths->back}, {}, {}); !done) return done;
+    for (double pass = 1; pass <= passes; ++pass) {
+        const double z = depths->top - height * pass / passes;
+        for (double line = 0; line < lines; ++line) {
+            const double across = width * (line + 0.5) / lines;
+            if (line == 0) {
+                const Vec3 start = at(from, across, depths->back);
+                if (auto done = mill_to({start.x, start.y, to_plane(path_.tip()).z}, {}, {}); !done)
+                    return done;
+                if (auto done = mill_to(at(from, across, z), {}, {}); !done) return done;
+            } else if (auto done = mill_to(at(from, across, z), *feed, {}); !done) {
+                return done;
+            }
+            if (auto done = mill_to(at(to, across, z), *feed, {}); !done) return done;
+            std::swap(from, to);
+        }
+        const Vec3 end = to_plane(path_.tip());
+        if (auto done = mill_to({end.x, end.y, depths->back}, {}, {}); !done) return done;
+    }
+    return {};
+}
+
+// CYCLE90(RTP, RFP, SDIS, DP, DPR, DIATH, KDIAM, PIT, FFR, CDIR, TYPTH, CPA, CPO): a thread, milled from
+// RFP + SDIS down, between two half circles.
+Result<void> Interpreter::mill_thread(const Call& call) {
+    const Place where{call.line, call.column};
+    const auto depths = depths_of(call, 4, kNone);
+    if (!depths) return std::unexpected(depths.error());
+    const auto feed = cycle_feed(call, 8);
+    if (!feed) return std::unexpected(feed.error());
+    const auto tool = cutter_radius(where, "CYCLE90");
+    if (!tool) return std::unexpected(tool.error());
+    const auto [u, v, w] = axes();
+    const double scale = std::abs(scale_[u]) * unit_mm_;
+    const bool is_outside = call.at(10) == 1;
+    const double radius =
+        is_outside ? std::abs(call.at(6)) * scale / 2 + *tool : std::abs(call.at(5)) * scale / 2 - *tool;
+    const double pitch = std::abs(call.at(7)) * scale;
+    const double turns = (depths->near - depths->bottom) / pitch;
+    if (!(radius > kSameMm) || !(pitch > 0) || !(turns <= kMostPasses)) {
+        return path_.refuse(where, "CYCLE90: the tool does not fit, or the pitch is none",
+                            "correct DIATH, KDIAM and PIT, or take a smaller tool");
+    }
+    const double way = call.at(9) == 3 ? 1 : -1;
+    Vec3 centre = path_.tip();
+    if (call.has(11)) centre[u] = scale_[u] * call.at(11) * unit_mm_;
+    if (call.has(12)) centre[v] = scale_[v] * call.at(12) * unit_mm_;
+    centre = to_plane(centre);
+    // A half circle leads from the centre to the thread, outside from beyond the tool.
+    const double lead = is_outside ? -std::max(*tool, radius / 2) : radius / 2;
+    const Vec3 begin{centre.x + radius - 2 * lead, centre.y, 0};
+    const Vec3 lead_centre{centre.x + radius - lead, centre.y, 0};
+    const Vec3 now = to_plane(path_.tip());
+    if (auto done = mill_to({now.x, now.y, depths->back}, {}, {}); !done) return done;
+    if (auto done = mill_to({begin.x, begin.y, depths->back}, {}, {}); !done) return done;
+    if (auto done = mill_to({begin.x, begin.y, depths->near}, {}, {}); !done) return done;
+    if (auto done = mill_round(lead_centre, (is_outside ? -way : way) * math::kPi, depths->near, *feed);
+        !done)
+        return done;
+    if (auto done = mill_round(centre, way * turns * math::kTwoPi, depths->bottom, *feed); !done) return done;
+    const Vec3 out = to_plane(path_.tip());
+    const Vec3 out_centre{centre.x + (out.x - centre.x) * (radius - lead) / radius,
+                          centre.y + (out.y - centre.y) * (radius - lead) / radius, 0};
+    if (auto done = mill_round(out_centre, (is_outside ? -way : way) * math::kPi, depths->bottom, *feed);
+        !done)
+        return done;
+    const Vec3 end = to_plane(path_.tip());
+    return mill_to({end.x, end.y, depths->back}, {}, {});
+}
+
+}  // namespace tribo::readers::siemens

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Tools, and the variables of the control.
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+#include "readers/gcode/text/tool_comment.hpp"
+#include "readers/siemens/interpreter.hpp"
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers::siemens {
+namespace {
+
+// Variables that say how the control runs the program: as it usually does.
+constexpr std::string_view kZero[] = {"P_SEARCH", "P_SEARCHL", "P_SIM",  "P_ISTEST", "P_DRYRUN",
+                                      "P_ISVAR",  "AC_ASUP",   "P_TEST", "P_SMTEST"};
+
+int whole_at(const std::vector<Value>& index, std::size_t i) {
+    const double* number = i < index.size() ? std::get_if<double>(&index[i]) : nullptr;
+    return number != nullptr ? static_cast<int>(std::clamp(*number, -1.0, 1e9)) : -1;
+}
+
+}  // namespace
+
+// Finds the numbers that tools have in the text, so that named tools get others; and whether M6 changes them.
+void Interpreter::number_tools() {
+    for (std::size_t i = 0; i < text_.size(); ++i) {
+        const std::string_view code = code_of(text_.line(i));
+        bool is_quoted = false;
+        for (std::size_t k = 0; k < code.size(); ++k) {
+            if (code[k] == '"') is_quoted = !is_quoted;
+            const char letter = to_upper(code[k]);
+            if (is_quoted || (letter != 'T' && letter != 'M')) continue;
+            if (k > 0 && is_name_character(code[k - 1]) && !is_digit(code[k - 1])) continue;
+            std::size_t at = k + 1;
+            while (at < code.size() && (is_blank(code[at]) || code[at] == '=')) ++at;
+            std::size_t end = at;
+            while (end < code.size() && is_digit(code[end])) ++end;
+            const auto number = number_of(code.substr(at, end - at));
+            if (!number || (end < code.size() && is_name_character(code[end]) && !is_letter(code[end])))
+                continue;
+            if (letter == 'T' && *number >= 1 && *number < 1e9) {
+                numbered_tools_.insert(static_cast<int>(*number));
+            }
+            changes_with_m6_ = changes_with_m6_ || (letter == 'M' && *number == 6);
+        }
+    }
+}
+
+// T="NAME" and T=R1; the cursor is behind the '='.
+Result<void> Interpreter::choose_tool(Cursor& in, std::size_t at, Words& words) {
+    const auto value = Formula(in, variables_, *this).value();
+    if (!value) return std::unexpected(value.error());
+    if (const double* number = std::get_if<double>(&*value)) {
+        return take_address(in, "T", {*number, Measure::modal, static_cast<int>(at) + 1}, words);
+    }
+    const std::string& name = std::get<std::string>(*value);
+    const auto number = number_of(trimmed(name));
+    const bool is_number = number && *number >= 1 && *number < 1e9 && *number == std::floor(*number);
+    words.tool = is_number ? *number : trimmed(name).empty() ? 0 : number_of_tool(name);
+    return {};
+}
+
+// Returns the number that stands for a tool's name.
+int Interpreter::number_of_tool(const std::string& name) {
+    const auto known = named_tools_.find(name);
+    if (known != named_tools_.end()) return known->second;
+    int number = 1;
+    while (numbered_tools_.contains(number)) ++number;
+    numbered_tools_.insert(number);
+    named_tools_[name] = number;
+    std::string shown;
+    for (const char c : name.substr(0, 40)) shown += c < ' ' || c > '~' ? '?' : c;
+    path_.warn(line_number(), "the tool \"" + shown + "\" counts as tool " + std::to_string(number) +
+                                  ": give it this number in the job");
+    return number;
+}
+
+void Interpreter::load_tool(int number) {
+    path_.tool = number;
+    path_.measure_tool();
+}
+
+// T1 D=10 CR=0 - ZMIN=-4.5 - flat end mill: the tool list of CAM systems.
+void Interpreter::declare_commented_tool(std::string_view comment) {
+    std::size_t from = comment.find_first_of("T#");
+    if (from == std::string_view::npos) return;
+    const auto found = gcode::tool_in_comment("T" + std::string(comment.substr(from + 1)));
+    if (!found) return;
+    motion::DeclaredTool tool;
+    tool.line = line_number();
+    tool.number = found->number;
+    tool.diameter_mm = found->diameter * unit_mm_;
+    tool.corner_mm = found->corner * unit_mm_;
+    if (!kLimits.cutter_diameter.range.contains(tool.diameter_mm)) return;
+    path_.declare(tool);
+}
+
+// $TC_DP6[1,1]=5; the cursor is at the '$'.
+Result<void> Interpreter::assign_system(Cursor& in) {
+    const std::size_t at = in.at;
+    while (in.peek() == '$') ++in.at;
+    const std::string name = name_at(in);
+    in.at += name.size();
+    std::vector<Value> index;
+    if (in.peek_after_blanks() == '[') {
+        ++in.at;
+        auto found = Formula(in, variables_, *this).indices();
+        if (!found) return std::unexpected(found.error());
+        index = *std::move(found);
+    }
+    if (in.peek_after_blanks() != '=') return in.refuse(at, "$" + name + " without '='", "write its value");
+    ++in.at;
+    if (name == "P_UIFR") return place_offset(index, in);
+    if (name.ends_with("FRAME") || name == "P_CHBFR" || name == "P_UBFR") {
+        return in.refuse(at, "the frame $" + name + " is not read", "write $P_UIFR[1], or TRANS and ROT");
+    }
+    const bool is_tool = name == "TC_DP3" || name == "TC_DP6" || name == "TC_DP7";
+    if (!is_tool || index.size() != 2 || whole_at(index, 1) != 1) {
+        in.at = in.line.size();
+        if (passed_over_.insert(name).second) {
+            path_.warn(line_number(), "$" + name.substr(0, 31) +
+                                          " is a setting of the machine: it is taken not to move the tool");
+        }
+        return {};
+    }
+    const auto value = Formula(in, variables_, *this).number();
+    if (!value) return std::unexpected(value.error());
+    const int number = whole_at(index, 0);
+    ToolData& data = tool_data_[number];
+    (name == "TC_DP3" ? data.length_mm : name == "TC_DP6" ? data.radius_mm : data.corner_mm) = *value;
+    if (number < 1 || !kLimits.cutter_diameter.range.contains(2 * data.radius_mm)) return {};
+    motion::DeclaredTool tool;
+    tool.line = line_number();
+    tool.number = number;
+    tool.diameter_mm = 2 * data.radius_mm;
+    if (data.corner_mm > 0 && data.corner_mm <= data.radius_mm) tool.corner_mm = data.corner_mm;
+    if (data.length_mm > 0 && kLimits.tool_length.range.contains(data.length_mm))
+        tool.length_mm = data.length_mm;
+    path_.define_radius(number, data.radius_mm);
+    if (name == "TC_DP6") path_.declare(tool);
+    return {};
+}
+
+std::optional<Value> Interpreter::system_value(const std::string& name,
+                                               const std::vector<Value>& index) const {
+    if (name == "PI") return Value{math::kPi};
+    if (name == "P_TOOLNO") return Value{static_cast<double>(path_.tool)};
+    if (name == "P_TOOL") return Value{1.0};
+    if (name == "P_TOOLR") {
+        const auto radius = path_.tool_radius_mm();
+        if (!radius) return std::nullopt;
+        return Value{*radius / unit_mm_};
+    }
+    if (name == "TC_DP6" || name == "TC_DP3" || name == "TC_DP7") {
+        const auto data = tool_data_.find(whole_at(index, 0));
+        if (data == tool_data_.end()) return std::nullopt;
+        return Value{name == "TC_DP3"   ? data->second.length_mm
+                     : name == "TC_DP6" ? data->second.radius_mm
+                                        : data->second.corner_mm};
+    }
+    if (name == "P_F" && path_.feed_mm_per_min) return Value{*path_.feed_mm_per_min / unit_mm_};
+    if (name == "P_S") return Value{path_.spindle_rpm};
+    if (name == "AA_IW" || name == "P_EP" || name == "P_EPM") {
+        const std::string axis = index.empty() ? "" : text_of(index[0]);
+        const std::size_t k =
+            axis.size() == 1 ? std::string_view("XYZ").find(axis[0]) : std::string_view::npos;
+        if (k > 2 || path_.known(static_cast<int>(k)) != Known::yes) return std::nullopt;
+        return Value{from_frame(here())[static_cast<int>(k)] / unit_mm_};
+    }
+    if (name == "MN_SCALING_SYSTEM_IS_METRIC") return Value{1.0};
+    if (std::find(std::begin(kZero), std::end(kZero), name) != std::end(kZero)) return Value{0.0};
+    return std::nullopt;
+}
+
+}  // namespace tribo::readers::siemens

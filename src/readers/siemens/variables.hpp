@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The variables of a program: R parameters, and those of DEF and PROC by their names.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace tribo::readers::siemens {
+
+// A number (REAL, INT, BOOL, CHAR), or a text (STRING, and the name of an AXIS).
+using Value = std::variant<double, std::string>;
+
+enum class Type { real, whole, text };
+
+struct Variable {
+    Type type = Type::real;
+    std::array<std::size_t, 2> sizes{1, 1};  // of an array
+    std::vector<Value> values{Value{0.0}};
+};
+
+class Variables {
+  public:
+    static constexpr int kMostR = 10'000;  // R0 to R9999
+
+    double r(int number) const {
+        const auto found = r_.find(number);
+        return found == r_.end() ? 0 : found->second;
+    }
+    void set_r(int number, double value) { r_[number] = value; }
+
+    // Names are in upper case. The innermost program's come first; null: there is none.
+    Variable* find(const std::string& name) {
+        for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+            if (const auto found = level->find(name); found != level->end()) return &found->second;
+        }
+        return nullptr;
+    }
+    // Makes a variable of the innermost program. Returns false if the variables hold too much then.
+    bool define(const std::string& name, Variable variable) {
+        const auto [place, is_new] = levels_.back().try_emplace(name);
+        if (!is_new) elements_ -= place->second.values.size();
+        elements_ += variable.values.size();
+        place->second = std::move(variable);
+        return elements_ <= kMostElements;
+    }
+    // A program begins and ends.
+    void enter() { levels_.emplace_back(); }
+    void leave() {
+        for (const auto& [name, variable] : levels_.back()) elements_ -= variable.values.size();
+        levels_.pop_back();
+    }
+
+  private:
+    static constexpr std::size_t kMostElements = 1'000'000;
+
+    std::map<int, double> r_;
+    std::vector<std::map<std::string, Variable>> levels_{1};
+    std::size_t elements_ = 0;
+};
+
+}  // namespace tribo::readers::siemens

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// Words of a block: an address with its value, a keyword, a call.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "readers/siemens/interpreter.hpp"
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers::siemens {
+namespace {
+
+constexpr int kDeepestMacro = 8;
+
+// Keywords without effect on the path: look-ahead, smoothing and jerk, feed forward, dynamics, compressors,
+// interpolation of the orientation, spindles and their modes, messages, protection zones, channels, display.
+constexpr std::string_view kSilent[] = {
+    "MSG",          "STOPRE",     "SOFT",       "SOFTA",    "BRISK",    "BRISKA",      "DRIVE",
+    "DRIVEA",       "FFWON",      "FFWOF",      "COMPCAD",  "COMPON",   "COMPCURV",    "COMPOF",
+    "COMPSURF",     "COMPPATH",   "ORIWKS",     "ORIMKS",   "ORIAXES",  "ORIVECT",     "ORIPLANE",
+    "ORISON",       "ORISOF",     "ORID",       "ORIVIRT1", "ORIVIRT2", "ORICONIO",    "ORICONTO",
+    "ORIROTA",      "CFTCP",      "CFC",        "CFIN",     "UPATH",    "SPATH",       "FGROUP",
+    "FGREF",        "FIFOCTRL",   "STARTFIFO",  "STOPFIFO", "DIAMOF",   "DIAM90",      "DIAMCYCOF",
+    "DIAMCHANA",    "CUTDD",
+
+    "CUTCONON",     "CUTCONOF",   "NORM",       "KONT",     "KONTC",    "KONTT",       "DYNNORM",
+    "DYNROUGH",     "DYNFINISH",  "DYNSEMIFIN", "DYNPOS",   "DYNPREC",  "CYCLE832",    "WORKPIECE",
+    "RTLION",       "RTLIOF",     "CDON",       "CDOF",     "CDOF2",    "GROUP_BEGIN", "GROUP_END",
+    "GROUP_ADDEND", "SETMS",      "WALIMON",    "WALIMOF",  "SPCON",    "SPCOF",       "SPINON",
+    "SPINOF",       "MEAS",       "SETAL",      "SBLON",    "SBLOF",    "DISPLOF",     "DISPLON",
+    "SAVE",         "ACTBLOCNO",  "ASPLINEON",  "BAUTO",    "BNAT",     "BTAN",        "EAUTO",
+    "ENAT",         "ETAN",       "PAROT",      "PAROTOF",  "WAITM",    "WAITP",       "WAITS",
+    "WAITMC",       "SETM",       "CLEARM",     "INIT",     "START",    "WAITE",       "GET",
+    "GETD",         "RELEASE",    "EXTERN",     "TCARR",    "TCOABS",   "TCOFR",       "TCOFRX",
+    "TCOFRY",       "TCOFRZ",     "TOFFON",     "TOFFOF",   "PDELAYON", "PDELAYOF",    "SON",
+    "SPOF",         "F_SAVE_ORI", "CPRECON",    "CPRECOF",  "FNORM",    "FLIN",        "FCUB",
+    "FPO",          "DISABLE",    "ENABLE",     "CLRINT",   "LIFTFAST", "TRAILON",     "TRAILOF",
+    "COUPON",       "COUPOF",     "CANCEL",     "NEWCONF",  "DELDTG",   "IPTRLOCK",    "IPTRUNLOCK",
+    "POLFMASK",     "POLFMLIN",   "LFON",       "LFOF",     "LFTXT",    "LFPOS",       "LFWP",
+    "CPROT",        "CPROTDEF",   "PROTA",      "PROTS",    "STRINGIS", "CALCPOSI",    "VELOLIMA",
+    "ACCLIMA",      "JERKLIMA",   "SYNFCT",     "F_HEAD",   "WRITE",    "DELETE",      "MMC",
+    "G_INFO",       "STOLF",      "CTOLG0",     "CADIS",    "ADDFRAME", "REPOSA",      "OEMIPO1",
+    "ORICURINV",
+};
+
+struct Refused {
+    std::string_view word, what, remedy;
+};
+constexpr std::string_view kPlain = "let the CAM system write the path with G0 to G3";
+constexpr std::string_view kFrames = "write TRANS and ROT";
+constexpr Refused kRefused[] = {
+    {"TRANSMIT", "turning a face in polar coordinates", kPlain},
+    {"TRACYL", "a path on a cylinder", kPlain},
+    {"TRAANG", "an inclined axis", kPlain},
+    {"TRACON", "chained transformations", kPlain},
+    {"ORICURVE", "the tool's axis along a second curve", "let the CAM system write A3 B3 C3"},
+    {"INVCW", "involutes", kPlain},
+    {"INVCCW", "involutes", kPlain},
+    {"OFFN", "an offset contour", kPlain},
+    {"ROTS", "frames by solid angles", kFrames},
+    {"AROTS", "frames by solid angles", kFrames},
+    {"CROTS", "frames by solid angles", kFrames},
+    {"TOFRAME", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOFRAMEX", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOFRAMEY", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOROT", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOROTX", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOROTY", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"MEAW", "moves that end where a probe touches", "take the measurement out of the program"},
+    {"REPOS", "the return to a contour", kPlain},
+    {"ISOCALL", "programs of another control", "copy its path into this program"},
+    {"PUNCH", "punching", "only milling is read"},
+};
+
+// Ends TOROT and the like: the frame is that of the program again.
+constexpr std::string_view kFrameEnds[] = {"TOROTOF", "TOFRAMEOF", "PAROTOF"};
+
+constexpr std::string_view kFrameWords[] = {"TRANS", "ATRANS", "ROT",    "AROT",
+                                            "SCALE", "ASCALE", "MIRROR", "AMIRROR"};
+
+struct NamedMotion {
+    std::string_view word;
+    Motion motion;
+};
+constexpr NamedMotion kMotions[] = {
+    {"CIP", Motion::through_point}, {"CT", Motion::tangent},     {"BSPLINE", Motion::bspline},
+    {"ASPLINE", Motion::spline},    {"CSPLINE", Motion::spline}, {"POLY", Motion::poly},
+};
+
+template <std::size_t N>
+bool is_one_of(const std::string_view (&words)[N], std::string_view name) {
+    return std::find(std::begin(words), std::end(words), name) != std::end(words);
+}
+
+}  // namespace
+
+Result<void> Interpreter::read_words(Cursor& in, Words& words, int depth) {
+    while (!in.at_end()) {
+        if (auto done = read_word(in, words, depth); !done) return done;
+    }
+    return {};
+}
+
+Result<void> Interpreter::read_word(Cursor& in, Words& words, int depth) {
+    const char c = in.peek_after_blanks();
+    if (c == '$') return assign_system(in);
+    if (c == '(') {  // of other dialects: a comment
+        if (path_.first(kComment)) {
+            path_.warn(line_number(), "text in parentheses is taken as a comment; Siemens writes ';'");
+        }
+        return skip_parentheses(in);
+    }
+    if (c == '@') {
+        return in.refuse(in.at, "@ codes of the Sinumerik 8xx are not read", "write it for an 840D");
+    }
+    if (is_letter(c) || c == '_') return read_name(in, words, depth);
+    return in.refuse(in.at, shown_character(c) + " does not belong here", "correct or delete it");
+}
+
+// Skips "(...)" with what it holds.
+Result<void> Interpreter::skip_parentheses(Cursor& in) {
+    const std::size_t begin = in.at;
+    int depth = 0;
+    bool is_quoted = false;
+    for (; in.at < in.line.size(); ++in.at) {
+        const char c = in.line[in.at];
+        if (c == '"') is_quoted = !is_quoted;
+        if (is_quoted) continue;
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (depth == 0) {
+            ++in.at;
+            return {};
+        }
+    }
+    return in.refuse(begin, "the parenthesis does not close", "close it");
+}
+
+// A letter with its number (X10, G1), a name with '=', '[' or '(' behind it, or a name alone.
+Result<void> Interpreter::read_name(Cursor& in, Words& words, int depth) {
+    const std::size_t at = in.at;
+    const std::string name = name_at(in);
+    std::size_t behind = at + name.size();
+    while (behind < in.line.size() && is_blank(in.line[behind])) ++behind;
+    const char next = behind < in.line.size() ? in.line[behind] : '\0';
+    const bool is_equal = next == '=' && !(behind + 1 < in.line.size() && in.line[behind + 1] == '=');
+    std::size_t digits = at + 1;
+    while (digits < at + name.size() && is_digit(in.line[digits])) ++digits;
+    const bool is_numbered = digits > at + 1 && name[0] != '_';  // R1, G1X, CYCLE81: no
+    const bool is_address = name.size() == 1 || (is_numbered && digits == at + name.size());
+    const bool is_own =
+        variables_.find(name) != nullptr || macros_.contains(name) || text_.unit_named(name) != nullptr;
+    if (is_equal && (!is_numbered || is_address || is_own)) {
+        in.at = behind + 1;
+        return read_named_value(in, name, at, words);
+    }
+    if (next == '[' && (!is_numbered || is_own)) {
+        in.at = behind + 1;
+        return read_indexed(in, name, at, words);
+    }
+    if (const auto macro = macros_.find(name); macro != macros_.end()) {
+        if (depth > kDeepestMacro) return in.refuse(at, "DEFINE leads to itself", "correct it");
+        in.at = at + name.size();
+        const std::string text = macro->second;
+        Cursor inner = in;
+        inner.line = text;
+        inner.at = 0;
+        return read_words(inner, words, depth + 1);
+    }
+    const bool is_program = next == '(' || text_.unit_named(name) != nullptr;
+    if (name[0] != '_' && (name.size() == 1 || is_numbered) && !is_program) {
+        in.at = at + 1;
+        if (name[0] == 'L' && is_numbered && is_address) {  // L100: a subprogram
+            in.at = at + name.size();
+            words.call.emplace();
+            words.call->name = name;
+            words.call->line = line_number();
+            words.call->column = static_cast<int>(at) + 1;
+            return {};
+        }
+        in.skip_blanks();
+        std::size_t end = in.at;
+        if (end < in.line.size() && (in.line[end] == '-' || in.line[end] == '+')) ++end;
+        while (end < in.line.size() && (is_digit(in.line[end]) || in.line[end] == '.')) ++end;
+        const auto value = number_of(in.line.substr(in.at, end - in.at));
+        if (!value) return in.refuse(at, std::string(1, name[0]) + " without a number", "write its number");
+        in.at = end;
+        return take_address(in, std::string(1, name[0]), {*value, Measure::modal, static_cast<int>(at) + 1},
+                            words);
+    }
+    in.at = at + name.size();
+    const auto known = read_keyword(in, name, words);
+    if (!known) return std::unexpected(known.error());
+    if (*known) return {};
+    if (words.call) {
+        return in.refuse(at, "the word " + name.substr(0, 31) + " is not known",
+                         "delete it where it does not move the tool");
+    }
+    auto call = call_at(in, name, at);
+    if (!call) return std::unexpected(call.error());
+    words.call = *std::move(call);
+    return {};
+}
+
+// Returns false for a name that is no word of the language.
+Result<bool> Interpreter::read_keyword(Cursor& in, const std::string& name, Words& words) {
+    const std::size_t at = in.at - name.size();
+    const auto skip_rest = [&]() -> Result<bool> {
+        if (in.peek_after_blanks() != '(') return true;
+        if (auto done = skip_parentheses(in); !done) return std::unexpected(done.error());
+        return true;
+    };
+    if (name.starts_with("CUT2D") || name.starts_with("CUT3D")) {
+        is_spatial_ = name.starts_with("CUT3D");
+        return true;
+    }
+    if (name == "ORIEULER" || name.starts_with("ORIRPY")) {
+        euler_ = name == "ORIEULER";
+        euler_stated_ = true;
+        return true;
+    }
+    if (is_one_of(kSilent, name)) return skip_rest();
+    if (is_one_of(kFrameEnds, name)) return true;
+    if (is_one_of(kFrameWords, name)) {
+        words.frame = name;
+        return true;
+    }
+    for (const NamedMotion& known : kMotions) {
+        if (known.word != name) continue;
+        words.motion = known.motion;
+        return true;
+    }
+    if (name == "SUPA") {
+        words.machine_place = true;
+        return true;
+    }
+    if (name == "TRAORI" || name == "TRAFOOF") {
+        words.tip_control = name == "TRAORI";
+        return skip_rest();
+    }
+    if (name == "RET") {
+        words.m.push_back({17, static_cast<int>(at) + 1});
+        return skip_rest();
+    }
+    for (const Refused& refused : kRefused) {
+        if (refused.word != name) continue;
+        return in.refuse(at, name + " (" + std::string(refused.what) + ") is not read",
+                         std::string(refused.remedy));
+    }
+    return false;
+}
+
+}  // namespace tribo::readers::siemens
