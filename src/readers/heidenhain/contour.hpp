@@ -54,6 +54,10 @@ class Contour {
     void add(Vec3 to, const std::optional<motion::Arc>& arc, const ContourWords& words);
     // The size of a chamfer is what it takes from each element, or its own length.
     void corner(double size_mm, bool is_chamfer, const ContourWords& words, bool is_own_length = false);
+    // Removes a corner that no element follows.
+    void drop_corner() {
+        if (!pieces_.empty() && pieces_.back().is_corner) pieces_.pop_back();
+    }
     // Ends the contour with DEP. Returns the position after it.
     void depart(const ContourEndShape& shape, const ContourWords& words);
 

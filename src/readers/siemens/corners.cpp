@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contours: radius compensation G41 and G42, and the corners RND, RNDM, CHF and CHR. They wait until what
-// follows is known.
+// follows is known. A corner that no element of the plane follows is left out, as the control does.
 #include <cmath>
 
 #include "base/math.hpp"
@@ -16,6 +16,7 @@ heidenhain::ContourWords Interpreter::contour_words(bool rapid) const {
 // Closes the contour or the spline: the moves that wait are known now.
 Result<void> Interpreter::close_contour() {
     if (!contour_.is_open()) return close_spline();
+    contour_.drop_corner();
     const motion::WorkFrame frame = path_.frame;
     const auto [u, v, w] = axes();
     const std::array<Vec3, 3> directions{frame.x, frame.y, frame.z};
@@ -46,6 +47,14 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
     }
     const bool was_open = contour_.is_open();
     if (!was_open && (side_ == 0 ? !has_corner : !is_flat)) return false;
+    if (was_open && !is_flat) {
+        contour_.drop_corner();  // the control leaves it out
+        if (side_ == 0) {
+            if (auto done = close_contour(); !done) return std::unexpected(done.error());
+            contour_.leave();
+            return false;
+        }
+    }
     if (turns_) {
         if (side_ != 0) {
             return path_.refuse(where, "the tool turns within radius compensation, which has no plane then",

@@ -48,12 +48,14 @@ Result<void> Interpreter::drill(const Call& call) {
     const Vec3 place_mm = path_.tip();
     const auto along = [&](double value) { return scale_[w] * value * unit_mm_; };
     const double top = along(call.at(1)), back = along(call.at(0));
-    const bool by_increment =
-        static_cast<int>(std::clamp(call.at(layout.mode), 0.0, 1e6)) % 10 != 2 && call.at(4) != 0;
+    // _AMODE says which of both counts; without it DPR does where it is given.
+    const int which = static_cast<int>(std::clamp(call.at(layout.mode), 0.0, 1e6)) % 10;
+    const double increment = call.at(4) != 0 ? call.at(4) : call.at(3);
+    const bool by_increment = which == 1 || (which == 0 && call.at(4) != 0);
     if (!by_increment && !call.has(3)) {
         return path_.refuse(where, call.name + " has no depth", "write DP, its depth, or DPR below RFP");
     }
-    const double bottom = by_increment ? top - along(std::abs(call.at(4))) : along(call.at(3));
+    const double bottom = by_increment ? top - along(std::abs(increment)) : along(call.at(3));
     const double up = scale_[w] < 0 ? -1 : 1;  // along the tool
     const double near = top + up * std::abs(along(call.at(2))), depth = up * (top - bottom);
     for (const double z : {top, back, bottom, near}) {

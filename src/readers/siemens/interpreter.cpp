@@ -102,12 +102,7 @@ Result<void> Interpreter::run_line() {
 }
 
 Result<void> Interpreter::execute(Cursor& in) {
-    if (in.peek() == '%') {
-        if (began_ && path_.first(kOtherPrograms)) {
-            path_.warn(line_number(), "a second program follows: only the first one is run");
-        }
-        return {};
-    }
+    if (in.peek() == '%') return {};
     began_ = true;
     const std::string word = name_at(in);
     const std::size_t begin = in.at;
@@ -157,7 +152,7 @@ Result<void> Interpreter::run_words(Words& words) {
     if (!words.call) return {};
     words.call->times = words.times.value_or(1);
     const bool is_alone = !words.moves() && words.g.empty() && !words.feed && words.frame.empty();
-    if (!is_alone && words.call->given.empty() && text_.unit_named(words.call->name) == nullptr &&
+    if (!is_alone && !words.call->has_list && text_.unit_named(words.call->name) == nullptr &&
         words.call->name[0] != 'L') {
         return path_.refuse(place(words.call->column),
                             "the word " + words.call->name.substr(0, 31) + " is not known",
@@ -181,6 +176,10 @@ Result<motion::Program> Interpreter::finish() {
         path_.warn(left_out_line_, std::to_string(left_out_) +
                                        " moves that begin where only the machine knows are left out: write "
                                        "X, Y and Z with G0 before them");
+    }
+    for (const Unit& unit : text_.units()) {
+        if (&unit == &text_.main() || unit.is_subprogram || unit.proc || !path_.first(kOtherPrograms)) continue;
+        path_.warn(static_cast<int>(unit.begin) + 1, "a second program follows: only the first one is run");
     }
     if (path_.moves == 0) path_.warn(0, "the program moves no tool");
     return std::move(program);

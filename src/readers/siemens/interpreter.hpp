@@ -192,6 +192,7 @@ class Interpreter : private SystemValues {
     };
     static bool is_milling_cycle(const std::string& name);
     Result<Depths> depths_of(const Call& call, std::size_t increment, std::size_t mode) const;
+    double ring_step(const Call& call, std::size_t at, std::size_t mode) const;
     Result<double> cycle_feed(const Call& call, std::size_t at) const;
     Result<void> run_milling_cycle(const Call& call);
     Result<void> mill_pocket(const Pocket& pocket, Place where);

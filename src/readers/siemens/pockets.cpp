@@ -26,7 +26,7 @@ constexpr Layout kLayouts[] = {
     {"POCKET2", 4,  kNone, kNone, kNone, 5, 6,  7,  kNone, kNone,
      kNone,     10, 12,    kNone, 9,     8, 11, 13, kNone, kNone},
     {"POCKET3", kNone, kNone, 4, 5, 6, 7, 8, kNone, 9, kNone, 10, 11, 12, 13, 14, 15, 16, 17, 28},
-    {"POCKET4", kNone, kNone, kNone, kNone, 4, 5, 6, kNone, kNone, kNone, 7, 8, 9, 10, 11, 12, 13, 14, 25},
+    {"POCKET4", kNone, kNone, kNone, kNone, 4, 5, 6, kNone, kNone, kNone, 7, 8, 9, 10, 11, 12, 13, 14, 24},
     {"SLOT1", 4, 5, 6, 7, kNone, 8, 9, 10, 11, 12, 15, 17, kNone, 14, 13, 16, 18, kNone, kNone},
     {"LONGHOLE", 4,  5,     6,     kNone, kNone, 7,     8,     9,     10,
      11,         14, kNone, kNone, 13,    12,    kNone, kNone, kNone, kNone},
@@ -95,6 +95,14 @@ Result<Interpreter::Depths> Interpreter::depths_of(const Call& call, std::size_t
     return depths;
 }
 
+// MIDA in mm, or in percent of the tool's diameter; 0: not given, or the tool is not known.
+double Interpreter::ring_step(const Call& call, std::size_t at, std::size_t mode) const {
+    const double step = std::abs(call.at(at));
+    const bool is_percent = static_cast<int>(std::clamp(call.at(mode), 0.0, 1e6)) / 10 % 10 == 1;
+    if (!is_percent) return step * std::abs(scale_[axes()[0]]) * unit_mm_;
+    return std::min(step, 100.0) / 100 * 2 * path_.tool_radius_mm().value_or(0);
+}
+
 Result<double> Interpreter::cycle_feed(const Call& call, std::size_t at) const {
     const double feed = call.at(at) > 0 ? call.at(at) * unit_mm_ : path_.feed_mm_per_min.value_or(0);
     const Place where{call.line, call.column};
@@ -134,7 +142,7 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     pocket.half_width = at.width == kNone ? size(at.radius) : size(at.width) / 2;
     pocket.half_length = at.length == kNone ? pocket.half_width : size(at.length) / 2;
     pocket.infeed = size(at.infeed);
-    pocket.step = size(at.step);
+    pocket.step = ring_step(call, at.step, at.mode);
     pocket.allowance = size(at.allowance);
     pocket.along_edge = static_cast<int>(std::clamp(call.at(at.kind), 0.0, 1e6)) % 10 == 2;
     if (pocket.along_edge) pocket.allowance = 0;
@@ -267,7 +275,7 @@ Result<void> Interpreter::mill_face(const Call& call) {
     const double infeed = std::abs(call.at(is_old ? 9 : 8)) * scale;
     const double passes = infeed > 0 && kind % 10 != 2 ? std::max(1.0, std::ceil(height / infeed - 1e-9)) : 1;
     const double length = call.at(along_v ? 7 : 6) * scale, width = call.at(along_v ? 6 : 7) * scale;
-    double step = std::abs(call.at(is_old ? 10 : 9)) * scale;
+    double step = ring_step(call, is_old ? 10 : 9, is_old ? kNone : 15);
     if (!(step > 0)) step = kUsualStep * 2 * *radius;
     const double lines = step > 0 ? std::max(1.0, std::ceil(std::abs(width) / step - 1e-9)) : 1;
     if (!(passes * lines <= kMostPasses) || !(height > 0)) {

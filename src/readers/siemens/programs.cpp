@@ -164,6 +164,7 @@ Result<Call> Interpreter::call_at(Cursor& in, const std::string& name, std::size
     call.line = line_number();
     call.column = static_cast<int>(at) + 1;
     if (in.peek_after_blanks() != '(') return call;
+    call.has_list = true;
     ++in.at;
     for (;;) {
         const char c = in.peek_after_blanks();

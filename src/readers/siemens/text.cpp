@@ -72,7 +72,7 @@ Head head_of(std::string_view line) {
         skip();
     }
     const std::string word = word_at(line, i);
-    if (word.size() > 1) {
+    if (!word.empty()) {
         std::size_t end = i + word.size();
         while (end < line.size() && is_blank(line[end])) ++end;
         const bool is_label =

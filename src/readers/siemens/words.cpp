@@ -15,31 +15,31 @@ constexpr int kDeepestMacro = 8;
 // Keywords without effect on the path: look-ahead, smoothing and jerk, feed forward, dynamics, compressors,
 // interpolation of the orientation, spindles and their modes, messages, protection zones, channels, display.
 constexpr std::string_view kSilent[] = {
-    "MSG",          "STOPRE",     "SOFT",       "SOFTA",    "BRISK",    "BRISKA",      "DRIVE",
-    "DRIVEA",       "FFWON",      "FFWOF",      "COMPCAD",  "COMPON",   "COMPCURV",    "COMPOF",
-    "COMPSURF",     "COMPPATH",   "ORIWKS",     "ORIMKS",   "ORIAXES",  "ORIVECT",     "ORIPLANE",
-    "ORISON",       "ORISOF",     "ORID",       "ORIVIRT1", "ORIVIRT2", "ORICONIO",    "ORICONTO",
-    "ORIROTA",      "CFTCP",      "CFC",        "CFIN",     "UPATH",    "SPATH",       "FGROUP",
-    "FGREF",        "FIFOCTRL",   "STARTFIFO",  "STOPFIFO", "DIAMOF",   "DIAM90",      "DIAMCYCOF",
-    "DIAMCHANA",    "CUTDD",
+    "MSG",          "PRINT",      "PRINTLN",    "STOPRE",   "SOFT",      "SOFTA",       "BRISK",
+    "BRISKA",       "DRIVE",      "DRIVEA",     "FFWON",    "FFWOF",     "COMPCAD",     "COMPON",
+    "COMPCURV",     "COMPOF",     "COMPSURF",   "COMPPATH", "ORIWKS",    "ORIMKS",      "ORIAXES",
+    "ORIVECT",      "ORIPLANE",   "ORISON",     "ORISOF",   "ORID",      "ORIVIRT1",    "ORIVIRT2",
+    "ORICONIO",     "ORICONTO",   "ORIROTA",    "CFTCP",    "CFC",       "CFIN",        "UPATH",
+    "SPATH",        "FGROUP",     "FGREF",      "FIFOCTRL", "STARTFIFO", "STOPFIFO",    "DIAMOF",
+    "DIAM90",       "DIAMCYCOF",  "DIAMCHANA",  "CUTDD",
 
-    "CUTCONON",     "CUTCONOF",   "NORM",       "KONT",     "KONTC",    "KONTT",       "DYNNORM",
-    "DYNROUGH",     "DYNFINISH",  "DYNSEMIFIN", "DYNPOS",   "DYNPREC",  "CYCLE832",    "WORKPIECE",
-    "RTLION",       "RTLIOF",     "CDON",       "CDOF",     "CDOF2",    "GROUP_BEGIN", "GROUP_END",
-    "GROUP_ADDEND", "SETMS",      "WALIMON",    "WALIMOF",  "SPCON",    "SPCOF",       "SPINON",
-    "SPINOF",       "MEAS",       "SETAL",      "SBLON",    "SBLOF",    "DISPLOF",     "DISPLON",
-    "SAVE",         "ACTBLOCNO",  "ASPLINEON",  "BAUTO",    "BNAT",     "BTAN",        "EAUTO",
-    "ENAT",         "ETAN",       "PAROT",      "PAROTOF",  "WAITM",    "WAITP",       "WAITS",
-    "WAITMC",       "SETM",       "CLEARM",     "INIT",     "START",    "WAITE",       "GET",
-    "GETD",         "RELEASE",    "EXTERN",     "TCARR",    "TCOABS",   "TCOFR",       "TCOFRX",
-    "TCOFRY",       "TCOFRZ",     "TOFFON",     "TOFFOF",   "PDELAYON", "PDELAYOF",    "SON",
-    "SPOF",         "F_SAVE_ORI", "CPRECON",    "CPRECOF",  "FNORM",    "FLIN",        "FCUB",
-    "FPO",          "DISABLE",    "ENABLE",     "CLRINT",   "LIFTFAST", "TRAILON",     "TRAILOF",
-    "COUPON",       "COUPOF",     "CANCEL",     "NEWCONF",  "DELDTG",   "IPTRLOCK",    "IPTRUNLOCK",
-    "POLFMASK",     "POLFMLIN",   "LFON",       "LFOF",     "LFTXT",    "LFPOS",       "LFWP",
-    "CPROT",        "CPROTDEF",   "PROTA",      "PROTS",    "STRINGIS", "CALCPOSI",    "VELOLIMA",
-    "ACCLIMA",      "JERKLIMA",   "SYNFCT",     "F_HEAD",   "WRITE",    "DELETE",      "MMC",
-    "G_INFO",       "STOLF",      "CTOLG0",     "CADIS",    "ADDFRAME", "REPOSA",      "OEMIPO1",
+    "CUTCONON",     "CUTCONOF",   "NORM",       "KONT",     "KONTC",     "KONTT",       "DYNNORM",
+    "DYNROUGH",     "DYNFINISH",  "DYNSEMIFIN", "DYNPOS",   "DYNPREC",   "CYCLE832",    "WORKPIECE",
+    "RTLION",       "RTLIOF",     "CDON",       "CDOF",     "CDOF2",     "GROUP_BEGIN", "GROUP_END",
+    "GROUP_ADDEND", "SETMS",      "WALIMON",    "WALIMOF",  "SPCON",     "SPCOF",       "SPINON",
+    "SPINOF",       "MEAS",       "SETAL",      "SBLON",    "SBLOF",     "DISPLOF",     "DISPLON",
+    "SAVE",         "ACTBLOCNO",  "ASPLINEON",  "BAUTO",    "BNAT",      "BTAN",        "EAUTO",
+    "ENAT",         "ETAN",       "PAROT",      "PAROTOF",  "WAITM",     "WAITP",       "WAITS",
+    "WAITMC",       "SETM",       "CLEARM",     "INIT",     "START",     "WAITE",       "GET",
+    "GETD",         "RELEASE",    "EXTERN",     "TCARR",    "TCOABS",    "TCOFR",       "TCOFRX",
+    "TCOFRY",       "TCOFRZ",     "TOFFON",     "TOFFOF",   "PDELAYON",  "PDELAYOF",    "SON",
+    "SPOF",         "F_SAVE_ORI", "CPRECON",    "CPRECOF",  "FNORM",     "FLIN",        "FCUB",
+    "FPO",          "DISABLE",    "ENABLE",     "CLRINT",   "LIFTFAST",  "TRAILON",     "TRAILOF",
+    "COUPON",       "COUPOF",     "CANCEL",     "NEWCONF",  "DELDTG",    "IPTRLOCK",    "IPTRUNLOCK",
+    "POLFMASK",     "POLFMLIN",   "LFON",       "LFOF",     "LFTXT",     "LFPOS",       "LFWP",
+    "CPROT",        "CPROTDEF",   "PROTA",      "PROTS",    "STRINGIS",  "CALCPOSI",    "VELOLIMA",
+    "ACCLIMA",      "JERKLIMA",   "SYNFCT",     "F_HEAD",   "WRITE",     "DELETE",      "MMC",
+    "G_INFO",       "STOLF",      "CTOLG0",     "CADIS",    "ADDFRAME",  "REPOSA",      "OEMIPO1",
     "ORICURINV",
 };
 
@@ -86,6 +86,11 @@ constexpr NamedMotion kMotions[] = {
     {"CIP", Motion::through_point}, {"CT", Motion::tangent},     {"BSPLINE", Motion::bspline},
     {"ASPLINE", Motion::spline},    {"CSPLINE", Motion::spline}, {"POLY", Motion::poly},
 };
+
+bool is_cycle(std::string_view name) {
+    return name.starts_with("CYCLE") || name.starts_with("HOLES") || name.starts_with("POCKET") ||
+           name.starts_with("SLOT") || name == "LONGHOLE";
+}
 
 template <std::size_t N>
 bool is_one_of(const std::string_view (&words)[N], std::string_view name) {
@@ -194,6 +199,14 @@ Result<void> Interpreter::read_name(Cursor& in, Words& words, int depth) {
     if (words.call) {
         return in.refuse(at, "the word " + name.substr(0, 31) + " is not known",
                          "delete it where it does not move the tool");
+    }
+    if (!is_cycle(name) && text_.unit_named(name) == nullptr) {  // not at hand: what is given does not matter
+        words.call.emplace();
+        words.call->name = name;
+        words.call->line = line_number();
+        words.call->column = static_cast<int>(at) + 1;
+        words.call->has_list = in.peek_after_blanks() == '(';
+        return words.call->has_list ? skip_parentheses(in) : Result<void>{};
     }
     auto call = call_at(in, name, at);
     if (!call) return std::unexpected(call.error());

@@ -111,7 +111,7 @@ TEST(SiemensLanguage, LeavesOutProgramsThatAreNotAtHandAndSaysSo) {
 TEST(SiemensLanguage, EndsEndlessLoops) {
     GcodeOptions options;
     options.max_steps = 1000;
-    for (const char* text : {"A: R1=1\nGOTOB A\n", "LOOP\nENDLOOP\n", "A: REPEAT A P=999999999\n"}) {
+    for (const char* text : {"A: R1=1\nGOTOB A\n", "LOOP\nENDLOOP\n", "A: R1=1\nREPEAT A P=999999999\n"}) {
         const auto program = read_siemens(text, options);
         ASSERT_FALSE(program.has_value()) << text;
         EXPECT_NE(program.error().cause.find("does not seem to end"), std::string::npos)
