@@ -9,13 +9,21 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/control/contour.hpp"
+#include "readers/control/path.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/state.hpp"
-#include "readers/heidenhain/contour.hpp"
 #include "readers/heidenhain/line.hpp"
-#include "readers/heidenhain/path.hpp"
 
 namespace tribo::readers::heidenhain {
+
+using control::Contour;
+using control::ContourEnd;
+using control::ContourEndShape;
+using control::ContourWords;
+using control::Known;
+using control::Path;
+using control::Place;
 
 // Notes with one warning per program.
 enum Note {

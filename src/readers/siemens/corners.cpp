@@ -9,7 +9,7 @@
 
 namespace tribo::readers::siemens {
 
-heidenhain::ContourWords Interpreter::contour_words(bool rapid) const {
+control::ContourWords Interpreter::contour_words(bool rapid) const {
     return {rapid, path_.feed_mm_per_min, path_.spindle_rpm, path_.tool, place(1)};
 }
 

@@ -178,7 +178,8 @@ Result<motion::Program> Interpreter::finish() {
                                        "X, Y and Z with G0 before them");
     }
     for (const Unit& unit : text_.units()) {
-        if (&unit == &text_.main() || unit.is_subprogram || unit.proc || !path_.first(kOtherPrograms)) continue;
+        if (&unit == &text_.main() || unit.is_subprogram || unit.proc || !path_.first(kOtherPrograms))
+            continue;
         path_.warn(static_cast<int>(unit.begin) + 1, "a second program follows: only the first one is run");
     }
     if (path_.moves == 0) path_.warn(0, "the program moves no tool");

@@ -9,21 +9,21 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/control/contour.hpp"
+#include "readers/control/path.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/cursor.hpp"
 #include "readers/gcode/motion/arc.hpp"
-#include "readers/heidenhain/contour.hpp"
-#include "readers/heidenhain/path.hpp"
 #include "readers/siemens/formula.hpp"
 #include "readers/siemens/text.hpp"
 #include "readers/siemens/words.hpp"
 
 namespace tribo::readers::siemens {
 
+using control::Known;
+using control::Path;
+using control::Place;
 using gcode::Cursor;
-using heidenhain::Known;
-using heidenhain::Path;
-using heidenhain::Place;
 
 // Notes with one warning per program.
 enum Note {
@@ -154,7 +154,7 @@ class Interpreter : private SystemValues {
     Result<bool> add_to_contour(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
     Result<void> close_contour();
     Result<double> cutter_radius(Place where, const char* what);
-    heidenhain::ContourWords contour_words(bool rapid) const;
+    control::ContourWords contour_words(bool rapid) const;
 
     // Frames (frames.cpp)
     Result<void> transform(const Words& words);
@@ -222,7 +222,7 @@ class Interpreter : private SystemValues {
     std::string source_name_;
     Text text_;
     Path path_;
-    heidenhain::Contour contour_;
+    control::Contour contour_;
     RunLimit limit_;
     std::size_t at_ = 0;  // index of the running line
     bool ended_ = false, returned_ = false, is_over_ = false, jumped_ = false, began_ = false;

@@ -33,7 +33,7 @@ struct Call {
     std::vector<std::optional<Value>> given;
     std::vector<std::string> names;  // of the variables given, for VAR parameters; else empty
     int line = 0, column = 0;
-    long times = 1;        // P
+    long times = 1;         // P
     bool has_list = false;  // parentheses behind the name
 
     bool has(std::size_t i) const { return i < given.size() && given[i].has_value(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The position of the tool of a conversational program, and its moves in the stock.
+// The position of the tool of a program with frames, and its moves in the stock: Heidenhain and Siemens.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 #include "readers/control/machine_run.hpp"
 #include "readers/gcode/reader.hpp"
 
-namespace tribo::readers::heidenhain {
+namespace tribo::readers::control {
 
 enum class Known { unstated, yes, lost };
 
@@ -117,4 +117,4 @@ class Path {
     std::array<bool, 64> noted_{};
 };
 
-}  // namespace tribo::readers::heidenhain
+}  // namespace tribo::readers::control

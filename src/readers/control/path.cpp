@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/heidenhain/path.hpp"
+#include "readers/control/path.hpp"
 
 #include <utility>
 
@@ -8,7 +8,7 @@
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
 
-namespace tribo::readers::heidenhain {
+namespace tribo::readers::control {
 
 Path::Path(const GcodeOptions& given, MoveSink* sink) : options(given), sink_(sink) {
     program.source = options.source_name;
@@ -269,4 +269,4 @@ bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line) {
     return true;
 }
 
-}  // namespace tribo::readers::heidenhain
+}  // namespace tribo::readers::control

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/heidenhain/contour.hpp"
+#include "readers/control/contour.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/math.hpp"
 #include "readers/text/decimal_text.hpp"
 
-namespace tribo::readers::heidenhain {
+namespace tribo::readers::control {
 namespace {
 
 using gcode::Element;
@@ -378,4 +378,4 @@ Result<void> Contour::run(Path& path) {
     return done;
 }
 
-}  // namespace tribo::readers::heidenhain
+}  // namespace tribo::readers::control

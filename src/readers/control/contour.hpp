@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A contour as a conversational program writes it: elements in the plane of the frame, with the corners RND
-// and CHF between them, with APPR and DEP at its ends, and with radius compensation RL or RR. It is collected
+// A contour as Heidenhain and Siemens programs write it: elements in the plane of the frame, with the corners
+// RND and CHF between them, with APPR and DEP at its ends, and with radius compensation. It is collected
 // until its end is known, because every one of these depends on the element that follows. Pure geometry, mm.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 #include "base/result.hpp"
 #include "motion/path/program.hpp"
+#include "readers/control/path.hpp"
 #include "readers/gcode/motion/contour.hpp"
-#include "readers/heidenhain/path.hpp"
 
-namespace tribo::readers::heidenhain {
+namespace tribo::readers::control {
 
 // What each element takes over from its block.
 struct ContourWords {
@@ -93,4 +93,4 @@ class Contour {
     std::optional<Vec3> programmed_;
 };
 
-}  // namespace tribo::readers::heidenhain
+}  // namespace tribo::readers::control
