@@ -35,6 +35,11 @@ long long whole(double value) {
     return static_cast<long long>(std::clamp(std::trunc(value), -kLargest, kLargest));
 }
 
+bool is_unknown(const Value& value) {
+    const double* number = std::get_if<double>(&value);
+    return number != nullptr && std::isnan(*number);
+}
+
 double rounded(double value) {
     return std::floor(value + 0.5);
 }
@@ -84,7 +89,10 @@ Result<double> Formula::number_of(const Result<Value>& value, std::size_t at) co
     if (!value) return std::unexpected(value.error());
     const double* number = std::get_if<double>(&*value);
     if (number == nullptr) return refuse(at, "a text stands where a number belongs", "write a number");
-    if (!std::isfinite(*number)) return refuse(at, "the value is not a finite number", "correct the formula");
+    if (!std::isfinite(*number)) {
+        return refuse(at, "only the machine knows " + (unknown_.empty() ? "this value" : "$" + unknown_),
+                      "write its value here");
+    }
     return *number;
 }
 
@@ -167,12 +175,18 @@ Result<Value> Formula::binary(int level, int depth) {
         in_.at += *length;
         const auto right = binary(level + 1, depth);
         if (!right) return right;
+        if (is_unknown(*left) || is_unknown(*right)) {
+            left = Value{std::nan("")};
+            continue;
+        }
         const auto a = number_of(left, at), b = number_of(right, at);
         if (!a || !b) return std::unexpected(a ? b.error() : a.error());
         if ((op == "/" || op == "DIV" || op == "MOD") && *b == 0) {
             return refuse(at, "a division by zero", "correct the formula");
         }
-        left = Value{apply(op, *a, *b)};
+        const double result = apply(op, *a, *b);
+        if (!std::isfinite(result)) return refuse(at, "the value is too large", "correct the formula");
+        left = Value{result};
     }
     return left;
 }
@@ -184,7 +198,9 @@ Result<Value> Formula::unary(int depth) {
     const std::string name = is_letter(c) ? name_at(in_) : std::string(1, c);
     if (name != "-" && name != "+" && name != "NOT" && name != "B_NOT") return primary(depth);
     in_.at += name.size();
-    const auto operand = number_of(unary(depth + 1), at);
+    const auto inner = unary(depth + 1);
+    if (inner && is_unknown(*inner)) return inner;
+    const auto operand = number_of(inner, at);
     if (!operand) return std::unexpected(operand.error());
     if (name == "NOT") return Value{*operand == 0 ? 1.0 : 0.0};
     if (name == "B_NOT") return Value{static_cast<double>(~whole(*operand))};
@@ -224,7 +240,9 @@ Result<Value> Formula::primary(int depth) {
     const auto power = readers::number_of(in_.line.substr(end + 2, last - end - 2));
     if (!power) return refuse(end, "EX without a number", "write for example 1.5EX3");
     in_.at = last;
-    return Value{*number * math::pow(10, std::clamp(*power, -400.0, 400.0))};
+    const double value = *number * math::pow(10, std::clamp(*power, -400.0, 400.0));
+    if (!std::isfinite(value)) return refuse(at, "the value is too large", "correct the number");
+    return Value{value};
 }
 
 // 'HFF' and 'B1010'
@@ -245,11 +263,11 @@ Result<Value> Formula::quoted_number() {
     return Value{value};
 }
 
-Result<std::vector<Value>> Formula::indices() {
+Result<std::vector<Value>> Formula::indices(int depth) {
     std::vector<Value> found;
     const bool before = std::exchange(takes_names_, true);
     for (;;) {
-        auto next = comparison(1);
+        auto next = comparison(depth);
         if (!next) return std::unexpected(next.error());
         found.push_back(*std::move(next));
         const char c = in_.peek_after_blanks();
@@ -288,14 +306,15 @@ Result<Value> Formula::named(int depth) {
     std::vector<Value> index;
     if (next == '[') {
         ++in_.at;
-        auto found = indices();
+        auto found = indices(depth + 1);
         if (!found) return std::unexpected(found.error());
         index = *std::move(found);
     }
     if (is_system) {
         auto value = system_.system_value(name, index);
         if (value) return *std::move(value);
-        return refuse(at, "only the machine knows $" + name.substr(0, 20), "write its value here");
+        unknown_ = name.substr(0, 20);
+        return Value{std::nan("")};
     }
     if (next == '(') return function(name, at, depth);
     in_.at = next == '[' ? in_.at : behind;
@@ -336,6 +355,7 @@ Result<Value> Formula::function(const std::string& name, std::size_t at, int dep
             if (c == ')') break;
         }
     }
+    if (std::any_of(given.begin(), given.end(), is_unknown)) return Value{std::nan("")};
     const auto number = [&](std::size_t i) {
         const double* found = i < given.size() ? std::get_if<double>(&given[i]) : nullptr;
         return found != nullptr ? *found : std::nan("");

@@ -18,7 +18,7 @@ namespace tribo::readers::siemens {
 class SystemValues {
   public:
     virtual ~SystemValues() = default;
-    // None: only the machine knows it.
+    // None: only the machine knows it. Such a value is NaN until somebody needs it.
     virtual std::optional<Value> system_value(const std::string& name,
                                               const std::vector<Value>& index) const = 0;
 };
@@ -35,10 +35,11 @@ class Formula {
         takes_names_ = true;
         return comparison(0);
     }
+    // A finite number. A value that only the machine knows is refused.
     Result<double> number();
     Result<std::string> text();
     // Reads "[1,X]" after its bracket.
-    Result<std::vector<Value>> indices();
+    Result<std::vector<Value>> indices(int depth = 0);
     // The element of a variable; refuses an index outside of it.
     Result<std::size_t> element(const Variable& variable, const std::vector<Value>& index,
                                 std::size_t at) const;
@@ -62,6 +63,7 @@ class Formula {
     Variables& variables_;
     const SystemValues& system_;
     bool takes_names_ = false;  // an unknown name is that of an axis
+    std::string unknown_;       // the last variable that only the machine knows
 };
 
 // The name at the cursor, in upper case: letters, digits and '_'. Empty if there is none.

@@ -75,7 +75,6 @@ bool Interpreter::goes_on_after(const Error& error) {
     path_.lose(error.line);
     contour_ = {};
     spline_.reset();
-    runs_modal_ = false;
     return true;
 }
 

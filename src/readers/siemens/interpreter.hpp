@@ -50,6 +50,14 @@ enum Note {
     kTipControl,
 };
 
+// A BSPLINE: its control points so far.
+struct Spline {
+    std::vector<motion::HomogeneousPoint> control;
+    std::size_t degree = 3;
+    std::optional<double> knot_step;  // PL
+    Place place;
+};
+
 class Interpreter : private SystemValues {
   public:
     Interpreter(std::string_view bytes, const GcodeOptions& options, MoveSink* sink);
@@ -268,12 +276,6 @@ class Interpreter : private SystemValues {
     int old_cycle_ = 0;          // G81 or G82
     bool runs_modal_ = false;
 
-    struct Spline {  // BSPLINE: its control points so far
-        std::vector<motion::HomogeneousPoint> control;
-        std::size_t degree = 3;
-        std::optional<double> knot_step;  // PL
-        Place place;
-    };
     std::optional<Spline> spline_;
 };
 

@@ -62,7 +62,7 @@ Result<void> Interpreter::define(Cursor& in) {
             double count = 1;
             for (std::size_t k = 0; k < sizes->size() && k < 2; ++k) {
                 const double* size = std::get_if<double>(&(*sizes)[k]);
-                count *= size != nullptr ? std::floor(*size) : 0;
+                count *= size != nullptr && *size >= 1 ? std::floor(*size) : 0;
                 if (count >= 1 && count <= kLargestArray) variable.sizes[k] = static_cast<std::size_t>(*size);
             }
             if (!(count >= 1 && count <= kLargestArray) || sizes->size() > 2) {
@@ -116,9 +116,11 @@ Result<void> Interpreter::assign(const std::string& name, std::size_t at, Cursor
         if (name[0] != 'R' || !(number >= 0 && number < Variables::kMostR)) {
             return in.refuse(at, "'" + name.substr(0, 31) + "' is not known", "define it with DEF");
         }
-        const auto value = Formula(in, variables_, *this).number();
+        const auto value = Formula(in, variables_, *this).value();
         if (!value) return std::unexpected(value.error());
-        variables_.set_r(static_cast<int>(number), *value);
+        Variable holder = fresh(Type::real);
+        if (auto done = set_element(holder, 0, *value, at, in); !done) return done;
+        variables_.set_r(static_cast<int>(number), std::get<double>(holder.values[0]));
         return {};
     }
     const auto place = Formula(in, variables_, *this).element(*variable, index, at);
@@ -152,7 +154,6 @@ Result<void> Interpreter::set_element(Variable& variable, std::size_t place, con
         return {};
     }
     if (number == nullptr) return in.refuse(at, "a text for a variable of numbers", "write a number");
-    if (!std::isfinite(*number)) return in.refuse(at, "the value is not a finite number", "correct it");
     variable.values[place] = variable.type == Type::whole ? std::floor(*number + 0.5) : *number;
     return {};
 }

@@ -123,12 +123,12 @@ Text::Text(std::string_view bytes) {
         Unit& unit = units_.back();
         if (is_header) {
             std::string kind;
-            unit.names.push_back(header_name(code, kind));
+            unit_names_.try_emplace(header_name(code, kind), units_.size() - 1);
             unit.is_subprogram = kind == "_SPF";
         } else if (is_proc) {
             std::size_t at = head.at + 4;
             while (at < code.size() && is_blank(code[at])) ++at;
-            unit.names.push_back(word_at(code, at));
+            unit_names_.try_emplace(word_at(code, at), units_.size() - 1);
             unit.proc = i;
             has_content = true;
         } else {
@@ -137,6 +137,8 @@ Text::Text(std::string_view bytes) {
         }
     }
     units_.back().end = lines_.size();
+    while (main_ < units_.size() && (units_[main_].is_subprogram || units_[main_].proc)) ++main_;
+    if (main_ == units_.size()) main_ = 0;
 }
 
 void Text::find_structure(std::size_t i, std::string_view code, const std::string& word,
@@ -154,18 +156,9 @@ void Text::find_structure(std::size_t i, std::string_view code, const std::strin
     if (begins || word == "ELSE") open.push_back(i);
 }
 
-const Unit& Text::main() const {
-    for (const Unit& unit : units_) {
-        if (!unit.is_subprogram && !unit.proc) return unit;
-    }
-    return units_.front();
-}
-
 const Unit* Text::unit_named(const std::string& name) const {
-    for (const Unit& unit : units_) {
-        if (std::find(unit.names.begin(), unit.names.end(), name) != unit.names.end()) return &unit;
-    }
-    return nullptr;
+    const auto found = unit_names_.find(name);
+    return found == unit_names_.end() ? nullptr : &units_[found->second];
 }
 
 std::optional<std::size_t> Text::partner(std::size_t line) const {

@@ -23,9 +23,8 @@ Head head_of(std::string_view line);
 // The line up to its ';' comment.
 std::string_view code_of(std::string_view line);
 
-// A program of the file: its lines, and its names in upper case (%_N_NAME_SPF, PROC NAME).
+// A program of the file.
 struct Unit {
-    std::vector<std::string> names;
     std::size_t begin = 0, end = 0;
     std::optional<std::size_t> proc;  // line of its PROC
     bool is_subprogram = false;       // its header says _SPF
@@ -39,7 +38,8 @@ class Text {
     std::string_view line(std::size_t i) const { return lines_[i]; }
     const std::vector<Unit>& units() const { return units_; }
     // The program that runs first.
-    const Unit& main() const;
+    const Unit& main() const { return units_[main_]; }
+    // By its name in upper case (%_N_NAME_SPF, PROC NAME); null: it is not in the file.
     const Unit* unit_named(const std::string& name) const;
 
     // IF: its ELSE or ENDIF. ELSE: its ENDIF. WHILE, FOR, LOOP, REPEAT: their end. An end: its beginning.
@@ -57,6 +57,8 @@ class Text {
 
     std::vector<std::string_view> lines_;
     std::vector<Unit> units_;
+    std::map<std::string, std::size_t> unit_names_;  // indices of units_
+    std::size_t main_ = 0;
     std::map<std::string, std::vector<std::size_t>> places_;
     std::map<std::size_t, std::size_t> partners_;
 };

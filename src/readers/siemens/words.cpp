@@ -15,13 +15,14 @@ constexpr int kDeepestMacro = 8;
 // Keywords without effect on the path: look-ahead, smoothing and jerk, feed forward, dynamics, compressors,
 // interpolation of the orientation, spindles and their modes, messages, protection zones, channels, display.
 constexpr std::string_view kSilent[] = {
-    "MSG",          "PRINT",      "PRINTLN",    "STOPRE",   "SOFT",      "SOFTA",       "BRISK",
-    "BRISKA",       "DRIVE",      "DRIVEA",     "FFWON",    "FFWOF",     "COMPCAD",     "COMPON",
-    "COMPCURV",     "COMPOF",     "COMPSURF",   "COMPPATH", "ORIWKS",    "ORIMKS",      "ORIAXES",
-    "ORIVECT",      "ORIPLANE",   "ORISON",     "ORISOF",   "ORID",      "ORIVIRT1",    "ORIVIRT2",
-    "ORICONIO",     "ORICONTO",   "ORIROTA",    "CFTCP",    "CFC",       "CFIN",        "UPATH",
-    "SPATH",        "FGROUP",     "FGREF",      "FIFOCTRL", "STARTFIFO", "STOPFIFO",    "DIAMOF",
-    "DIAM90",       "DIAMCYCOF",  "DIAMCHANA",  "CUTDD",
+    "MSG",          "PRINT",      "PRINTLN",    "CP",       "PTP",       "PTPG0",       "TOWSTD",
+    "TOWMCS",       "TOWWCS",     "TOWBCS",     "TOWTCS",   "TOWKCS",    "FENDNORM",    "STOPRE",
+    "SOFT",         "SOFTA",      "BRISK",      "BRISKA",   "DRIVE",     "DRIVEA",      "FFWON",
+    "FFWOF",        "COMPCAD",    "COMPON",     "COMPCURV", "COMPOF",    "COMPSURF",    "COMPPATH",
+    "ORIWKS",       "ORIMKS",     "ORIAXES",    "ORIVECT",  "ORIPLANE",  "ORISON",      "ORISOF",
+    "ORID",         "ORIVIRT1",   "ORIVIRT2",   "ORICONIO", "ORICONTO",  "ORIROTA",     "CFTCP",
+    "CFC",          "CFIN",       "UPATH",      "SPATH",    "FGROUP",    "FGREF",       "FIFOCTRL",
+    "STARTFIFO",    "STOPFIFO",   "DIAMOF",     "DIAM90",   "DIAMCYCOF", "DIAMCHANA",   "CUTDD",
 
     "CUTCONON",     "CUTCONOF",   "NORM",       "KONT",     "KONTC",     "KONTT",       "DYNNORM",
     "DYNROUGH",     "DYNFINISH",  "DYNSEMIFIN", "DYNPOS",   "DYNPREC",   "CYCLE832",    "WORKPIECE",
@@ -70,6 +71,8 @@ constexpr Refused kRefused[] = {
     {"REPOS", "the return to a contour", kPlain},
     {"ISOCALL", "programs of another control", "copy its path into this program"},
     {"PUNCH", "punching", "only milling is read"},
+    {"DIAMON", "diameters of a lathe", "only milling is read"},
+    {"GEOAX", "other axes in the place of X, Y and Z", kPlain},
 };
 
 // Ends TOROT and the like: the frame is that of the program again.
@@ -166,6 +169,10 @@ Result<void> Interpreter::read_name(Cursor& in, Words& words, int depth) {
         if (depth > kDeepestMacro) return in.refuse(at, "DEFINE leads to itself", "correct it");
         in.at = at + name.size();
         const std::string text = macro->second;
+        if (auto cause = limit_.count(text.size())) {
+            is_over_ = true;
+            return path_.refuse(place(1), *std::move(cause), RunLimit::kRemedy);
+        }
         Cursor inner = in;
         inner.line = text;
         inner.at = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +41,7 @@ struct Call {
     // The number at a place, counted from 0; `otherwise` where there is none.
     double at(std::size_t i, double otherwise = 0) const {
         const double* number = has(i) ? std::get_if<double>(&*given[i]) : nullptr;
-        return number != nullptr ? *number : otherwise;
+        return number != nullptr && std::isfinite(*number) ? *number : otherwise;
     }
     std::string text(std::size_t i) const {
         const std::string* text = has(i) ? std::get_if<std::string>(&*given[i]) : nullptr;

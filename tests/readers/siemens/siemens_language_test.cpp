@@ -108,6 +108,18 @@ TEST(SiemensLanguage, LeavesOutProgramsThatAreNotAtHandAndSaysSo) {
     EXPECT_EQ(program.moves.size(), 2u);
 }
 
+TEST(SiemensLanguage, KeepsWhatOnlyTheMachineKnowsUntilItIsNeeded) {
+    EXPECT_EQ(siemens("R1=$AC_TIMER[1]+1\nR2=R1*2\nG1 X5 F100\n").moves.size(), 1u);
+    for (const char* use : {"X=R2", "X=SIN(R2)", "X=-R2"}) {
+        const auto program =
+            read_siemens("G71 G0 X0 Y0 Z0\nR2=$AC_TIMER[1]+1\nG0 " + std::string(use) + "\n");
+        ASSERT_FALSE(program.has_value()) << use;
+        EXPECT_EQ(program.error().line, 3) << use;
+        EXPECT_EQ(program.error().cause, "only the machine knows this value") << use;
+    }
+    EXPECT_FALSE(read_siemens("IF $A_IN[1]==1 GOTOF A\nA: G0 X1\n").has_value());
+}
+
 TEST(SiemensLanguage, EndsEndlessLoops) {
     GcodeOptions options;
     options.max_steps = 1000;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One part of six features, as a Siemens program and as G-code: one path.
 #include <cmath>
-#include <format>
 #include <gtest/gtest.h>
 #include <vector>
 
 #include "readers/gcode/reader.hpp"
 #include "readers/siemens/siemens_text.hpp"
+#include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -15,6 +15,11 @@ GcodeOptions with_tool() {
     GcodeOptions options;
     options.tools = {{1, 6}};
     return options;
+}
+
+// A word with its number.
+std::string word(const char* address, double value) {
+    return address + short_decimal(value, 9) + ' ';
 }
 
 // The tool at steps of 0.25 mm of the whole path, and at its end.
@@ -60,8 +65,7 @@ TEST(SiemensPart, PocketWithCompensation) {
 TEST(SiemensPart, BoltCircle) {
     std::string holes = "G99 G81 X30 Y0 Z-8 R2 F100\n";
     for (const double deg : {60, 120, 180, 240, 300}) {
-        holes +=
-            std::format("X{:.9f} Y{:.9f}\n", 30 * std::cos(deg * kPi / 180), 30 * std::sin(deg * kPi / 180));
+        holes += word("X", 30 * std::cos(deg * kPi / 180)) + word("Y", 30 * std::sin(deg * kPi / 180)) + "\n";
     }
     expect_one_path(
         kSiemensStart + "G0 X30\nZ2\nF100\nMCALL CYCLE81(2,0,2,-8)\nHOLES2(0,0,30,0,60,6)\nMCALL\n",
@@ -72,8 +76,8 @@ TEST(SiemensPart, TiltedPlane) {
     const double c = std::cos(kPi / 6), s = std::sin(kPi / 6);
     std::string lines = "G43.5\n";
     const auto at = [&](double x, double y, double z) {
-        return std::format("X{:.9f} Y{:.9f} Z{:.9f} I{:.9f} J0 K{:.9f}\n", 10 + c * x + s * z, 5 + y,
-                           -s * x + c * z, s, c);
+        return word("X", 10 + c * x + s * z) + word("Y", 5 + y) + word("Z", c * z - s * x) + word("I", s) +
+               word("K", c) + "\n";
     };
     lines += "G0 " + at(0, 0, 20) + "G1 F300 " + at(0, 0, -1) + at(30, 0, -1) + at(30, 20, -1);
     expect_one_path(
@@ -101,10 +105,10 @@ TEST(SiemensPart, FiveAxisSwarf) {
     std::string siemens = "TRAORI\n", gcode = "G43.5\n";
     for (int i = 0; i <= 12; ++i) {
         const double rad = i * kPi / 18, x = 40 * std::cos(rad), y = 40 * std::sin(rad);
-        const std::string place = std::format("X{:.6f} Y{:.6f} Z-5", x, y);
-        const Vec3 axis{0.2 * std::cos(rad), 0.2 * std::sin(rad), 1};
-        siemens += std::format("G1 {} A3={:.6f} B3={:.6f} C3={:.6f} F600\n", place, axis.x, axis.y, axis.z);
-        gcode += std::format("G1 {} I{:.6f} J{:.6f} K{:.6f} F600\n", place, axis.x, axis.y, axis.z);
+        const std::string place = "G1 " + word("X", x) + word("Y", y) + "Z-5 F600 ";
+        const double u = 0.2 * std::cos(rad), v = 0.2 * std::sin(rad);
+        siemens += place + word("A3=", u) + word("B3=", v) + "C3=1\n";
+        gcode += place + word("I", u) + word("J", v) + "K1\n";
     }
     expect_one_path(kSiemensStart + siemens, kGcodeStart + gcode);
 }
