@@ -39,7 +39,7 @@ MillSetup setup_of(const milling::Cutter& cutter, const Box3& blank, double cell
     return s;
 }
 
-// Any tool on any way through any block: bricks in use, at most, counted after each fifth of it.
+// Any tool on any way through any block: bricks in use, at most, counted after each twentieth of it.
 RC_GTEST_PROP(MemoryEstimate, counts_the_bricks_of_any_program, ()) {
     milling::Cutter cutter;
     cutter.kind = *rc::gen::element(milling::CutterKind::flat, milling::CutterKind::ball);
@@ -59,8 +59,9 @@ RC_GTEST_PROP(MemoryEstimate, counts_the_bricks_of_any_program, ()) {
     const double estimate = MemoryEstimate(setup, cell).cut_bricks(cell);
     MillSession session(std::move(setup), serial_for);
     double most = 0;
-    for (int n = 1; n <= 5; ++n) {
-        RC_ASSERT(session.run_to(0.2 * n * session.duration_s(), {}));
+    constexpr int kLooks = 20;
+    for (int n = 1; n <= kLooks; ++n) {
+        RC_ASSERT(session.run_to(session.duration_s() * n / kLooks, {}));
         most = std::max(most, static_cast<double>(session.stock().bricks_in_use()));
     }
     if (most < 100) return;

@@ -71,6 +71,8 @@ class CoarseStock {
                 for (int i = first[0]; i <= last[0]; ++i) look(cutter, pose, {i, j, k});
             }
         }
+        // Not within the loops, where some cells are new and others not yet gone.
+        most_ = std::max(most_, surface_);
     }
 
     double most_surface_cells() const { return static_cast<double>(most_); }
@@ -99,7 +101,7 @@ class CoarseStock {
             tool.mm <= -near || (was == field::kUntouched && blank_.distance_mm(middle) > kToCorner * edge_);
         index_.set(cell, air ? field::kAir : field::kFirstBrick);
         if (was != field::kUntouched) --surface_;
-        if (!air) most_ = std::max(most_, ++surface_);
+        if (!air) ++surface_;
     }
 
     const field::Shape& blank_;
