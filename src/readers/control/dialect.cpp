@@ -17,19 +17,21 @@ struct Sign {
     std::string_view text;
     Dialect dialect;
 };
-// Clear signs anywhere in a block. The text is in upper case and without blanks.
+// Clear signs anywhere in a block, in the order in which they are sought. The text is in upper case and
+// without blanks. First those behind which a person may write any word.
 constexpr std::array kSigns{
-    Sign{"BEGINPGM", Dialect::heidenhain}, Sign{"TOOLCALL", Dialect::heidenhain},
-    Sign{"TRAORI", Dialect::siemens},      Sign{"TRAFOOF", Dialect::siemens},
-    Sign{"CYCLE8", Dialect::siemens},      Sign{"MCALL", Dialect::siemens},
-    Sign{"MSG(", Dialect::siemens},        Sign{"STOPRE", Dialect::siemens},
-    Sign{"SUPA", Dialect::siemens},        Sign{"_N_", Dialect::siemens},
-    Sign{"CR=", Dialect::siemens},         Sign{"A3=", Dialect::siemens},
-    Sign{"=AC(", Dialect::siemens},        Sign{"=IC(", Dialect::siemens},
-    Sign{"GOTOF", Dialect::siemens},       Sign{"GOTOB", Dialect::siemens},
-    Sign{"ATRANS", Dialect::siemens},      Sign{"AROT", Dialect::siemens},
-    Sign{"POCKET", Dialect::siemens},      Sign{"HOLES1(", Dialect::siemens},
-    Sign{"HOLES2(", Dialect::siemens},     Sign{"LONGHOLE(", Dialect::siemens},
+    Sign{"O<", Dialect::linuxcnc},         Sign{"#<", Dialect::linuxcnc},
+    Sign{"DPRNT[", Dialect::fanuc},        Sign{"BEGINPGM", Dialect::heidenhain},
+    Sign{"TOOLCALL", Dialect::heidenhain}, Sign{"TRAORI", Dialect::siemens},
+    Sign{"TRAFOOF", Dialect::siemens},     Sign{"CYCLE8", Dialect::siemens},
+    Sign{"MCALL", Dialect::siemens},       Sign{"MSG(", Dialect::siemens},
+    Sign{"STOPRE", Dialect::siemens},      Sign{"SUPA", Dialect::siemens},
+    Sign{"_N_", Dialect::siemens},         Sign{"CR=", Dialect::siemens},
+    Sign{"A3=", Dialect::siemens},         Sign{"=AC(", Dialect::siemens},
+    Sign{"=IC(", Dialect::siemens},        Sign{"GOTOF", Dialect::siemens},
+    Sign{"GOTOB", Dialect::siemens},       Sign{"ATRANS", Dialect::siemens},
+    Sign{"AROT", Dialect::siemens},
+
     Sign{"CUT2D", Dialect::siemens},       Sign{"DIAMOF", Dialect::siemens},
     Sign{"COMPCAD", Dialect::siemens},     Sign{"COMPON", Dialect::siemens},
     Sign{"FFWON", Dialect::siemens},       Sign{"ORIWKS", Dialect::siemens},
@@ -39,20 +41,20 @@ constexpr std::array kSigns{
     Sign{"T=\"", Dialect::siemens},        Sign{"$P_", Dialect::siemens},
     Sign{"$TC_", Dialect::siemens},        Sign{"G642", Dialect::siemens},
     Sign{"G500", Dialect::siemens},        Sign{"G710", Dialect::siemens},
-    Sign{"O<", Dialect::linuxcnc},         Sign{"#<", Dialect::linuxcnc},
     Sign{"M428", Dialect::linuxcnc},       Sign{"M429", Dialect::linuxcnc},
     Sign{"G43.4", Dialect::fanuc},         Sign{"G43.5", Dialect::fanuc},
     Sign{"G68.2", Dialect::fanuc},         Sign{"]GOTO", Dialect::fanuc},
     Sign{"G54.1P", Dialect::fanuc},        Sign{"]DO", Dialect::fanuc},
     Sign{"]THEN", Dialect::fanuc},         Sign{"G65P", Dialect::fanuc},
-    Sign{"DPRNT[", Dialect::fanuc},        Sign{"#3000=", Dialect::fanuc},
+    Sign{"#3000=", Dialect::fanuc},
 };
 
-// Beginnings of a Siemens block, behind its number.
+// Beginnings of a Siemens block, behind its number. A bracket behind a digit is taken for a comment.
 constexpr std::string_view kSiemensBlocks[] = {
-    "DEFREAL",  "DEFINT",  "DEFBOOL", "DEFSTRING", "DEFAXIS", "DEFCHAR", "ENDIF", "ENDFOR",
-    "ENDWHILE", "ENDLOOP", "TRANSX",  "TRANSY",    "TRANSZ",  "ROTX",    "ROTY",  "ROTZ",
-    "ROTRPL",   "MIRRORX", "MIRRORY", "SCALEX",    "SLOT1(",  "SLOT2(",  "CYCLE"};
+    "DEFREAL",  "DEFINT",  "DEFBOOL", "DEFSTRING", "DEFAXIS",  "DEFCHAR", "ENDIF",   "ENDFOR",
+    "ENDWHILE", "ENDLOOP", "TRANSX",  "TRANSY",    "TRANSZ",   "ROTX",    "ROTY",    "ROTZ",
+    "ROTRPL",   "MIRRORX", "MIRRORY", "SCALEX",    "SLOT1",    "SLOT2",   "POCKET1", "POCKET2",
+    "POCKET3",  "POCKET4", "HOLES1",  "HOLES2",    "LONGHOLE", "CYCLE"};
 
 // R1=5, X=R1, and blocks that begin with a word of that language alone.
 bool looks_like_siemens(std::string_view text) {
