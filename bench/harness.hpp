@@ -67,6 +67,7 @@ class Report {
 // The measurements, a file each.
 void measure_processes(Report& report, int repeats);  // first: see the function
 void measure_forces(Report& report, int repeats);
+void measure_stability(Report& report, int repeats);
 void measure_queries(Report& report);
 void measure_contact(Report& report);
 void measure_rows(Report& report);

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     } parts[] = {
         {"processes", [&] { measure_processes(report, repeats); }},
         {"forces", [&] { measure_forces(report, repeats); }},
+        {"stability", [&] { measure_stability(report, repeats); }},
         {"contact", [&] { measure_contact(report); }},
         {"queries", [&] { measure_queries(report); }},
         {"rows", [&] { measure_rows(report); }},

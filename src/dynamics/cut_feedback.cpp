@@ -59,69 +59,90 @@ double CutFeedback::rotation(int tooth, double t_s) const {
     return turn_rad_per_s_ * t_s + phase_rad_[static_cast<std::size_t>(tooth)];
 }
 
-CutFeedback::Zone CutFeedback::zone(const milling::EngagementBand& band, double rotation_rad) const {
-    if (lag_per_mm_ == 0) {
-        const double at = wrapped(rotation_rad, band.entry_rad);
-        return at < band.exit_rad ? Zone{band.z0_mm, band.z1_mm} : Zone{band.z0_mm, band.z0_mm};
+template <class Use>
+void CutFeedback::for_each_zone(double rotation_rad, Use&& use) const {
+    for (const milling::EngagementBand& band : bands_) {
+        const double bottom = rotation_rad - lag_per_mm_ * band.z0_mm;
+        const double top = rotation_rad - lag_per_mm_ * band.z1_mm;
+        const double low = std::min(bottom, top), high = std::max(bottom, top);
+        // The edge stands from low to high; it cuts from entry to exit, in every turn.
+        double turn = math::kTwoPi * std::ceil((low - band.exit_rad) / math::kTwoPi);
+        for (; band.entry_rad + turn <= high; turn += math::kTwoPi) {
+            if (lag_per_mm_ == 0) {
+                if (low < band.exit_rad + turn) use(Zone{band.z0_mm, band.z1_mm});
+                continue;
+            }
+            const double from = std::max(low, band.entry_rad + turn),
+                         to = std::min(high, band.exit_rad + turn);
+            const double z_from = (rotation_rad - from) / lag_per_mm_,
+                         z_to = (rotation_rad - to) / lag_per_mm_;
+            if (to > from) use(Zone{std::min(z_from, z_to), std::max(z_from, z_to)});
+        }
     }
-    // The angle of the band's bottom, less the lag up to z, lies between entry and exit.
-    const double bottom = rotation_rad - lag_per_mm_ * band.z0_mm;
-    const double most = lag_per_mm_ * (band.z1_mm - band.z0_mm);
-    const double lowest = std::min(0.0, -most), highest = std::max(0.0, -most);
-    // One turn of the helix at a time: a band lower than a turn is cut once.
-    const double at = wrapped(bottom + lowest, band.entry_rad - (highest - lowest)) - lowest;
-    double a = (at - band.exit_rad) / lag_per_mm_, b = (at - band.entry_rad) / lag_per_mm_;
-    if (a > b) std::swap(a, b);
-    const double height = band.z1_mm - band.z0_mm;
-    a = std::clamp(a, 0.0, height);
-    b = std::clamp(b, 0.0, height);
-    return {band.z0_mm + a, band.z0_mm + b};
 }
 
 Matrix3 CutFeedback::stiffness(int tooth, double t_s) const {
-    const double rotation_rad = rotation(tooth, t_s);
+    const double rotation_rad = rotation(tooth, t_s), corner = cutter_.corner_radius_mm();
     Matrix3 sum{};
-    for (const milling::EngagementBand& band : bands_) {
-        const Zone cut = zone(band, rotation_rad);
-        const double half = 0.5 * (cut.z1_mm - cut.z0_mm), middle = 0.5 * (cut.z1_mm + cut.z0_mm);
-        if (half <= 0) continue;
-        const double corner = cutter_.corner_radius_mm();
-        for (int n = 0; n < 8; ++n) {
-            const auto node = static_cast<std::size_t>(n / 2);
-            const double z = middle + (n % 2 == 0 ? -half : half) * kNodes[node];
-            const double cos_kappa = z < corner ? (corner - z) / corner : 0;
-            const double sin_kappa = std::sqrt(1 - cos_kappa * cos_kappa);
-            double sine, cosine;
-            math::sincos(rotation_rad - lag_per_mm_ * z, sine, cosine);
-            const Vec3 outward{sine * sin_kappa, cosine * sin_kappa, -cos_kappa};
-            const Vec3 along{cosine, -sine, 0};                                    // the edge moves
-            const Vec3 meridian{sine * cos_kappa, cosine * cos_kappa, sin_kappa};  // away from the tip
-            const Vec3 force =
-                -coefficients_.ktc * along - coefficients_.krc * outward - coefficients_.kac * meridian;
-            const double width = half * kWeights[node] / sin_kappa;
-            sum[0] += (width * force.x) * outward;
-            sum[1] += (width * force.y) * outward;
-            sum[2] += (width * force.z) * outward;
-        }
-    }
+    for_each_zone(rotation_rad, [&](Zone cut) {
+        if (cut.z0_mm < corner) add_rounded(rotation_rad, {cut.z0_mm, std::min(cut.z1_mm, corner)}, sum);
+        if (cut.z1_mm > corner) add_straight(rotation_rad, {std::max(cut.z0_mm, corner), cut.z1_mm}, sum);
+    });
     return sum;
 }
 
-bool CutFeedback::cuts(double t_s) const {
-    for (int tooth = 0; tooth < teeth(); ++tooth) {
-        for (const milling::EngagementBand& band : bands_) {
-            const Zone cut = zone(band, rotation(tooth, t_s));
-            if (cut.z1_mm > cut.z0_mm) return true;
-        }
+// In closed form: a mean over an angle is the value in its middle times sin(x) / x.
+void CutFeedback::add_straight(double rotation_rad, Zone cut, Matrix3& sum) const {
+    const double height = cut.z1_mm - cut.z0_mm, half_rad = 0.5 * lag_per_mm_ * height;
+    double sine, cosine, half_sine, half_cosine;
+    math::sincos(rotation_rad - 0.5 * lag_per_mm_ * (cut.z0_mm + cut.z1_mm), sine, cosine);
+    math::sincos(half_rad, half_sine, half_cosine);
+    const double once = std::abs(half_rad) < 1e-8 ? height : height * half_sine / half_rad;
+    const double twice = once * half_cosine;  // of the double angle
+    const double ss = 0.5 * height - 0.5 * twice * (cosine * cosine - sine * sine), cc = height - ss;
+    const double sc = twice * sine * cosine;
+    const milling::CuttingCoefficients& k = coefficients_;
+    sum[0] += {-k.ktc * sc - k.krc * ss, -k.ktc * cc - k.krc * sc, 0};
+    sum[1] += {k.ktc * ss - k.krc * sc, k.ktc * sc - k.krc * cc, 0};
+    sum[2] += {-k.kac * once * sine, -k.kac * once * cosine, 0};
+}
+
+void CutFeedback::add_rounded(double rotation_rad, Zone cut, Matrix3& sum) const {
+    // Over the angle of the edge's normal to the axis, with the length of the edge for its width.
+    const double corner = cutter_.corner_radius_mm();
+    const double from = math::acos(1 - cut.z0_mm / corner), to = math::acos(1 - cut.z1_mm / corner);
+    const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
+    for (int n = 0; n < 8; ++n) {
+        const auto node = static_cast<std::size_t>(n / 2);
+        double sin_kappa, cos_kappa, sine, cosine;
+        math::sincos(middle + (n % 2 == 0 ? -half : half) * kNodes[node], sin_kappa, cos_kappa);
+        math::sincos(rotation_rad - lag_per_mm_ * corner * (1 - cos_kappa), sine, cosine);
+        const Vec3 outward{sine * sin_kappa, cosine * sin_kappa, -cos_kappa};
+        const Vec3 along{cosine, -sine, 0};                                    // the edge moves
+        const Vec3 meridian{sine * cos_kappa, cosine * cos_kappa, sin_kappa};  // away from the tip
+        const Vec3 force =
+            -coefficients_.ktc * along - coefficients_.krc * outward - coefficients_.kac * meridian;
+        const double width = corner * half * kWeights[node];
+        sum[0] += (width * force.x) * outward;
+        sum[1] += (width * force.y) * outward;
+        sum[2] += (width * force.z) * outward;
     }
-    return false;
+}
+
+bool CutFeedback::cuts(double t_s) const {
+    bool any = false;
+    for (int tooth = 0; tooth < teeth(); ++tooth)
+        for_each_zone(rotation(tooth, t_s), [&](Zone) { any = true; });
+    return any;
 }
 
 void CutFeedback::find_events() {
     events_s_ = {0, period_s_};
     for (int tooth = 0; tooth < teeth(); ++tooth) {
         for (const milling::EngagementBand& band : bands_) {
-            for (const double z : {band.z0_mm, band.z1_mm}) {
+            // Where the rounded part ends too, S has a kink.
+            const double corner = std::clamp(cutter_.corner_radius_mm(), band.z0_mm, band.z1_mm);
+            for (const double z : {band.z0_mm, corner, band.z1_mm}) {
                 for (const double angle : {band.entry_rad, band.exit_rad}) {
                     const double way = wrapped(angle + lag_per_mm_ * z - rotation(tooth, 0), 0);
                     const double t = way / turn_rad_per_s_;

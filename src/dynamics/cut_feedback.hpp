@@ -45,9 +45,13 @@ class CutFeedback {
     struct Zone {
         double z0_mm, z1_mm;
     };
-    // The part of a band in which a tooth at that rotation cuts.
-    Zone zone(const milling::EngagementBand& band, double rotation_rad) const;
+    // The parts of the bands in which a tooth at that rotation cuts.
+    template <class Use>
+    void for_each_zone(double rotation_rad, Use&& use) const;
     double rotation(int tooth, double t_s) const;
+    // Adds S of a piece of one edge: below the rounded part's top, and above it.
+    void add_rounded(double rotation_rad, Zone cut, Matrix3& sum) const;
+    void add_straight(double rotation_rad, Zone cut, Matrix3& sum) const;
     void find_events();
 
     milling::Cutter cutter_;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/math.hpp"
+#include "dynamics/chebyshev_collocation.hpp"
 #include "dynamics/semi_discretisation.hpp"
 
 namespace tribo::dynamics {
@@ -144,6 +145,46 @@ TEST(Stability, of_helix_unequal_pitch_and_three_modes_is_that_of_another_method
                     << pitch.size() << " " << helix << " " << depth;
             }
         }
+    }
+}
+
+TEST(Stability, of_many_cuts_is_that_of_all_eigenvalues_of_one_large_matrix) {
+    std::mt19937 random(3);
+    const auto number = [&](double from, double to) {
+        return from + (to - from) * static_cast<double>(random()) / 4294967296.0;
+    };
+    for (int draw = 0; draw < 40; ++draw) {
+        std::vector<Mode> modes;
+        for (int n = 0; n <= draw % 3; ++n) {
+            modes.push_back({{number(-1, 1), number(-1, 1), number(-1, 1)},
+                             number(300, 1500),
+                             number(0.005, 0.1),
+                             number(1000, 50'000),
+                             n == 1 ? ModeOn::part : ModeOn::tool});
+        }
+        const milling::Cutter cutter{
+            .kind = draw % 4 == 0 ? milling::CutterKind::ball : milling::CutterKind::flat,
+            .diameter_mm = 10,
+            .flutes = 2 + draw % 2,
+            .helix_deg = draw % 2 == 0 ? 0 : number(-45, 45)};
+        const milling::CuttingCoefficients k{number(200, 2000), number(0, 1000), number(-200, 600), 0, 0, 0};
+        const double entry = number(0, 2), exit = entry + number(0.2, 3);
+        const milling::EngagementBand band{0, number(0.1, 4), entry, exit};
+        const CutFeedback feedback(cutter, k, {&band, 1}, number(6000, 25'000));
+        const double expected = test::multiplier_by_chebyshev(modes, feedback);
+        EXPECT_NEAR(stability(modes, feedback).multiplier, expected, 1e-7 * std::max(1.0, expected)) << draw;
+    }
+}
+
+TEST(Stability, of_a_second_mode_is_exact_too_also_deep_and_slow) {
+    const Mode first = benchmark_mode(), second{{1, 0, 0}, 1400, 0.011, 5000};
+    const std::array modes{first, second};
+    for (const auto& [rpm, depth] :
+         {std::pair{10'000.0, 0.3}, {10'000.0, 2.0}, {5000.0, 5.0}, {1500.0, 0.3}}) {
+        const milling::EngagementBand band{0, depth, 0, kPi};
+        const CutFeedback feedback(kCutter, kAluminium, {&band, 1}, rpm);
+        const double expected = test::multiplier_by_chebyshev(modes, feedback);
+        EXPECT_NEAR(stability(modes, feedback).multiplier / expected, 1, 1e-7) << rpm << " " << depth;
     }
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Whether a cut chatters: one point of the benchmark of the literature, and a chart of it.
+#include "dynamics/stability.hpp"
+
+#include "base/math.hpp"
+#include "dynamics/chebyshev_collocation.hpp"
+#include "harness.hpp"
+
+namespace tribo::bench {
+
+void measure_stability(Report& report, int repeats) {
+    report.section("Stability");
+    const milling::Cutter cutter{.diameter_mm = 10, .flutes = 2, .helix_deg = 0};
+    const milling::CuttingCoefficients aluminium{600, 200, 0, 0, 0, 0};
+    const milling::EngagementBand slot{0, 0.3, 0, math::kPi};
+    const dynamics::Mode first{{1, 0, 0}, 922, 0.011, 1340.05}, second{{1, 0, 0}, 1400, 0.011, 5000};
+    const auto point = [&](const char* name, const std::vector<dynamics::Mode>& modes, double goal_us) {
+        constexpr int kCalls = 200;
+        const double us = median_of(10 * repeats, [&] {
+            const double start = thread_s();
+            for (int n = 0; n < kCalls; ++n) {
+                const dynamics::CutFeedback cut(cutter, aluminium, {&slot, 1}, 10'000);
+                keep(dynamics::stability(modes, cut));
+            }
+            return 1e6 * (thread_s() - start) / kCalls;
+        });
+        const double matrix_us = median_of(3 * repeats, [&] {
+            const double start = thread_s();
+            const dynamics::CutFeedback cut(cutter, aluminium, {&slot, 1}, 10'000);
+            // As many points as seven digits need.
+            keep(dynamics::test::multiplier_by_chebyshev(modes, cut, 14));
+            return 1e6 * (thread_s() - start);
+        });
+        report.add({name, us, "us", goal_us, Better::lower, "all eigenvalues of one matrix", matrix_us});
+    };
+    point("multiplier of a slot, 10,000 rpm, one mode", {first}, 20);
+    point("multiplier of a slot, 10,000 rpm, two modes", {first, second}, 80);
+}
+
+}  // namespace tribo::bench
