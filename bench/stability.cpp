@@ -2,9 +2,13 @@
 // Whether a cut chatters: one point of the benchmark of the literature, and a chart of it.
 #include "dynamics/stability.hpp"
 
+#include <string>
+
 #include "base/math.hpp"
 #include "dynamics/chebyshev_collocation.hpp"
+#include "dynamics/stability_chart.hpp"
 #include "harness.hpp"
+#include "tribo/threads.hpp"
 
 namespace tribo::bench {
 
@@ -35,6 +39,20 @@ void measure_stability(Report& report, int repeats) {
     };
     point("multiplier of a slot, 10,000 rpm, one mode", {first}, 20);
     point("multiplier of a slot, 10,000 rpm, two modes", {first, second}, 80);
+
+    const auto at = [&](double rpm, double depth_mm) {
+        const milling::EngagementBand band{0, depth_mm, 0, math::kPi};
+        return dynamics::stability({&first, 1}, dynamics::CutFeedback(cutter, aluminium, {&band, 1}, rpm));
+    };
+    const ParallelFor parallel = parallel_for_over(available_threads());
+    const double chart_s = median_of(repeats, [&] {
+        const double start = wall_s();
+        keep(dynamics::stability_chart({5000, 19'925, 75, 5, 0.05}, at, parallel));
+        return wall_s() - start;
+    });
+    report.add({"chart of 200 x 100 points with limits, one mode, " + std::to_string(available_threads()) +
+                    " threads",
+                chart_s, "s", 0.5});
 }
 
 }  // namespace tribo::bench

@@ -65,12 +65,13 @@ struct Limits {
                        {1e-4, 1e6},
                        "F in G93",
                        "A move takes a week at most, and 60 microseconds at least."};
-    Limit spindle_speed{
-        "spindle speed",
-        "rpm",
-        {0.01, 1e6},
-        "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`, `--spindle-rpm`; S, TOOL CALL S, SPINDL",
-        "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
+    Limit spindle_speed{"spindle speed",
+                        "rpm",
+                        {0.01, 1e6},
+                        "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`, `--spindle-rpm`, `--at`, "
+                        "`--limit`, `--rpm`; S, "
+                        "TOOL CALL S, SPINDL",
+                        "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
     Limit dwell{"dwell", "s", {0, 86400}, "G4, CYCL DEF 9, dwells of cycles", "A day at most."};
     Limit rapid{"rapid rate",
                 "mm/min",
@@ -181,7 +182,7 @@ struct Limits {
     Limit axial_depth{"prescribed depth",
                       "mm",
                       {1e-4, 1000},
-                      "`axial_depth_mm`",
+                      "`axial_depth_mm`, `--at`, `--depth`",
                       "As deep as the longest cutting edge. Each mm takes its time."};
 
     // What bends.

@@ -129,6 +129,13 @@ void CutFeedback::add_rounded(double rotation_rad, Zone cut, Matrix3& sum) const
     }
 }
 
+double CutFeedback::spring(double t_s) const {
+    double sum = 0;
+    for (int tooth = 0; tooth < teeth(); ++tooth)
+        for (const Vec3& row : stiffness(tooth, t_s)) sum += length(row);
+    return sum;
+}
+
 bool CutFeedback::cuts(double t_s) const {
     bool any = false;
     for (int tooth = 0; tooth < teeth(); ++tooth)

@@ -35,6 +35,8 @@ class CutFeedback {
     double delay_s(int tooth) const { return delay_s_[static_cast<std::size_t>(tooth)]; }
     // S of one tooth at a time.
     Matrix3 stiffness(int tooth, double t_s) const;
+    // How stiff the cut is at a time: a bound of the force over the displacement, N/mm.
+    double spring(double t_s) const;
     // Times from 0 to the period at which a piece of an edge begins or stops to cut, ascending, with both
     // ends. Between two of them S is smooth.
     const std::vector<double>& events_s() const { return events_s_; }

@@ -37,10 +37,7 @@ PeriodStep::PeriodStep(std::span<const Mode> modes, const CutFeedback& cut)
             continue;
         }
         // The cut stiffens what vibrates.
-        double spring = 0;
-        for (int tooth = 0; tooth < cut.teeth(); ++tooth)
-            for (const Vec3& row : cut.stiffness(tooth, middle)) spring += length(row);
-        const double turn = oscillators_.fastest(spring) * lasts;
+        const double turn = oscillators_.fastest(cut.spring(middle)) * lasts;
         const auto count = static_cast<std::size_t>(std::ceil(turn / kMostTurn));
         const double piece = lasts / static_cast<double>(count);
         for (std::size_t k = 0; k < count; ++k) {

@@ -55,31 +55,54 @@ Stability stability(std::span<const Mode> modes, const CutFeedback& cut) {
 }
 
 DepthLimit depth_limit(const std::function<Stability(double depth_mm)>& at, double most_mm) {
-    constexpr int kSteps = 400, kHalvings = 40;
+    constexpr int kSteps = 400;
     const double step = most_mm / kSteps;
-    double stable = 0;
+    Stability there;
     for (int n = 1; n <= kSteps; ++n) {
-        const double depth = n * step;
-        Stability there = at(depth);
-        if (there.multiplier <= 1) {
-            stable = depth;
-            if (n == kSteps) return {std::nullopt, there};
-            continue;
-        }
-        double unstable = depth;
-        for (int half = 0; half < kHalvings; ++half) {
-            const double middle = 0.5 * (stable + unstable);
-            const Stability seen = at(middle);
-            if (seen.multiplier > 1) {
-                unstable = middle;
-                there = seen;
-            } else {
-                stable = middle;
-            }
-        }
-        return {unstable, there};
+        there = at(n * step);
+        if (there.multiplier > 1) return limit_between(at, (n - 1) * step, n * step, there);
     }
-    return {};
+    return {std::nullopt, there};
+}
+
+DepthLimit limit_between(const std::function<Stability(double depth_mm)>& at, double stable_mm,
+                         double unstable_mm, Stability there) {
+    // The secant between both ends, where the value of an end that stays is halved (Illinois), towards a
+    // multiplier just above 1.
+    constexpr double kBeyond = 1e-8;
+    constexpr int kMostCalls = 60;
+    const auto above = [](const Stability& s) { return s.multiplier - 1 - kBeyond; };
+    double high = above(there), low = 0;  // low: 0 as long as nothing is known there
+    int side = 0;
+    for (int n = 0; n < kMostCalls && high > kBeyond; ++n) {
+        const double share = low < 0 ? low / (low - high) : 0.5;
+        const double depth = stable_mm + share * (unstable_mm - stable_mm);
+        const Stability seen = at(depth);
+        const double found = above(seen);
+        if (seen.multiplier > 1) {
+            unstable_mm = depth;
+            there = seen;
+            high = found;
+            if (side > 0) low *= 0.5;
+            side = 1;
+        } else {
+            stable_mm = depth;
+            low = found;
+            if (side < 0) high *= 0.5;
+            side = -1;
+        }
+    }
+    return {unstable_mm, there};
+}
+
+double phase_rad(std::span<const Mode> modes, const CutFeedback& cut) {
+    const Oscillators oscillators(modes);
+    double phase = 0;
+    for (std::size_t n = 0; n + 1 < cut.events_s().size(); ++n) {
+        const double from = cut.events_s()[n], to = cut.events_s()[n + 1];
+        phase += oscillators.fastest(cut.spring(0.5 * (from + to))) * (to - from);
+    }
+    return phase;
 }
 
 }  // namespace tribo::dynamics

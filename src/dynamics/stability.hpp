@@ -34,8 +34,18 @@ struct DepthLimit {
     Stability there;  // just beyond the border, or at the greatest depth
 };
 
-// Walks from depth 0 in steps of a 400th of `most_mm` and halves the first step in which the cut becomes
+// Walks from depth 0 in steps of a 400th of `most_mm` and narrows the first step in which the cut becomes
 // unstable. A narrower island of chatter may be missed.
 DepthLimit depth_limit(const std::function<Stability(double depth_mm)>& at, double most_mm);
+
+// Narrows the depths between a stable and an unstable one, until the multiplier is 1 to 1e-8. `there`: of the
+// unstable one.
+DepthLimit limit_between(const std::function<Stability(double depth_mm)>& at, double stable_mm,
+                         double unstable_mm, Stability there);
+
+// The phase in rad by which the fastest mode, stiffened by the cut, turns in a period. Time grows with its
+// square.
+double phase_rad(std::span<const Mode> modes, const CutFeedback& cut);
+inline constexpr double kMostPhaseRad = 1e4;  // beyond a point takes more than a tenth of a second
 
 }  // namespace tribo::dynamics

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // `tribo stability` from outside: the benchmark of the literature, frames, refusals.
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/run/program.hpp"
 
@@ -97,6 +99,82 @@ TEST_F(StabilityVerb, asks_for_the_job_itself_without_flags) {
     EXPECT_NE(outcome.out.find("8000 rpm: stable up to 0.6764 mm deep"), std::string::npos) << outcome.out;
 }
 
+// The fields of the lines of a CSV, without its header.
+std::vector<std::vector<std::string>> table(const std::string& csv, const std::string& header) {
+    EXPECT_TRUE(csv.starts_with(header + "\n")) << csv.substr(0, 80);
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream lines(csv.substr(header.size() + 1));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream fields(line);
+        rows.emplace_back();
+        for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+    }
+    return rows;
+}
+
+TEST_F(StabilityVerb, writes_the_chart_of_the_benchmark) {
+    const Outcome outcome = run(kEngagement + mode("1, 0, 0"),
+                                {"--out", "chart", "--rpm", "5000:10000:500", "--depth", "3.5:0.1"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto points =
+        table(scratch.get("chart/stability.csv"), "spindle_rpm,axial_depth_mm,multiplier,chatter_hz,kind");
+    ASSERT_EQ(points.size(), 11u * 35u);
+    ASSERT_EQ(points[4].size(), 5u);
+    EXPECT_EQ(points[4][0] + " " + points[4][1], "5000 0.5");
+    EXPECT_NEAR(std::stod(points[4][2]), 1.07397559, 2e-7);
+    EXPECT_EQ(points[4][4], "quasi-periodic");
+    EXPECT_EQ(points[1][4], "stable");
+    const auto limits = table(scratch.get("chart/limits.csv"), "spindle_rpm,limit_mm,chatter_hz,kind");
+    ASSERT_EQ(limits.size(), 11u);
+    EXPECT_NEAR(std::stod(limits[8][1]), 3.0090, 3e-3);
+    EXPECT_TRUE(scratch.get("chart/stability.png").starts_with("\x89PNG"));
+    EXPECT_NE(scratch.get("chart/stability.svg").find("the job: 8000 rpm, 1 mm, chatters"),
+              std::string::npos);
+    const auto summary = nlohmann::json::parse(scratch.get("chart/summary.json"));
+    EXPECT_EQ(summary["schema"], "tribo.stability-summary/1");
+    EXPECT_NEAR(summary["limit"]["limit_mm"], 0.6764, 7e-4);
+    EXPECT_EQ(summary["nearest_stable_rpm"], 8500);
+    EXPECT_EQ(summary["chart"]["to_rpm"], 10'000);
+    const std::string advice = summary["advice"];
+    EXPECT_NE(
+        advice.find("8000 rpm and 1 mm chatter at 897.6 Hz; nearest stable speed at this depth: 8500 rpm; "
+                    "largest stable depth at this speed: 0.676 mm"),
+        std::string::npos)
+        << advice;
+    EXPECT_NE(outcome.out.find("advice: " + advice), std::string::npos) << outcome.out;
+}
+
+TEST_F(StabilityVerb, chooses_the_range_of_a_chart_and_says_so) {
+    const std::string job = kEngagement + mode("1, 0, 0");
+    const auto json = answer(job, {});
+    EXPECT_LE(json["chart"]["from_rpm"], 4500);
+    EXPECT_GE(json["chart"]["to_rpm"], 12'000);
+    EXPECT_GE(json["chart"]["most_mm"], 2);
+    EXPECT_TRUE(json["advice"].is_string());
+    EXPECT_NE(run(job, {}).out.find("(--rpm asks for others)"), std::string::npos);
+    // Points alone ask for no chart.
+    EXPECT_FALSE(answer(job, {"--at", "5000:0.5"}).contains("chart"));
+    EXPECT_TRUE(
+        answer(job, {"--at", "5000:0.5", "--rpm", "5000:6000:500", "--depth", "1:0.5"}).contains("chart"));
+}
+
+TEST_F(StabilityVerb, replaces_its_own_folder_alone) {
+    const std::string job = kEngagement + mode("1, 0, 0");
+    const std::vector<std::string> flags{"--rpm", "8000:9000:500", "--depth", "1:0.5", "--out", "chart"};
+    ASSERT_EQ(run(job, flags).code, 0);
+    const std::string before = scratch.get("chart/stability.csv");
+    scratch.put("chart/mine.txt", "mine");
+    ASSERT_EQ(run(job, flags).code, 0);
+    EXPECT_EQ(scratch.get("chart/mine.txt"), "mine");
+    EXPECT_EQ(scratch.get("chart/stability.csv"), before);
+    std::filesystem::create_directory(scratch / "other");
+    scratch.put("other/mine.txt", "mine");
+    std::vector<std::string> there = flags;
+    there.back() = "other";
+    EXPECT_EQ(run(job, there).code, 2);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "other/stability.csv"));
+}
+
 TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
     const std::string good = kEngagement + mode("1, 0, 0");
     struct Case {
@@ -114,6 +192,20 @@ TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
              Case{good, {"--at", "8000:-1"}, "write RPM:MM"},
              Case{good, {"--at", "8000:1e9"}, "write RPM:MM"},
              Case{good, {"--limit", "0"}, "--limit"},
+             Case{good, {"--rpm", "8000"}, "'8000' is no range of speeds; write FROM:TO:STEP"},
+             Case{good, {"--rpm", "9000:8000:10"}, "no range of speeds"},
+             Case{good, {"--rpm", "8000:9000:0"}, "no range of speeds"},
+             Case{good, {"--rpm", "8000:9000:-5"}, "no range of speeds"},
+             Case{good, {"--rpm", "8000:9000:0.01"}, "at most 2000 speeds"},
+             Case{good, {"--rpm", "8000:9000:10:1"}, "no range of speeds"},
+             Case{good, {"--rpm", "nan:9000:10"}, "no range of speeds"},
+             Case{good, {"--depth", "1:2"}, "no range of depths; write MAX:STEP"},
+             Case{good, {"--depth", "1:1e-9"}, "no range of depths"},
+             Case{good, {"--at", "8000:1", "--depth", "1:0.1"}, "--depth is for a chart"},
+             Case{good, {"--limit", "8000", "--out", "x"}, "--out is for a chart"},
+             Case{good, {"--at", "0.05:1"}, "the modes vibrate too often"},
+             Case{good, {"--limit", "0.05"}, "ask for at least"},
+             Case{good, {"--rpm", "1:100:1"}, "ask for at least"},
          }) {
         const Outcome outcome = run(c.more, c.flags);
         EXPECT_EQ(outcome.code, 2) << c.fragment;

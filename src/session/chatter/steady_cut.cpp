@@ -89,4 +89,10 @@ dynamics::DepthLimit SteadyCut::limit(double rpm) const {
     return dynamics::depth_limit([&](double depth_mm) { return at(rpm, depth_mm); }, cutter.length_mm);
 }
 
+double SteadyCut::least_rpm(double depth_mm) const {
+    const milling::EngagementBand band{0, depth_mm, entry_rad, exit_rad};
+    const dynamics::CutFeedback cut(cutter, coefficients, {&band, 1}, spindle_rpm);
+    return spindle_rpm * dynamics::phase_rad(modes, cut) / dynamics::kMostPhaseRad;
+}
+
 }  // namespace tribo::session

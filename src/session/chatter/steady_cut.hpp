@@ -22,6 +22,8 @@ struct SteadyCut {
     dynamics::Stability at(double spindle_rpm, double axial_depth_mm) const;
     // The least depth at which it is no longer stable, from 0 to the length of the cutting edges.
     dynamics::DepthLimit limit(double spindle_rpm) const;
+    // Slower ones take too long (dynamics::kMostPhaseRad): the modes vibrate too often in a period.
+    double least_rpm(double axial_depth_mm) const;
 };
 
 // Takes the engagement of [engagement], and tool, speed and feed direction of the first feed move across the

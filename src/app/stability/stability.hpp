@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Runs `tribo stability` after its flags are read: points, limits and the chart of a steady cut.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/stability_chart.hpp"
+#include "session/chatter/advice.hpp"
+
+namespace tribo::app {
+
+struct StabilityPoint {
+    double spindle_rpm = 0, axial_depth_mm = 0;
+    dynamics::Stability stability{};
+};
+
+struct StabilityLimit {
+    double spindle_rpm = 0;
+    dynamics::DepthLimit limit{};
+};
+
+struct StabilityCall {
+    std::string job, out;  // out: a folder; empty: none
+    std::vector<StabilityPoint> at;
+    std::vector<double> limit_rpm;
+    std::optional<dynamics::ChartRange> speeds, depths;  // each with its half of the range
+    bool json = false;
+
+    bool wants_chart() const { return speeds || (at.empty() && limit_rpm.empty()); }
+};
+
+struct ComputedChart {
+    dynamics::ChartRange range;
+    dynamics::StabilityChart chart;
+    session::Advice advice;
+};
+
+struct StabilityAnswer {
+    session::SteadyCut cut;
+    Warnings warnings;
+    std::vector<StabilityPoint> points;
+    std::vector<StabilityLimit> limits;
+    std::optional<ComputedChart> chart;
+};
+
+// Returns the exit code. Prints errors to stderr, the answer to stdout.
+int stability(const StabilityCall& call);
+
+}  // namespace tribo::app

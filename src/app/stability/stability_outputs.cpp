@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "app/stability/stability_outputs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "base/math.hpp"
+#include "files/image/png.hpp"
+#include "files/json/json.hpp"
+#include "report/stability_picture.hpp"
+
+namespace tribo::app {
+namespace {
+
+const char* name_of(dynamics::ChatterKind kind) {
+    switch (kind) {
+        case dynamics::ChatterKind::stable:
+            return "stable";
+        case dynamics::ChatterKind::quasi_periodic:
+            return "quasi-periodic";
+        case dynamics::ChatterKind::period_doubling:
+            return "period-doubling";
+    }
+    return "";
+}
+
+// Nine significant digits.
+double nine(double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    double rounded = value;
+    std::from_chars(text, text + sizeof text, rounded);
+    return rounded;
+}
+
+files::Json json_of(const StabilityPoint& p) {
+    const dynamics::Stability& s = p.stability;
+    return {{"spindle_rpm", nine(p.spindle_rpm)},
+            {"axial_depth_mm", nine(p.axial_depth_mm)},
+            {"multiplier", nine(s.multiplier)},
+            {"period_s", nine(s.period_s)},
+            {"angle_rad", nine(s.angle_rad)},
+            {"chatter_hz", nine(s.chatter_hz)},
+            {"kind", name_of(s.kind)}};
+}
+
+files::Json json_of(double spindle_rpm, const dynamics::DepthLimit& limit) {
+    files::Json json;
+    json["spindle_rpm"] = nine(spindle_rpm);
+    json["limit_mm"] = limit.depth_mm ? files::Json(nine(*limit.depth_mm)) : files::Json();
+    json["chatter_hz"] = nine(limit.there.chatter_hz);
+    json["kind"] = name_of(limit.there.kind);
+    return json;
+}
+
+files::Json modes_json(const session::SteadyCut& cut) {
+    files::Json modes = files::Json::array();
+    for (const dynamics::Mode& m : cut.modes) {
+        modes.push_back({{"direction", files::triple(m.direction)},
+                         {"on", m.on == dynamics::ModeOn::part ? "part" : "tool"},
+                         {"frequency_hz", nine(m.frequency_hz)},
+                         {"damping_ratio", nine(m.damping_ratio)},
+                         {"stiffness_n_per_mm", nine(m.stiffness_n_per_mm)}});
+    }
+    return modes;
+}
+
+// Three digits, never more than the value.
+double rounded_down(double value) {
+    const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+    return digit * std::floor(value / digit + 1e-9);
+}
+
+template <class... Values>
+std::string words(const char* format, Values... values) {
+    char text[200];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+std::string sentence_of(const session::SteadyCut& cut, const ComputedChart& computed) {
+    const dynamics::StabilityChart& chart = computed.chart;
+    const session::Advice& a = computed.advice;
+    const double rpm = cut.spindle_rpm, depth = cut.axial_depth_mm;
+    std::string text;
+    if (a.here.multiplier <= 1) {
+        text = words("%.6g rpm and %.4g mm are stable", rpm, depth);
+        text += a.limit.depth_mm
+                    ? words("; at this speed the cut stays stable down to %.4g mm",
+                            rounded_down(*a.limit.depth_mm))
+                    : words("; at this speed the whole edge of %.4g mm is stable", cut.cutter.length_mm);
+    } else {
+        text = words("%.6g rpm and %.4g mm chatter at %.1f Hz; ", rpm, depth, a.here.chatter_hz);
+        text += a.nearest_rpm ? words("nearest stable speed at this depth: %.6g rpm", *a.nearest_rpm)
+                              : words("no speed from %.6g to %.6g rpm is stable at this depth",
+                                      chart.speeds_rpm.front(), chart.speeds_rpm.back());
+        if (a.limit.depth_mm)
+            text += words("; largest stable depth at this speed: %.4g mm", rounded_down(*a.limit.depth_mm));
+    }
+    if (a.pockets.empty()) return text + ".";
+    const dynamics::SafePocket& best = a.pockets.front();
+    return text + words("; deepest pocket of the chart: %.6g rpm, %.4g mm%s.", best.spindle_rpm,
+                        rounded_down(best.depth_mm), best.deeper ? " or more" : "");
+}
+
+void add_chart(const session::SteadyCut& cut, const ComputedChart& computed, files::Json& json) {
+    const dynamics::ChartRange& r = computed.range;
+    json["advice"] = sentence_of(cut, computed);
+    files::set(json, "nearest_stable_rpm", computed.advice.nearest_rpm);
+    json["chart"] = {{"from_rpm", nine(r.from_rpm)},
+                     {"to_rpm", nine(r.to_rpm)},
+                     {"step_rpm", nine(r.step_rpm)},
+                     {"most_mm", nine(r.most_mm)},
+                     {"step_mm", nine(r.step_mm)}};
+    json["pockets"] = files::Json::array();
+    for (const dynamics::SafePocket& p : computed.advice.pockets) {
+        json["pockets"].push_back(
+            {{"spindle_rpm", nine(p.spindle_rpm)}, {"depth_mm", nine(p.depth_mm)}, {"deeper", p.deeper}});
+    }
+}
+
+std::string points_csv(const dynamics::StabilityChart& chart) {
+    std::string text = "spindle_rpm,axial_depth_mm,multiplier,chatter_hz,kind\n";
+    char line[160];
+    for (std::size_t s = 0; s < chart.speeds_rpm.size(); ++s) {
+        for (std::size_t d = 0; d < chart.depths_mm.size(); ++d) {
+            const dynamics::Stability& p = chart.at(s, d);
+            std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%s\n", chart.speeds_rpm[s],
+                          chart.depths_mm[d], p.multiplier, p.chatter_hz, name_of(p.kind));
+            text += line;
+        }
+    }
+    return text;
+}
+
+// Without a limit down to the last depth of the chart the field is empty.
+std::string limits_csv(const dynamics::StabilityChart& chart) {
+    std::string text = "spindle_rpm,limit_mm,chatter_hz,kind\n";
+    char line[160], depth[40];
+    for (std::size_t s = 0; s < chart.speeds_rpm.size(); ++s) {
+        const dynamics::DepthLimit& limit = chart.limits[s];
+        depth[0] = 0;
+        if (limit.depth_mm) std::snprintf(depth, sizeof depth, "%.9g", *limit.depth_mm);
+        std::snprintf(line, sizeof line, "%.9g,%s,%.9g,%s\n", chart.speeds_rpm[s], depth,
+                      limit.there.chatter_hz, name_of(limit.there.kind));
+        text += line;
+    }
+    return text;
+}
+
+std::string summary_json(const StabilityCall& call, const StabilityAnswer& answer) {
+    const session::SteadyCut& cut = answer.cut;
+    const session::Advice& advice = answer.chart->advice;
+    files::Json json;
+    json["schema"] = "tribo.stability-summary/1";
+    json["version"] = TRIBO_VERSION;
+    json["job"] = call.job;
+    json["point"] = json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here});
+    json["limit"] = json_of(cut.spindle_rpm, advice.limit);
+    add_chart(answer.cut, *answer.chart, json);
+    json["modes"] = modes_json(cut);
+    json["warnings"] = files::Json::array();
+    for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
+    return files::pretty(json);
+}
+
+std::string title_of(const session::SteadyCut& cut) {
+    char text[160];
+    std::snprintf(text, sizeof text, "Stable depths: %.4g mm cutter, %d %s, engaged from %.4g to %.4g deg",
+                  cut.cutter.diameter_mm, cut.cutter.flutes, cut.cutter.flutes == 1 ? "tooth" : "teeth",
+                  cut.entry_rad * math::kDegPerRad, cut.exit_rad * math::kDegPerRad);
+    return text;
+}
+
+constexpr std::array<const char*, 5> kFiles{"stability.csv", "limits.csv", "stability.svg", "stability.png",
+                                            "summary.json"};
+
+}  // namespace
+
+std::string stability_json(const StabilityAnswer& answer) {
+    files::Json json;
+    json["schema"] = "tribo.stability/1";
+    json["points"] = files::Json::array();
+    for (const StabilityPoint& p : answer.points) json["points"].push_back(json_of(p));
+    json["limits"] = files::Json::array();
+    for (const StabilityLimit& l : answer.limits) json["limits"].push_back(json_of(l.spindle_rpm, l.limit));
+    if (answer.chart) add_chart(answer.cut, *answer.chart, json);
+    json["modes"] = modes_json(answer.cut);
+    return files::pretty(json);
+}
+
+void print(const StabilityCall& call, const StabilityAnswer& answer) {
+    const session::SteadyCut& cut = answer.cut;
+    for (const StabilityPoint& p : answer.points) {
+        const dynamics::Stability& s = p.stability;
+        std::printf("%g rpm, %g mm: ", p.spindle_rpm, p.axial_depth_mm);
+        if (s.kind == dynamics::ChatterKind::stable) {
+            std::printf("stable; a vibration keeps %.4g of its size in each %.4g ms\n", s.multiplier,
+                        1e3 * s.period_s);
+        } else {
+            std::printf("chatter at %.1f Hz (%s); a vibration grows by %.4g in each %.4g ms\n", s.chatter_hz,
+                        name_of(s.kind), s.multiplier, 1e3 * s.period_s);
+        }
+    }
+    for (const StabilityLimit& l : answer.limits) {
+        if (l.limit.depth_mm) {
+            std::printf("%g rpm: stable up to %.4g mm deep, then %.1f Hz (%s)\n", l.spindle_rpm,
+                        *l.limit.depth_mm, l.limit.there.chatter_hz, name_of(l.limit.there.kind));
+        } else {
+            std::printf("%g rpm: stable along the whole edge of %g mm\n", l.spindle_rpm,
+                        answer.cut.cutter.length_mm);
+        }
+    }
+    if (!answer.chart) return;
+    const dynamics::ChartRange& r = answer.chart->range;
+    std::printf("chart: %g to %g rpm in steps of %g rpm%s, to %g mm in steps of %g mm%s\n", r.from_rpm,
+                r.to_rpm, r.step_rpm, call.speeds ? "" : " (--rpm asks for others)", r.most_mm, r.step_mm,
+                call.depths ? "" : " (--depth asks for others)");
+    std::printf("advice: %s\n", sentence_of(cut, *answer.chart).c_str());
+}
+
+bool is_chart_file(const std::string& name) {
+    return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+}
+
+FileResult<void> write_chart(const StabilityCall& call, const StabilityAnswer& answer,
+                             const files::OutputFolder& folder) {
+    const session::SteadyCut& cut = answer.cut;
+    const report::Drawing drawing = report::draw_stability(
+        answer.chart->chart,
+        {title_of(cut), cut.spindle_rpm, cut.axial_depth_mm, answer.chart->advice.here.multiplier <= 1});
+    const std::array<std::string, kFiles.size()> texts{
+        points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),
+        files::png_bytes(report::image_of(drawing)), summary_json(call, answer)};
+    for (std::size_t n = 0; n < kFiles.size(); ++n)
+        if (auto done = files::write_file(folder.file(kFiles[n]), texts[n]); !done) return done;
+    return {};
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The chart of a steady cut: which part of it to compute, and what it says about the job.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/stability_chart.hpp"
+#include "session/chatter/steady_cut.hpp"
+
+namespace tribo::session {
+
+// Half to twice the job's speed, but hardly beyond the speed at which a tooth comes with each vibration of
+// the fastest mode. 200 speeds or more.
+dynamics::ChartRange default_speeds(const SteadyCut& cut);
+// Down to twice the job's depth and to four times the depth at which half of the speeds chatter, at most the
+// whole edge. 100 depths or more.
+void add_default_depths(const SteadyCut& cut, dynamics::ChartRange& range);
+
+struct Advice {
+    dynamics::Stability here;    // at the job's speed and depth
+    dynamics::DepthLimit limit;  // at the job's speed
+    // The speed of the chart nearest to the job's at which its depth is stable.
+    std::optional<double> nearest_rpm;
+    std::vector<dynamics::SafePocket> pockets;
+};
+
+// `parallel` as in stability_chart().
+Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel);
+
+}  // namespace tribo::session
