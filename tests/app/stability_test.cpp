@@ -99,6 +99,70 @@ TEST_F(StabilityVerb, asks_for_the_job_itself_without_flags) {
     EXPECT_NE(outcome.out.find("8000 rpm: stable up to 0.6764 mm deep"), std::string::npos) << outcome.out;
 }
 
+TEST_F(StabilityVerb, takes_the_engagement_from_the_program) {
+    // A slot across the block is the slot of the notes, as the field sees it.
+    const auto slot = answer(kEngagement + mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
+    const auto milled = answer(mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
+    EXPECT_NEAR(milled["points"][0]["multiplier"], slot["points"][0]["multiplier"], 2e-3);
+    EXPECT_NEAR(milled["limits"][0]["limit_mm"], slot["limits"][0]["limit_mm"], 5e-3);
+    EXPECT_EQ(slot["engagement"]["from"], "[engagement]");
+    EXPECT_EQ(milled["engagement"]["from"], "program");
+    EXPECT_EQ(milled["engagement"]["line"], 3);
+    EXPECT_NEAR(milled["engagement"]["axial_depth_mm"], 1, 1e-3);
+    EXPECT_NEAR(milled["engagement"]["entry_deg"], 0, 1);
+    EXPECT_NEAR(milled["engagement"]["exit_deg"], 180, 1);
+    const Outcome outcome = run(mode("1, 0, 0"), {"--at", "8000:1"});
+    EXPECT_NE(outcome.out.find("cut: line 3 of the program at "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("the most critical of "), std::string::npos) << outcome.out;
+}
+
+TEST_F(StabilityVerb, finds_the_worst_line_of_a_program_or_takes_the_one_that_is_named) {
+    // A shallow slot, a deep one and a shallow one along y.
+    const std::string program =
+        "G21 G90 M3 F1600\nG0 X-8 Y8 Z-0.3\nG1 X48\nG0 Z5\nG0 X-8 Y20\nG0 Z-1.2\nG1 X48\nG0 Z5\n"
+        "G0 X8 Y-8\nG0 Z-0.5\nG1 Y48\nM30\n";
+    const std::string job = mode("1, 0, 0");
+    const std::vector<std::string> at{"--at", "8000:1"};
+    const auto all = answer(job, at, program);
+    EXPECT_EQ(all["engagement"]["line"], 7);
+    EXPECT_NEAR(all["engagement"]["axial_depth_mm"], 1.2, 1e-3);
+    const auto first = answer(job, {"--at", "8000:1", "--line", "3"}, program);
+    EXPECT_EQ(first["engagement"]["line"], 3);
+    EXPECT_NEAR(first["engagement"]["axial_depth_mm"], 0.3, 1e-3);
+    // The same engagement at the same depth: the same answer.
+    EXPECT_NEAR(first["points"][0]["multiplier"], all["points"][0]["multiplier"], 2e-3);
+    const double t = all["engagement"]["t_s"];
+    EXPECT_EQ(answer(job, {"--at", "8000:1", "--t", std::to_string(t + 1e-3)}, program)["engagement"]["line"],
+              7);
+    // Along y the mode lies across the feed.
+    const auto along_y = answer(job, {"--at", "8000:1", "--line", "11"}, program);
+    EXPECT_NEAR(std::abs(along_y["modes"][0]["direction"][1].get<double>()), 1, 1e-9);
+}
+
+TEST_F(StabilityVerb, keeps_the_bands_of_rounded_cutters) {
+    // A slot with a ball is engaged from 0 to 180 degrees at each height; a second pass beside it is not.
+    const auto with_ball = [&](const std::string& more, const std::string& program) {
+        scratch.put("slot.nc", program);
+        std::string rest = kRest;
+        rest.replace(rest.find("\"flat\""), 6, "\"ball\"");
+        scratch.put("job.toml", rest + more + mode("1, 0.3, 0.2"));
+        const Outcome outcome = run_tribo(
+            {"stability", "job.toml", "--json", "--at", "9000:1", "--at", "9000:2"}, scratch.path());
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out, nullptr, false);
+    };
+    const std::string slot = "G21 G90 M3 F1600\nG0 X-8 Y10 Z-2\nG1 X48\nM30\n";
+    const std::string two_deep = "[engagement]\nentry_deg = 0\nexit_deg = 180\naxial_depth_mm = 2\n";
+    const auto known = with_ball(two_deep, slot), milled = with_ball("", slot);
+    for (std::size_t n = 0; n < 2; ++n)
+        EXPECT_NEAR(
+            milled["points"][n]["multiplier"].get<double>() / known["points"][n]["multiplier"].get<double>(),
+            1, 0.01);
+    const auto beside =
+        with_ball("", "G21 G90 M3 F1600\nG0 X-8 Y10 Z-2\nG1 X48\nG0 Z5\nG0 X-8 Y11 \nG0 Z-2\nG1 X48\nM30\n");
+    EXPECT_GT(beside["engagement"]["bands"], 0);
+}
+
 // The fields of the lines of a CSV, without its header.
 std::vector<std::vector<std::string>> table(const std::string& csv, const std::string& header) {
     EXPECT_TRUE(csv.starts_with(header + "\n")) << csv.substr(0, 80);
@@ -184,7 +248,11 @@ TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
     };
     for (const Case& c : {
              Case{kEngagement, {}, "has no [[mode]]"},
-             Case{mode("1, 0, 0"), {}, "has no [engagement]"},
+             Case{mode("1, 0, 0"), {"--line", "1"}, "slot.nc:1: error: this line cuts nothing"},
+             Case{mode("1, 0, 0"), {"--t", "1000"}, "at 1000 s the edges along the cutter cut nothing"},
+             Case{mode("1, 0, 0"), {"--t", "1", "--line", "3"}, "--line"},
+             Case{good, {"--line", "3"}, "the job prescribes one in [engagement]"},
+             Case{good, {"--t", "1"}, "remove [engagement]"},
              Case{kEngagement + mode("0, 0, 0"), {}, "job.toml:26:13: error: 'direction' is no direction"},
              Case{kEngagement + std::string("[[mode]]\nfrequency_hz = 1\n"), {}, "'direction' is missing"},
              Case{kEngagement + mode("1, 0, 0", "holder"), {}, "'on'"},

@@ -8,6 +8,7 @@
 #include "app/interrupt.hpp"
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
+#include "app/render/render_job.hpp"
 #include "app/stability/stability_outputs.hpp"
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
@@ -19,15 +20,54 @@
 namespace tribo::app {
 namespace {
 
-FileResult<void> load(const StabilityCall& call, StabilityAnswer& answer) {
-    const files::DiskSource disk;
-    auto job = job::read_job(disk, call.job);
-    if (!job) return std::unexpected(job.error());
-    auto program = job::read_and_complete(disk, *job, files::machine_limits());
+// The cut of [engagement]: only the program is read.
+FileResult<session::SteadyCut> prescribed_cut(const StabilityCall& call, job::Job& job, Warnings& warnings) {
+    if (call.place.line || call.place.t_s) {
+        const char* flag = call.place.line ? "--line" : "--t";
+        return std::unexpected(FileFailure(Error{
+            call.job, 0, 0, std::string(flag) + " names a cut, and the job prescribes one in [engagement]",
+            std::string("leave ") + flag + " out, or remove [engagement]"}));
+    }
+    auto program = job::read_and_complete(files::DiskSource(), job, files::machine_limits());
     if (!program) return std::unexpected(program.error());
-    answer.warnings = program->warnings;
-    auto cut = session::steady_cut(*job, *program, answer.warnings);
+    warnings = program->warnings;
+    auto cut = session::steady_cut(job, *program, warnings);
     if (!cut) return std::unexpected(FileFailure(cut.error()));
+    return *std::move(cut);
+}
+
+// The cut of a place in the program: the job is milled.
+FileResult<session::SteadyCut> milled_cut(const StabilityCall& call, const ParallelFor& parallel,
+                                          Warnings& warnings) {
+    const job::LoadOptions limits = files::machine_limits();
+    auto loaded = load_job(call.job, {}, limits);
+    if (!loaded) return std::unexpected(loaded.error());
+    warnings = loaded->warnings;
+    session::MillOptions options{call.resolution_mm, {}};
+    options.memory_bytes = limits.memory_bytes;
+    auto setup = session::prepare_mill(*loaded, options, warnings);
+    if (!setup) return std::unexpected(FileFailure(setup.error()));
+    if (auto fits = check_memory(call.job, *setup, {}, {}); !fits)
+        return std::unexpected(FileFailure(fits.error()));
+    Progress progress;
+    auto cut = session::critical_row(
+        *loaded, *std::move(setup), call.place, parallel,
+        [&](double fraction) {
+            progress.update("milling", fraction);
+            return !interrupted();
+        },
+        warnings);
+    if (!cut) return std::unexpected(FileFailure(cut.error()));
+    return *std::move(cut);
+}
+
+FileResult<void> load(const StabilityCall& call, const ParallelFor& parallel, StabilityAnswer& answer) {
+    auto job = job::read_job(files::DiskSource(), call.job);
+    if (!job) return std::unexpected(job.error());
+    if (auto good = session::check_modes(*job); !good) return std::unexpected(FileFailure(good.error()));
+    auto cut = job->engagement ? prescribed_cut(call, *job, answer.warnings)
+                               : milled_cut(call, parallel, answer.warnings);
+    if (!cut) return std::unexpected(cut.error());
     answer.cut = *std::move(cut);
     return {};
 }
@@ -47,7 +87,8 @@ Result<void> check_speed(const StabilityCall& call, const session::SteadyCut& cu
 // Refuses what would take too long.
 Result<dynamics::ChartRange> chart_range(const StabilityCall& call, const session::SteadyCut& cut) {
     dynamics::ChartRange range = call.speeds ? *call.speeds : session::default_speeds(cut);
-    const double deepest = call.depths ? call.depths->most_mm : cut.cutter.length_mm;
+    const double deepest =
+        std::max(call.depths ? call.depths->most_mm : cut.cutter.length_mm, cut.axial_depth_mm);
     if (auto good = check_speed(call, cut, range.from_rpm, deepest); !good)
         return std::unexpected(good.error());
     if (call.depths) {
@@ -59,7 +100,7 @@ Result<dynamics::ChartRange> chart_range(const StabilityCall& call, const sessio
     return range;
 }
 
-Result<void> compute(const StabilityCall& call, StabilityAnswer& answer) {
+Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, StabilityAnswer& answer) {
     const session::SteadyCut& cut = answer.cut;
     answer.points = call.at;
     std::vector<double> speeds = call.limit_rpm;
@@ -69,12 +110,12 @@ Result<void> compute(const StabilityCall& call, StabilityAnswer& answer) {
     }
     for (const StabilityPoint& p : answer.points)
         if (auto good = check_speed(call, cut, p.spindle_rpm, p.axial_depth_mm); !good) return good;
-    if (call.wants_chart()) speeds.push_back(cut.spindle_rpm);
     for (const double rpm : speeds)
         if (auto good = check_speed(call, cut, rpm, cut.cutter.length_mm); !good) return good;
-    if (call.wants_chart()) speeds.pop_back();
     std::optional<dynamics::ChartRange> range;
     if (call.wants_chart()) {
+        // For the advice.
+        if (auto good = check_speed(call, cut, cut.spindle_rpm, cut.cutter.length_mm); !good) return good;
         auto found = chart_range(call, cut);
         if (!found) return std::unexpected(found.error());
         range = *found;
@@ -85,7 +126,6 @@ Result<void> compute(const StabilityCall& call, StabilityAnswer& answer) {
         answer.limits.push_back({rpm, cut.limit(rpm)});
     }
     if (!range) return {};
-    const ParallelFor parallel = parallel_for_over(available_threads());
     Progress progress;
     auto chart = dynamics::stability_chart(
         *range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel,
@@ -102,8 +142,11 @@ Result<void> compute(const StabilityCall& call, StabilityAnswer& answer) {
 }  // namespace
 
 int stability(const StabilityCall& call) {
+    const ParallelFor parallel = parallel_for_over(available_threads());
     StabilityAnswer answer;
-    if (auto loaded = load(call, answer); !loaded) return report(loaded.error());
+    auto loaded = load(call, parallel, answer);
+    if (interrupted()) return interrupted_exit_code();
+    if (!loaded) return report(loaded.error());
     std::optional<files::OutputFolder> folder;
     if (!call.out.empty()) {
         auto opened = files::OutputFolder::open(call.out, is_chart_file);
@@ -112,7 +155,7 @@ int stability(const StabilityCall& call) {
         if (auto good = check_output_folder(*folder); !good) return report(good.error());
     }
     report(answer.warnings);
-    if (auto done = compute(call, answer); !done) return report(done.error());
+    if (auto done = compute(call, parallel, answer); !done) return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     if (folder) {
         if (auto done = write_chart(call, answer, *folder); !done) return report(done.error());

@@ -8,6 +8,7 @@
 
 #include "dynamics/stability_chart.hpp"
 #include "session/chatter/advice.hpp"
+#include "session/chatter/critical_row.hpp"
 
 namespace tribo::app {
 
@@ -26,6 +27,8 @@ struct StabilityCall {
     std::vector<StabilityPoint> at;
     std::vector<double> limit_rpm;
     std::optional<dynamics::ChartRange> speeds, depths;  // each with its half of the range
+    session::CutPlace place;
+    std::optional<double> resolution_mm;
     bool json = false;
 
     bool wants_chart() const { return speeds || (at.empty() && limit_rpm.empty()); }

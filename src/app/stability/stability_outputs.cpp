@@ -68,6 +68,31 @@ files::Json modes_json(const session::SteadyCut& cut) {
     return modes;
 }
 
+files::Json engagement_json(const session::SteadyCut& cut) {
+    files::Json json;
+    json["from"] = cut.t_s ? "program" : "[engagement]";
+    if (cut.line > 0) json["line"] = cut.line;
+    if (cut.t_s) json["t_s"] = nine(*cut.t_s);
+    if (cut.rows > 0) json["rows"] = cut.rows;
+    json["entry_deg"] = nine(cut.entry_rad() * math::kDegPerRad);
+    json["exit_deg"] = nine(cut.exit_rad() * math::kDegPerRad);
+    json["axial_depth_mm"] = nine(cut.axial_depth_mm);
+    json["bands"] = cut.bands.size();
+    return json;
+}
+
+// Where the engagement is from: for people.
+std::string source_of(const StabilityCall& call, const session::SteadyCut& cut) {
+    if (!cut.t_s) return "[engagement] of the job";
+    char text[120];
+    std::snprintf(text, sizeof text, "line %d of the program at %.6g s", cut.line, *cut.t_s);
+    std::string all = text;
+    if (cut.rows > 1)
+        all += ", the most critical of " + std::to_string(cut.rows) + " rows" +
+               (call.place.line ? " of that line" : "");
+    return all;
+}
+
 // Three digits, never more than the value.
 double rounded_down(double value) {
     const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
@@ -158,6 +183,7 @@ std::string summary_json(const StabilityCall& call, const StabilityAnswer& answe
     json["schema"] = "tribo.stability-summary/1";
     json["version"] = TRIBO_VERSION;
     json["job"] = call.job;
+    json["engagement"] = engagement_json(cut);
     json["point"] = json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here});
     json["limit"] = json_of(cut.spindle_rpm, advice.limit);
     add_chart(answer.cut, *answer.chart, json);
@@ -171,7 +197,7 @@ std::string title_of(const session::SteadyCut& cut) {
     char text[160];
     std::snprintf(text, sizeof text, "Stable depths: %.4g mm cutter, %d %s, engaged from %.4g to %.4g deg",
                   cut.cutter.diameter_mm, cut.cutter.flutes, cut.cutter.flutes == 1 ? "tooth" : "teeth",
-                  cut.entry_rad * math::kDegPerRad, cut.exit_rad * math::kDegPerRad);
+                  cut.entry_rad() * math::kDegPerRad, cut.exit_rad() * math::kDegPerRad);
     return text;
 }
 
@@ -187,6 +213,7 @@ std::string stability_json(const StabilityAnswer& answer) {
     for (const StabilityPoint& p : answer.points) json["points"].push_back(json_of(p));
     json["limits"] = files::Json::array();
     for (const StabilityLimit& l : answer.limits) json["limits"].push_back(json_of(l.spindle_rpm, l.limit));
+    json["engagement"] = engagement_json(answer.cut);
     if (answer.chart) add_chart(answer.cut, *answer.chart, json);
     json["modes"] = modes_json(answer.cut);
     return files::pretty(json);
@@ -194,6 +221,9 @@ std::string stability_json(const StabilityAnswer& answer) {
 
 void print(const StabilityCall& call, const StabilityAnswer& answer) {
     const session::SteadyCut& cut = answer.cut;
+    std::printf("cut: %s; %.4g mm deep, engaged from %.4g to %.4g deg, %g rpm\n",
+                source_of(call, cut).c_str(), cut.axial_depth_mm, cut.entry_rad() * math::kDegPerRad,
+                cut.exit_rad() * math::kDegPerRad, cut.spindle_rpm);
     for (const StabilityPoint& p : answer.points) {
         const dynamics::Stability& s = p.stability;
         std::printf("%g rpm, %g mm: ", p.spindle_rpm, p.axial_depth_mm);

@@ -84,6 +84,17 @@ void add_stability(CLI::App& program, int& exit_code) {
     verb->add_option("JOB", call->job, "Job file (TOML) with modes")->required();
     verb->add_option("--out", call->out, "Folder for the chart; an older one of Tribo's is replaced whole")
         ->type_name("DIR");
+    CLI::Option* line =
+        verb->add_option("--line", call->place.line, "The cut of this line of the program, where it is worst")
+            ->check(CLI::PositiveNumber)
+            ->type_name("N");
+    verb->add_option("--t", call->place.t_s, "The cut at this time of the program")
+        ->check(within(kLimits.until))
+        ->type_name("S")
+        ->excludes(line);
+    verb->add_option("--resolution", call->resolution_mm, "Spacing of the grid that finds the surface")
+        ->check(within(kLimits.resolution))
+        ->type_name("MM");
     verb->add_option("--rpm", flags->speeds, "Speeds of the chart")
         ->check(readable(
             [](const std::string& text) {

@@ -38,17 +38,24 @@ std::size_t first_cut(const std::vector<motion::Move>& moves) {
 
 }  // namespace
 
+std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes) {
+    std::vector<dynamics::Mode> turned(modes.begin(), modes.end());
+    for (dynamics::Mode& mode : turned) {
+        if (mode.on == dynamics::ModeOn::tool) mode.direction = turned_with(frame.z, mode.direction);
+        mode.direction = in_frame(frame, mode.direction);
+    }
+    return turned;
+}
+
+Result<void> check_modes(const job::Job& job) {
+    if (!job.modes.empty()) return {};
+    return fail_at(job.file, 0, 0, "the job has no [[mode]]: nothing in it can vibrate",
+                   "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
+                   "stiffness_n_per_mm");
+}
+
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings) {
-    if (job.modes.empty()) {
-        return fail_at(
-            job.file, 0, 0, "the job has no [[mode]]: nothing in it can vibrate",
-            "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
-            "stiffness_n_per_mm");
-    }
-    if (!job.engagement) {
-        return fail_at(job.file, 0, 0, "the job has no [engagement]",
-                       "write entry_deg, exit_deg and axial_depth_mm of the cut in question");
-    }
+    if (auto good = check_modes(job); !good) return std::unexpected(good.error());
     auto setup = prepare_moves(job, program, {}, warnings);
     if (!setup) return std::unexpected(setup.error());
     const std::size_t n = first_cut(setup->moves);
@@ -67,22 +74,39 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
     cut.coefficients = setup->coefficients;
     cut.spindle_rpm = setup->rpm_of_move[n];
     cut.line = move.line;
-    cut.entry_rad = setup->engagement->entry_rad;
-    cut.exit_rad = setup->engagement->exit_rad;
-    cut.axial_depth_mm = setup->engagement->axial_depth_mm;
+    const PrescribedEngagement& engagement = *setup->engagement;
+    cut.axial_depth_mm = engagement.axial_depth_mm;
+    cut.bands = {{0, engagement.axial_depth_mm, engagement.entry_rad, engagement.exit_rad}};
     const Vec3 way = motion::pose_at(move, 0.01).tip_mm - move.start.tip_mm;
-    const milling::ToolFrame frame = milling::tool_frame(move.start.axis, way, {1, 0, 0});
-    for (dynamics::Mode mode : job.modes) {
-        if (mode.on == dynamics::ModeOn::tool) mode.direction = turned_with(move.start.axis, mode.direction);
-        mode.direction = in_frame(frame, mode.direction);
-        cut.modes.push_back(mode);
+    cut.modes = modes_in(milling::tool_frame(move.start.axis, way, {1, 0, 0}), job.modes);
+    return cut;
+}
+
+std::vector<milling::EngagementBand> SteadyCut::bands_at(double depth_mm) const {
+    double low = bands[0].z0_mm, high = bands[0].z1_mm;
+    for (const milling::EngagementBand& band : bands) {
+        low = std::min(low, band.z0_mm);
+        high = std::max(high, band.z1_mm);
+    }
+    const double top = low + depth_mm;
+    std::vector<milling::EngagementBand> cut;
+    for (milling::EngagementBand band : bands) {
+        if (band.z1_mm == high || band.z1_mm > top) band.z1_mm = top;
+        if (band.z1_mm > band.z0_mm) cut.push_back(band);
     }
     return cut;
 }
 
+double SteadyCut::entry_rad() const {
+    return milling::hull({bands, {}}).entry_rad;
+}
+
+double SteadyCut::exit_rad() const {
+    return milling::hull({bands, {}}).exit_rad;
+}
+
 dynamics::Stability SteadyCut::at(double rpm, double depth_mm) const {
-    const milling::EngagementBand band{0, depth_mm, entry_rad, exit_rad};
-    return dynamics::stability(modes, dynamics::CutFeedback(cutter, coefficients, {&band, 1}, rpm));
+    return dynamics::stability(modes, dynamics::CutFeedback(cutter, coefficients, bands_at(depth_mm), rpm));
 }
 
 dynamics::DepthLimit SteadyCut::limit(double rpm) const {
@@ -90,8 +114,7 @@ dynamics::DepthLimit SteadyCut::limit(double rpm) const {
 }
 
 double SteadyCut::least_rpm(double depth_mm) const {
-    const milling::EngagementBand band{0, depth_mm, entry_rad, exit_rad};
-    const dynamics::CutFeedback cut(cutter, coefficients, {&band, 1}, spindle_rpm);
+    const dynamics::CutFeedback cut(cutter, coefficients, bands_at(depth_mm), spindle_rpm);
     return spindle_rpm * dynamics::phase_rad(modes, cut) / dynamics::kMostPhaseRad;
 }
 

@@ -2,10 +2,13 @@
 // The steady cut of a job, about which is asked whether it chatters.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "dynamics/stability.hpp"
 #include "job/job.hpp"
+#include "milling/tool/tool_frame.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::session {
@@ -14,9 +17,17 @@ struct SteadyCut {
     milling::Cutter cutter;
     milling::CuttingCoefficients coefficients;
     std::vector<dynamics::Mode> modes;  // directions in the frame of the feed: x along it, z to the shank
-    double entry_rad = 0, exit_rad = 0;
+    std::vector<milling::EngagementBand> bands;  // at the job's depth, sorted by z0; never empty
     double axial_depth_mm = 0, spindle_rpm = 0;  // as the job has them
     int line = 0;                                // of the move in the program
+    std::optional<double> t_s;                   // of the row in the program; absent: [engagement]
+    std::size_t rows = 0;                        // of which this one is the most critical; 0: [engagement]
+
+    // The bands at another depth: cut off from above, or with the highest ones going on.
+    std::vector<milling::EngagementBand> bands_at(double axial_depth_mm) const;
+    // The hull of all bands.
+    double entry_rad() const;
+    double exit_rad() const;
 
     // Of the same cut at another speed and depth.
     dynamics::Stability at(double spindle_rpm, double axial_depth_mm) const;
@@ -26,9 +37,15 @@ struct SteadyCut {
     double least_rpm(double axial_depth_mm) const;
 };
 
-// Takes the engagement of [engagement], and tool, speed and feed direction of the first feed move across the
-// tool axis. Refuses a job without modes, without [engagement] or without such a move, and a tool axis that a
-// machine tilts: its head would have to be told from its table.
+// The modes of a job in the frame of a feed. Those of the tool turn with its axis by the shortest rotation.
+std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes);
+
+// Refuses a job without modes.
+Result<void> check_modes(const job::Job& job);
+
+// Takes the engagement of [engagement], which the job must have, and tool, speed and feed direction of the
+// first feed move across the tool axis. Refuses a job without such a move, and a tool axis that a machine
+// tilts: its head would have to be told from its table.
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::session
