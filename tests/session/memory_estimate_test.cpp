@@ -69,6 +69,22 @@ RC_GTEST_PROP(MemoryEstimate, counts_the_bricks_of_any_program, ()) {
     RC_ASSERT(estimate <= 2 * most);
 }
 
+// One move carries away all above a plane. What it passes on its way never has bricks.
+TEST(MemoryEstimate, counts_no_brick_that_the_same_move_carries_away) {
+    milling::Cutter cutter;
+    cutter.diameter_mm = 40;
+    cutter.length_mm = 40;
+    const Box3 blank{{}, {15, 11, 13.5}};
+    const std::vector<motion::ToolPose> poses{{{7, 5, 14}, {0, 0, 1}}, {{7, 5, 2.8}, {0, 0, 1}}};
+    const double cell = 0.2;
+    MillSetup setup = setup_of(cutter, blank, cell, poses);
+    const double estimate = MemoryEstimate(setup, cell).cut_bricks(cell);
+    MillSession session(std::move(setup), serial_for);
+    ASSERT_TRUE(session.run({}));
+    EXPECT_EQ(session.stock().bricks_in_use(), 12u * 9u);
+    EXPECT_EQ(estimate, 12 * 9);
+}
+
 // Engraving in a large plate takes what the engraving takes, not what the plate could; a coarser look at a
 // long program finds as many bricks as a look brick by brick.
 TEST(MemoryEstimate, follows_the_tool_and_not_the_blank) {

@@ -13,6 +13,8 @@ namespace {
 // A brick has its own nodes if the distance of the surface is less than CarvedField::kNearCells; in brick
 // edges.
 constexpr double kNearEdges = field::CarvedField::kNearCells / field::kBrickCells;
+// A brick is air if no node is nearer to the material; in brick edges.
+constexpr double kClearEdges = field::FieldQuery::kClearCells / field::kBrickCells;
 // Margin of the grid beyond the blank, in brick edges.
 constexpr double kMarginEdges = field::CarvedField::kMarginCells / field::kBrickCells;
 // Distance from the centre of a brick to its corners, in edges.
@@ -28,30 +30,39 @@ constexpr double kCutBrickVertices = 25;
 // bricks being processed; per brick of two layers.
 constexpr double kVertexBytes = 50, kInHandBytes = 1e7, kLayerBrickBytes = 16;
 
-// The surface of the tool, seen from a point: distance (negative inside) and direction, in components along
-// the axis and away from it.
+// The surface of the tool, seen from a point: distance (negative inside) and direction.
 struct FromTool {
-    double mm, up, out;
+    double mm;
+    Vec3 normal;
 };
 
-FromTool from_tool(const milling::Cutter& c, double along, double off) {
+FromTool from_tool(const milling::Cutter& c, const motion::ToolPose& pose, Vec3 point_mm) {
+    const Vec3 from_tip = point_mm - pose.tip_mm;
+    const double along = dot(from_tip, pose.axis);
+    const double off = std::sqrt(std::max(0.0, squared_length(from_tip) - along * along));
+    const Vec3 outward = off > 0 ? (from_tip - along * pose.axis) / off : Vec3{};
     const double corner = c.corner_radius_mm();
     const double below = corner - along, beyond = off - (c.radius_mm() - corner);
-    FromTool side{off - c.radius_mm(), 0, 1};
+    FromTool side{off - c.radius_mm(), outward};
     if (below > 0 && beyond > 0) {
         const double far = std::sqrt(below * below + beyond * beyond);
-        side = {far - corner, far > 0 ? -below / far : -1, far > 0 ? beyond / far : 0};
+        side = {far - corner, far > 0 ? (beyond * outward - below * pose.axis) / far : -pose.axis};
     } else if (-along > side.mm) {
-        side = {-along, -1, 0};
+        side = {-along, -pose.axis};
     }
-    return along - c.length_mm > side.mm ? FromTool{along - c.length_mm, 1, 0} : side;
+    return along - c.length_mm > side.mm ? FromTool{along - c.length_mm, pose.axis} : side;
 }
 
 // The cells of the coarse grid, stored as in field::BrickIndex.
 class CoarseStock {
   public:
-    CoarseStock(const field::Shape& blank, double edge)
-        : blank_(blank), box_(blank.bounds_mm().inflated(kMarginEdges * edge)), edge_(edge), index_(size()) {}
+    // clear_mm: nodes so far from the material do not count.
+    CoarseStock(const field::Shape& blank, double edge, double clear_mm)
+        : blank_(blank),
+          box_(blank.bounds_mm().inflated(kMarginEdges * edge)),
+          edge_(edge),
+          clear_mm_(clear_mm),
+          index_(size()) {}
 
     void sweep(const milling::Cutter& cutter, const motion::ToolPose& pose) {
         Box3 box;
@@ -71,9 +82,9 @@ class CoarseStock {
                 for (int i = first[0]; i <= last[0]; ++i) look(cutter, pose, {i, j, k});
             }
         }
-        // Not within the loops, where some cells are new and others not yet gone.
-        most_ = std::max(most_, surface_);
     }
+    // The session carves whole moves: what lies within one of them never has a surface.
+    void end_move() { most_ = std::max(most_, surface_); }
 
     double most_surface_cells() const { return static_cast<double>(most_); }
     double touched_cells() const { return static_cast<double>(touched_); }
@@ -86,27 +97,54 @@ class CoarseStock {
         const field::BrickRef was = index_.get(cell);
         if (was == field::kAir) return;
         const Vec3 middle = box_.min + edge_ * Vec3{cell.i + 0.5, cell.j + 0.5, cell.k + 0.5};
-        const Vec3 from_tip = middle - pose.tip_mm;
-        const double along = dot(from_tip, pose.axis);
-        const double off = std::sqrt(std::max(0.0, squared_length(from_tip) - along * along));
-        const FromTool tool = from_tool(cutter, along, off);
-        const Vec3 outward = off > 0 ? (from_tip - along * pose.axis) / off : Vec3{};
-        const Vec3 n = tool.up * pose.axis + tool.out * outward;
-        // Half the extent of the cell along n, so that a plane normal to n meets the cell, plus the narrow
-        // band.
-        const double near = edge_ * (0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) + kNearEdges);
-        if (tool.mm > near || (tool.mm > -near && was != field::kUntouched)) return;
+        const FromTool tool = from_tool(cutter, pose, middle);
+        const double half_mm = half_extent_mm(tool.normal);
+        if (tool.mm > half_mm + kNearEdges * edge_) return;
+        bool air = tool.mm <= -half_mm - kClearEdges * edge_;
+        if (!air) {
+            const double blank_mm = blank_.distance_mm(middle);
+            if (blank_mm > kToCorner * edge_) {
+                air = true;
+            } else if (blank_mm > -(kToCorner + kClearEdges) * edge_) {
+                air = is_cleared(cutter, pose, middle);
+            }
+            if (!air && was != field::kUntouched) return;
+        }
         if (was == field::kUntouched) ++touched_;
-        const bool air =
-            tool.mm <= -near || (was == field::kUntouched && blank_.distance_mm(middle) > kToCorner * edge_);
         index_.set(cell, air ? field::kAir : field::kFirstBrick);
         if (was != field::kUntouched) --surface_;
         if (!air) ++surface_;
     }
 
+    // Half the extent of a cell along a normal. A plane with this normal meets the cell if it is nearer to
+    // the middle.
+    double half_extent_mm(Vec3 n) const {
+        return 0.5 * edge_ * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    }
+    // Returns true for a cell at the border of the blank if the pose leaves no material in it.
+    bool is_cleared(const milling::Cutter& cutter, const motion::ToolPose& pose, Vec3 middle) const {
+        Box3 cell;
+        cell.include(middle);
+        cell = cell.inflated(0.5 * edge_ + clear_mm_);
+        for (const double x : {-0.5, 0.0, 0.5}) {
+            for (const double y : {-0.5, 0.0, 0.5}) {
+                for (const double z : {-0.5, 0.0, 0.5}) {
+                    const Vec3 point = middle + edge_ * Vec3{x, y, z};
+                    const FromTool tool = from_tool(cutter, pose, point);
+                    const double blank_mm = blank_.distance_mm(point);
+                    if (std::min(tool.mm, -blank_mm) >= -clear_mm_) return false;
+                    // A sheet may lie between the points, next to the surface of the tool.
+                    const Vec3 foot = point - tool.mm * tool.normal;
+                    if (0.5 * (tool.mm - blank_mm) >= -clear_mm_ && cell.contains(foot)) return false;
+                }
+            }
+        }
+        return true;
+    }
+
     const field::Shape& blank_;
     Box3 box_;
-    double edge_;
+    double edge_, clear_mm_;
     field::BrickIndex index_;
     std::size_t surface_ = 0, most_ = 0, touched_ = 0;
 };
@@ -161,7 +199,7 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
         return (size.x / coarse_mm_ + 1) * (size.y / coarse_mm_ + 1) * (size.z / coarse_mm_ + 1);
     };
     while (cells() > kMostCells || tests_at(setup, coarse_mm_) > kMostTests) coarse_mm_ *= 1.3;
-    CoarseStock stock(*setup.blank, coarse_mm_);
+    CoarseStock stock(*setup.blank, coarse_mm_, field::FieldQuery::kClearCells * cell_mm);
     double travelled = 0;
     const milling::Cutter* last_cutter = nullptr;
     over_moves(setup, [&](const motion::Move& move, const milling::Cutter& cutter, bool is_last) {
@@ -173,6 +211,7 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
         const double steps = steps_of(move, cutter, coarse_mm_);
         for (double s = &cutter == last_cutter ? 1 : 0; s <= steps; ++s)
             stock.sweep(cutter, motion::pose_at(move, s / steps));
+        stock.end_move();
         travelled = 0;
         last_cutter = &cutter;
     });
