@@ -2,7 +2,10 @@
 #include "session/cut/memory_estimate.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bitset>
 #include <cmath>
+#include <vector>
 
 #include "field/carved/carved_field.hpp"
 #include "motion/path/path.hpp"
@@ -101,20 +104,36 @@ class CoarseStock {
         const double half_mm = half_extent_mm(tool.normal);
         if (tool.mm > half_mm + kNearEdges * edge_) return;
         bool air = tool.mm <= -half_mm - kClearEdges * edge_;
+        field::BrickRef now = was == field::kUntouched ? kInner : was;
+        bool is_inner = was == kInner;
         if (!air) {
-            const double blank_mm = blank_.distance_mm(middle);
-            if (blank_mm > kToCorner * edge_) {
-                air = true;
-            } else if (blank_mm > -(kToCorner + kClearEdges) * edge_) {
-                air = is_cleared(cutter, pose, middle);
+            if (was == field::kUntouched) {
+                const double blank_mm = blank_.distance_mm(middle);
+                air = blank_mm > kToCorner * edge_;
+                is_inner = blank_mm < -(kToCorner + kClearEdges) * edge_;
+            }
+            if (!air && !is_inner) {
+                if (was == field::kUntouched) {
+                    now = kFirstBorder + static_cast<field::BrickRef>(border_.size());
+                    border_.emplace_back();
+                }
+                air = is_cleared(cutter, pose, middle, border_[now - kFirstBorder]);
             }
             if (!air && was != field::kUntouched) return;
         }
         if (was == field::kUntouched) ++touched_;
-        index_.set(cell, air ? field::kAir : field::kFirstBrick);
+        index_.set(cell, air ? field::kAir : now);
         if (was != field::kUntouched) --surface_;
         if (!air) ++surface_;
     }
+
+    // Cells with a surface: inside the blank, or at its border, each with a place in border_.
+    static constexpr field::BrickRef kInner = field::kFirstBrick, kFirstBorder = kInner + 1;
+    // The blank as 3 x 3 x 3 points of a cell see it, computed when first asked for.
+    struct BlankPoints {
+        std::array<float, 27> mm;
+        std::bitset<27> is_known, has_surface_near;  // nearest point of the surface within the cell
+    };
 
     // Half the extent of a cell along a normal. A plane with this normal meets the cell if it is nearer to
     // the middle.
@@ -122,22 +141,28 @@ class CoarseStock {
         return 0.5 * edge_ * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     }
     // Returns true for a cell at the border of the blank if the pose leaves no material in it.
-    bool is_cleared(const milling::Cutter& cutter, const motion::ToolPose& pose, Vec3 middle) const {
+    bool is_cleared(const milling::Cutter& cutter, const motion::ToolPose& pose, Vec3 middle,
+                    BlankPoints& blank) const {
         Box3 cell;
         cell.include(middle);
         cell = cell.inflated(0.5 * edge_ + clear_mm_);
-        for (const double x : {-0.5, 0.0, 0.5}) {
-            for (const double y : {-0.5, 0.0, 0.5}) {
-                for (const double z : {-0.5, 0.0, 0.5}) {
-                    const Vec3 point = middle + edge_ * Vec3{x, y, z};
-                    const FromTool tool = from_tool(cutter, pose, point);
-                    const double blank_mm = blank_.distance_mm(point);
-                    if (std::min(tool.mm, -blank_mm) >= -clear_mm_) return false;
-                    // A sheet may lie between the points, next to the surface of the tool.
-                    const Vec3 foot = point - tool.mm * tool.normal;
-                    if (0.5 * (tool.mm - blank_mm) >= -clear_mm_ && cell.contains(foot)) return false;
-                }
+        for (std::size_t n = 0; n < blank.mm.size(); ++n) {
+            const auto half_edges = [&](std::size_t step) { return static_cast<double>(n / step % 3) - 1; };
+            const Vec3 point = middle + 0.5 * edge_ * Vec3{half_edges(1), half_edges(3), half_edges(9)};
+            const FromTool tool = from_tool(cutter, pose, point);
+            const bool has_surface_near = cell.contains(point - tool.mm * tool.normal);
+            if (tool.mm < -clear_mm_ && !has_surface_near) continue;
+            if (!blank.is_known[n]) {
+                blank.is_known[n] = true;
+                const double mm = blank_.distance_mm(point);
+                blank.mm[n] = static_cast<float>(mm);
+                blank.has_surface_near[n] = mm > 0 && cell.contains(point - mm * blank_.gradient(point));
             }
+            const auto blank_mm = static_cast<double>(blank.mm[n]);
+            if (std::min(tool.mm, -blank_mm) >= -clear_mm_) return false;
+            // Between the points: if the blank is nearer than the tool, its nearest point is not in the tool.
+            if (tool.mm - blank_mm >= -2 * clear_mm_ && (has_surface_near || blank.has_surface_near[n]))
+                return false;
         }
         return true;
     }
@@ -146,6 +171,7 @@ class CoarseStock {
     Box3 box_;
     double edge_, clear_mm_;
     field::BrickIndex index_;
+    std::vector<BlankPoints> border_;
     std::size_t surface_ = 0, most_ = 0, touched_ = 0;
 };
 

@@ -12,7 +12,7 @@ namespace tribo::session {
 // Follows the program with the tool over a coarse grid. It marks the cells that become empty and the cells
 // that keep a piece of surface. The cells are as large as the bricks of the field. If that needs more than
 // kMostTests tests, the cells are larger and the number of bricks follows from the area. The constructor
-// takes about thirty milliseconds at most; the functions then accept any spacing of the grid.
+// takes some tens of milliseconds at most; the functions then accept any spacing of the grid.
 class MemoryEstimate {
   public:
     static constexpr double kMostTests = 2e6;
