@@ -102,7 +102,8 @@ class CoarseStock {
         const Vec3 middle = box_.min + edge_ * Vec3{cell.i + 0.5, cell.j + 0.5, cell.k + 0.5};
         const FromTool tool = from_tool(cutter, pose, middle);
         const double half_mm = half_extent_mm(tool.normal);
-        if (tool.mm > half_mm + kNearEdges * edge_) return;
+        if (tool.mm > 0 && beyond_cell_mm(middle, middle - tool.mm * tool.normal) > kNearEdges * edge_)
+            return;
         bool air = tool.mm <= -half_mm - kClearEdges * edge_;
         field::BrickRef now = was == field::kUntouched ? kInner : was;
         bool is_inner = was == kInner;
@@ -140,28 +141,36 @@ class CoarseStock {
     double half_extent_mm(Vec3 n) const {
         return 0.5 * edge_ * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
     }
+    // Returns the distance of a point from a cell, 0 inside.
+    double beyond_cell_mm(Vec3 middle, Vec3 point) const {
+        const Vec3 away = point - middle;
+        return length(Vec3{std::max(0.0, std::abs(away.x) - 0.5 * edge_),
+                           std::max(0.0, std::abs(away.y) - 0.5 * edge_),
+                           std::max(0.0, std::abs(away.z) - 0.5 * edge_)});
+    }
     // Returns true for a cell at the border of the blank if the pose leaves no material in it.
     bool is_cleared(const milling::Cutter& cutter, const motion::ToolPose& pose, Vec3 middle,
                     BlankPoints& blank) const {
-        Box3 cell;
-        cell.include(middle);
-        cell = cell.inflated(0.5 * edge_ + clear_mm_);
+        const auto is_near = [&](Vec3 surface) { return beyond_cell_mm(middle, surface) <= clear_mm_; };
         for (std::size_t n = 0; n < blank.mm.size(); ++n) {
             const auto half_edges = [&](std::size_t step) { return static_cast<double>(n / step % 3) - 1; };
             const Vec3 point = middle + 0.5 * edge_ * Vec3{half_edges(1), half_edges(3), half_edges(9)};
             const FromTool tool = from_tool(cutter, pose, point);
-            const bool has_surface_near = cell.contains(point - tool.mm * tool.normal);
-            if (tool.mm < -clear_mm_ && !has_surface_near) continue;
+            const bool is_covered = tool.mm < -clear_mm_;
+            const bool has_tool_near = is_near(point - tool.mm * tool.normal);
+            if (is_covered && !has_tool_near) continue;
             if (!blank.is_known[n]) {
                 blank.is_known[n] = true;
                 const double mm = blank_.distance_mm(point);
                 blank.mm[n] = static_cast<float>(mm);
-                blank.has_surface_near[n] = mm > 0 && cell.contains(point - mm * blank_.gradient(point));
+                blank.has_surface_near[n] = mm > 0 && is_near(point - mm * blank_.gradient(point));
             }
             const auto blank_mm = static_cast<double>(blank.mm[n]);
             if (std::min(tool.mm, -blank_mm) >= -clear_mm_) return false;
-            // Between the points: if the blank is nearer than the tool, its nearest point is not in the tool.
-            if (tool.mm - blank_mm >= -2 * clear_mm_ && (has_surface_near || blank.has_surface_near[n]))
+            // Between the points: the nearest point of the blank is material if the tool is farther, and from
+            // a point in the tool the nearest point of its surface is if the outside of the blank is farther.
+            if (tool.mm - blank_mm >= -2 * clear_mm_ &&
+                (is_covered ? has_tool_near : blank.has_surface_near[n]))
                 return false;
         }
         return true;
