@@ -57,7 +57,10 @@ TurnLaw thickness(const Chip& chip, const ProfilePoint& at) {
 }
 
 EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const ProfilePoint& at) {
-    const TurnLaw h = thickness(chip, at);
+    return edge_load(k, thickness(chip, at), at);
+}
+
+EdgeLoad edge_load(const CuttingCoefficients& k, const TurnLaw& h, const ProfilePoint& at) {
     const auto law = [&](double shear, double edge) {
         return TurnLaw{shear * h.sine, shear * h.cosine, shear * h.constant + edge};
     };

@@ -72,8 +72,9 @@ struct EdgeLoad {
     TurnLaw t, r, a, m;
 };
 
-// Returns the load per mm of the profile of the envelope (db = dz / sin kappa).
+// Returns the load per mm of the profile of the envelope (db = dz / sin kappa), of a chip or of its thickness.
 EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const ProfilePoint& at);
+EdgeLoad edge_load(const CuttingCoefficients& k, const TurnLaw& thickness, const ProfilePoint& at);
 
 // Returns the load of a radial edge on the flat bottom from r0 to r1, N and N mm. krc acts to the shank; kac
 // acts outward along the edge, because the corner is its leading end.
