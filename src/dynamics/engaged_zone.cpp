@@ -24,8 +24,7 @@ EngagedZone engaged_zone(const milling::EngagementBand& band, double rotation_ra
     }
     // The rotation of the band's bottom, less the lag up to z, lies between entry and exit.
     const double bottom = rotation_rad - lag_per_mm * band.z0_mm;
-    const double lowest = std::min(0.0, -lag_per_mm * height),
-                 highest = std::max(0.0, -lag_per_mm * height);
+    const double lowest = std::min(0.0, -lag_per_mm * height), highest = std::max(0.0, -lag_per_mm * height);
     const double at = wrapped(bottom + lowest, band.entry_rad - (highest - lowest)) - lowest;
     double a = (at - band.exit_rad) / lag_per_mm, b = (at - band.entry_rad) / lag_per_mm;
     if (a > b) std::swap(a, b);

@@ -15,30 +15,27 @@ namespace {
 
 // Lag of an edge, and angle of its profile, over a slice: which tooth left the surface is asked once in it.
 constexpr double kSliceRad = 0.25, kProfileRad = 0.4;
-// Teeth whose surface may still stand where those after them jumped over it.
-constexpr std::size_t kMemory = 3;
+// Samples that are kept at most, unless one passage needs more.
+constexpr double kMostKept = 262'144;
+// Samples after which sine and cosine are computed anew.
+constexpr std::size_t kFreshEvery = 256;
 // Nodes and weights of Gauss and Legendre on [-1, 1].
 constexpr std::array<double, 4> kNodes{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
                                        0.86113631159405258};
 constexpr std::array<double, 4> kWeights{0.34785484513745386, 0.65214515486254614, 0.65214515486254614,
                                          0.34785484513745386};
 
+// Weights of four values at -1, 0, 1, 2 for the cubic through them at t.
+std::array<double, 4> cubic(double t) {
+    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+            (t + 1) * t * (t - 1) / 6};
+}
+
 double chip_at(const milling::TurnLaw& law, double sine, double cosine) {
     return law.sine * sine + law.cosine * cosine + law.constant;
 }
 
 }  // namespace
-
-void Vibration::Oscillator::pass_half_a_step() {
-    const double q = q_by_q * q_mm + q_by_v * v_mm_per_s;
-    v_mm_per_s = v_by_q * q_mm + v_by_v * v_mm_per_s;
-    q_mm = q;
-}
-
-void Vibration::Oscillator::push(double force_n) {
-    q_mm += q_push * force_n;
-    v_mm_per_s += v_push * force_n;
-}
 
 Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
                      const milling::CuttingCoefficients& coefficients, double rate_hz)
@@ -52,14 +49,19 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
         const double damped = w * std::sqrt(1 - zeta * zeta), decay = math::exp(-zeta * w * half_s);
         double sine, cosine;
         math::sincos(damped * half_s, sine, cosine);
+        const double qq = decay * (cosine + zeta * w / damped * sine), qv = decay * sine / damped;
+        const double vq = -decay * w * w / damped * sine;
+        const double vv = decay * (cosine - zeta * w / damped * sine);
         Oscillator o{};
         o.direction = normalized(mode.direction);
-        o.q_by_q = decay * (cosine + zeta * w / damped * sine);
-        o.q_by_v = decay * sine / damped;
-        o.v_by_q = -decay * w * w / damped * sine;
-        o.v_by_v = decay * (cosine - zeta * w / damped * sine);
-        o.q_push = (1 - o.q_by_q) / mode.stiffness_n_per_mm;
-        o.v_push = -o.v_by_q / mode.stiffness_n_per_mm;
+        o.q_push = (1 - qq) / mode.stiffness_n_per_mm;
+        o.v_push = -vq / mode.stiffness_n_per_mm;
+        o.q_by_q = qq * qq + qv * vq;
+        o.q_by_v = qq * qv + qv * vv;
+        o.q_by_force = qq * o.q_push + qv * o.v_push;
+        o.v_by_q = vq * qq + vv * vq;
+        o.v_by_v = vq * qv + vv * vv;
+        o.v_by_force = vq * o.q_push + vv * o.v_push;
         oscillators_.push_back(o);
     }
     const auto teeth = static_cast<std::size_t>(cutter.flutes);
@@ -68,17 +70,20 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
         pitch[n] = cutter.pitch_deg[n] * math::kRadPerDeg;
     double phase = 0;
     for (const double p : pitch) {
+        double sine, cosine;
+        math::sincos(phase, sine, cosine);
         phase_rad_.push_back(phase);
+        phase_sine_.push_back(sine);
+        phase_cosine_.push_back(cosine);
+        runout_mm_.push_back(cutter.runout_mm * math::cos(cutter.runout_deg * math::kRadPerDeg - phase));
         phase += p;
     }
-    // With run-out the deepest of all teeth may have left the surface.
-    memory_ = cutter.runout_mm == 0 ? kMemory : std::max(kMemory, teeth);
     alike_ = cutter.pitch_deg.empty();
     for (std::size_t tooth = 0; tooth < (alike_ ? 1 : teeth); ++tooth) {
         double back = 0;
-        for (std::size_t k = 0; k < memory_; ++k) {
+        for (std::size_t k = 0; k < kMostPassages; ++k) {
             back += pitch[(tooth + k) % teeth];
-            passages_.push_back({.back_rad = back});
+            before_.push_back({.back_rad = back});
         }
     }
 }
@@ -96,20 +101,33 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, double fe
         add_slices(band, false);
     }
     feed_mm_per_rad_ = feed_per_tooth_mm * cutter_.flutes / math::kTwoPi;
-    step_rad_ = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
+    const double step_rad = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
+    if (step_rad == step_rad_) return;
+    step_rad_ = step_rad;
+    even_from_ = samples_;
+    math::sincos(step_rad_, step_sine_, step_cosine_);
+    double longest_pitch = 0;
+    for (std::size_t first = 0; first < before_.size(); first += kMostPassages)
+        longest_pitch = std::max(longest_pitch, before_[first].back_rad);
+    passages_ = static_cast<std::size_t>(
+        std::clamp(kMostKept * step_rad_ / longest_pitch, 1.0, static_cast<double>(kMostPassages)));
     double longest = 0;
-    for (const Passage& passage : passages_) longest = std::max(longest, passage.back_rad);
-    const auto needed = std::bit_ceil(static_cast<std::size_t>(std::ceil(longest / step_rad_)) + 8);
-    if (needed <= displacement_mm_.size()) return;
-    std::vector<double> rotations(needed, 0);
-    std::vector<Vec3> displacements(needed);
-    for (std::size_t back = 1; back <= std::min(samples_, displacement_mm_.size()); ++back) {
-        const std::size_t sample = samples_ - back;
-        rotations[sample & (needed - 1)] = sample_rad_[place(sample)];
-        displacements[sample & (needed - 1)] = displacement_mm_[place(sample)];
+    for (std::size_t n = 0; n < before_.size(); ++n) {
+        Passage& p = before_[n];
+        p.back_samples = p.back_rad / step_rad_;
+        const double t = std::ceil(p.back_samples) - p.back_samples;
+        p.weights = cubic(t);
+        if (n % kMostPassages < passages_) longest = std::max(longest, p.back_samples);
     }
-    sample_rad_ = std::move(rotations);
-    displacement_mm_ = std::move(displacements);
+    keep(std::bit_ceil(static_cast<std::size_t>(std::ceil(longest)) + 8));
+}
+
+void Vibration::keep(std::size_t samples) {
+    if (samples <= past_.size()) return;
+    std::vector<Sample> longer(samples);
+    for (std::size_t back = 1; back <= std::min(samples_, past_.size()); ++back)
+        longer[(samples_ - back) & (samples - 1)] = sample(samples_ - back);
+    past_ = std::move(longer);
 }
 
 void Vibration::add_slices(const milling::EngagementBand& band, bool round) {
@@ -123,7 +141,7 @@ void Vibration::add_slices(const milling::EngagementBand& band, bool round) {
     }
     count = std::max(count, 1.0);
     for (int n = 0; n < static_cast<int>(count); ++n) {
-        Slice slice{band, round};
+        Slice slice{band, round, band.entry_rad - math::kTwoPi * std::floor(band.entry_rad / math::kTwoPi)};
         slice.band.z0_mm = band.z0_mm + height * n / count;
         slice.band.z1_mm = band.z0_mm + height * (n + 1) / count;
         slices_.push_back(slice);
@@ -131,87 +149,131 @@ void Vibration::add_slices(const milling::EngagementBand& band, bool round) {
 }
 
 VibrationSample Vibration::step() {
-    VibrationSample sample;
-    Vec3 foretold{};
-    for (Oscillator& o : oscillators_) {
-        o.pass_half_a_step();
-        foretold += (o.q_mm + o.q_push * dot(force_n_, o.direction)) * o.direction;
-    }
-    force_n_ = cutting_force(foretold);
-    sample.force_n = force_n_;
+    displacement_mm_ = {};
+    for (const Oscillator& o : oscillators_)
+        displacement_mm_ += (o.q_mm + o.q_push * dot(force_n_, o.direction)) * o.direction;
+    force_n_ = cutting_force();
+    VibrationSample now{{}, force_n_};
     for (Oscillator& o : oscillators_) {
         const double along = dot(force_n_, o.direction);
-        o.push(along);
-        sample.displacement_mm += o.q_mm * o.direction;
-        o.pass_half_a_step();
-        o.push(along);
+        const double q = o.q_mm + o.q_push * along, v = o.v_mm_per_s + o.v_push * along;
+        now.displacement_mm += q * o.direction;
+        o.q_mm = o.q_by_q * q + o.q_by_v * v + o.q_by_force * along;
+        o.v_mm_per_s = o.v_by_q * q + o.v_by_v * v + o.v_by_force * along;
     }
-    remember(rotation_rad_, sample.displacement_mm);
+    past_[samples_ & (past_.size() - 1)] = {rotation_rad_, now.displacement_mm, cut_};
+    ++samples_;
     rotation_rad_ += step_rad_;
-    return sample;
+    turn_rad_ += step_rad_;
+    if (turn_rad_ >= math::kTwoPi) turn_rad_ -= math::kTwoPi;
+    if (samples_ % kFreshEvery == 0) {
+        math::sincos(turn_rad_, turn_sine_, turn_cosine_);
+    } else {
+        const double sine = turn_sine_ * step_cosine_ + turn_cosine_ * step_sine_;
+        turn_cosine_ = turn_cosine_ * step_cosine_ - turn_sine_ * step_sine_;
+        turn_sine_ = sine;
+    }
+    return now;
 }
 
-void Vibration::remember(double rotation_rad, Vec3 displacement_mm) {
-    sample_rad_[place(samples_)] = rotation_rad;
-    displacement_mm_[place(samples_)] = displacement_mm;
-    ++samples_;
+const Vibration::Passage& Vibration::passage(std::size_t tooth, std::size_t k) {
+    Passage& p = before_[(alike_ ? 0 : tooth * kMostPassages) + k];
+    if (p.known_at != samples_ + 1) look_back(p);
+    return p;
 }
 
 // By a cubic through the four samples around it. Before the first sample nothing was displaced.
-Vec3 Vibration::displacement_at(Passage& passage) const {
-    const double at_rad = rotation_rad_ - passage.back_rad;
-    if (samples_ < 3 || !(at_rad > 0)) return {};
-    std::size_t& n = passage.cursor;
-    while (n + 3 < samples_ && sample_rad_[place(n + 1)] <= at_rad) ++n;
-    const double from = sample_rad_[place(n)], to = sample_rad_[place(n + 1)];
-    const double t = (at_rad - from) / (to - from);
-    const Vec3 before = n == 0 ? Vec3{} : displacement_mm_[place(n - 1)];
-    return -t * (t - 1) * (t - 2) / 6 * before +
-           (t + 1) * (t - 1) * (t - 2) / 2 * displacement_mm_[place(n)] -
-           (t + 1) * t * (t - 2) / 2 * displacement_mm_[place(n + 1)] +
-           (t + 1) * t * (t - 1) / 6 * displacement_mm_[place(n + 2)];
+void Vibration::look_back(Passage& p) const {
+    p.known_at = samples_ + 1;
+    p.beyond_mm = displacement_mm_;
+    p.beyond_mm.x += feed_mm_per_rad_ * p.back_rad;
+    p.cut = ~Teeth{0};
+    const double at_rad = rotation_rad_ - p.back_rad;
+    if (samples_ < 4 || !(at_rad > 0)) return;
+    const auto back = static_cast<std::size_t>(std::ceil(p.back_samples));
+    std::size_t n = back < samples_ ? samples_ - back : 0;
+    std::array<double, 4> weights = p.weights;
+    if (n < even_from_ + 1) {
+        n = std::min(n, samples_ - 3);
+        while (n > 0 && sample(n).rotation_rad > at_rad) --n;
+        while (n + 3 < samples_ && sample(n + 1).rotation_rad <= at_rad) ++n;
+        const double from = sample(n).rotation_rad, to = sample(n + 1).rotation_rad;
+        weights = cubic((at_rad - from) / (to - from));
+    }
+    if (n > 0) p.beyond_mm -= weights[0] * sample(n - 1).displacement_mm;
+    p.beyond_mm -= weights[1] * sample(n).displacement_mm + weights[2] * sample(n + 1).displacement_mm +
+                   weights[3] * sample(n + 2).displacement_mm;
+    p.cut = sample(n).cut & sample(n + 1).cut;
 }
 
-Vec3 Vibration::cutting_force(Vec3 displacement_mm) {
-    for (Passage& passage : passages_) {
-        passage.beyond_mm = displacement_mm - displacement_at(passage);
-        passage.beyond_mm.x += feed_mm_per_rad_ * passage.back_rad;
-    }
+Vec3 Vibration::cutting_force() {
+    cut_ = ~Teeth{0};
     Vec3 sum{};
     for (std::size_t tooth = 0; tooth < phase_rad_.size(); ++tooth) {
+        if (lag_per_mm_ == 0 && cutter_.corner_radius_mm() == 0) {
+            sum += straight_force(tooth);
+            continue;
+        }
         for (const Slice& slice : slices_)
             sum += slice.round ? round_force(tooth, slice.band) : cylinder_force(tooth, slice.band);
     }
     return sum;
 }
 
-// The law of the surface that stands highest at this rotation.
-milling::TurnLaw Vibration::chip(std::size_t tooth, double rotation_rad, double lag_rad,
-                                 const milling::ProfilePoint& at) const {
-    double sine, cosine;
-    math::sincos(rotation_rad, sine, cosine);
-    const auto radius = [&](std::size_t of_tooth) {
-        return cutter_.runout_mm *
-               math::cos(cutter_.runout_deg * math::kRadPerDeg - phase_rad_[of_tooth] + lag_rad);
-    };
+milling::TurnLaw Vibration::chip(std::size_t tooth, double sine, double cosine, double lag_rad,
+                                 const milling::ProfilePoint& at) {
     const std::size_t teeth = phase_rad_.size();
+    const auto radius = [&](std::size_t of_tooth) {
+        return lag_rad == 0 ? runout_mm_[of_tooth]
+                            : cutter_.runout_mm * math::cos(cutter_.runout_deg * math::kRadPerDeg -
+                                                            phase_rad_[of_tooth] + lag_rad);
+    };
     const double own = cutter_.runout_mm == 0 ? 0 : radius(tooth);
     milling::TurnLaw thinnest;
     double least = 0;
-    for (std::size_t k = 0; k < memory_; ++k) {
-        const Vec3 beyond = passages_[(alike_ ? 0 : tooth * memory_) + k].beyond_mm;
-        const double offset = cutter_.runout_mm == 0 ? 0 : own - radius((tooth + k + 1) % teeth);
-        const milling::TurnLaw law{beyond.x * at.sin_kappa, beyond.y * at.sin_kappa,
-                                   offset * at.sin_kappa - beyond.z * at.cos_kappa};
+    for (std::size_t k = 0; k < passages_; ++k) {
+        const Passage& p = passage(tooth, k);
+        const std::size_t other = (tooth + k + 1) % teeth;
+        const double offset = cutter_.runout_mm == 0 ? 0 : own - radius(other);
+        const milling::TurnLaw law{p.beyond_mm.x * at.sin_kappa, p.beyond_mm.y * at.sin_kappa,
+                                   offset * at.sin_kappa - p.beyond_mm.z * at.cos_kappa};
         const double thickness = chip_at(law, sine, cosine);
-        if (k > 0 && thickness >= least) continue;
-        thinnest = law;
-        least = thickness;
+        if (k == 0 || thickness < least) {
+            thinnest = law;
+            least = thickness;
+        }
+        // What it cut, nothing older stands beyond.
+        if ((p.cut & bit(other)) != 0) break;
     }
+    if (!(least > 0)) stands_clear(tooth);
     return thinnest;
 }
 
-Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand& band) const {
+// The bands of a straight edge, all at one angle.
+Vec3 Vibration::straight_force(std::size_t tooth) {
+    double angle = turn_rad_ + phase_rad_[tooth];
+    if (angle >= math::kTwoPi) angle -= math::kTwoPi;
+    double height = 0;
+    for (const Slice& slice : slices_) {
+        double from_entry = angle - slice.entry_rad;
+        if (from_entry < 0) from_entry += math::kTwoPi;
+        if (from_entry < slice.band.exit_rad - slice.band.entry_rad)
+            height += slice.band.z1_mm - slice.band.z0_mm;
+    }
+    if (height == 0) return {};
+    const double sine = turn_sine_ * phase_cosine_[tooth] + turn_cosine_ * phase_sine_[tooth];
+    const double cosine = turn_cosine_ * phase_cosine_[tooth] - turn_sine_ * phase_sine_[tooth];
+    const double thickness =
+        chip_at(chip(tooth, sine, cosine, 0, {.radius_mm = cutter_.radius_mm()}), sine, cosine);
+    if (!(thickness > 0)) return {};
+    const milling::CuttingCoefficients& k = coefficients_;
+    const double tangential = height * (k.ktc * thickness + k.kte);
+    const double radial = height * (k.krc * thickness + k.kre);
+    const double axial = height * (k.kac * thickness + k.kae);
+    return {-tangential * cosine - radial * sine, tangential * sine - radial * cosine, -axial};
+}
+
+Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand& band) {
     const double tip = tip_rad(tooth);
     const EngagedZone zone = engaged_zone(band, tip, lag_per_mm_);
     double height = zone.z1_mm - zone.z0_mm;
@@ -220,13 +282,16 @@ Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand&
     if (low > high) std::swap(low, high);
     const double middle = 0.5 * (low + high);
     const milling::ProfilePoint at{.radius_mm = cutter_.radius_mm()};
-    const milling::TurnLaw law = chip(tooth, middle, tip - middle, at);
+    double middle_sine, middle_cosine;
+    math::sincos(middle, middle_sine, middle_cosine);
+    const milling::TurnLaw law = chip(tooth, middle_sine, middle_cosine, tip - middle, at);
     const auto thickness = [&](double rotation) {
         double sine, cosine;
         math::sincos(rotation, sine, cosine);
         return chip_at(law, sine, cosine);
     };
     const double at_low = thickness(low), at_high = thickness(high);
+    if (at_low <= 0 || at_high <= 0) stands_clear(tooth);
     if (at_low <= 0 && at_high <= 0) return {};
     if (at_low <= 0 || at_high <= 0) {
         // The chip ends within the slice: almost on a straight line, for it is short.
@@ -237,7 +302,7 @@ Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand&
     return milling::segment_force(milling::edge_load(coefficients_, law, at), low, high, height).force_n;
 }
 
-Vec3 Vibration::round_force(std::size_t tooth, const milling::EngagementBand& band) const {
+Vec3 Vibration::round_force(std::size_t tooth, const milling::EngagementBand& band) {
     const double tip = tip_rad(tooth);
     const EngagedZone zone = engaged_zone(band, tip, lag_per_mm_);
     if (!(zone.z1_mm > zone.z0_mm)) return {};
@@ -252,9 +317,9 @@ Vec3 Vibration::round_force(std::size_t tooth, const milling::EngagementBand& ba
         at.radius_mm = cutter_.radius_mm() - corner * (1 - at.sin_kappa);
         at.height_mm = corner * (1 - at.cos_kappa);
         const double lag = lag_per_mm_ * at.height_mm;
-        const milling::TurnLaw law = chip(tooth, tip - lag, lag, at);
         double sine, cosine;
         math::sincos(tip - lag, sine, cosine);
+        const milling::TurnLaw law = chip(tooth, sine, cosine, lag, at);
         if (chip_at(law, sine, cosine) <= 0) continue;
         const milling::EdgeLoad load = milling::edge_load(coefficients_, law, at);
         sum += (0.5 * (to - from) * kWeights[n] * corner) *

@@ -2,7 +2,9 @@
 // A tool and a part that vibrate while they cut, step by step in time, with teeth that leave the cut.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,10 +21,10 @@ struct VibrationSample {
     Vec3 force_n;          // on the tool
 };
 
-// The chip of a tooth is the least distance by which it stands beyond the surfaces of the teeth before it,
-// each where the tool was displaced then; where that is negative there is none (Tlusty and Ismail 1981). So
-// teeth jump out of the cut, and chatter stays bounded. Frame and signs as in milling/force/edge_force.hpp:
-// x along the feed, y to its left, z to the shank.
+// The chip of a tooth is the distance by which it stands beyond the surface that the teeth before it left,
+// each where the tool was displaced then: the least over those since one that cut there. Where it is negative
+// there is no chip (Tlusty and Ismail 1981). So teeth jump out of the cut, and chatter stays bounded. Frame
+// and signs as in milling/force/edge_force.hpp: x along the feed, y to its left, z to the shank.
 //
 // A step turns the modes exactly under a constant force: that of the middle of the step, for the displacement
 // which the force before foretells there. Samples stand in the middles of the steps. One thread.
@@ -45,55 +47,73 @@ class Vibration {
     double rotation_rad() const { return rotation_rad_; }
 
   private:
-    // A mode with its state. Half a step turns (q, v), and adds push times the force along the mode.
+    // A mode between two middles of steps. The force along it pushes the state there; then it turns freely to
+    // the next middle, while the force still acts.
     struct Oscillator {
         Vec3 direction;
-        double q_by_q, q_by_v, v_by_q, v_by_v, q_push, v_push;
-        double q_mm = 0, v_mm_per_s = 0;
-
-        void pass_half_a_step();
-        void push(double force_n);
+        double q_push, v_push;
+        double q_by_q, q_by_v, q_by_force, v_by_q, v_by_v, v_by_force;
+        double q_mm = 0, v_mm_per_s = 0;  // before the push
     };
     // A part of a band, on the cylinder or on the rounded part, over which the edge lags little.
     struct Slice {
         milling::EngagementBand band;
         bool round;
+        double entry_rad;  // in the first turn
+    };
+    // A bit for each of the first 64 teeth: it cut wherever it was engaged. Others count as not having cut.
+    using Teeth = std::uint64_t;
+    struct Sample {
+        double rotation_rad = 0;
+        Vec3 displacement_mm{};
+        Teeth cut = 0;
     };
     // A tooth that passed before: how far back, and by how much this tooth stands beyond its surface now.
     struct Passage {
-        double back_rad = 0;
-        std::size_t cursor = 0;  // the sample before it
+        double back_rad = 0, back_samples = 0;
+        std::array<double, 4> weights{};  // of the samples around it while the speed does not change
         Vec3 beyond_mm{};
+        Teeth cut = 0;
+        std::size_t known_at = 0;  // number of the sample after which the two above were computed
     };
 
     void add_slices(const milling::EngagementBand& band, bool round);
-    void remember(double rotation_rad, Vec3 displacement_mm);
-    Vec3 displacement_at(Passage& passage) const;
-    Vec3 cutting_force(Vec3 displacement_mm);
-    milling::TurnLaw chip(std::size_t tooth, double rotation_rad, double lag_rad,
-                          const milling::ProfilePoint& at) const;
-    Vec3 cylinder_force(std::size_t tooth, const milling::EngagementBand& band) const;
-    Vec3 round_force(std::size_t tooth, const milling::EngagementBand& band) const;
-    std::size_t place(std::size_t sample) const { return sample & (displacement_mm_.size() - 1); }
+    void keep(std::size_t samples);
+    const Sample& sample(std::size_t number) const { return past_[number & (past_.size() - 1)]; }
+    // The k-th tooth before this one at its place, 0: the one just before it.
+    const Passage& passage(std::size_t tooth, std::size_t k);
+    void look_back(Passage& passage) const;
+    Vec3 cutting_force();
+    // The law of the surface that stands highest at this rotation.
+    milling::TurnLaw chip(std::size_t tooth, double sine, double cosine, double lag_rad,
+                          const milling::ProfilePoint& at);
+    Vec3 straight_force(std::size_t tooth);
+    Vec3 cylinder_force(std::size_t tooth, const milling::EngagementBand& band);
+    Vec3 round_force(std::size_t tooth, const milling::EngagementBand& band);
+    void stands_clear(std::size_t tooth) { cut_ &= ~bit(tooth); }
+    static Teeth bit(std::size_t tooth) { return tooth < 64 ? Teeth{1} << tooth : 0; }
     double tip_rad(std::size_t tooth) const { return rotation_rad_ + phase_rad_[tooth]; }
 
     milling::Cutter cutter_;
     milling::CuttingCoefficients coefficients_;
     double rate_hz_, lag_per_mm_;
     std::vector<Oscillator> oscillators_;
-    std::vector<double> phase_rad_;  // of each tooth ahead of flute 0
-    // The teeth before a tooth, the last first: `memory_` of them for each tooth, or for all if they are alike.
-    std::size_t memory_;
+    // Of each tooth ahead of flute 0, and the run-out of a straight one.
+    std::vector<double> phase_rad_, phase_sine_, phase_cosine_, runout_mm_;
+    // For each tooth, or for all if they are alike: kMostPassages, the last first, of which passages_ fit.
+    static constexpr std::size_t kMostPassages = 64;
     bool alike_;
-    std::vector<Passage> passages_;
+    std::vector<Passage> before_;
+    std::size_t passages_ = 1;
     std::vector<Slice> slices_;
-    double feed_mm_per_rad_ = 0, step_rad_ = 0;
-    // The samples so far in rings, whose length is a power of two.
-    std::vector<double> sample_rad_;
-    std::vector<Vec3> displacement_mm_;
-    std::size_t samples_ = 0;
-    double rotation_rad_ = 0;
-    Vec3 force_n_{};
+    double feed_mm_per_rad_ = 0, step_rad_ = 0, step_sine_ = 0, step_cosine_ = 1;
+    // The samples so far in a ring, whose length is a power of two; from even_from_ on at the same speed.
+    std::vector<Sample> past_;
+    std::size_t samples_ = 0, even_from_ = 0;
+    // Rotation of flute 0 at the next sample, from 0 on and in the turn.
+    double rotation_rad_ = 0, turn_rad_ = 0, turn_sine_ = 0, turn_cosine_ = 1;
+    Vec3 force_n_{}, displacement_mm_{};
+    Teeth cut_ = 0;
 };
 
 }  // namespace tribo::dynamics
