@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // `tribo stability` from outside: the benchmark of the literature, frames, refusals.
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "app/run/program.hpp"
 
@@ -239,6 +242,88 @@ TEST_F(StabilityVerb, replaces_its_own_folder_alone) {
     EXPECT_FALSE(std::filesystem::exists(scratch / "other/stability.csv"));
 }
 
+// Rows of vibration.csv.
+std::vector<std::array<double, 7>> vibration(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "t_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n");
+    std::vector<std::array<double, 7>> rows;
+    while (std::getline(lines, line)) {
+        std::istringstream fields(line);
+        for (double& value : rows.emplace_back()) {
+            std::string field;
+            std::getline(fields, field, ',');
+            value = std::stod(field);
+        }
+    }
+    return rows;
+}
+
+// What the file shows grows as the multiplier says: a vibration of one pair of multipliers obeys
+// d(k + 1) = a d(k) + b d(k - 1) from tooth to tooth, and |mu|^2 = -b.
+TEST_F(StabilityVerb, simulates_a_vibration_that_grows_by_its_multiplier) {
+    const std::string job = kEngagement + mode("1, 0, 0");
+    for (const std::string depth : {"0.2", "0.5"}) {
+        const auto json = answer(job, {"--at", "5000:" + depth, "--simulate", "5000:" + depth, "--turns",
+                                       "16", "--out", "simulated"});
+        EXPECT_EQ(json["simulation"]["turns"], 16);
+        EXPECT_NEAR(json["simulation"]["feed_per_tooth_mm"], 0.1, 1e-12);
+        const auto rows = vibration(scratch.get("simulated/vibration.csv"));
+        constexpr std::size_t kTooth = 288;  // samples, at 5000 rpm and 48 kHz
+        ASSERT_EQ(rows.size(), 32 * kTooth);
+        double largest = 0, aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
+        for (std::size_t n = 0; n < rows.size(); ++n) {
+            EXPECT_NEAR(rows[n][0], static_cast<double>(n) / 48000, 1e-9);
+            largest = std::max(largest, std::abs(rows[n][1]));
+            EXPECT_EQ(rows[n][2], 0);
+            if (n < 8 * kTooth) continue;
+            const auto way = [&](std::size_t at) { return rows[at][1] - rows[at - kTooth][1]; };
+            const double a = way(n - kTooth), b = way(n - 2 * kTooth), c = way(n);
+            aa += a * a;
+            ab += a * b;
+            bb += b * b;
+            ac += a * c;
+            bc += b * c;
+        }
+        const double squared = (ab * ac - aa * bc) / (aa * bb - ab * ab);
+        EXPECT_NEAR(std::sqrt(squared), json["points"][0]["multiplier"], 2e-3) << depth;
+        EXPECT_NEAR(json["simulation"]["largest_displacement_mm"], largest, 1e-8);
+    }
+}
+
+TEST_F(StabilityVerb, simulates_chatter_that_teeth_outside_the_cut_bound) {
+    const auto json =
+        answer(mode("1, 0, 0"), {"--simulate", "8000:1", "--turns", "60", "--out", "simulated"});
+    EXPECT_NEAR(json["simulation"]["feed_per_tooth_mm"], 0.1, 1e-6);
+    EXPECT_FALSE(json["simulation"].contains("ended_s"));
+    const auto rows = vibration(scratch.get("simulated/vibration.csv"));
+    ASSERT_EQ(rows.size(), 60 * 360u);
+    const auto largest = [&](std::size_t from, std::size_t to) {
+        double mm = 0;
+        for (std::size_t n = from; n < to; ++n) mm = std::max(mm, std::abs(rows[n][1]));
+        return mm;
+    };
+    // More than the feed does, and no longer growing.
+    EXPECT_GT(largest(20 * 360, 40 * 360), 0.1);
+    EXPECT_NEAR(largest(40 * 360, 60 * 360), largest(20 * 360, 40 * 360), 0.02);
+    EXPECT_NE(scratch.get("simulated/summary.json").find("\"simulation\""), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(scratch / "simulated/stability.csv"));
+}
+
+// Two soft modes far above their limit: no tool moves so.
+TEST_F(StabilityVerb, ends_a_simulation_where_its_equations_end) {
+    const Outcome outcome = run(kEngagement + mode("1, 0, 0") + mode("0, 1, 0"),
+                                {"--simulate", "8000:1", "--turns", "60", "--out", "simulated"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_NE(outcome.err.find("job.toml: warning: the simulation ends at 0."), std::string::npos)
+        << outcome.err;
+    const auto rows = vibration(scratch.get("simulated/vibration.csv"));
+    ASSERT_LT(rows.size(), 60 * 360u);
+    for (const auto& row : rows) ASSERT_LE(std::hypot(row[1], row[2]), 1);
+    EXPECT_NE(scratch.get("simulated/summary.json").find("the simulation ends at"), std::string::npos);
+}
+
 TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
     const std::string good = kEngagement + mode("1, 0, 0");
     struct Case {
@@ -271,6 +356,13 @@ TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
              Case{good, {"--depth", "1:1e-9"}, "no range of depths"},
              Case{good, {"--at", "8000:1", "--depth", "1:0.1"}, "--depth is for a chart"},
              Case{good, {"--limit", "8000", "--out", "x"}, "--out is for a chart"},
+             Case{good, {"--simulate", "8000:1"}, "no folder is named for it; add --out DIR"},
+             Case{good, {"--simulate", "8000", "--out", "x"}, "'8000' is no speed and depth"},
+             Case{good, {"--simulate", "8000:1", "--out", "x", "--turns", "0"}, "--turns"},
+             Case{good,
+                  {"--simulate", "8000:1", "--out", "x", "--turns", "8001"},
+                  "ask for at most --turns 8000"},
+             Case{good, {"--turns", "3"}, "--turns requires --simulate"},
              Case{good, {"--at", "0.05:1"}, "the modes vibrate too often"},
              Case{good, {"--limit", "0.05"}, "ask for at least"},
              Case{good, {"--rpm", "1:100:1"}, "ask for at least"},

@@ -168,7 +168,8 @@ TEST(Vibration, knows_no_tool_and_no_part) {
     Vibration of_part({&mode, 1}, kCutter, kAluminium, kRateHz);
     of_tool.engage({&band, 1}, 0.1, 7000);
     of_part.engage({&band, 1}, 0.1, 7000);
-    for (int n = 0; n < 10'000; ++n) ASSERT_EQ(of_tool.step().displacement_mm, of_part.step().displacement_mm);
+    for (int n = 0; n < 10'000; ++n)
+        ASSERT_EQ(of_tool.step().displacement_mm, of_part.step().displacement_mm);
 }
 
 // In air nothing is felt, and what swings dies out at the rate of the modes.

@@ -104,7 +104,7 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
     const session::SteadyCut& cut = answer.cut;
     answer.points = call.at;
     std::vector<double> speeds = call.limit_rpm;
-    if (call.at.empty() && call.limit_rpm.empty()) {
+    if (call.at.empty() && call.limit_rpm.empty() && !call.simulation) {
         answer.points.push_back({cut.spindle_rpm, cut.axial_depth_mm});
         speeds.push_back(cut.spindle_rpm);
     }
@@ -149,7 +149,7 @@ int stability(const StabilityCall& call) {
     if (!loaded) return report(loaded.error());
     std::optional<files::OutputFolder> folder;
     if (!call.out.empty()) {
-        auto opened = files::OutputFolder::open(call.out, is_chart_file);
+        auto opened = files::OutputFolder::open(call.out, is_stability_file);
         if (!opened) return report(opened.error());
         folder.emplace(*std::move(opened));
         if (auto good = check_output_folder(*folder); !good) return report(good.error());
@@ -158,11 +158,15 @@ int stability(const StabilityCall& call) {
     if (auto done = compute(call, parallel, answer); !done) return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     if (folder) {
-        if (auto done = write_chart(call, answer, *folder); !done) return report(done.error());
+        if (call.simulation) {
+            if (auto done = write_vibration(call, answer, *folder); !done) return report(done.error());
+            if (interrupted()) return interrupted_exit_code();
+        }
+        if (auto done = write_files(call, answer, *folder); !done) return report(done.error());
         if (auto done = folder->commit(); !done) return report(done.error());
     }
     if (call.json) {
-        std::fputs(stability_json(answer).c_str(), stdout);
+        std::fputs(stability_json(call, answer).c_str(), stdout);
     } else {
         print(call, answer);
         if (folder) std::printf("files: %s\n", printable(folder->path()).c_str());

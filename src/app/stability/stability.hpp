@@ -9,6 +9,7 @@
 #include "dynamics/stability_chart.hpp"
 #include "session/chatter/advice.hpp"
 #include "session/chatter/critical_row.hpp"
+#include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::app {
 
@@ -27,11 +28,12 @@ struct StabilityCall {
     std::vector<StabilityPoint> at;
     std::vector<double> limit_rpm;
     std::optional<dynamics::ChartRange> speeds, depths;  // each with its half of the range
+    std::optional<session::Simulation> simulation;
     session::CutPlace place;
     std::optional<double> resolution_mm;
     bool json = false;
 
-    bool wants_chart() const { return speeds || (at.empty() && limit_rpm.empty()); }
+    bool wants_chart() const { return speeds || (at.empty() && limit_rpm.empty() && !simulation); }
 };
 
 struct ComputedChart {
@@ -46,6 +48,7 @@ struct StabilityAnswer {
     std::vector<StabilityPoint> points;
     std::vector<StabilityLimit> limits;
     std::optional<ComputedChart> chart;
+    std::optional<session::SimulationPeaks> simulated;
 };
 
 // Returns the exit code. Prints errors to stderr, the answer to stdout.

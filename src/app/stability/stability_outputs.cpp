@@ -7,6 +7,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/exit.hpp"
+#include "app/interrupt.hpp"
+#include "app/progress.hpp"
 #include "base/math.hpp"
 #include "files/image/png.hpp"
 #include "files/json/json.hpp"
@@ -176,17 +179,32 @@ std::string limits_csv(const dynamics::StabilityChart& chart) {
     return text;
 }
 
+files::Json simulation_json(const session::Simulation& simulation, const StabilityAnswer& answer) {
+    files::Json json = {{"spindle_rpm", nine(simulation.spindle_rpm)},
+                        {"axial_depth_mm", nine(simulation.axial_depth_mm)},
+                        {"turns", simulation.turns},
+                        {"feed_per_tooth_mm", nine(answer.cut.feed_per_tooth_mm)},
+                        {"rate_hz", session::kVibrationHz},
+                        {"largest_displacement_mm", nine(answer.simulated->displacement_mm)},
+                        {"largest_force_n", nine(answer.simulated->force_n)}};
+    files::set(json, "ended_s", answer.simulated->ended_s);
+    return json;
+}
+
 std::string summary_json(const StabilityCall& call, const StabilityAnswer& answer) {
     const session::SteadyCut& cut = answer.cut;
-    const session::Advice& advice = answer.chart->advice;
     files::Json json;
     json["schema"] = "tribo.stability-summary/1";
     json["version"] = TRIBO_VERSION;
     json["job"] = call.job;
     json["engagement"] = engagement_json(cut);
-    json["point"] = json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here});
-    json["limit"] = json_of(cut.spindle_rpm, advice.limit);
-    add_chart(answer.cut, *answer.chart, json);
+    if (answer.chart) {
+        const session::Advice& advice = answer.chart->advice;
+        json["point"] = json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here});
+        json["limit"] = json_of(cut.spindle_rpm, advice.limit);
+        add_chart(answer.cut, *answer.chart, json);
+    }
+    if (answer.simulated) json["simulation"] = simulation_json(*call.simulation, answer);
     json["modes"] = modes_json(cut);
     json["warnings"] = files::Json::array();
     for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
@@ -201,12 +219,21 @@ std::string title_of(const session::SteadyCut& cut) {
     return text;
 }
 
-constexpr std::array<const char*, 5> kFiles{"stability.csv", "limits.csv", "stability.svg", "stability.png",
-                                            "summary.json"};
+constexpr std::array<const char*, 4> kChartFiles{"stability.csv", "limits.csv", "stability.svg",
+                                                 "stability.png"};
+constexpr const char *kVibration = "vibration.csv", *kSummary = "summary.json";
+
+// Nine significant digits, and a comma or a line end.
+void append(std::string& line, double value, char end) {
+    char text[40];
+    const auto done = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9);
+    line.append(text, done.ptr);
+    line += end;
+}
 
 }  // namespace
 
-std::string stability_json(const StabilityAnswer& answer) {
+std::string stability_json(const StabilityCall& call, const StabilityAnswer& answer) {
     files::Json json;
     json["schema"] = "tribo.stability/1";
     json["points"] = files::Json::array();
@@ -215,6 +242,7 @@ std::string stability_json(const StabilityAnswer& answer) {
     for (const StabilityLimit& l : answer.limits) json["limits"].push_back(json_of(l.spindle_rpm, l.limit));
     json["engagement"] = engagement_json(answer.cut);
     if (answer.chart) add_chart(answer.cut, *answer.chart, json);
+    if (answer.simulated) json["simulation"] = simulation_json(*call.simulation, answer);
     json["modes"] = modes_json(answer.cut);
     return files::pretty(json);
 }
@@ -244,6 +272,13 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
                         answer.cut.cutter.length_mm);
         }
     }
+    if (answer.simulated) {
+        std::printf(
+            "simulated: %d turns at %g rpm and %g mm, %.4g mm per tooth: displaced by at most %.4g mm, "
+            "force at most %.4g N\n",
+            call.simulation->turns, call.simulation->spindle_rpm, call.simulation->axial_depth_mm,
+            cut.feed_per_tooth_mm, answer.simulated->displacement_mm, answer.simulated->force_n);
+    }
     if (!answer.chart) return;
     const dynamics::ChartRange& r = answer.chart->range;
     std::printf("chart: %g to %g rpm in steps of %g rpm%s, to %g mm in steps of %g mm%s\n", r.from_rpm,
@@ -252,22 +287,55 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
     std::printf("advice: %s\n", sentence_of(cut, *answer.chart).c_str());
 }
 
-bool is_chart_file(const std::string& name) {
-    return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();
+bool is_stability_file(const std::string& name) {
+    return name == kVibration || name == kSummary ||
+           std::find(kChartFiles.begin(), kChartFiles.end(), name) != kChartFiles.end();
 }
 
-FileResult<void> write_chart(const StabilityCall& call, const StabilityAnswer& answer,
+FileResult<void> write_vibration(const StabilityCall& call, StabilityAnswer& answer,
+                                 const files::OutputFolder& folder) {
+    const session::Simulation& simulation = *call.simulation;
+    auto file = files::FileWriter::create(folder.file(kVibration));
+    if (!file) return std::unexpected(file.error());
+    file->write("t_s,x_mm,y_mm,z_mm,fx_n,fy_n,fz_n\n");
+    Progress progress;
+    std::string line;
+    answer.simulated = session::simulate(
+        answer.cut, simulation, [&](std::size_t n, const dynamics::VibrationSample& sample) {
+            const double t_s = static_cast<double>(n) / session::kVibrationHz;
+            const Vec3 r = sample.displacement_mm, f = sample.force_n;
+            line.clear();
+            for (const double value : {t_s, r.x, r.y, r.z, f.x, f.y}) append(line, value, ',');
+            append(line, f.z, '\n');
+            file->write(line);
+            progress.update("vibration", t_s / simulation.lasts_s());
+            return !interrupted();
+        });
+    if (answer.simulated->ended_s) {
+        answer.warnings.push_back({call.job, 0,
+                                   words("the simulation ends at %.4g s: the tool moves by more than a tenth "
+                                         "of its diameter, and there the "
+                                         "equations no longer hold",
+                                         *answer.simulated->ended_s)});
+        report(Warnings{answer.warnings.back()});
+    }
+    return file->finish();
+}
+
+FileResult<void> write_files(const StabilityCall& call, const StabilityAnswer& answer,
                              const files::OutputFolder& folder) {
-    const session::SteadyCut& cut = answer.cut;
-    const report::Drawing drawing = report::draw_stability(
-        answer.chart->chart,
-        {title_of(cut), cut.spindle_rpm, cut.axial_depth_mm, answer.chart->advice.here.multiplier <= 1});
-    const std::array<std::string, kFiles.size()> texts{
-        points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),
-        files::png_bytes(report::image_of(drawing)), summary_json(call, answer)};
-    for (std::size_t n = 0; n < kFiles.size(); ++n)
-        if (auto done = files::write_file(folder.file(kFiles[n]), texts[n]); !done) return done;
-    return {};
+    if (answer.chart) {
+        const session::SteadyCut& cut = answer.cut;
+        const report::Drawing drawing = report::draw_stability(
+            answer.chart->chart,
+            {title_of(cut), cut.spindle_rpm, cut.axial_depth_mm, answer.chart->advice.here.multiplier <= 1});
+        const std::array<std::string, kChartFiles.size()> texts{
+            points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),
+            files::png_bytes(report::image_of(drawing))};
+        for (std::size_t n = 0; n < kChartFiles.size(); ++n)
+            if (auto done = files::write_file(folder.file(kChartFiles[n]), texts[n]); !done) return done;
+    }
+    return files::write_file(folder.file(kSummary), summary_json(call, answer));
 }
 
 }  // namespace tribo::app

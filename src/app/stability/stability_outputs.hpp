@@ -10,12 +10,17 @@
 namespace tribo::app {
 
 // The object of --json.
-std::string stability_json(const StabilityAnswer& answer);
+std::string stability_json(const StabilityCall& call, const StabilityAnswer& answer);
 void print(const StabilityCall& call, const StabilityAnswer& answer);
 
-// True for the names of the files of a chart.
-bool is_chart_file(const std::string& name);
-FileResult<void> write_chart(const StabilityCall& call, const StabilityAnswer& answer,
+// True for the names of the files that are written here.
+bool is_stability_file(const std::string& name);
+// Simulates, and writes vibration.csv. Ends early where the run is interrupted. Prints and adds a warning
+// where the simulation ends before its turns do.
+FileResult<void> write_vibration(const StabilityCall& call, StabilityAnswer& answer,
+                                 const files::OutputFolder& folder);
+// The rest: summary.json, and the chart if there is one.
+FileResult<void> write_files(const StabilityCall& call, const StabilityAnswer& answer,
                              const files::OutputFolder& folder);
 
 }  // namespace tribo::app

@@ -11,6 +11,7 @@
 #include "app/options.hpp"
 #include "app/verbs/verbs.hpp"
 #include "base/limits.hpp"
+#include "base/text/limit_text.hpp"
 
 namespace tribo::app {
 namespace {
@@ -57,20 +58,45 @@ CLI::Validator readable(const std::function<bool(const std::string&)>& reads, co
 
 struct Flags {
     std::vector<std::string> at;
-    std::string speeds, depths;
+    std::string speeds, depths, simulate;
+    int turns = 50;
 };
+
+constexpr int kMostTurns = 1'000'000;
+constexpr double kLongestSimulationS = 60;  // a file of some 300 MB
+
+Result<void> read_simulation(const Flags& flags, StabilityCall& call) {
+    StabilityPoint point;
+    read_point(flags.simulate, point);
+    const session::Simulation simulation{point.spindle_rpm, point.axial_depth_mm, flags.turns};
+    if (simulation.lasts_s() > kLongestSimulationS) {
+        const auto fitting = static_cast<int>(kLongestSimulationS * point.spindle_rpm / 60);
+        return fail(
+            "--simulate would last " + plain_number(simulation.lasts_s()) + " s, and " +
+                plain_number(kLongestSimulationS) + " s are the most",
+            fitting > 0 ? "ask for at most --turns " + std::to_string(fitting) : "ask for a higher speed");
+    }
+    call.simulation = simulation;
+    return {};
+}
 
 // What is checked already is read; the rest of the call is checked.
 Result<void> complete(const Flags& flags, StabilityCall& call) {
     for (const std::string& text : flags.at) read_point(text, call.at.emplace_back());
     if (!flags.speeds.empty()) read_speeds(flags.speeds, call.speeds.emplace());
     if (!flags.depths.empty()) read_depths(flags.depths, call.depths.emplace());
+    if (!flags.simulate.empty()) {
+        if (auto good = read_simulation(flags, call); !good) return good;
+        if (call.out.empty())
+            return fail("--simulate writes vibration.csv, and no folder is named for it", "add --out DIR");
+    }
     if (call.wants_chart()) return {};
-    for (const auto& [flag, given] :
-         {std::pair{"--out", !call.out.empty()}, {"--depth", call.depths.has_value()}})
-        if (given)
-            return fail(std::string(flag) + " is for a chart, and --at and --limit ask for none",
-                        "add --rpm FROM:TO:STEP, or leave " + std::string(flag) + " out");
+    const auto without_chart = [](const std::string& flag) {
+        return fail(flag + " is for a chart, and --at, --limit and --simulate ask for none",
+                    "add --rpm FROM:TO:STEP, or leave " + flag + " out");
+    };
+    if (!call.out.empty() && !call.simulation) return without_chart("--out");
+    if (call.depths) return without_chart("--depth");
     return {};
 }
 
@@ -82,7 +108,7 @@ void add_stability(CLI::App& program, int& exit_code) {
     CLI::App* verb = program.add_subcommand(
         "stability", "Say whether a cut chatters, from which depth on, and at which speeds it does not");
     verb->add_option("JOB", call->job, "Job file (TOML) with modes")->required();
-    verb->add_option("--out", call->out, "Folder for the chart; an older one of Tribo's is replaced whole")
+    verb->add_option("--out", call->out, "Folder for the files; an older one of Tribo's is replaced whole")
         ->type_name("DIR");
     CLI::Option* line =
         verb->add_option("--line", call->place.line, "The cut of this line of the program, where it is worst")
@@ -115,17 +141,28 @@ void add_stability(CLI::App& program, int& exit_code) {
             "most " +
                 std::to_string(dynamics::kMostDepths) + " depths"))
         ->type_name("MAX:STEP");
+    const CLI::Validator speed_and_depth = readable(
+        [](const std::string& text) {
+            StabilityPoint point;
+            return read_point(text, point);
+        },
+        "no speed and depth; write RPM:MM, as 8000:1.5, within the ranges of docs/limits.md");
     verb->add_option("--at", flags->at, "Ask for this speed and axial depth; may be given often")
-        ->check(readable(
-            [](const std::string& text) {
-                StabilityPoint point;
-                return read_point(text, point);
-            },
-            "no speed and depth; write RPM:MM, as 8000:1.5, within the ranges of docs/limits.md"))
+        ->check(speed_and_depth)
         ->type_name("RPM:MM");
     verb->add_option("--limit", call->limit_rpm, "Ask for the stable depth at this speed; may be given often")
         ->check(within(kLimits.spindle_speed))
         ->type_name("RPM");
+    CLI::Option* simulate =
+        verb->add_option("--simulate", flags->simulate,
+                         "Simulate this speed and axial depth in time, from rest, into vibration.csv")
+            ->check(speed_and_depth)
+            ->type_name("RPM:MM");
+    verb->add_option("--turns", flags->turns, "Turns of the spindle to simulate")
+        ->check(CLI::Range(1, kMostTurns))
+        ->needs(simulate)
+        ->capture_default_str()
+        ->type_name("N");
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->callback([call, flags, &exit_code] {
         const auto good = complete(*flags, *call);

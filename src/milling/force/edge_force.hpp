@@ -72,7 +72,8 @@ struct EdgeLoad {
     TurnLaw t, r, a, m;
 };
 
-// Returns the load per mm of the profile of the envelope (db = dz / sin kappa), of a chip or of its thickness.
+// Returns the load per mm of the profile of the envelope (db = dz / sin kappa), of a chip or of its
+// thickness.
 EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const ProfilePoint& at);
 EdgeLoad edge_load(const CuttingCoefficients& k, const TurnLaw& thickness, const ProfilePoint& at);
 

@@ -15,7 +15,7 @@ constexpr std::size_t kBandsToCompare = 4;  // enough to tell which row is worse
 
 struct Row {
     std::size_t cutter;
-    double spindle_rpm, start_s, lasts_s;
+    double spindle_rpm, feed_per_tooth_mm, start_s, lasts_s;
     int line;
     milling::ToolFrame frame;
     std::vector<milling::EngagementBand> bands;
@@ -80,6 +80,7 @@ class Search {
         cut.bands = with_fewer_bands(row.bands, bands);
         cut.axial_depth_mm = milling::hull({row.bands, {}}).axial_depth_mm;
         cut.spindle_rpm = row.spindle_rpm;
+        cut.feed_per_tooth_mm = row.feed_per_tooth_mm;
         cut.line = row.line;
         cut.t_s = row.start_s;
         cut.rows = rows_;
@@ -161,8 +162,8 @@ Result<SteadyCut> critical_row(const job::LoadedJob& loaded, MillSetup setup, co
             tilted_line = row.line;
             return;
         }
-        search.add({row.cutter, row.spindle_rpm, row.start_s, row.duration_s(), row.line, row.pose.frame,
-                    row.engagement.bands});
+        search.add({row.cutter, row.spindle_rpm, row.feed.across_mm, row.start_s, row.duration_s(), row.line,
+                    row.pose.frame, row.engagement.bands});
     };
     sinks.progress = progress;
     session.run(sinks);
