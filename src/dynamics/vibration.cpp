@@ -42,7 +42,8 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
     : cutter_(cutter),
       coefficients_(milling::EngagedEdges(cutter, coefficients).coefficients()),
       rate_hz_(rate_hz),
-      lag_per_mm_(cutter.lag_rad(1)) {
+      lag_per_mm_(cutter.lag_rad(1)),
+      straight_(lag_per_mm_ == 0 && cutter.corner_radius_mm() == 0) {
     const double half_s = 0.5 / rate_hz;
     for (const Mode& mode : modes) {
         const double w = math::kTwoPi * mode.frequency_hz, zeta = mode.damping_ratio;
@@ -210,7 +211,7 @@ Vec3 Vibration::cutting_force() {
     cut_ = ~Teeth{0};
     Vec3 sum{};
     for (std::size_t tooth = 0; tooth < phase_rad_.size(); ++tooth) {
-        if (lag_per_mm_ == 0 && cutter_.corner_radius_mm() == 0) {
+        if (straight_) {
             sum += straight_force(tooth);
             continue;
         }
@@ -263,8 +264,12 @@ Vec3 Vibration::straight_force(std::size_t tooth) {
     if (height == 0) return {};
     const double sine = turn_sine_ * phase_cosine_[tooth] + turn_cosine_ * phase_sine_[tooth];
     const double cosine = turn_cosine_ * phase_cosine_[tooth] - turn_sine_ * phase_sine_[tooth];
-    const double thickness =
-        chip_at(chip(tooth, sine, cosine, 0, {.radius_mm = cutter_.radius_mm()}), sine, cosine);
+    const Passage& last = passage(tooth, 0);
+    const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
+    double thickness =
+        last.beyond_mm.x * sine + last.beyond_mm.y * cosine + runout_mm_[tooth] - runout_mm_[other];
+    if ((last.cut & bit(other)) == 0 || !(thickness > 0))
+        thickness = chip_at(chip(tooth, sine, cosine, 0, {.radius_mm = cutter_.radius_mm()}), sine, cosine);
     if (!(thickness > 0)) return {};
     const milling::CuttingCoefficients& k = coefficients_;
     const double tangential = height * (k.ktc * thickness + k.kte);

@@ -97,11 +97,12 @@ class Vibration {
     milling::Cutter cutter_;
     milling::CuttingCoefficients coefficients_;
     double rate_hz_, lag_per_mm_;
+    bool straight_;  // a cylinder without helix: one angle for all bands
     std::vector<Oscillator> oscillators_;
     // Of each tooth ahead of flute 0, and the run-out of a straight one.
     std::vector<double> phase_rad_, phase_sine_, phase_cosine_, runout_mm_;
     // For each tooth, or for all if they are alike: kMostPassages, the last first, of which passages_ fit.
-    static constexpr std::size_t kMostPassages = 64;
+    static constexpr std::size_t kMostPassages = 16;
     bool alike_;
     std::vector<Passage> before_;
     std::size_t passages_ = 1;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
+#include "dynamics/benchmark_slot.hpp"
 
 namespace tribo::dynamics {
 namespace {
@@ -55,12 +56,10 @@ TEST(StabilityChart, asks_for_every_point_and_narrows_the_limits) {
 }
 
 TEST(StabilityChart, has_the_known_limits_of_the_benchmark) {
-    const milling::Cutter cutter{.diameter_mm = 10, .flutes = 2, .helix_deg = 0};
-    const milling::CuttingCoefficients aluminium{600, 200, 0, 0, 0, 0};
-    const Mode mode{{1, 0, 0}, 922, 0.011, 1340.0496480507};
+    const Mode mode = benchmark_mode();
     const auto at = [&](double rpm, double depth_mm) {
         const milling::EngagementBand slot{0, depth_mm, 0, math::kPi};
-        return stability({&mode, 1}, CutFeedback(cutter, aluminium, {&slot, 1}, rpm));
+        return stability({&mode, 1}, CutFeedback(kCutter, kAluminium, {&slot, 1}, rpm));
     };
     const StabilityChart chart = stability_chart({5000, 10'000, 1000, 3.5, 0.05}, at, serial_for);
     const double known[] = {0.4086, 0.3532, 1.1520,

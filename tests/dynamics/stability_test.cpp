@@ -9,6 +9,7 @@
 #include <random>
 
 #include "base/math.hpp"
+#include "dynamics/benchmark_slot.hpp"
 #include "dynamics/chebyshev_collocation.hpp"
 #include "dynamics/semi_discretisation.hpp"
 
@@ -16,16 +17,6 @@ namespace tribo::dynamics {
 namespace {
 
 constexpr double kPi = math::kPi;
-
-// The benchmark of the literature: two teeth, one mode along the feed (Insperger and Stepan 2004).
-const milling::Cutter kCutter{.diameter_mm = 10, .flutes = 2, .helix_deg = 0};
-const milling::CuttingCoefficients kAluminium{600, 200, 0, 0, 0, 0};
-
-Mode benchmark_mode(Vec3 direction = {1, 0, 0}) {
-    constexpr double kMassKg = 0.03993, kHz = 922;
-    const double w = math::kTwoPi * kHz;
-    return {direction, kHz, 0.011, 1e-3 * kMassKg * w * w};
-}
 
 Stability cut(std::span<const Mode> modes, double rpm, double depth, double entry, double exit) {
     const milling::EngagementBand band{0, depth, entry, exit};

@@ -11,6 +11,7 @@
 
 #include "dynamics/benchmark_slot.hpp"
 #include "dynamics/stability.hpp"
+#include "dynamics/surface_by_angle.hpp"
 #include "milling/force/force.hpp"
 
 namespace tribo::dynamics {
@@ -93,6 +94,34 @@ TEST(Vibration, of_chatter_is_bounded_by_teeth_that_leave_the_cut) {
     EXPECT_LT(swing(1, 9000, kFeed, 1000, 40), 0.5 * kFeed);
     // The feed only scales it.
     EXPECT_NEAR(swing(1, 5000, 2 * kFeed, 100, 40) / after_100, 2, 1e-6);
+}
+
+// Another program for the same teeth: what grew is as large.
+TEST(Vibration, of_chatter_is_as_large_as_computed_by_angle) {
+    struct Case {
+        std::vector<Mode> modes;
+        double depth_mm, rpm, tolerance;
+    };
+    for (const auto& [modes, depth_mm, rpm, tolerance] :
+         {Case{{benchmark_mode()}, 0.4, 5000, 0.01}, Case{{benchmark_mode()}, 1, 8000, 0.02},
+          Case{{benchmark_mode()}, 1, 9000, 0.01},
+          Case{{benchmark_mode(), {{0, 1, 0}, 1400, 0.03, 3000}}, 0.4, 8000, 0.02}}) {
+        Vibration vibration(modes, kCutter, kAluminium, kRateHz);
+        const milling::EngagementBand band = slot(depth_mm);
+        constexpr double kFeed = 0.1;
+        constexpr int kTeeth = 160, kLast = 40;
+        vibration.engage({&band, 1}, kFeed, rpm);
+        const int per_tooth = static_cast<int>(kRateHz * 30 / rpm);
+        double largest = 0;
+        for (int n = 0; n < kTeeth * per_tooth; ++n) {
+            const Vec3 r = vibration.step().displacement_mm;
+            if (n >= (kTeeth - kLast) * per_tooth) largest = std::max(largest, length(r));
+        }
+        const std::vector<double> swings =
+            test::swings_by_angle(modes, kCutter, kAluminium, depth_mm, kFeed, rpm, kTeeth, 2000);
+        const double expected = *std::max_element(swings.end() - kLast, swings.end());
+        EXPECT_NEAR(largest / expected, 1, tolerance) << depth_mm << " mm, " << rpm << " rpm";
+    }
 }
 
 struct Tool {
