@@ -69,8 +69,7 @@ struct Limits {
                         "rpm",
                         {0.01, 1e6},
                         "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`, `--spindle-rpm`, `--at`, "
-                        "`--limit`, `--rpm`; S, "
-                        "TOOL CALL S, SPINDL",
+                        "`--limit`, `--rpm`, `--simulate`; S, TOOL CALL S, SPINDL",
                         "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
     Limit dwell{"dwell", "s", {0, 86400}, "G4, CYCL DEF 9, dwells of cycles", "A day at most."};
     Limit rapid{"rapid rate",
@@ -182,7 +181,7 @@ struct Limits {
     Limit axial_depth{"prescribed depth",
                       "mm",
                       {1e-4, 1000},
-                      "`axial_depth_mm`, `--at`, `--depth`",
+                      "`axial_depth_mm`, `--at`, `--depth`, `--simulate`",
                       "As deep as the longest cutting edge. Each mm takes its time."};
 
     // What bends.
@@ -208,7 +207,12 @@ struct Limits {
                      {1e-3, 10},
                      "`--resolution`",
                      "A coarser grid misses whole cuts; a finer one needs more memory than there is."};
-    Limit until{"end of the run", "s", {1e-6, 1e9}, "`--until`", "30 years; programs last hours."};
+    Limit until{"time of a run", "s", {1e-6, 1e9}, "`--until`, `--t`", "30 years; programs last hours."};
+    Limit turns{"turns to simulate",
+                "",
+                {1, 1e6},
+                "`--turns`",
+                "A minute of a fast spindle; longer is refused by time."};
     Limit program_time{"time of the program",
                        "s",
                        {-1e9, 1e9},

@@ -31,28 +31,53 @@ bool read_numbers(std::string_view text, std::initializer_list<double*> values) 
     return at == end;
 }
 
-bool read_point(const std::string& text, StabilityPoint& point) {
-    return read_numbers(text, {&point.spindle_rpm, &point.axial_depth_mm}) &&
-           kLimits.spindle_speed.range.contains(point.spindle_rpm) &&
-           kLimits.axial_depth.range.contains(point.axial_depth_mm);
+// What is wrong with the value; empty: nothing.
+std::string outside(const Limit& limit, double value) {
+    return limit.range.contains(value) ? std::string()
+                                       : out_of_range(limit, value) + "; " + range_remedy(limit);
 }
 
-bool read_speeds(const std::string& text, dynamics::ChartRange& range) {
-    return read_numbers(text, {&range.from_rpm, &range.to_rpm, &range.step_rpm}) &&
-           kLimits.spindle_speed.range.contains(range.from_rpm) &&
-           kLimits.spindle_speed.range.contains(range.to_rpm) && range.speeds_rpm();
+std::string first_of(std::initializer_list<std::string> errors) {
+    for (const std::string& error : errors)
+        if (!error.empty()) return error;
+    return {};
 }
 
-bool read_depths(const std::string& text, dynamics::ChartRange& range) {
-    return read_numbers(text, {&range.most_mm, &range.step_mm}) &&
-           kLimits.axial_depth.range.contains(range.most_mm) &&
-           kLimits.axial_depth.range.contains(range.step_mm) && range.depths_mm();
+// These read a flag and return what is wrong with it.
+std::string read_point(const std::string& text, StabilityPoint& point) {
+    if (!read_numbers(text, {&point.spindle_rpm, &point.axial_depth_mm}))
+        return "'" + text + "' is no speed and depth; write RPM:MM, as 8000:1.5";
+    return first_of({outside(kLimits.spindle_speed, point.spindle_rpm),
+                     outside(kLimits.axial_depth, point.axial_depth_mm)});
 }
 
-// The message, or nothing if the text can be read.
-CLI::Validator readable(const std::function<bool(const std::string&)>& reads, const std::string& what) {
+std::string read_speeds(const std::string& text, dynamics::ChartRange& range) {
+    if (!read_numbers(text, {&range.from_rpm, &range.to_rpm, &range.step_rpm}))
+        return "'" + text + "' is no range of speeds; write FROM:TO:STEP, as 5000:20000:100";
+    const std::string error = first_of(
+        {outside(kLimits.spindle_speed, range.from_rpm), outside(kLimits.spindle_speed, range.to_rpm)});
+    if (!error.empty() || range.speeds_rpm()) return error;
+    return "'" + text + "' is no range of speeds; write FROM:TO:STEP with FROM to TO and at most " +
+           std::to_string(dynamics::kMostSpeeds) + " speeds";
+}
+
+std::string read_depths(const std::string& text, dynamics::ChartRange& range) {
+    if (!read_numbers(text, {&range.most_mm, &range.step_mm}))
+        return "'" + text + "' is no range of depths; write MAX:STEP, as 3:0.05";
+    const std::string error =
+        first_of({outside(kLimits.axial_depth, range.most_mm), outside(kLimits.axial_depth, range.step_mm)});
+    if (!error.empty() || range.depths_mm()) return error;
+    return "'" + text + "' is no range of depths; write MAX:STEP with a step of at most MAX and at most " +
+           std::to_string(dynamics::kMostDepths) + " depths";
+}
+
+template <class Value>
+CLI::Validator readable(std::string (*read)(const std::string&, Value&)) {
     return CLI::Validator(
-        [=](const std::string& text) { return reads(text) ? std::string() : "'" + text + "' is " + what; },
+        [read](const std::string& text) {
+            Value value;
+            return read(text, value);
+        },
         "");
 }
 
@@ -62,7 +87,6 @@ struct Flags {
     int turns = 50;
 };
 
-constexpr int kMostTurns = 1'000'000;
 constexpr double kLongestSimulationS = 60;  // a file of some 300 MB
 
 Result<void> read_simulation(const Flags& flags, StabilityCall& call) {
@@ -122,33 +146,13 @@ void add_stability(CLI::App& program, int& exit_code) {
         ->check(within(kLimits.resolution))
         ->type_name("MM");
     verb->add_option("--rpm", flags->speeds, "Speeds of the chart")
-        ->check(readable(
-            [](const std::string& text) {
-                dynamics::ChartRange range;
-                return read_speeds(text, range);
-            },
-            "no range of speeds; write FROM:TO:STEP, as 5000:20000:100, within the ranges of docs/limits.md "
-            "and with at most " +
-                std::to_string(dynamics::kMostSpeeds) + " speeds"))
+        ->check(readable(read_speeds))
         ->type_name("FROM:TO:STEP");
     verb->add_option("--depth", flags->depths, "Axial depths of the chart, from one step to the largest, mm")
-        ->check(readable(
-            [](const std::string& text) {
-                dynamics::ChartRange range;
-                return read_depths(text, range);
-            },
-            "no range of depths; write MAX:STEP, as 3:0.05, within the ranges of docs/limits.md and with at "
-            "most " +
-                std::to_string(dynamics::kMostDepths) + " depths"))
+        ->check(readable(read_depths))
         ->type_name("MAX:STEP");
-    const CLI::Validator speed_and_depth = readable(
-        [](const std::string& text) {
-            StabilityPoint point;
-            return read_point(text, point);
-        },
-        "no speed and depth; write RPM:MM, as 8000:1.5, within the ranges of docs/limits.md");
     verb->add_option("--at", flags->at, "Ask for this speed and axial depth; may be given often")
-        ->check(speed_and_depth)
+        ->check(readable(read_point))
         ->type_name("RPM:MM");
     verb->add_option("--limit", call->limit_rpm, "Ask for the stable depth at this speed; may be given often")
         ->check(within(kLimits.spindle_speed))
@@ -156,10 +160,10 @@ void add_stability(CLI::App& program, int& exit_code) {
     CLI::Option* simulate =
         verb->add_option("--simulate", flags->simulate,
                          "Simulate this speed and axial depth in time, from rest, into vibration.csv")
-            ->check(speed_and_depth)
+            ->check(readable(read_point))
             ->type_name("RPM:MM");
     verb->add_option("--turns", flags->turns, "Turns of the spindle to simulate")
-        ->check(CLI::Range(1, kMostTurns))
+        ->check(within(kLimits.turns))
         ->needs(simulate)
         ->capture_default_str()
         ->type_name("N");

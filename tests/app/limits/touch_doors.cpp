@@ -101,10 +101,22 @@ Doors flag_doors() {
         feel{"feel", "none.toml", "--stroke", "none.csv", "--out", "trace.csv"},
         learn{"learn", "--recording", "100:none.wav", "--out", "m.json"},
         press{"press", "none.json", "--stroke", "none.csv", "--out", "out"},
-        rub{"rub", "none.json", "--stroke", "none.csv", "--out", "out.wav"};
+        rub{"rub", "none.json", "--stroke", "none.csv", "--out", "out.wav"},
+        stability{"stability", "none.toml"},
+        simulated{"stability", "none.toml", "--out", "out", "--simulate", "1000000:1"};
     const auto with = [](const Limit& limit, std::vector<std::string> call, const std::string& name) {
         call.push_back(name + "={}");
         return flag(limit, call, name);
+    };
+    // Of numbers with a colon between them.
+    const auto of_two = [](const Limit& limit, std::vector<std::string> call, const std::string& name,
+                           const std::string& words, const std::string& other_rule = "") {
+        if (call.size() > 2 && call[call.size() - 2] == name) call.resize(call.size() - 2);
+        call.push_back(name + "=" + words);
+        Door door = flag(limit, call, name);
+        door.name += " " + words;
+        door.other_rule = other_rule;
+        return door;
     };
     const auto worded = [&](const Limit& limit, const std::string& name, const std::string& words,
                             const std::string& other_rule = "") {
@@ -121,6 +133,16 @@ Doors flag_doors() {
         with(l.resolution, feel, "--resolution"),
         with(l.until, render, "--until"),
         with(l.until, feel, "--until"),
+        with(l.until, stability, "--t"),
+        with(l.resolution, stability, "--resolution"),
+        with(l.spindle_speed, stability, "--limit"),
+        of_two(l.spindle_speed, stability, "--at", "{}:1"),
+        of_two(l.axial_depth, stability, "--at", "8000:{}"),
+        of_two(l.spindle_speed, stability, "--rpm", "{}:1000000:100000"),
+        of_two(l.axial_depth, stability, "--depth", "1000:{}", "at most 1000 depths"),
+        of_two(l.spindle_speed, simulated, "--simulate", "{}:1", "would last"),
+        of_two(l.axial_depth, simulated, "--simulate", "8000:{}"),
+        with(l.turns, simulated, "--turns"),
         with(l.memory, render, "--memory"),
         with(l.spindle_speed, program, "--spindle-rpm"),
         with(l.feed, program, "--feed-mm-per-min"),
