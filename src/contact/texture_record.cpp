@@ -116,10 +116,4 @@ Vec3 texture_normal(const TextureRecord& r, Vec3 place_mm, double press_mm, cons
     return weights > 0 ? sum / weights - press_mm * r.normal : Vec3{};
 }
 
-Vec3 combined_normal(const TextureRecord& record, double press_mm) {
-    Vec3 sum;
-    for (const TexturedTriangle& t : record.triangles()) sum += (press_mm + t.height_mm) * t.normal;
-    return sum / 8 - press_mm * record.normal;
-}
-
 }  // namespace tribo::contact

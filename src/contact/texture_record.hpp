@@ -52,7 +52,4 @@ struct TextureBand {
 Vec3 texture_normal(const TextureRecord& record, Vec3 place_mm, double press_mm,
                     const TextureBand& band = {});
 
-// As printed: equal weights for all eight triangles.
-Vec3 combined_normal(const TextureRecord& record, double press_mm);
-
 }  // namespace tribo::contact

@@ -16,16 +16,6 @@ constexpr double kLog2E = 0x1.71547652b82fep+0;
 
 }  // namespace
 
-double pressure_share(ContactShape shape, double rho) {
-    if (!(rho < kReach)) return 0;
-    const double inward = 1 - rho * rho / (kReach * kReach), window = inward * inward;
-    if (shape == ContactShape::point) return window * math::exp(-rho / kDecay);
-    if (rho <= 1) {
-        return window * (1 - kEdgeDrop * (math::exp(5 * (rho - 1)) - kCentre) / (1 - kCentre));
-    }
-    return window * (1 - kEdgeDrop) * math::exp(-(rho - 1) / kDecay);
-}
-
 ShareLaw share_law(ContactShape shape) {
     ShareLaw law;
     law.inner_rate = law.outer_rate = static_cast<float>(-kLog2E / kDecay);

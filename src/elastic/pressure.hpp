@@ -22,17 +22,13 @@ inline constexpr double kReach = 6;
 // Relative decrease of the pressure from the centre of the contact to its edge.
 inline constexpr double kEdgeDrop = 0.2;
 
-// Returns the share of the contact's force that acts at `rho` half axes from its centre: 1 at the centre,
-// falling, 0 from kReach on. Value and slope are continuous (`point`: except at the tip). Under the contact
-// it follows eq. 1, 1 - d (e^(5 (rho - 1)) - e^-5) / (1 - e^-5) with d the edge drop. Around it, it follows
-// eq. 2, an exponential with the length that makes the slope continuous. Both are multiplied by a window that
-// ends them.
-double pressure_share(ContactShape shape, double rho);
-
-// The same in the form of the kernels, with w = 1 - rho^2 / kReach^2:
-// w^2 (inner_base + inner 2^(inner_rate (rho - origin))) up to `edge`, beyond it
-// w^2 outer 2^(outer_rate (rho - origin)) = w^2 outer_from_centre 2^(outer_rate rho).
-// The smaller one of both exponents applies.
+// The share of the contact's force that acts at `rho` half axes from its centre: 1 at the centre, falling, 0
+// from kReach on. Value and slope are continuous (`point`: except at the tip). Under the contact it follows
+// eq. 1, 1 - d (e^(5 (rho - 1)) - e^-5) / (1 - e^-5) with d the edge drop. Around it, it follows eq. 2, an
+// exponential with the length that makes the slope continuous. Both are multiplied by a window that ends
+// them. Here in the form of the kernels, with w = 1 - rho^2 / kReach^2: w^2 (inner_base + inner 2^(inner_rate
+// (rho - origin))) up to `edge`, beyond it w^2 outer 2^(outer_rate (rho - origin)) = w^2 outer_from_centre
+// 2^(outer_rate rho). The smaller one of both exponents applies.
 struct ShareLaw {
     float edge = 0, origin = 0;
     float inner_base = 0, inner = 0, inner_rate = 0;

@@ -215,12 +215,6 @@ void add_passes(Builder& b, const milling::Cutter& cutter, std::span<const motio
 
 }  // namespace
 
-Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min) {
-    motion::ProgramMeter meter;
-    for (const motion::Move& move : program.moves) meter.add(move);
-    return describe(program, meter, format, rapid_mm_per_min);
-}
-
 Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, job::PathKind format,
                double rapid_mm_per_min) {
     const motion::ProgramSummary s = meter.summary(rapid_mm_per_min);

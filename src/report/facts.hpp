@@ -21,9 +21,8 @@ struct Facts {
     Warnings warnings;                                       // the same as in the JSON
 };
 
-// {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...}
-Facts describe(const motion::Program& program, job::PathKind format, double rapid_mm_per_min = 10000);
-// The same for a program whose moves were streamed through `meter`.
+// {kind: "program", moves, path_mm, rapid_mm, bounds_mm, tools, rotary, warnings, ...} of a program whose
+// moves went through `meter`.
 Facts describe(const motion::Program& program, const motion::ProgramMeter& meter, job::PathKind format,
                double rapid_mm_per_min = 10000);
 // {kind: "model", triangles, area_mm2, bounds_mm, closed, pieces, holes, warnings, ...}

@@ -127,13 +127,6 @@ contact::GrooveGeometry grooves_at(const contact::DistanceField& field, const Su
 
 }  // namespace
 
-contact::GrooveGeometry measure_grooves(const contact::DistanceField& machined, const CutterPlace& place,
-                                        const TextureOptions& options) {
-    assert(options.reach_mm > 0);
-    const auto frame = frame_at(machined, place);
-    return frame ? grooves_at(machined, *frame, options) : contact::GrooveGeometry{};
-}
-
 std::optional<contact::TextureRecord> textured_triangles(const contact::DistanceField& machined,
                                                          const CutterPlace& place,
                                                          const TextureOptions& options) {

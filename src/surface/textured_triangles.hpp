@@ -23,17 +23,13 @@ struct TextureOptions {
 };
 
 // Returns the eight triangles at a place: half a pitch to each side, heights over the mean plane of one pitch
-// each way. Returns nothing if there is no surface within reach. A few hundred queries of the field;
-// allocates.
+// each way. Returns nothing if there is no surface within reach. Pitch and height of the grooves across and
+// along the feed come from profiles through the place: the pitch is the shift at which the profile without
+// its form (a parabola) is most like itself (autocorrelation above one half), the height the mean range of a
+// pitch. A given pitch is kept and only its height is measured. 0 if nothing is regular. A few hundred
+// queries of the field; allocates.
 std::optional<contact::TextureRecord> textured_triangles(const contact::DistanceField& machined,
                                                          const CutterPlace& place,
                                                          const TextureOptions& options = {});
-
-// Measures pitch and height of the grooves across and along the feed, from profiles through the place. The
-// pitch is the shift at which the profile without its form (a parabola) is most like itself (autocorrelation
-// above one half). The height is the mean range of a pitch. A given pitch is kept and only its height is
-// measured. 0 if nothing is regular.
-contact::GrooveGeometry measure_grooves(const contact::DistanceField& machined, const CutterPlace& place,
-                                        const TextureOptions& options = {});
 
 }  // namespace tribo::surface

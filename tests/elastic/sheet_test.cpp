@@ -8,6 +8,8 @@
 #include <rapidcheck/gtest.h>
 #include <vector>
 
+#include "elastic/pressure_share.hpp"
+
 namespace tribo::elastic {
 namespace {
 
@@ -150,7 +152,8 @@ TEST(Sheet, pressure_is_the_published_shape_over_an_ellipse) {
                 const double dx = (x + 0.5) * 0.8 - c.x_mm, dy = (y + 0.5) * 0.8 - c.y_mm;
                 const double u = (dx * std::cos(0.5) + dy * std::sin(0.5)) / 4;
                 const double v = (dy * std::cos(0.5) - dx * std::sin(0.5)) / 7;
-                EXPECT_NEAR(sheet.pressures(y)[x], -1.7 * pressure_share(shape, std::hypot(u, v)), 2e-6);
+                EXPECT_NEAR(sheet.pressures(y)[x], -1.7 * test::pressure_share(shape, std::hypot(u, v)),
+                            2e-6);
             }
         }
     }

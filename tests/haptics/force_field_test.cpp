@@ -98,13 +98,6 @@ TEST(HapticTexture, pushes_off_the_crests_and_towards_the_bottom) {
     EXPECT_NEAR(-l.y, 0.2 * 0.05, 0.003);
 }
 
-TEST(HapticTexture, as_printed_is_the_mean_of_the_eight) {
-    const contact::TextureRecord r = groove_record();
-    Vec3 sum;
-    for (const auto& t : r.triangles()) sum += (0.3 + t.height_mm) * t.normal - 0.3 * r.normal;
-    EXPECT_NEAR(distance(contact::combined_normal(r, 0.3), sum / 8), 0, 1e-12);
-}
-
 // 1 mm grooves at 100 mm/s are 100 Hz; at 500 mm/s a loop of 1 kHz would play them as something else.
 TEST(HapticTexture, keeps_only_what_the_loop_carries) {
     EXPECT_EQ(groove_gain(100, 1, 1000), 1);

@@ -10,22 +10,6 @@
 namespace tribo::milling {
 namespace {
 
-TEST(Cutter, envelope_of_a_ball_is_a_circle_and_of_a_flat_a_cylinder) {
-    Cutter ball{.kind = CutterKind::ball, .diameter_mm = 10};
-    EXPECT_EQ(ball.radius_at(0), 0);
-    EXPECT_DOUBLE_EQ(ball.radius_at(1), 3);  // 3, 4, 5
-    EXPECT_DOUBLE_EQ(ball.radius_at(2), 4);
-    EXPECT_EQ(ball.radius_at(5), 5);
-    EXPECT_EQ(ball.radius_at(30), 5);
-    const Cutter flat{.kind = CutterKind::flat, .diameter_mm = 10};
-    EXPECT_EQ(flat.radius_at(0), 5);
-    EXPECT_EQ(flat.radius_at(7), 5);
-    const Cutter bull{.kind = CutterKind::bull, .diameter_mm = 20, .corner_mm = 5};
-    EXPECT_EQ(bull.radius_at(0), 5);
-    EXPECT_DOUBLE_EQ(bull.radius_at(1), 8);
-    EXPECT_EQ(bull.radius_at(5), 10);
-}
-
 TEST(Cutter, edge_lags_by_a_turn_per_lead) {
     const Cutter c{.diameter_mm = 12, .helix_deg = 30};
     const double lead = std::numbers::pi * 12 / std::tan(std::numbers::pi / 6);

@@ -74,8 +74,9 @@ TEST(Peaks, are_kept_when_a_model_is_used_again) {
     (void)model.peaks();
     model.engage(cases[1].cut.engagement, cases[1].cut.feed);
     const ForcePeaks again = model.peaks();
-    const ForcePeaks once =
-        force_peaks(cases[1].cut.cutter, cases[1].cut.k, cases[1].cut.engagement, cases[1].cut.feed);
+    ForceModel fresh(cases[1].cut.cutter, cases[1].cut.k);
+    fresh.engage(cases[1].cut.engagement, cases[1].cut.feed);
+    const ForcePeaks once = fresh.peaks();
     EXPECT_EQ(again.peak_n, once.peak_n);
     EXPECT_EQ(again.peak_torque_nmm, once.peak_torque_nmm);
 }
@@ -118,7 +119,9 @@ TEST(Peaks, of_a_plunge_are_its_mean) {
     c.engagement.bands.clear();
     c.engagement.bottom = {{0, 6, 0, 2 * reference::kPi}};
     c.feed = {0, 0.05};
-    const ForcePeaks p = force_peaks(c.cutter, c.k, c.engagement, c.feed);
+    ForceModel plunge(c.cutter, c.k);
+    plunge.engage(c.engagement, c.feed);
+    const ForcePeaks p = plunge.peaks();
     EXPECT_GT(p.peak_n.z, 100);
     EXPECT_DOUBLE_EQ(p.peak_n.z, p.mean_n.z);
     EXPECT_DOUBLE_EQ(p.peak_torque_nmm, p.mean_torque_nmm);

@@ -6,6 +6,7 @@
 namespace tribo::milling {
 
 using motion::HomogeneousPoint;
+using motion::testing::bezier_pieces;
 
 namespace {
 
@@ -79,8 +80,8 @@ std::vector<std::array<SweptPatch, 4>> swept_circle(const motion::BSplineMotion&
     return all;
 }
 
-std::optional<std::array<Vec3, 2>> flank_grazing_points(const motion::PoseRates& rates, double radius_mm,
-                                                        double height_mm) {
+std::optional<std::array<Vec3, 2>> flank_grazing_points(const motion::testing::PoseRates& rates,
+                                                        double radius_mm, double height_mm) {
     const Vec3 axis = rates.pose.axis, centre = rates.pose.tip_mm + height_mm * axis;
     const Vec3 speed = rates.tip_rate_mm + height_mm * rates.axis_rate;
     const Vec3 across = cross(axis, speed);

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "motion/curve/bspline_motion.hpp"
+#include "motion/made_motions.hpp"
 
 namespace tribo::milling {
 
@@ -37,7 +37,7 @@ std::vector<std::array<SweptPatch, 4>> swept_circle(const motion::BSplineMotion&
 // The two points at this height of a cylinder's flank that the envelope touches just now: where the flank
 // moves along itself, p + s u +- R (u x v) / |u x v| with v = p' + s u'. None while that height moves along
 // the axis.
-std::optional<std::array<Vec3, 2>> flank_grazing_points(const motion::PoseRates& rates, double radius_mm,
-                                                        double height_mm);
+std::optional<std::array<Vec3, 2>> flank_grazing_points(const motion::testing::PoseRates& rates,
+                                                        double radius_mm, double height_mm);
 
 }  // namespace tribo::milling

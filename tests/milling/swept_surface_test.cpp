@@ -14,6 +14,7 @@
 using namespace tribo;
 using namespace tribo::milling;
 using namespace tribo::motion;
+using namespace tribo::motion::testing;
 
 namespace {
 
@@ -161,7 +162,7 @@ TEST(SweptCircle, borders_the_solid_that_is_cut) {
                     EXPECT_LT(distance_to_cut(patch.point(0.25 * i, 0.125 * j)), kOffMm);
     for (int i = 1; i < 20; ++i) {
         const double u = motion->motion.end() * i / 20;
-        const auto flank = flank_grazing_points(motion->motion.rates(u), cutter.radius_mm(), 12);
+        const auto flank = flank_grazing_points(rates(motion->motion, u), cutter.radius_mm(), 12);
         ASSERT_TRUE(flank);
         for (const Vec3& p : *flank) EXPECT_NEAR(distance_to_cut(p), 0, kOffMm) << i;
     }
@@ -170,7 +171,7 @@ TEST(SweptCircle, borders_the_solid_that_is_cut) {
 RC_GTEST_PROP(FlankEnvelope, touches_the_flank_where_it_moves_along_itself, ()) {
     const BezierMotion m = random_motion();
     const double radius = uniform(1, 10), height = uniform(0, 30);
-    const PoseRates r = m.rates(uniform(0, 1));
+    const PoseRates r = rates(m, uniform(0, 1));
     const auto points = flank_grazing_points(r, radius, height);
     RC_PRE(points.has_value());
     const Vec3 centre = r.pose.tip_mm + height * r.pose.axis;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "motion/algebra/direction.hpp"
+#include "motion/made_motions.hpp"
 #include "motion/path/path.hpp"
 #include "random_poses.hpp"
 

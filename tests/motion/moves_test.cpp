@@ -6,6 +6,7 @@
 
 #include "motion/algebra/direction.hpp"
 #include "motion/curve/keyframe_motion.hpp"
+#include "motion/made_motions.hpp"
 #include "motion/path/path.hpp"
 #include "random_poses.hpp"
 

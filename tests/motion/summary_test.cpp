@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "motion/program_summary.hpp"
+
 namespace tribo::motion {
 namespace {
 
 using std::numbers::pi;
+using testing::summary_of;
 
 Move straight(MoveKind kind, Vec3 from, Vec3 to, double feed, int tool) {
     Move move;
@@ -36,7 +39,7 @@ TEST(ProgramSummary, AddsUpAProgramDoneByHand) {
     dwell.duration_s = 2.5;
     program.moves.push_back(dwell);
 
-    const ProgramSummary summary = describe(program, 6000);
+    const ProgramSummary summary = summary_of(program, 6000);
     EXPECT_EQ(summary.moves, 4U);
     EXPECT_EQ(summary.feed_moves, 3U);
     EXPECT_NEAR(summary.path_mm, 60 + 10 * pi, 1e-12);
@@ -49,7 +52,6 @@ TEST(ProgramSummary, AddsUpAProgramDoneByHand) {
     EXPECT_EQ(summary.feed_mm_per_min.most, 600);
     EXPECT_EQ(summary.spindle_rpm.least, 4000);
     EXPECT_EQ(summary.spindle_rpm.most, 5000);
-    EXPECT_FALSE(summary.rotary);
     EXPECT_FALSE(summary.tilted);
     // The rapid's start at z = 100 does not count.
     EXPECT_EQ(summary.bounds_mm.min, (Vec3{0, 0, 0}));
@@ -61,16 +63,15 @@ TEST(ProgramSummary, AddsUpAProgramDoneByHand) {
 TEST(ProgramSummary, SaysWhenTheToolTiltsAndWhenAMachineIsNeeded) {
     Program program;
     program.moves.push_back(straight(MoveKind::feed, {0, 0, 0}, {1, 0, 0}, 100, 0));
-    EXPECT_FALSE(describe(program).tilted);
+    EXPECT_FALSE(summary_of(program).tilted);
     program.moves[0].end.axis = {0, 0.6, 0.8};
     program.has_rotary_words = true;
-    EXPECT_TRUE(describe(program).tilted);
-    EXPECT_NEAR(describe(program).tilt_rad, std::acos(0.8), 1e-12);
-    EXPECT_TRUE(describe(program).rotary);
+    EXPECT_TRUE(summary_of(program).tilted);
+    EXPECT_NEAR(summary_of(program).tilt_rad, std::acos(0.8), 1e-12);
 }
 
 TEST(ProgramSummary, OfNothingIsEmpty) {
-    const ProgramSummary summary = describe({});
+    const ProgramSummary summary = summary_of({});
     EXPECT_EQ(summary.moves, 0U);
     EXPECT_TRUE(summary.bounds_mm.empty());
     EXPECT_TRUE(summary.tools.empty());

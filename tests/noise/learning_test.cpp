@@ -13,6 +13,20 @@
 namespace tribo::noise {
 namespace {
 
+// RMS difference in dB between two power densities at 50 Hz steps from 200 Hz to `to_hz`. Both are scaled to
+// the same mean logarithm, so only the shape counts.
+double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz = 20000) {
+    std::vector<double> difference;
+    for (double hz = 200; hz <= to_hz; hz += 50) {
+        difference.push_back(10 * std::log10(power_at(a, hz) / power_at(b, hz)));
+    }
+    const auto count = static_cast<double>(difference.size());
+    double mean = 0, square = 0;
+    for (const double d : difference) mean += d / count;
+    for (const double d : difference) square += (d - mean) * (d - mean) / count;
+    return std::sqrt(square);
+}
+
 // Poles of two resonances on a falling slope: the process of known spectrum that recordings are drawn from.
 ArModel known_model(double rate_hz) {
     std::vector<double> a{1};

@@ -17,7 +17,9 @@ using Json = nlohmann::json;
 Facts of_program(const char* text) {
     const auto program = job::parse_program(text, "p.ngc", job::PathKind::gcode);
     EXPECT_TRUE(program) << program.error().text();
-    return describe(program.value(), job::PathKind::gcode);
+    motion::ProgramMeter meter;
+    for (const motion::Move& move : program->moves) meter.add(move);
+    return describe(*program, meter, job::PathKind::gcode);
 }
 
 TEST(Facts, of_a_program_have_the_promised_keys) {

@@ -29,7 +29,9 @@ const double kScallop = 5 - std::sqrt(25 - 0.25);
 
 TEST(TexturedTriangles, find_the_pitch_and_height_of_scallops_and_feed_marks) {
     const Marked surface(0.5, 0.008);
-    const contact::GrooveGeometry g = measure_grooves(surface, {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}});
+    const auto record = textured_triangles(surface, {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}});
+    ASSERT_TRUE(record);
+    const contact::GrooveGeometry& g = record->grooves;
     EXPECT_NEAR(g.pitch_across_mm, 1, 0.02);
     EXPECT_NEAR(g.height_across_mm, kScallop, 0.1 * kScallop);
     EXPECT_NEAR(g.pitch_along_mm, 0.5, 0.01);
@@ -38,8 +40,9 @@ TEST(TexturedTriangles, find_the_pitch_and_height_of_scallops_and_feed_marks) {
 
 TEST(TexturedTriangles, keep_a_pitch_that_the_job_knows) {
     const Marked surface(0.5, 0.008);
-    const contact::GrooveGeometry g =
-        measure_grooves(surface, {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}}, {1.0, 0.5, 6});
+    const auto record = textured_triangles(surface, {{0, 0, 1}, {0, 0, 1}, {1, 0, 0}}, {1.0, 0.5, 6});
+    ASSERT_TRUE(record);
+    const contact::GrooveGeometry& g = record->grooves;
     EXPECT_EQ(g.pitch_across_mm, 1);
     EXPECT_EQ(g.pitch_along_mm, 0.5);
     EXPECT_NEAR(g.height_across_mm, kScallop, 0.1 * kScallop);

@@ -28,10 +28,6 @@ constexpr char lower(char c) {
 
 }  // namespace
 
-std::span<const DeviceLimits> known_devices() {
-    return kDevices;
-}
-
 const DeviceLimits& limits_of(std::string_view model) {
     for (const DeviceLimits& device : kDevices) {
         if (!std::ranges::search(model, device.name, {}, lower, lower).empty()) return device;

@@ -19,10 +19,9 @@ struct DeviceLimits {
 // CPhantomDevice, CDeltaDevices and CHaplyDevice), converted from N/m and N s/m. Resolutions are from the
 // data sheets. The force of the Inverse3 is the clamp of NVIDIA's Isaac Lab, below the value of the
 // manufacturer.
-std::span<const DeviceLimits> known_devices();
-
-// The entry whose name is contained in `model` (case is ignored). An unknown model gets the limits of the
-// weakest arm.
+//
+// Returns the entry whose name is contained in `model` (case is ignored). An unknown model gets the limits of
+// the weakest arm.
 const DeviceLimits& limits_of(std::string_view model);
 
 // Limits of simulated arms. They have no motors; the limits only keep the values reasonable.

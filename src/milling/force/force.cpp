@@ -27,11 +27,4 @@ void force_spectrum(const Cutter& cutter, const CuttingCoefficients& coefficient
     force_spectrum(edges, tooth_harmonics, out);
 }
 
-ForcePeaks force_peaks(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                       const Engagement& engagement, const ToolTravel& feed) {
-    EngagedEdges edges(cutter, coefficients);
-    edges.engage(engagement, feed);
-    return PeakFinder().find(edges);
-}
-
 }  // namespace tribo::milling

@@ -56,7 +56,5 @@ class ForceModel {
 void force_spectrum(const Cutter& cutter, const CuttingCoefficients& coefficients,
                     const Engagement& engagement, const ToolTravel& feed, int tooth_harmonics,
                     contact::ForceSpectrum& out);
-ForcePeaks force_peaks(const Cutter& cutter, const CuttingCoefficients& coefficients,
-                       const Engagement& engagement, const ToolTravel& feed);
 
 }  // namespace tribo::milling

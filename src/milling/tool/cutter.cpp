@@ -68,13 +68,6 @@ Result<void> check_pitch(const Cutter& c) {
 
 }  // namespace
 
-double Cutter::radius_at(double z_mm) const {
-    const double corner = corner_radius_mm(), radius = radius_mm();
-    if (z_mm >= corner) return radius;
-    const double below = corner - std::max(z_mm, 0.0);
-    return radius - corner + std::sqrt(corner * corner - below * below);
-}
-
 double Cutter::lag_rad(double z_mm) const {
     return z_mm * math::tan(helix_deg * math::kRadPerDeg) / radius_mm();
 }

@@ -37,8 +37,6 @@ struct Cutter {
     double corner_radius_mm() const {
         return kind == CutterKind::flat ? 0 : kind == CutterKind::ball ? radius_mm() : corner_mm;
     }
-    // Returns the radius of the cutting envelope at height z above the tip, mm; 0 <= z.
-    double radius_at(double z_mm) const;
     // Returns the lag of the edge at height z behind the tip, rad. Constant lead: z tan(helix) / R; < 0 for a
     // left-hand helix.
     double lag_rad(double z_mm) const;

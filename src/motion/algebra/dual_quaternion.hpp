@@ -4,8 +4,7 @@
 // q*, in mm. Any dual quaternion with q != 0 also represents a displacement; only the vector part of t
 // counts. Q and s Q are the same displacement for a real s != 0; therefore weighted curves are rational
 // motions. No allocation; any thread. Sources: Bottema & Roth 1990, Theoretical Kinematics, ch. XIII; Ge &
-// Ravani 1991, J. Mech. Des. 113 (dual quaternion curves); Kavan et al. 2006 (screw interpolation of unit
-// dual quaternions).
+// Ravani 1991, J. Mech. Des. 113 (dual quaternion curves).
 #pragma once
 
 #include <span>
@@ -15,12 +14,6 @@
 #include "motion/path/program.hpp"
 
 namespace tribo::motion {
-
-// real + e dual
-struct DualNumber {
-    double real = 0, dual = 0;
-    constexpr bool operator==(const DualNumber&) const = default;
-};
 
 struct DualQuaternion {
     Quaternion real, dual;
@@ -45,22 +38,6 @@ constexpr DualQuaternion operator*(double s, const DualQuaternion& a) {
 constexpr DualQuaternion operator*(const DualQuaternion& a, const DualQuaternion& b) {
     return {a.real * b.real, a.real * b.dual + a.dual * b.real};
 }
-
-// The three conjugates: q* + e d* (the inverse of a unit), q - e d, and both at once.
-constexpr DualQuaternion quaternion_conjugate(const DualQuaternion& a) {
-    return {conjugate(a.real), conjugate(a.dual)};
-}
-constexpr DualQuaternion dual_conjugate(const DualQuaternion& a) {
-    return {a.real, -a.dual};
-}
-constexpr DualQuaternion combined_conjugate(const DualQuaternion& a) {
-    return {conjugate(a.real), -conjugate(a.dual)};
-}
-
-// |Q| with |Q|^2 = Q Q*: |q| + e (q.d) / |q|. Needs q != 0.
-DualNumber norm(const DualQuaternion& a);
-// Q / |Q|: the unit dual quaternion of the same displacement. Needs q != 0.
-DualQuaternion normalized(const DualQuaternion& a);
 
 // Returns the displacement that first turns, then translates. `rotation` is unit.
 constexpr DualQuaternion displacement(Quaternion rotation, Vec3 translation_mm) {
@@ -87,27 +64,5 @@ DualQuaternion displacement(const ToolPose& pose);
 // Here each frame takes the smallest turn from the frame before (parallel transport along the axis path): the
 // frame never twists about the axis and neighbours lie in one hemisphere: q_i . q_i+1 >= 0. All unit.
 std::vector<DualQuaternion> minimal_twist_displacements(std::span<const ToolPose> poses);
-
-// A displacement in the form of Chasles: a turn about a line and a shift along it.
-struct Screw {
-    Vec3 point_mm;     // point of the line nearest to the origin; the origin for a pure shift
-    Vec3 direction;    // unit
-    double angle_rad;  // 0..pi with a positive sense about direction
-    double shift_mm;   // along direction
-    // Advance per radian, mm; infinite for a pure shift.
-    double pitch_mm_per_rad() const;
-};
-// Returns the screw of a unit dual quaternion. Q and -Q give the same screw, with the turn <= pi.
-Screw screw_of(const DualQuaternion& unit);
-DualQuaternion displacement(const Screw& screw);
-
-// Logarithm of a unit dual quaternion: a dual vector (scalars zero), half angle times line direction in real.
-// exp takes such a dual vector. exp(log Q) = Q for every unit Q.
-DualQuaternion log(const DualQuaternion& unit);
-DualQuaternion exp(const DualQuaternion& dual_vector);
-
-// Screw interpolation: the screw from a to b at constant speed, a at t = 0 and the displacement b at t = 1.
-// It uses the nearer one of b and -b, so that the turn is at most pi. Both unit.
-DualQuaternion screw_interpolate(const DualQuaternion& a, const DualQuaternion& b, double t);
 
 }  // namespace tribo::motion

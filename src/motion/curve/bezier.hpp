@@ -65,22 +65,6 @@ std::pair<std::vector<T>, std::vector<T>> subdivide(const std::vector<T>& contro
     return subdivide(std::span<const T>(control), t);
 }
 
-// Returns the same curve with one more control point.
-template <class T>
-std::vector<T> elevated(std::span<const T> control) {
-    const std::size_t n = control.size();
-    std::vector<T> raised(n + 1);
-    raised.front() = control.front();
-    raised.back() = control.back();
-    for (std::size_t i = 1; i < n; ++i)
-        raised[i] = mix(control[i], control[i - 1], static_cast<double>(i) / static_cast<double>(n));
-    return raised;
-}
-template <class T>
-std::vector<T> elevated(const std::vector<T>& control) {
-    return elevated(std::span<const T>(control));
-}
-
 // Returns the derivative by the parameter, one degree lower (degree 0 for a point).
 template <class T>
 std::vector<T> derivative(std::span<const T> control) {

@@ -2,7 +2,6 @@
 #include "motion/curve/bezier_motion.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 namespace tribo::motion {
 
@@ -21,37 +20,6 @@ bool has_pole(const BezierMotion& motion, int depth) {
 }
 
 }  // namespace
-
-PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate) {
-    const double n = dot(q.real, q.real), n_rate = 2 * dot(q.real, rate.real);
-    const Quaternion along_axis(0, 0, 0, 1);
-    const Vec3 tip = 2.0 / n * (q.dual * conjugate(q.real)).vector();
-    const Vec3 moved = 2.0 * (rate.dual * conjugate(q.real) + q.dual * conjugate(rate.real)).vector();
-    const Vec3 axis = (q.real * along_axis * conjugate(q.real)).vector() / n;
-    // The two halves of (q k q*)' are conjugate to each other except for the sign: their vector parts are
-    // equal.
-    const Vec3 turned = 2.0 * (rate.real * along_axis * conjugate(q.real)).vector();
-    return {{tip, normalized(axis)}, (moved - n_rate * tip) / n, (turned - n_rate * axis) / n};
-}
-
-PoseRates BezierMotion::rates(double t) const {
-    return pose_rates(at(t), de_casteljau(derivative(control), t));
-}
-
-BezierMotion weighted_motion(std::span<const DualQuaternion> units, std::span<const double> weights) {
-    assert(units.size() == weights.size());
-    BezierMotion motion;
-    for (std::size_t i = 0; i < units.size(); ++i) {
-        assert(weights[i] > 0);
-        const bool flip = i > 0 && dot(motion.control.back().real, units[i].real) < 0;
-        motion.control.push_back((flip ? -weights[i] : weights[i]) * units[i]);
-    }
-    return motion;
-}
-
-BezierMotion elevated(const BezierMotion& motion) {
-    return {elevated(motion.control)};
-}
 
 std::pair<BezierMotion, BezierMotion> subdivide(const BezierMotion& motion, double t) {
     auto [left, right] = subdivide(motion.control, t);

@@ -29,28 +29,14 @@ constexpr HomogeneousPoint operator*(double s, HomogeneousPoint a) {
     return {s * a.xyz, s * a.w};
 }
 
-// Pose of the tool and its rate per unit of the motion's parameter (mm, and the change of the axis in rad).
-struct PoseRates {
-    ToolPose pose;
-    Vec3 tip_rate_mm, axis_rate;
-};
-// For the displacement Q with the parameter derivative `rate`; Q of any norm > 0.
-PoseRates pose_rates(const DualQuaternion& q, const DualQuaternion& rate);
-
 struct BezierMotion {
     std::vector<DualQuaternion> control;  // degree + 1, over 0..1; the real part of the curve is nowhere zero
 
     std::size_t degree() const { return control.size() - 1; }
     DualQuaternion at(double t) const { return de_casteljau(control, t); }
     ToolPose pose(double t) const { return tool_pose(at(t)); }
-    PoseRates rates(double t) const;
 };
 
-// Makes a motion from unit dual quaternions and one weight > 0 each. Q and -Q are one displacement but two
-// control points: each gets the sign that brings it nearer to the one before.
-BezierMotion weighted_motion(std::span<const DualQuaternion> units, std::span<const double> weights);
-
-BezierMotion elevated(const BezierMotion& motion);
 std::pair<BezierMotion, BezierMotion> subdivide(const BezierMotion& motion, double t);
 
 // The bilinear form behind the exact paths: for a = b = Q it is the image of the homogeneous point under Q,

@@ -81,21 +81,6 @@ T evaluate(const BSpline<T>& s, double u) {
     return blossom(s, find_span(s, u), std::span<const double>(same.data(), s.degree));
 }
 
-// Returns the same curve with one more knot u (Boehm). u strictly inside, of multiplicity < degree.
-template <class T>
-BSpline<T> with_knot(const BSpline<T>& s, double u) {
-    assert(u > s.start() && u < s.end());
-    const std::size_t k = find_span(s, u), n = s.degree;
-    BSpline<T> r{n, s.knots, s.control};
-    r.knots.insert(r.knots.begin() + static_cast<std::ptrdiff_t>(k) + 1, u);
-    r.control.insert(r.control.begin() + static_cast<std::ptrdiff_t>(k), s.control[k]);
-    for (std::size_t i = k; i > k - n; --i) {
-        const double a = (u - s.knots[i]) / (s.knots[i + n] - s.knots[i]);
-        r.control[i] = mix(s.control[i - 1], s.control[i], std::min(a, 1.0));
-    }
-    return r;
-}
-
 // One piece of a spline over start..end as a Bezier curve over 0..1.
 template <class T>
 struct BezierPiece {
@@ -115,14 +100,6 @@ BezierPiece<T> bezier_piece(const BSpline<T>& s, std::size_t k) {
         piece.control.push_back(blossom(s, k, std::span<const double>(arguments.data(), s.degree)));
     }
     return piece;
-}
-
-template <class T>
-std::vector<BezierPiece<T>> bezier_pieces(const BSpline<T>& s) {
-    std::vector<BezierPiece<T>> pieces;
-    for (std::size_t k = s.degree; k < s.control.size(); ++k)
-        if (s.knots[k] != s.knots[k + 1]) pieces.push_back(bezier_piece(s, k));
-    return pieces;
 }
 
 // Returns the spline of degree n over `knots` whose pieces have the blossom form(k, n arguments), k a span of
@@ -155,24 +132,6 @@ inline std::vector<double> with_multiplicity_raised(std::span<const double> knot
     return raised;
 }
 
-// Returns the same curve one degree higher, equally smooth.
-template <class T>
-BSpline<T> elevated(const BSpline<T>& s) {
-    const std::size_t n = s.degree;
-    const std::vector<double> knots = with_multiplicity_raised(s.knots, 1);
-    return spline_of_blossom<T>(n + 1, knots, [&](std::size_t k, std::span<const double> arguments) {
-        const std::size_t piece = find_span(s, knots[k]);
-        T sum{};
-        std::array<double, kMaxDegree> rest{};
-        for (std::size_t left_out = 0; left_out <= n; ++left_out) {
-            for (std::size_t i = 0, j = 0; i <= n; ++i)
-                if (i != left_out) rest[j++] = arguments[i];
-            sum = sum + blossom(s, piece, std::span<const double>(rest.data(), n));
-        }
-        return (1.0 / static_cast<double>(n + 1)) * sum;
-    });
-}
-
 // Returns multiply(a(u), b(u)) for a bilinear `multiply` and two splines of one degree n over the same knots:
 // a spline of degree 2 n, as smooth as its factors. Its blossom is the mean over all ways to distribute the
 // arguments to the factors (Morken 1991, Constr. Approx. 7).
@@ -196,18 +155,6 @@ auto spline_product(const BSpline<A>& a, const BSpline<B>& b, Multiply multiply)
         }
         return (1.0 / binomial(2 * n, n)) * sum;
     });
-}
-
-// Returns the derivative by u, one degree lower.
-template <class T>
-BSpline<T> derivative(const BSpline<T>& s) {
-    BSpline<T> r{s.degree - 1, {s.knots.begin() + 1, s.knots.end() - 1}, {}};
-    for (std::size_t i = 0; i + 1 < s.control.size(); ++i) {
-        const double width = s.knots[i + s.degree + 1] - s.knots[i + 1];
-        r.control.push_back((static_cast<double>(s.degree) / width) *
-                            (s.control[i + 1] + (-1.0) * s.control[i]));
-    }
-    return r;
 }
 
 }  // namespace tribo::motion

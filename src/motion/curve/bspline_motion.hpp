@@ -19,12 +19,7 @@ struct BSplineMotion {
     double end() const { return spline.end(); }
     DualQuaternion at(double u) const { return evaluate(spline, u); }
     ToolPose pose(double u) const { return tool_pose(at(u)); }
-    PoseRates rates(double u) const;
 };
-
-// Return the same motion with one more knot, or one degree higher.
-BSplineMotion with_knot(const BSplineMotion& motion, double u);
-BSplineMotion elevated(const BSplineMotion& motion);
 
 // The piece between two neighbouring knots; its motion runs over 0..1.
 struct MotionPiece {
@@ -33,18 +28,10 @@ struct MotionPiece {
 };
 // Returns the piece over span k of the spline, knots[k] < knots[k + 1].
 MotionPiece bezier_piece(const BSplineMotion& motion, std::size_t k);
-std::vector<MotionPiece> bezier_pieces(const BSplineMotion& motion);
-
-// Returns the path of a point of the tool as a rational B-spline of degree 2 n over the knots of the motion:
-// exact.
-BSpline<HomogeneousPoint> point_path(const BSplineMotion& motion, Vec3 point_in_tool_mm);
 
 // Returns the motion whose tip runs along `tip` while it turns by `rotation`. Both are splines of one degree
 // n over the same knots, with w > 0 and a rotation that is nowhere zero. The result has degree 2 n and their
 // smoothness; exact.
 BSplineMotion motion_along(const BSpline<HomogeneousPoint>& tip, const BSpline<Quaternion>& rotation);
-
-// Returns the smallest norm_margin of its pieces.
-double norm_margin(const BSplineMotion& motion);
 
 }  // namespace tribo::motion

@@ -214,13 +214,6 @@ bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move&
     return true;
 }
 
-std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like, const PieceTolerance& tolerance) {
-    std::vector<Move> moves;
-    append_moves(motion, motion.start(), motion.end(), like, tolerance,
-                 std::numeric_limits<std::size_t>::max(), moves);
-    return moves;
-}
-
 std::vector<Move> to_elementary(const Move& move, const PieceTolerance& tolerance) {
     switch (pieces_of(move, tolerance)) {
         case Pieces::arcs:

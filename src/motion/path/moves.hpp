@@ -22,14 +22,10 @@ inline constexpr double kMaxPieceTurnRad = 0.5235987755982988;
 // No piece that turns is longer than this: up to here the nearest instant of a sweep is found reliably.
 inline constexpr double kMaxTurningPieceMm = 10;
 
-// Returns the whole motion as moves that join end to start, each with the words (kind, feed, line, ...) of
-// `like`. Straight pieces with one axis become plain straight moves, and neighbours in one line are merged.
-// All others become quadratic pieces. The exact control points of tip path and axis decide this.
-std::vector<Move> to_moves(const BSplineMotion& motion, const Move& like,
-                           const PieceTolerance& tolerance = {});
-
-// Appends the moves of the part of the motion from parameter u0 to u1 > u0. Returns false if they are more
-// than `most`; some are then appended.
+// Appends the part of the motion from parameter u0 to u1 > u0 as moves that join end to start, each with the
+// words (kind, feed, line, ...) of `like`. Straight pieces with one axis become plain straight moves, and
+// neighbours in one line are merged. All others become quadratic pieces. The exact control points of tip path
+// and axis decide this. Returns false if they are more than `most`; some are then appended.
 bool append_moves(const BSplineMotion& motion, double u0, double u1, const Move& like,
                   const PieceTolerance& tolerance, std::size_t most, std::vector<Move>& moves);
 

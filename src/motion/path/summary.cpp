@@ -65,12 +65,4 @@ ProgramSummary ProgramMeter::summary(double rapid_mm_per_min) const {
     return summary;
 }
 
-ProgramSummary describe(const Program& program, double rapid_mm_per_min) {
-    ProgramMeter meter;
-    for (const Move& move : program.moves) meter.add(move);
-    ProgramSummary summary = meter.summary(rapid_mm_per_min);
-    summary.rotary = program.has_rotary_words;
-    return summary;
-}
-
 }  // namespace tribo::motion

@@ -22,7 +22,6 @@ struct ProgramSummary {
     double rapid_mm = 0;     // rapids whose start and end are known
     Box3 bounds_mm;          // of feed moves with their start points and true arcs; may be empty
     std::vector<int> tools;  // numbers of used tools, ascending, each once; without 0
-    bool rotary = false;     // axis words A B C, which need a machine
     bool tilted = false;     // the tool axis leaves +z in a feed move
     double tilt_rad = 0;     // the largest tilt, at starts and ends of feed moves
     Range feed_mm_per_min;   // of feed moves
@@ -33,8 +32,7 @@ struct ProgramSummary {
 class ProgramMeter {
   public:
     void add(const Move& move);  // in the program's order
-    // Summary of the moves so far; rapids run at `rapid_mm_per_min` > 0. `rotary` must be set from the
-    // program.
+    // Summary of the moves so far; rapids run at `rapid_mm_per_min` > 0.
     ProgramSummary summary(double rapid_mm_per_min = 10'000) const;
 
   private:
@@ -43,8 +41,5 @@ class ProgramMeter {
     ProgramSummary so_far_;
     int last_tool_ = 0;
 };
-
-// Returns the summary of a program's moves.
-ProgramSummary describe(const Program& program, double rapid_mm_per_min = 10'000);
 
 }  // namespace tribo::motion

@@ -84,18 +84,6 @@ std::vector<double> modulation_density(std::span<const double> sound, double sam
     return density;
 }
 
-double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz) {
-    std::vector<double> difference;
-    for (double hz = 200; hz <= to_hz; hz += 50) {
-        difference.push_back(10 * math::log10(power_at(a, hz) / power_at(b, hz)));
-    }
-    const auto count = static_cast<double>(difference.size());
-    double mean = 0, square = 0;
-    for (const double d : difference) mean += d / count;
-    for (const double d : difference) square += (d - mean) * (d - mean) / count;
-    return std::sqrt(square);
-}
-
 std::vector<double> power_spectrum(std::span<const double> sound, std::size_t frame) {
     assert((frame & (frame - 1)) == 0);
     std::vector<double> window(frame), power(frame / 2);

@@ -23,10 +23,6 @@ std::vector<double> frame_levels_db(std::span<const double> sound, std::size_t f
 std::vector<double> modulation_density(std::span<const double> sound, double sample_rate_hz,
                                        std::span<const double> hz);
 
-// RMS difference in dB between two power densities at 50 Hz steps from 200 Hz to `to_hz`. Both are scaled to
-// the same mean logarithm, so only the shape counts.
-double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz = 20000);
-
 // Power density in `bands` equal steps of frequency from 0 to half the rate, as band means. It is the mean
 // over half-overlapping frames of `frame` samples under a Hann window. Its mean is the mean square.
 std::vector<double> power_spectrum(std::span<const double> sound, std::size_t frame = 1024);

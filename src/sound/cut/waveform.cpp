@@ -28,7 +28,6 @@ void Waveform::add_frame(float sample) {
     }
     ++frames_;
     peak_ = std::max(peak_, std::abs(sample));
-    energy_ += static_cast<double>(sample) * static_cast<double>(sample);
     if (!columns_.empty() && in_column_ < column_frames_) {
         columns_.back() = {std::min(columns_.back().min, sample), std::max(columns_.back().max, sample)};
         ++in_column_;
@@ -44,10 +43,6 @@ void Waveform::add_frame(float sample) {
     }
     columns_.push_back({sample, sample});
     in_column_ = 1;
-}
-
-double Waveform::rms() const {
-    return frames_ == 0 ? 0 : std::sqrt(energy_ / static_cast<double>(frames_));
 }
 
 }  // namespace tribo::sound

@@ -36,7 +36,6 @@ class Waveform {
     const std::vector<DetailWindow>& zooms() const { return zooms_; }
     // Largest |sample|.
     float peak() const { return peak_; }
-    double rms() const;
 
   private:
     void add_frame(float sample);
@@ -48,7 +47,6 @@ class Waveform {
     std::int64_t in_column_ = 0;  // frames in the last column
     std::vector<DetailWindow> zooms_;
     float peak_ = 0;
-    double energy_ = 0;
 };
 
 }  // namespace tribo::sound

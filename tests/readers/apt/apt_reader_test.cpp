@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "motion/path/summary.hpp"
+#include "motion/program_summary.hpp"
 #include "readers/apt/apt_text.hpp"
 #include "readers/real_files.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -215,7 +215,7 @@ TEST(AptReader, ReadsARealProgramToTheLengthOfAnIndependentScript) {
     options.default_unit = LengthUnit::inch;
     options.default_feed_mm_per_min = 1000;
     const Program program = apt(*bytes, options);
-    const motion::ProgramSummary summary = motion::describe(program);
+    const motion::ProgramSummary summary = motion::testing::summary_of(program);
     EXPECT_EQ(summary.moves, 3684U);
     EXPECT_NEAR(summary.path_mm, 4220.786663, 1e-6);
     EXPECT_NEAR(distance(summary.bounds_mm.min, {-209.02168, -114.55146, -103.93172}), 0, 1e-9);
@@ -230,7 +230,7 @@ TEST(AptReader, ReadsARealProgramWithFramesAndCycles) {
     const auto bytes = real_file("aptpost-3x-tilt-support.apt");
     if (!bytes) GTEST_SKIP() << "no ../shared/data/gcode";
     const Program program = apt(*bytes);
-    const motion::ProgramSummary summary = motion::describe(program);
+    const motion::ProgramSummary summary = motion::testing::summary_of(program);
     EXPECT_EQ(summary.tools, (std::vector<int>{4, 6, 16}));
     EXPECT_EQ(program.tools.size(), 3U);
     EXPECT_TRUE(summary.tilted);

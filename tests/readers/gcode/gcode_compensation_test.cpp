@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 #include <string>
 
-#include "motion/path/summary.hpp"
+#include "motion/program_summary.hpp"
 #include "readers/gcode/gcode_text.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -108,7 +108,7 @@ TEST(GcodeCompensation, FollowsThePathsOfLinuxcnc) {
     for (const Contour& c : contours) {
         const Program program =
             program_of(std::string("G21 G90 G94 G17\nF100 S1000 M3\nG0 X0 Y0 Z5\n") + c.text);
-        const motion::ProgramSummary summary = motion::describe(program);
+        const motion::ProgramSummary summary = motion::testing::summary_of(program);
         EXPECT_EQ(summary.feed_moves, c.feed_moves) << c.name;
         EXPECT_NEAR(summary.path_mm, c.feed_mm, 1e-6) << c.name;
         for (int axis = 0; axis < 2; ++axis) {

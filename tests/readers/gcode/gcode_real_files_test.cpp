@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "motion/path/summary.hpp"
+#include "motion/program_summary.hpp"
 #include "readers/gcode/gcode_text.hpp"
 #include "readers/real_files.hpp"
 
@@ -57,7 +57,7 @@ TEST(GcodeReader, ReadsRealProgramsAsLinuxcncDoes) {
         const auto bytes = real_file(expected.name);
         if (!bytes) GTEST_SKIP() << "no ../shared/data/gcode";
         const motion::Program program = program_of(*bytes);
-        const motion::ProgramSummary summary = motion::describe(program);
+        const motion::ProgramSummary summary = motion::testing::summary_of(program);
         if (expected.feed_moves != 0) {
             EXPECT_EQ(summary.feed_moves, expected.feed_moves) << expected.name;
         }
@@ -75,7 +75,7 @@ TEST(GcodeReader, ReadsAWholeProgramToItsLengthAndBounds) {
         "%\n(a plate)\nN10 G21 G90 G17 G54\nN20 T1 M6\nN30 S3000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX40\n"
         "G3 X50 Y10 I0 J10\nG1 Y30\no101 repeat [3]\nG91 G1 X-10\nG90\no101 endrepeat\n"
         "G3 X20 Y30 Z-3 I0 J-5\nG0 Z5\nG81 X10 Y10 Z-4 R2 F200\nX20\nG80\nM5\nM2\n%\n");
-    const motion::ProgramSummary summary = motion::describe(program);
+    const motion::ProgramSummary summary = motion::testing::summary_of(program);
     using std::numbers::pi;
     EXPECT_EQ(summary.feed_moves, 10u);
     EXPECT_NEAR(summary.path_mm, 6 + 40 + 5 * pi + 20 + 30 + std::hypot(10 * pi, 2) + 2 * 6, 1e-9);
