@@ -2,7 +2,6 @@
 #include "motion/algebra/dual_quaternion.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "motion/algebra/direction.hpp"
 #include "random_poses.hpp"
@@ -10,10 +9,6 @@
 using namespace tribo;
 using namespace tribo::motion;
 using namespace tribo::motion::testing;
-
-namespace {
-constexpr double kPi = std::numbers::pi;
-}
 
 TEST(Quaternion, units_multiply_as_hamilton_carved) {
     const Quaternion i(0, 1, 0, 0), j(0, 0, 1, 0), k(0, 0, 0, 1), minus_one(-1, 0, 0, 0);
