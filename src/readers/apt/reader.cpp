@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "readers/apt/arcs.hpp"
+#include "readers/apt/circles/arcs.hpp"
 #include "readers/apt/clearance.hpp"
 #include "readers/apt/cycle.hpp"
 #include "readers/apt/lexer.hpp"

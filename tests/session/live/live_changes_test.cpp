@@ -2,7 +2,7 @@
 // Changes of a live mill while it runs: feed, spindle, material and helix, and its files.
 #include <gtest/gtest.h>
 
-#include "session/live_viewer.hpp"
+#include "session/live/live_viewer.hpp"
 
 namespace tribo::session {
 namespace {

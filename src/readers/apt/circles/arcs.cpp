@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "readers/apt/arcs.hpp"
+#include "readers/apt/circles/arcs.hpp"
 
 #include <utility>
 
-#include "readers/apt/catia_circle.hpp"
+#include "readers/apt/circles/catia_circle.hpp"
 
 namespace tribo::readers::apt {
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "readers/apt/circle.hpp"
+#include "readers/apt/circles/circle.hpp"
 #include "readers/apt/path.hpp"
 
 namespace tribo::readers::apt {

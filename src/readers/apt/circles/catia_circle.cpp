@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/apt/catia_circle.hpp"
+#include "readers/apt/circles/catia_circle.hpp"
 
 #include <cmath>
 #include <utility>

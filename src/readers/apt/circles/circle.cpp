@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/apt/circle.hpp"
+#include "readers/apt/circles/circle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "field/contour/contour.hpp"
-#include "session/live_viewer.hpp"
+#include "session/live/live_viewer.hpp"
 
 namespace tribo::session {
 namespace {
