@@ -61,30 +61,14 @@ double CutFeedback::rotation(int tooth, double t_s) const {
 
 template <class Use>
 void CutFeedback::for_each_zone(double rotation_rad, Use&& use) const {
-    for (const milling::EngagementBand& band : bands_) {
-        const double bottom = rotation_rad - lag_per_mm_ * band.z0_mm;
-        const double top = rotation_rad - lag_per_mm_ * band.z1_mm;
-        const double low = std::min(bottom, top), high = std::max(bottom, top);
-        // The edge stands from low to high; it cuts from entry to exit, in every turn.
-        double turn = math::kTwoPi * std::ceil((low - band.exit_rad) / math::kTwoPi);
-        for (; band.entry_rad + turn <= high; turn += math::kTwoPi) {
-            if (lag_per_mm_ == 0) {
-                if (low < band.exit_rad + turn) use(Zone{band.z0_mm, band.z1_mm});
-                continue;
-            }
-            const double from = std::max(low, band.entry_rad + turn),
-                         to = std::min(high, band.exit_rad + turn);
-            const double z_from = (rotation_rad - from) / lag_per_mm_,
-                         z_to = (rotation_rad - to) / lag_per_mm_;
-            if (to > from) use(Zone{std::min(z_from, z_to), std::max(z_from, z_to)});
-        }
-    }
+    for (const milling::EngagementBand& band : bands_)
+        dynamics::for_each_zone(band, rotation_rad, lag_per_mm_, use);
 }
 
 Matrix3 CutFeedback::stiffness(int tooth, double t_s) const {
     const double rotation_rad = rotation(tooth, t_s), corner = cutter_.corner_radius_mm();
     Matrix3 sum{};
-    for_each_zone(rotation_rad, [&](Zone cut) {
+    for_each_zone(rotation_rad, [&](EngagedZone cut) {
         if (cut.z0_mm < corner) add_rounded(rotation_rad, {cut.z0_mm, std::min(cut.z1_mm, corner)}, sum);
         if (cut.z1_mm > corner) add_straight(rotation_rad, {std::max(cut.z0_mm, corner), cut.z1_mm}, sum);
     });
@@ -92,7 +76,7 @@ Matrix3 CutFeedback::stiffness(int tooth, double t_s) const {
 }
 
 // In closed form: a mean over an angle is the value in its middle times sin(x) / x.
-void CutFeedback::add_straight(double rotation_rad, Zone cut, Matrix3& sum) const {
+void CutFeedback::add_straight(double rotation_rad, EngagedZone cut, Matrix3& sum) const {
     const double height = cut.z1_mm - cut.z0_mm, half_rad = 0.5 * lag_per_mm_ * height;
     double sine, cosine, half_sine, half_cosine;
     math::sincos(rotation_rad - 0.5 * lag_per_mm_ * (cut.z0_mm + cut.z1_mm), sine, cosine);
@@ -107,7 +91,7 @@ void CutFeedback::add_straight(double rotation_rad, Zone cut, Matrix3& sum) cons
     sum[2] += {-k.kac * once * sine, -k.kac * once * cosine, 0};
 }
 
-void CutFeedback::add_rounded(double rotation_rad, Zone cut, Matrix3& sum) const {
+void CutFeedback::add_rounded(double rotation_rad, EngagedZone cut, Matrix3& sum) const {
     // Over the angle of the edge's normal to the axis, with the length of the edge for its width.
     const double corner = cutter_.corner_radius_mm();
     const double from = math::acos(1 - cut.z0_mm / corner), to = math::acos(1 - cut.z1_mm / corner);
@@ -139,7 +123,7 @@ double CutFeedback::spring(double t_s) const {
 bool CutFeedback::cuts(double t_s) const {
     bool any = false;
     for (int tooth = 0; tooth < teeth(); ++tooth)
-        for_each_zone(rotation(tooth, t_s), [&](Zone) { any = true; });
+        for_each_zone(rotation(tooth, t_s), [&](EngagedZone) { any = true; });
     return any;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dynamics/engaged_zone.hpp"
 #include "milling/engagement/engagement.hpp"
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
@@ -44,16 +45,13 @@ class CutFeedback {
     bool cuts(double t_s) const;
 
   private:
-    struct Zone {
-        double z0_mm, z1_mm;
-    };
     // The parts of the bands in which a tooth at that rotation cuts.
     template <class Use>
     void for_each_zone(double rotation_rad, Use&& use) const;
     double rotation(int tooth, double t_s) const;
     // Adds S of a piece of one edge: below the rounded part's top, and above it.
-    void add_rounded(double rotation_rad, Zone cut, Matrix3& sum) const;
-    void add_straight(double rotation_rad, Zone cut, Matrix3& sum) const;
+    void add_rounded(double rotation_rad, EngagedZone cut, Matrix3& sum) const;
+    void add_straight(double rotation_rad, EngagedZone cut, Matrix3& sum) const;
     void find_events();
 
     milling::Cutter cutter_;

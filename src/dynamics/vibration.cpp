@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/math.hpp"
-#include "dynamics/engaged_zone.hpp"
 #include "milling/engagement/engaged_edges.hpp"
 
 namespace tribo::dynamics {
@@ -215,8 +214,11 @@ Vec3 Vibration::cutting_force() {
             sum += straight_force(tooth);
             continue;
         }
-        for (const Slice& slice : slices_)
-            sum += slice.round ? round_force(tooth, slice.band) : cylinder_force(tooth, slice.band);
+        for (const Slice& slice : slices_) {
+            for_each_zone(slice.band, tip_rad(tooth), lag_per_mm_, [&](EngagedZone zone) {
+                sum += slice.round ? round_force(tooth, zone) : cylinder_force(tooth, zone);
+            });
+        }
     }
     return sum;
 }
@@ -278,11 +280,9 @@ Vec3 Vibration::straight_force(std::size_t tooth) {
     return {-tangential * cosine - radial * sine, tangential * sine - radial * cosine, -axial};
 }
 
-Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand& band) {
+Vec3 Vibration::cylinder_force(std::size_t tooth, EngagedZone zone) {
     const double tip = tip_rad(tooth);
-    const EngagedZone zone = engaged_zone(band, tip, lag_per_mm_);
     double height = zone.z1_mm - zone.z0_mm;
-    if (!(height > 0)) return {};
     double low = tip - lag_per_mm_ * zone.z1_mm, high = tip - lag_per_mm_ * zone.z0_mm;
     if (low > high) std::swap(low, high);
     const double middle = 0.5 * (low + high);
@@ -307,11 +307,8 @@ Vec3 Vibration::cylinder_force(std::size_t tooth, const milling::EngagementBand&
     return milling::segment_force(milling::edge_load(coefficients_, law, at), low, high, height).force_n;
 }
 
-Vec3 Vibration::round_force(std::size_t tooth, const milling::EngagementBand& band) {
-    const double tip = tip_rad(tooth);
-    const EngagedZone zone = engaged_zone(band, tip, lag_per_mm_);
-    if (!(zone.z1_mm > zone.z0_mm)) return {};
-    const double corner = cutter_.corner_radius_mm();
+Vec3 Vibration::round_force(std::size_t tooth, EngagedZone zone) {
+    const double tip = tip_rad(tooth), corner = cutter_.corner_radius_mm();
     const double from = math::acos(std::clamp(1 - zone.z0_mm / corner, -1.0, 1.0)),
                  to = math::acos(std::clamp(1 - zone.z1_mm / corner, -1.0, 1.0));
     Vec3 sum{};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dynamics/engaged_zone.hpp"
 #include "dynamics/mode.hpp"
 #include "milling/engagement/engagement.hpp"
 #include "milling/force/edge_force.hpp"
@@ -88,8 +89,8 @@ class Vibration {
     milling::TurnLaw chip(std::size_t tooth, double sine, double cosine, double lag_rad,
                           const milling::ProfilePoint& at);
     Vec3 straight_force(std::size_t tooth);
-    Vec3 cylinder_force(std::size_t tooth, const milling::EngagementBand& band);
-    Vec3 round_force(std::size_t tooth, const milling::EngagementBand& band);
+    Vec3 cylinder_force(std::size_t tooth, EngagedZone zone);
+    Vec3 round_force(std::size_t tooth, EngagedZone zone);
     void stands_clear(std::size_t tooth) { cut_ &= ~bit(tooth); }
     static Teeth bit(std::size_t tooth) { return tooth < 64 ? Teeth{1} << tooth : 0; }
     double tip_rad(std::size_t tooth) const { return rotation_rad_ + phase_rad_[tooth]; }
