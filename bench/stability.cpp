@@ -27,7 +27,7 @@ void measure_vibration(Report& report, int repeats) {
     const milling::EngagementBand slot{0, kDepthMm, 0, math::kPi};
     const double ns = median_of(5 * repeats, [&] {
         dynamics::Vibration vibration(modes, cutter, aluminium, kRateHz);
-        vibration.engage({&slot, 1}, kFeedMm, kRpm);
+        vibration.engage({&slot, 1}, {.across_mm = kFeedMm}, kRpm);
         const double start = thread_s();
         for (int n = 0; n < kTeeth * kPerTooth; ++n) keep(vibration.step());
         return 1e9 * (thread_s() - start) / (kTeeth * kPerTooth);

@@ -30,6 +30,10 @@ std::array<double, 4> cubic(double t) {
             (t + 1) * t * (t - 1) / 6};
 }
 
+double in_turn(double angle_rad) {
+    return angle_rad - math::kTwoPi * std::floor(angle_rad / math::kTwoPi);
+}
+
 double chip_at(const milling::TurnLaw& law, double sine, double cosine) {
     return law.sine * sine + law.cosine * cosine + law.constant;
 }
@@ -37,12 +41,16 @@ double chip_at(const milling::TurnLaw& law, double sine, double cosine) {
 }  // namespace
 
 Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
-                     const milling::CuttingCoefficients& coefficients, double rate_hz)
+                     const milling::CuttingCoefficients& coefficients, double rate_hz, double rotation_rad)
     : cutter_(cutter),
       coefficients_(milling::EngagedEdges(cutter, coefficients).coefficients()),
       rate_hz_(rate_hz),
       lag_per_mm_(cutter.lag_rad(1)),
-      straight_(lag_per_mm_ == 0 && cutter.corner_radius_mm() == 0) {
+      straight_(lag_per_mm_ == 0 && cutter.corner_radius_mm() == 0),
+      first_rad_(rotation_rad),
+      rotation_rad_(rotation_rad),
+      turn_rad_(in_turn(rotation_rad)) {
+    math::sincos(turn_rad_, turn_sine_, turn_cosine_);
     const double half_s = 0.5 / rate_hz;
     for (const Mode& mode : modes) {
         const double w = math::kTwoPi * mode.frequency_hz, zeta = mode.damping_ratio;
@@ -88,10 +96,18 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
     }
 }
 
-void Vibration::engage(std::span<const milling::EngagementBand> bands, double feed_per_tooth_mm,
-                       double spindle_rpm) {
+void Vibration::turn_modes(std::span<const Mode> modes) {
+    for (std::size_t n = 0; n < oscillators_.size(); ++n)
+        oscillators_[n].direction = normalized(modes[n].direction);
+}
+
+void Vibration::engage(std::span<const milling::EngagementBand> bands, const milling::ToolTravel& per_tooth,
+                       double spindle_rpm, double feed_rad) {
     slices_.clear();
     for (milling::EngagementBand band : bands) {
+        // Rotations run clockwise.
+        band.entry_rad -= feed_rad;
+        band.exit_rad -= feed_rad;
         const double corner = std::clamp(cutter_.corner_radius_mm(), band.z0_mm, band.z1_mm);
         const double top = band.z1_mm;
         band.z1_mm = corner;
@@ -100,7 +116,13 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, double fe
         band.z1_mm = top;
         add_slices(band, false);
     }
-    feed_mm_per_rad_ = feed_per_tooth_mm * cutter_.flutes / math::kTwoPi;
+    double sine, cosine;
+    math::sincos(feed_rad, sine, cosine);
+    const milling::ToolTravel feed = (cutter_.flutes / math::kTwoPi) * per_tooth;
+    feed_per_rad_ = {{cosine * feed.across_mm, sine * feed.across_mm, -feed.down_mm},
+                     cosine * feed.turn_x_rad - sine * feed.turn_y_rad,
+                     sine * feed.turn_x_rad + cosine * feed.turn_y_rad};
+    turns_ = turns_ || feed.turns();
     const double step_rad = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
     if (step_rad == step_rad_) return;
     step_rad_ = step_rad;
@@ -141,7 +163,7 @@ void Vibration::add_slices(const milling::EngagementBand& band, bool round) {
     }
     count = std::max(count, 1.0);
     for (int n = 0; n < static_cast<int>(count); ++n) {
-        Slice slice{band, round, band.entry_rad - math::kTwoPi * std::floor(band.entry_rad / math::kTwoPi)};
+        Slice slice{band, round, in_turn(band.entry_rad)};
         slice.band.z0_mm = band.z0_mm + height * n / count;
         slice.band.z1_mm = band.z0_mm + height * (n + 1) / count;
         slices_.push_back(slice);
@@ -161,8 +183,10 @@ VibrationSample Vibration::step() {
         o.q_mm = o.q_by_q * q + o.q_by_v * v + o.q_by_force * along;
         o.v_mm_per_s = o.v_by_q * q + o.v_by_v * v + o.v_by_force * along;
     }
-    past_[samples_ & (past_.size() - 1)] = {rotation_rad_, now.displacement_mm, cut_};
+    past_[samples_ & (past_.size() - 1)] = {
+        rotation_rad_, {fed_.tip_mm + now.displacement_mm, fed_.turn_x_rad, fed_.turn_y_rad}, cut_};
     ++samples_;
+    add(fed_, step_rad_, feed_per_rad_);
     rotation_rad_ += step_rad_;
     turn_rad_ += step_rad_;
     if (turn_rad_ >= math::kTwoPi) turn_rad_ -= math::kTwoPi;
@@ -182,14 +206,18 @@ const Vibration::Passage& Vibration::passage(std::size_t tooth, std::size_t k) {
     return p;
 }
 
-// By a cubic through the four samples around it. Before the first sample nothing was displaced.
+// By a cubic through the four samples around it. Before the first sample the feed was the same and nothing
+// was displaced.
 void Vibration::look_back(Passage& p) const {
     p.known_at = samples_ + 1;
-    p.beyond_mm = displacement_mm_;
-    p.beyond_mm.x += feed_mm_per_rad_ * p.back_rad;
+    p.beyond = {displacement_mm_};
     p.cut = ~Teeth{0};
     const double at_rad = rotation_rad_ - p.back_rad;
-    if (samples_ < 4 || !(at_rad > 0)) return;
+    if (samples_ < 4 || !(at_rad > first_rad_)) {
+        add(p.beyond, p.back_rad, feed_per_rad_);
+        return;
+    }
+    add(p.beyond, 1, fed_);
     const auto back = static_cast<std::size_t>(std::ceil(p.back_samples));
     std::size_t n = back < samples_ ? samples_ - back : 0;
     std::array<double, 4> weights = p.weights;
@@ -200,17 +228,29 @@ void Vibration::look_back(Passage& p) const {
         const double from = sample(n).rotation_rad, to = sample(n + 1).rotation_rad;
         weights = cubic((at_rad - from) / (to - from));
     }
-    if (n > 0) p.beyond_mm -= weights[0] * sample(n - 1).displacement_mm;
-    p.beyond_mm -= weights[1] * sample(n).displacement_mm + weights[2] * sample(n + 1).displacement_mm +
-                   weights[3] * sample(n + 2).displacement_mm;
+    // The sample before the first one stood a step of the feed before it.
+    if (n > 0) {
+        add(p.beyond, -weights[0], sample(n - 1).place);
+    } else {
+        add(p.beyond, -weights[0], sample(0).place);
+        add(p.beyond, weights[0] * step_rad_, feed_per_rad_);
+    }
+    for (std::size_t k = 1; k < 4; ++k) add(p.beyond, -weights[k], sample(n + k - 1).place);
     p.cut = sample(n).cut & sample(n + 1).cut;
+}
+
+void Vibration::add(Place& sum, double times, const Place& place) const {
+    sum.tip_mm += times * place.tip_mm;
+    if (!turns_) return;
+    sum.turn_x_rad += times * place.turn_x_rad;
+    sum.turn_y_rad += times * place.turn_y_rad;
 }
 
 Vec3 Vibration::cutting_force() {
     cut_ = ~Teeth{0};
     Vec3 sum{};
     for (std::size_t tooth = 0; tooth < phase_rad_.size(); ++tooth) {
-        if (straight_) {
+        if (straight_ && !turns_) {
             sum += straight_force(tooth);
             continue;
         }
@@ -232,14 +272,17 @@ milling::TurnLaw Vibration::chip(std::size_t tooth, double sine, double cosine, 
                                                             phase_rad_[of_tooth] + lag_rad);
     };
     const double own = cutter_.runout_mm == 0 ? 0 : radius(tooth);
+    const double arm = at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa;
     milling::TurnLaw thinnest;
     double least = 0;
     for (std::size_t k = 0; k < passages_; ++k) {
         const Passage& p = passage(tooth, k);
         const std::size_t other = (tooth + k + 1) % teeth;
         const double offset = cutter_.runout_mm == 0 ? 0 : own - radius(other);
-        const milling::TurnLaw law{p.beyond_mm.x * at.sin_kappa, p.beyond_mm.y * at.sin_kappa,
-                                   offset * at.sin_kappa - p.beyond_mm.z * at.cos_kappa};
+        const Vec3 tip = p.beyond.tip_mm;
+        const milling::TurnLaw law{tip.x * at.sin_kappa + p.beyond.turn_x_rad * arm,
+                                   tip.y * at.sin_kappa + p.beyond.turn_y_rad * arm,
+                                   offset * at.sin_kappa - tip.z * at.cos_kappa};
         const double thickness = chip_at(law, sine, cosine);
         if (k == 0 || thickness < least) {
             thinnest = law;
@@ -269,7 +312,7 @@ Vec3 Vibration::straight_force(std::size_t tooth) {
     const Passage& last = passage(tooth, 0);
     const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
     double thickness =
-        last.beyond_mm.x * sine + last.beyond_mm.y * cosine + runout_mm_[tooth] - runout_mm_[other];
+        last.beyond.tip_mm.x * sine + last.beyond.tip_mm.y * cosine + runout_mm_[tooth] - runout_mm_[other];
     if ((last.cut & bit(other)) == 0 || !(thickness > 0))
         thickness = chip_at(chip(tooth, sine, cosine, 0, {.radius_mm = cutter_.radius_mm()}), sine, cosine);
     if (!(thickness > 0)) return {};
@@ -286,7 +329,8 @@ Vec3 Vibration::cylinder_force(std::size_t tooth, EngagedZone zone) {
     double low = tip - lag_per_mm_ * zone.z1_mm, high = tip - lag_per_mm_ * zone.z0_mm;
     if (low > high) std::swap(low, high);
     const double middle = 0.5 * (low + high);
-    const milling::ProfilePoint at{.radius_mm = cutter_.radius_mm()};
+    const milling::ProfilePoint at{.radius_mm = cutter_.radius_mm(),
+                                   .height_mm = 0.5 * (zone.z0_mm + zone.z1_mm)};
     double middle_sine, middle_cosine;
     math::sincos(middle, middle_sine, middle_cosine);
     const milling::TurnLaw law = chip(tooth, middle_sine, middle_cosine, tip - middle, at);

@@ -31,20 +31,25 @@ struct VibrationSample {
 // which the force before foretells there. Samples stand in the middles of the steps. One thread.
 class Vibration {
   public:
-    // At rest. `cutter` and `coefficients` must pass their check(). rate_hz: samples per second, some tens of
-    // times the frequency of each mode. Directions of the modes in the frame of the cut.
+    // At rest, with flute 0 at `rotation_rad` from y. `cutter` and `coefficients` must pass their check().
+    // rate_hz: samples per second, some tens of times the frequency of each mode. Directions of the modes in
+    // the frame of the vibration; no modes: a rigid tool.
     Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
-              const milling::CuttingCoefficients& coefficients, double rate_hz);
+              const milling::CuttingCoefficients& coefficients, double rate_hz, double rotation_rad = 0);
 
-    // The cut from the next sample on: bands of the lateral edge, mean feed per tooth >= 0, speed > 0 with at
-    // least four samples from tooth to tooth. What the teeth left before stays. Allocates for more bands or a
-    // lower speed than before.
-    void engage(std::span<const milling::EngagementBand> bands, double feed_per_tooth_mm, double spindle_rpm);
+    // The cut from the next sample on: bands of the lateral edge, mean travel per tooth, speed > 0 with at
+    // least four samples from tooth to tooth. Bands and travel are in the frame of the feed, whose x is
+    // `feed_rad` from that of the vibration, counterclockwise seen from the shank. What the teeth left before
+    // stays. Allocates for more bands or a lower speed than before.
+    void engage(std::span<const milling::EngagementBand> bands, const milling::ToolTravel& per_tooth,
+                double spindle_rpm, double feed_rad = 0);
+    // Other directions of the modes, as many as there are: the frame of the vibration turned against them.
+    void turn_modes(std::span<const Mode> modes);
 
-    // The next sample. The first is at rest, with flute 0 on y. Real-time safe.
+    // The next sample. The first is at rest. Real-time safe.
     VibrationSample step();
 
-    // Rotation of the next sample, from 0 on.
+    // Rotation of the next sample, from that at the start on.
     double rotation_rad() const { return rotation_rad_; }
 
   private:
@@ -64,16 +69,21 @@ class Vibration {
     };
     // A bit for each of the first 64 teeth: it cut wherever it was engaged. Others count as not having cut.
     using Teeth = std::uint64_t;
+    // Where the tool stands against the part: by its feed and by its displacement.
+    struct Place {
+        Vec3 tip_mm;
+        double turn_x_rad = 0, turn_y_rad = 0;  // of the axis
+    };
     struct Sample {
         double rotation_rad = 0;
-        Vec3 displacement_mm{};
+        Place place{};
         Teeth cut = 0;
     };
     // A tooth that passed before: how far back, and by how much this tooth stands beyond its surface now.
     struct Passage {
         double back_rad = 0, back_samples = 0;
         std::array<double, 4> weights{};  // of the samples around it while the speed does not change
-        Vec3 beyond_mm{};
+        Place beyond{};
         Teeth cut = 0;
         std::size_t known_at = 0;  // number of the sample after which the two above were computed
     };
@@ -84,6 +94,8 @@ class Vibration {
     // The k-th tooth before this one at its place, 0: the one just before it.
     const Passage& passage(std::size_t tooth, std::size_t k);
     void look_back(Passage& passage) const;
+    // sum += times * place
+    void add(Place& sum, double times, const Place& place) const;
     Vec3 cutting_force();
     // The law of the surface that stands highest at this rotation.
     milling::TurnLaw chip(std::size_t tooth, double sine, double cosine, double lag_rad,
@@ -108,12 +120,14 @@ class Vibration {
     std::vector<Passage> before_;
     std::size_t passages_ = 1;
     std::vector<Slice> slices_;
-    double feed_mm_per_rad_ = 0, step_rad_ = 0, step_sine_ = 0, step_cosine_ = 1;
+    Place feed_per_rad_{}, fed_{};  // by the feed alone
+    bool turns_ = false;            // the axis has turned
+    double step_rad_ = 0, step_sine_ = 0, step_cosine_ = 1;
     // The samples so far in a ring, whose length is a power of two; from even_from_ on at the same speed.
     std::vector<Sample> past_;
     std::size_t samples_ = 0, even_from_ = 0;
-    // Rotation of flute 0 at the next sample, from 0 on and in the turn.
-    double rotation_rad_ = 0, turn_rad_ = 0, turn_sine_ = 0, turn_cosine_ = 1;
+    // Rotation of flute 0 at the start; at the next sample; the same in the turn.
+    double first_rad_, rotation_rad_, turn_rad_, turn_sine_ = 0, turn_cosine_ = 1;
     Vec3 force_n_{}, displacement_mm_{};
     Teeth cut_ = 0;
 };

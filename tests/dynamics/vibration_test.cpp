@@ -39,7 +39,7 @@ double growth_per_tooth(double depth_mm, double rpm) {
     double feed = 1e-3;
     std::vector<double> r;
     for (std::size_t n = 0; n < kTeeth; ++n, feed *= kFactor) {
-        vibration.engage({&band, 1}, feed, rpm);
+        vibration.engage({&band, 1}, {.across_mm = feed}, rpm);
         for (std::size_t k = 0; k < tooth; ++k) r.push_back(vibration.step().displacement_mm.x);
     }
     std::vector<double> d(r.size());
@@ -72,7 +72,7 @@ double swing(double depth_mm, double rpm, double feed_mm, int teeth, int last) {
     const Mode mode = benchmark_mode();
     const milling::EngagementBand band = slot(depth_mm);
     Vibration vibration({&mode, 1}, kCutter, kAluminium, kRateHz);
-    vibration.engage({&band, 1}, feed_mm, rpm);
+    vibration.engage({&band, 1}, {.across_mm = feed_mm}, rpm);
     const int per_tooth = static_cast<int>(kRateHz * 30 / rpm);
     double low = 1e9, high = -1e9;
     for (int n = 0; n < teeth * per_tooth; ++n) {
@@ -110,7 +110,7 @@ TEST(Vibration, of_chatter_is_as_large_as_computed_by_angle) {
         const milling::EngagementBand band = slot(depth_mm);
         constexpr double kFeed = 0.1;
         constexpr int kTeeth = 160, kLast = 40;
-        vibration.engage({&band, 1}, kFeed, rpm);
+        vibration.engage({&band, 1}, {.across_mm = kFeed}, rpm);
         const int per_tooth = static_cast<int>(kRateHz * 30 / rpm);
         double largest = 0;
         for (int n = 0; n < kTeeth * per_tooth; ++n) {
@@ -131,28 +131,57 @@ struct Tool {
 
 class RigidTool : public testing::TestWithParam<Tool> {};
 
-// Modes a billion times as stiff: the force is that of milling/force.
-TEST_P(RigidTool, cuts_as_one_that_does_not_bend) {
-    const auto& [cutter, tolerance] = GetParam();
-    const milling::CuttingCoefficients k{1700, 600, 300, 15, 10, 5};
+constexpr milling::CuttingCoefficients kSteel{1700, 600, 300, 15, 10, 5};
+
+milling::Engagement two_bands() {
     milling::Engagement engagement;
     engagement.bands = {{0, 1.5, 0.3, 2.2}, {1.5, 6, 0.5, 2.6}};
-    constexpr double kFeed = 0.08, kRpm = 6000;
-    milling::ForceModel rigid(cutter, k);
-    rigid.engage(engagement, {.across_mm = kFeed});
-    std::array modes{benchmark_mode(), benchmark_mode({0.3, 1, 0.2})};
-    for (Mode& mode : modes) mode.stiffness_n_per_mm *= 1e9;
-    Vibration vibration(modes, cutter, k, kRateHz);
-    vibration.engage(engagement.bands, kFeed, kRpm);
+    return engagement;
+}
+
+Vec3 turned(Vec3 v, double angle_rad) {
+    const double sine = std::sin(angle_rad), cosine = std::cos(angle_rad);
+    return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z};
+}
+
+// The greatest difference from the force of milling/force over two turns, of the greatest force. x of the
+// feed is `feed_rad` from that of the vibration.
+double off_rigid(Vibration& vibration, const milling::Cutter& cutter, const milling::ToolTravel& feed,
+                 double feed_rad) {
+    constexpr double kRpm = 6000;
+    milling::ForceModel rigid(cutter, kSteel);
+    rigid.engage(two_bands(), feed);
+    vibration.engage(two_bands().bands, feed, kRpm, feed_rad);
     double largest = 0, worst = 0;
     for (int n = 0; n < 2 * kRateHz * 60 / kRpm; ++n) {
-        const double rotation = vibration.rotation_rad();
-        const Vec3 expected = rigid.at(rotation).force_n;
+        const Vec3 expected = turned(rigid.at(vibration.rotation_rad() + feed_rad).force_n, feed_rad);
         largest = std::max(largest, length(expected));
         worst = std::max(worst, length(vibration.step().force_n - expected));
     }
     EXPECT_GT(largest, 100);
-    EXPECT_LT(worst / largest, tolerance);
+    return worst / largest;
+}
+
+// Modes a billion times as stiff: the force is that of milling/force.
+TEST_P(RigidTool, cuts_as_one_that_does_not_bend) {
+    const auto& [cutter, tolerance] = GetParam();
+    std::array modes{benchmark_mode(), benchmark_mode({0.3, 1, 0.2})};
+    for (Mode& mode : modes) mode.stiffness_n_per_mm *= 1e9;
+    Vibration vibration(modes, cutter, kSteel, kRateHz);
+    EXPECT_LT(off_rigid(vibration, cutter, {.across_mm = 0.08}, 0), tolerance);
+}
+
+// Without modes, on a path that goes down, with an axis that turns. The rigid model takes the arm of the
+// turning and the slope of a round profile in the middles of its own slices.
+TEST_P(RigidTool, cuts_in_any_direction_with_an_axis_that_turns) {
+    const auto& [cutter, tolerance] = GetParam();
+    Vibration straight({}, cutter, kSteel, kRateHz, -0.7);
+    const double sloped = std::max(tolerance, cutter.corner_radius_mm() > 0 ? 2e-3 : 0);
+    EXPECT_LT(off_rigid(straight, cutter, {.across_mm = 0.08, .down_mm = 0.01}, 0.7), sloped);
+    Vibration turning({}, cutter, kSteel, kRateHz, 12.5);
+    const milling::ToolTravel turn{
+        .across_mm = 0.08, .down_mm = 0.01, .turn_x_rad = 1e-4, .turn_y_rad = -2e-4};
+    EXPECT_LT(off_rigid(turning, cutter, turn, -2.1), std::max(sloped, 2e-3));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -174,7 +203,7 @@ TEST(Vibration, at_low_speed_is_force_over_stiffness) {
                            Mode{{0, 0, 1}, 4000, 0.3, 50'000, ModeOn::part}};
     Vibration vibration(modes, cutter, k, kRateHz);
     const milling::EngagementBand band{0, 3, 0.4, 2.2};
-    vibration.engage({&band, 1}, 0.05, 20);
+    vibration.engage({&band, 1}, {.across_mm = 0.05}, 20);
     const int per_turn = static_cast<int>(kRateHz) * 3;
     double largest = 0, worst = 0;
     for (int n = 0; n < 2 * per_turn; ++n) {
@@ -195,10 +224,56 @@ TEST(Vibration, knows_no_tool_and_no_part) {
     Vibration of_tool({&mode, 1}, kCutter, kAluminium, kRateHz);
     mode.on = ModeOn::part;
     Vibration of_part({&mode, 1}, kCutter, kAluminium, kRateHz);
-    of_tool.engage({&band, 1}, 0.1, 7000);
-    of_part.engage({&band, 1}, 0.1, 7000);
+    of_tool.engage({&band, 1}, {.across_mm = 0.1}, 7000);
+    of_part.engage({&band, 1}, {.across_mm = 0.1}, 7000);
     for (int n = 0; n < 10'000; ++n)
         ASSERT_EQ(of_tool.step().displacement_mm, of_part.step().displacement_mm);
+}
+
+// The same cut seen from a frame that is turned against it.
+TEST(Vibration, is_the_same_in_a_turned_frame) {
+    constexpr double kTurn = 0.9;
+    const milling::EngagementBand band{0, 1, 0.2, 2.4};
+    const std::array modes{Mode{{1, 0, 0}, 900, 0.02, 8000}, Mode{{0.2, 1, 0.3}, 1300, 0.03, 6000}};
+    std::array by_frame = modes;
+    for (Mode& mode : by_frame) mode.direction = turned(mode.direction, kTurn);
+    Vibration straight(modes, kCutter, kAluminium, kRateHz);
+    Vibration other(by_frame, kCutter, kAluminium, kRateHz, -kTurn);
+    straight.engage({&band, 1}, {.across_mm = 0.1}, 7000);
+    other.engage({&band, 1}, {.across_mm = 0.1}, 7000, kTurn);
+    double largest = 0;
+    for (int n = 0; n < 6000; ++n) {
+        const Vec3 one = straight.step().displacement_mm, two = other.step().displacement_mm;
+        largest = std::max(largest, length(one));
+        ASSERT_LT(length(turned(one, kTurn) - two), 1e-9) << n;
+    }
+    EXPECT_GT(largest, 1e-3);
+}
+
+// A circle is as many short straight feeds as one likes: a rigid tool feels the chip of one feed per tooth
+// across the direction in which it goes now, up to the turning of the feed from tooth to tooth.
+TEST(Vibration, follows_a_feed_that_turns) {
+    constexpr double kRpm = 6000, kFeed = 0.1, kTurnPerTooth = 2e-3;
+    const milling::EngagementBand band{0, 1, 0, kPi};
+    milling::ForceModel rigid(kCutter, kAluminium);
+    milling::Engagement engagement;
+    engagement.bands = {band};
+    rigid.engage(engagement, {.across_mm = kFeed});
+    Vibration vibration({}, kCutter, kAluminium, kRateHz);
+    const double per_tooth = kRateHz * 60 / kRpm / kCutter.flutes;
+    double largest = 0, worst = 0;
+    for (int n = 0; n < 400 * per_tooth; ++n) {
+        const double feed_rad = kTurnPerTooth * n / per_tooth;
+        vibration.engage({&band, 1}, {.across_mm = kFeed}, kRpm, feed_rad);
+        const Vec3 expected = turned(rigid.at(vibration.rotation_rad() + feed_rad).force_n, feed_rad);
+        const Vec3 force = vibration.step().force_n;
+        const double into_cut = std::fmod(vibration.rotation_rad() + feed_rad, kPi);
+        if (into_cut < 0.05 || into_cut > kPi - 0.05) continue;  // entry and exit: the step that turned
+        largest = std::max(largest, length(expected));
+        worst = std::max(worst, length(force - expected));
+    }
+    EXPECT_GT(largest, 10);
+    EXPECT_LT(worst / largest, 2 * kTurnPerTooth);
 }
 
 // In air nothing is felt, and what swings dies out at the rate of the modes.
@@ -206,9 +281,9 @@ TEST(Vibration, dies_out_in_air) {
     const Mode mode{{1, 0, 0}, 500, 0.02, 5000};
     Vibration vibration({&mode, 1}, kCutter, kAluminium, kRateHz);
     const milling::EngagementBand band = slot(2);
-    vibration.engage({&band, 1}, 0.1, 6000);
+    vibration.engage({&band, 1}, {.across_mm = 0.1}, 6000);
     for (int n = 0; n < 5000; ++n) (void)vibration.step();
-    vibration.engage({}, 0.1, 6000);
+    vibration.engage({}, {.across_mm = 0.1}, 6000);
     std::vector<double> peaks;
     double before = 0, now = 0;
     for (int n = 0; n < 20'000; ++n) {
@@ -231,7 +306,7 @@ TEST(Vibration, goes_on_when_the_speed_changes) {
     Vibration vibration({&mode, 1}, kCutter, kAluminium, kRateHz);
     Vec3 before{};
     for (const double rpm : {9000.0, 4000.0, 12'000.0, 300.0, 20'000.0}) {
-        vibration.engage({&band, 1}, 0.1, rpm);
+        vibration.engage({&band, 1}, {.across_mm = 0.1}, rpm);
         for (int n = 0; n < 3000; ++n) {
             const Vec3 r = vibration.step().displacement_mm;
             ASSERT_LT(length(r - before), 0.02) << rpm << " " << n;

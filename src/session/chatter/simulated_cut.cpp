@@ -27,7 +27,8 @@ SimulationPeaks simulate(const SteadyCut& cut, const Simulation& simulation,
                          const std::function<bool(std::size_t n, const dynamics::VibrationSample&)>& visit) {
     const int steps = steps_of(cut, simulation.spindle_rpm);
     dynamics::Vibration vibration(cut.modes, cut.cutter, cut.coefficients, steps * kVibrationHz);
-    vibration.engage(cut.bands_at(simulation.axial_depth_mm), cut.feed_per_tooth_mm, simulation.spindle_rpm);
+    vibration.engage(cut.bands_at(simulation.axial_depth_mm), {.across_mm = cut.feed_per_tooth_mm},
+                     simulation.spindle_rpm);
     SimulationPeaks peaks;
     const auto samples = static_cast<std::size_t>(std::ceil(simulation.lasts_s() * kVibrationHz));
     for (std::size_t n = 0; n < samples; ++n) {
