@@ -18,9 +18,9 @@ constexpr double kSliceRad = 0.25, kProfileRad = 0.4;
 constexpr double kMostKept = 262'144;
 // Samples after which sine and cosine are computed anew.
 constexpr std::size_t kFreshEvery = 256;
-// Nodes and weights of Gauss and Legendre on [-1, 1].
-constexpr std::array<double, 4> kNodes{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
-                                       0.86113631159405258};
+// Points and weights of Gauss and Legendre on [-1, 1].
+constexpr std::array<double, 4> kPoints{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
+                                        0.86113631159405258};
 constexpr std::array<double, 4> kWeights{0.34785484513745386, 0.65214515486254614, 0.65214515486254614,
                                          0.34785484513745386};
 
@@ -96,6 +96,24 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
     }
 }
 
+double enough_rate_hz(std::span<const Mode> modes, const milling::Cutter& cutter, double spindle_rpm) {
+    constexpr double kPerCycle = 20, kPerTooth = 8;
+    double fastest_hz = 0;
+    for (const Mode& mode : modes) fastest_hz = std::max(fastest_hz, mode.frequency_hz);
+    // With unequal pitch some teeth follow sooner.
+    double least_pitch_deg = 360.0 / cutter.flutes;
+    for (const double pitch : cutter.pitch_deg) least_pitch_deg = std::min(least_pitch_deg, pitch);
+    const double tooth_hz = spindle_rpm / 60 * 360 / least_pitch_deg;
+    return std::max(kPerCycle * fastest_hz, kPerTooth * tooth_hz);
+}
+
+void Vibration::scale_modes(double factor) {
+    for (Oscillator& o : oscillators_) {
+        o.q_mm *= factor;
+        o.v_mm_per_s *= factor;
+    }
+}
+
 void Vibration::turn_modes(std::span<const Mode> modes) {
     for (std::size_t n = 0; n < oscillators_.size(); ++n)
         oscillators_[n].direction = normalized(modes[n].direction);
@@ -163,9 +181,20 @@ void Vibration::add_slices(const milling::EngagementBand& band, bool round) {
     }
     count = std::max(count, 1.0);
     for (int n = 0; n < static_cast<int>(count); ++n) {
-        Slice slice{band, round, in_turn(band.entry_rad)};
+        Slice slice;
+        slice.band = band;
+        slice.round = round;
+        slice.entry_rad = in_turn(band.entry_rad);
+        slice.span_rad = std::abs(lag_per_mm_) * height / count;
         slice.band.z0_mm = band.z0_mm + height * n / count;
         slice.band.z1_mm = band.z0_mm + height * (n + 1) / count;
+        const EngagedZone all{slice.band.z0_mm, slice.band.z1_mm};
+        slice.low_rad = in_turn(band.entry_rad + lag_per_mm_ * (lag_per_mm_ > 0 ? all.z1_mm : all.z0_mm));
+        if (round) {
+            slice.nodes = nodes_of(all);
+        } else {
+            slice.piece = piece_of(all);
+        }
         slices_.push_back(slice);
     }
 }
@@ -254,11 +283,7 @@ Vec3 Vibration::cutting_force() {
             sum += straight_force(tooth);
             continue;
         }
-        for (const Slice& slice : slices_) {
-            for_each_zone(slice.band, tip_rad(tooth), lag_per_mm_, [&](EngagedZone zone) {
-                sum += slice.round ? round_force(tooth, zone) : cylinder_force(tooth, zone);
-            });
-        }
+        for (const Slice& slice : slices_) sum += slice_force(tooth, slice);
     }
     return sum;
 }
@@ -307,8 +332,7 @@ Vec3 Vibration::straight_force(std::size_t tooth) {
             height += slice.band.z1_mm - slice.band.z0_mm;
     }
     if (height == 0) return {};
-    const double sine = turn_sine_ * phase_cosine_[tooth] + turn_cosine_ * phase_sine_[tooth];
-    const double cosine = turn_cosine_ * phase_cosine_[tooth] - turn_sine_ * phase_sine_[tooth];
+    const double sine = tip_sine(tooth), cosine = tip_cosine(tooth);
     const Passage& last = passage(tooth, 0);
     const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
     double thickness =
@@ -323,53 +347,88 @@ Vec3 Vibration::straight_force(std::size_t tooth) {
     return {-tangential * cosine - radial * sine, tangential * sine - radial * cosine, -axial};
 }
 
-Vec3 Vibration::cylinder_force(std::size_t tooth, EngagedZone zone) {
-    const double tip = tip_rad(tooth);
-    double height = zone.z1_mm - zone.z0_mm;
-    double low = tip - lag_per_mm_ * zone.z1_mm, high = tip - lag_per_mm_ * zone.z0_mm;
-    if (low > high) std::swap(low, high);
-    const double middle = 0.5 * (low + high);
-    const milling::ProfilePoint at{.radius_mm = cutter_.radius_mm(),
-                                   .height_mm = 0.5 * (zone.z0_mm + zone.z1_mm)};
-    double middle_sine, middle_cosine;
-    math::sincos(middle, middle_sine, middle_cosine);
-    const milling::TurnLaw law = chip(tooth, middle_sine, middle_cosine, tip - middle, at);
-    const auto thickness = [&](double rotation) {
-        double sine, cosine;
-        math::sincos(rotation, sine, cosine);
-        return chip_at(law, sine, cosine);
-    };
-    const double at_low = thickness(low), at_high = thickness(high);
-    if (at_low <= 0 || at_high <= 0) stands_clear(tooth);
-    if (at_low <= 0 && at_high <= 0) return {};
-    if (at_low <= 0 || at_high <= 0) {
-        // The chip ends within the slice: almost on a straight line, for it is short.
-        const double border = low + (high - low) * at_low / (at_low - at_high), whole = high - low;
-        (at_low <= 0 ? low : high) = border;
-        height *= (high - low) / whole;
-    }
-    return milling::segment_force(milling::edge_load(coefficients_, law, at), low, high, height).force_n;
+Vibration::Piece Vibration::piece_of(EngagedZone zone) const {
+    Piece piece;
+    piece.height_mm = zone.z1_mm - zone.z0_mm;
+    piece.middle_mm = 0.5 * (zone.z0_mm + zone.z1_mm);
+    math::sincos(lag_per_mm_ * piece.middle_mm, piece.lag_sine, piece.lag_cosine);
+    piece.half = milling::half_span(0.5 * std::abs(lag_per_mm_) * piece.height_mm);
+    return piece;
 }
 
-Vec3 Vibration::round_force(std::size_t tooth, EngagedZone zone) {
-    const double tip = tip_rad(tooth), corner = cutter_.corner_radius_mm();
+Vibration::Nodes Vibration::nodes_of(EngagedZone zone) const {
+    const double corner = cutter_.corner_radius_mm();
     const double from = math::acos(std::clamp(1 - zone.z0_mm / corner, -1.0, 1.0)),
                  to = math::acos(std::clamp(1 - zone.z1_mm / corner, -1.0, 1.0));
+    Nodes nodes;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        Node& node = nodes[n];
+        const double kappa = 0.5 * (from + to) + 0.5 * (to - from) * kPoints[n];
+        math::sincos(kappa, node.at.sin_kappa, node.at.cos_kappa);
+        node.at.radius_mm = cutter_.radius_mm() - corner * (1 - node.at.sin_kappa);
+        node.at.height_mm = corner * (1 - node.at.cos_kappa);
+        node.lag_rad = lag_per_mm_ * node.at.height_mm;
+        math::sincos(node.lag_rad, node.lag_sine, node.lag_cosine);
+        node.length_mm = 0.5 * (to - from) * kWeights[n] * corner;
+    }
+    return nodes;
+}
+
+// At most instants all of a slice is in the cut, or nothing of it.
+Vec3 Vibration::slice_force(std::size_t tooth, const Slice& slice) {
+    double from_entry = turn_rad_ + phase_rad_[tooth] - slice.low_rad;  // of the last end
+    if (from_entry < 0) from_entry += math::kTwoPi;
+    if (from_entry >= math::kTwoPi) from_entry -= math::kTwoPi;
+    const double width = slice.band.exit_rad - slice.band.entry_rad, to = from_entry + slice.span_rad;
+    if (from_entry >= width && to < math::kTwoPi) return {};
+    if (to <= width)
+        return slice.round ? round_force(tooth, slice.nodes) : cylinder_force(tooth, slice.piece);
     Vec3 sum{};
-    for (std::size_t n = 0; n < kNodes.size(); ++n) {
-        const double kappa = 0.5 * (from + to) + 0.5 * (to - from) * kNodes[n];
-        milling::ProfilePoint at;
-        math::sincos(kappa, at.sin_kappa, at.cos_kappa);
-        at.radius_mm = cutter_.radius_mm() - corner * (1 - at.sin_kappa);
-        at.height_mm = corner * (1 - at.cos_kappa);
-        const double lag = lag_per_mm_ * at.height_mm;
-        double sine, cosine;
-        math::sincos(tip - lag, sine, cosine);
-        const milling::TurnLaw law = chip(tooth, sine, cosine, lag, at);
+    for_each_zone(slice.band, tip_rad(tooth), lag_per_mm_, [&](EngagedZone zone) {
+        sum += slice.round ? round_force(tooth, nodes_of(zone)) : cylinder_force(tooth, piece_of(zone));
+    });
+    return sum;
+}
+
+Vec3 Vibration::cylinder_force(std::size_t tooth, const Piece& piece) {
+    const milling::ProfilePoint at{.radius_mm = cutter_.radius_mm(), .height_mm = piece.middle_mm};
+    const double tip_sin = tip_sine(tooth), tip_cos = tip_cosine(tooth);
+    const double sine = tip_sin * piece.lag_cosine - tip_cos * piece.lag_sine;
+    const double cosine = tip_cos * piece.lag_cosine + tip_sin * piece.lag_sine;
+    const milling::TurnLaw law = chip(tooth, sine, cosine, lag_per_mm_ * piece.middle_mm, at);
+    // At both ends.
+    const milling::HalfSpan& half = piece.half;
+    const double low =
+        chip_at(law, sine * half.cosine - cosine * half.sine, cosine * half.cosine + sine * half.sine);
+    const double high =
+        chip_at(law, sine * half.cosine + cosine * half.sine, cosine * half.cosine - sine * half.sine);
+    const milling::EdgeLoad load = milling::edge_load(coefficients_, law, at);
+    if (low > 0 && high > 0) return milling::segment_force(load, sine, cosine, half, piece.height_mm).force_n;
+    stands_clear(tooth);
+    if (low <= 0 && high <= 0) return {};
+    // The chip ends within the piece: almost on a straight line, for it is short. `share`: of the piece that
+    // cuts.
+    const double share = std::max(low, high) / std::abs(high - low);
+    const double half_rad = math::atan2(half.sine, half.cosine),
+                 shift = (low > 0 ? -1 : 1) * (1 - share) * half_rad;
+    double shift_sine, shift_cosine;
+    math::sincos(shift, shift_sine, shift_cosine);
+    return milling::segment_force(load, sine * shift_cosine + cosine * shift_sine,
+                                  cosine * shift_cosine - sine * shift_sine,
+                                  milling::half_span(share * half_rad), share * piece.height_mm)
+        .force_n;
+}
+
+Vec3 Vibration::round_force(std::size_t tooth, const Nodes& nodes) {
+    const double tip_sin = tip_sine(tooth), tip_cos = tip_cosine(tooth);
+    Vec3 sum{};
+    for (const Node& node : nodes) {
+        const double sine = tip_sin * node.lag_cosine - tip_cos * node.lag_sine;
+        const double cosine = tip_cos * node.lag_cosine + tip_sin * node.lag_sine;
+        const milling::TurnLaw law = chip(tooth, sine, cosine, node.lag_rad, node.at);
         if (chip_at(law, sine, cosine) <= 0) continue;
-        const milling::EdgeLoad load = milling::edge_load(coefficients_, law, at);
-        sum += (0.5 * (to - from) * kWeights[n] * corner) *
-               milling::force_at_rotation(load, sine, cosine).force_n;
+        const milling::EdgeLoad load = milling::edge_load(coefficients_, law, node.at);
+        sum += node.length_mm * milling::force_at_rotation(load, sine, cosine).force_n;
     }
     return sum;
 }

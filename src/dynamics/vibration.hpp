@@ -22,6 +22,9 @@ struct VibrationSample {
     Vec3 force_n;          // on the tool
 };
 
+// Samples per second that are enough for a cut: 20 to a cycle of each mode, 8 from tooth to tooth.
+double enough_rate_hz(std::span<const Mode> modes, const milling::Cutter& cutter, double spindle_rpm);
+
 // The chip of a tooth is the distance by which it stands beyond the surface that the teeth before it left,
 // each where the tool was displaced then: the least over those since one that cut there. Where it is negative
 // there is no chip (Tlusty and Ismail 1981). So teeth jump out of the cut, and chatter stays bounded. Frame
@@ -46,6 +49,9 @@ class Vibration {
     // Other directions of the modes, as many as there are: the frame of the vibration turned against them.
     void turn_modes(std::span<const Mode> modes);
 
+    // Multiplies displacement and speed of the modes.
+    void scale_modes(double factor);
+
     // The next sample. The first is at rest. Real-time safe.
     VibrationSample step();
 
@@ -61,11 +67,27 @@ class Vibration {
         double q_by_q, q_by_v, q_by_force, v_by_q, v_by_v, v_by_force;
         double q_mm = 0, v_mm_per_s = 0;  // before the push
     };
+    // A piece of the cylinder: its middle lags behind the tip of the edge.
+    struct Piece {
+        double height_mm = 0, middle_mm = 0, lag_sine = 0, lag_cosine = 1;
+        milling::HalfSpan half;
+    };
+    // A point of the rounded part, with the length of edge for which it stands.
+    struct Node {
+        milling::ProfilePoint at;
+        double lag_rad = 0, lag_sine = 0, lag_cosine = 1, length_mm = 0;
+    };
+    static constexpr std::size_t kNodes = 4;
+    using Nodes = std::array<Node, kNodes>;
     // A part of a band, on the cylinder or on the rounded part, over which the edge lags little.
     struct Slice {
         milling::EngagementBand band;
-        bool round;
-        double entry_rad;  // in the first turn
+        bool round = false;
+        double entry_rad = 0;  // in the first turn
+        double span_rad = 0;   // of its edge
+        double low_rad = 0;    // rotation of the tip at which the last end of the edge enters
+        Piece piece;           // all of it, on the cylinder
+        Nodes nodes;           // all of it, on the rounded part
     };
     // A bit for each of the first 64 teeth: it cut wherever it was engaged. Others count as not having cut.
     using Teeth = std::uint64_t;
@@ -101,8 +123,17 @@ class Vibration {
     milling::TurnLaw chip(std::size_t tooth, double sine, double cosine, double lag_rad,
                           const milling::ProfilePoint& at);
     Vec3 straight_force(std::size_t tooth);
-    Vec3 cylinder_force(std::size_t tooth, EngagedZone zone);
-    Vec3 round_force(std::size_t tooth, EngagedZone zone);
+    Piece piece_of(EngagedZone zone) const;
+    Nodes nodes_of(EngagedZone zone) const;
+    Vec3 slice_force(std::size_t tooth, const Slice& slice);
+    Vec3 cylinder_force(std::size_t tooth, const Piece& piece);
+    Vec3 round_force(std::size_t tooth, const Nodes& nodes);
+    double tip_sine(std::size_t tooth) const {
+        return turn_sine_ * phase_cosine_[tooth] + turn_cosine_ * phase_sine_[tooth];
+    }
+    double tip_cosine(std::size_t tooth) const {
+        return turn_cosine_ * phase_cosine_[tooth] - turn_sine_ * phase_sine_[tooth];
+    }
     void stands_clear(std::size_t tooth) { cut_ &= ~bit(tooth); }
     static Teeth bit(std::size_t tooth) { return tooth < 64 ? Teeth{1} << tooth : 0; }
     double tip_rad(std::size_t tooth) const { return rotation_rad_ + phase_rad_[tooth]; }

@@ -97,9 +97,19 @@ contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, doubl
 contact::ToolForce segment_force(const EdgeLoad& load, double phi_low, double phi_high, double height_mm) {
     double sin_mid, cos_mid;
     math::sincos(0.5 * (phi_low + phi_high), sin_mid, cos_mid);
-    double q, cos_half;  // sin(d/2) / (d/2), cos(d/2)
-    sinc_and_cos(0.5 * (phi_high - phi_low), q, cos_half);
-    const double s = q * cos_half;  // sin d / d
+    return segment_force(load, sin_mid, cos_mid, half_span(0.5 * (phi_high - phi_low)), height_mm);
+}
+
+HalfSpan half_span(double angle_rad) {
+    HalfSpan half;
+    sinc_and_cos(angle_rad, half.sinc, half.cosine);
+    half.sine = half.sinc * angle_rad;
+    return half;
+}
+
+contact::ToolForce segment_force(const EdgeLoad& load, double sin_mid, double cos_mid, const HalfSpan& half,
+                                 double height_mm) {
+    const double q = half.sinc, s = q * half.cosine;  // sin(d/2) / (d/2), sin d / d
     // Means of sin, cos, sin cos, sin^2 and cos^2 over the piece.
     const double sine = q * sin_mid, cosine = q * cos_mid, sin_cos = s * sin_mid * cos_mid;
     const double sin2 = 0.5 * (1 - s * (1 - 2 * sin_mid * sin_mid)), cos2 = 1 - sin2;

@@ -90,6 +90,15 @@ contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, doubl
 // sin(d/2) / (d/2), every integral is the height times a bounded term.
 contact::ToolForce segment_force(const EdgeLoad& load, double phi_low, double phi_high, double height_mm);
 
+// Half of the span of such a piece, 0 or more, and the sinc factor q of it.
+struct HalfSpan {
+    double sine = 0, cosine = 1, sinc = 1;
+};
+HalfSpan half_span(double angle_rad);
+// The same force by sine and cosine of the middle of the piece.
+contact::ToolForce segment_force(const EdgeLoad& load, double sin_mid, double cos_mid, const HalfSpan& half,
+                                 double height_mm);
+
 // The same for a piece on the cylinder, from coefficients and a feed per tooth.
 contact::ToolForce flute_segment_force(const CuttingCoefficients& k, double radius_mm,
                                        double feed_per_tooth_mm, double phi_low, double phi_high,
