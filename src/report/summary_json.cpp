@@ -66,6 +66,18 @@ std::string summary_json(const Summary& s) {
         collision["tip_mm"] = files::triple(c.tip_mm);
         json["collisions"].push_back(std::move(collision));
     }
+    if (s.chatter) {
+        json["chatter"] = files::Json::array();
+        for (const SummaryChatter& c : *s.chatter) {
+            files::Json chatter;
+            chatter["line"] = c.line;
+            files::set(chatter, "t_s", c.t_s);
+            files::set(chatter, "multiplier", c.multiplier);
+            files::set(chatter, "chatter_hz", c.chatter_hz);
+            json["chatter"].push_back(std::move(chatter));
+        }
+    }
+    files::set(json, "largest_displacement_mm", s.largest_displacement_mm);
     json["warnings"] = files::Json::array();
     for (const Warning& w : s.warnings) json["warnings"].push_back(w.message());
     files::set(json, "seconds", s.seconds);

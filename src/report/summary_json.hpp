@@ -21,6 +21,12 @@ struct SummaryCollision {
     Vec3 tip_mm;
 };
 
+// A line of the program that chatters, at the place with the largest multiplier.
+struct SummaryChatter {
+    int line = 0;
+    double t_s = 0, multiplier = 0, chatter_hz = 0;
+};
+
 struct Summary {
     std::string job;      // name of the job file
     std::string version;  // of the program
@@ -41,6 +47,8 @@ struct Summary {
     std::optional<job::StockRecord> stock_record;  // absent: rendered from a program without a job
     bool as_published = false;
     std::vector<SummaryCollision> collisions;
+    std::optional<std::vector<SummaryChatter>> chatter;  // absent: the job has no modes
+    std::optional<double> largest_displacement_mm;
     Warnings warnings;
     double seconds = 0, peak_memory_mb = 0;
 };

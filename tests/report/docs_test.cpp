@@ -90,12 +90,16 @@ TEST(Docs, results_page_names_every_column_key_and_kind) {
     const auto named = [&](const std::string& name) {
         EXPECT_NE(text.find("`" + name + "`"), std::string::npos) << name;
     };
-    std::istringstream header{
-        std::string(readers::forces_csv_header.substr(0, readers::forces_csv_header.size() - 1))};
-    for (std::string column; std::getline(header, column, ',');) named(column);
+    std::istringstream header(readers::forces_csv_header(true));
+    std::string columns;
+    std::getline(header, columns);
+    std::istringstream names(columns);
+    for (std::string column; std::getline(names, column, ',');) named(column);
     Summary all;
     all.tooth_passing_hz = all.gouge_max_mm = all.rest_max_mm = all.scallop_max_mm = 1;
     all.triangles = 1;
+    all.chatter.emplace();
+    all.largest_displacement_mm = 0;
     all.as_published = true;
     std::istringstream json(summary_json(all));
     for (std::string line; std::getline(json, line);) {

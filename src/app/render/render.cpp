@@ -24,7 +24,7 @@ namespace {
 constexpr double kMegabyte = 1e6;
 
 report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
-                           const session::MillSession& session) {
+                           const session::MillSession& session, const session::ChatterTotals* chatter) {
     const session::MillTotals& t = session.totals();
     report::Summary s;
     s.job = call.job;
@@ -47,13 +47,33 @@ report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
     s.stock_record = session::stock_record(session.setup());
     s.as_published = call.as_published;
     s.warnings = loaded.warnings;
-    const Warnings found = session::warnings_of(t, call.job, loaded.job.path.file);
+    Warnings found = session::warnings_of(t, call.job, loaded.job.path.file);
+    if (chatter != nullptr) {
+        s.chatter.emplace();
+        for (const session::ChatterLine& line : chatter->lines)
+            s.chatter->push_back({line.line, line.t_s, line.multiplier, line.chatter_hz});
+        s.largest_displacement_mm = chatter->largest_displacement_mm;
+        const Warnings not_computed = session::warnings_of(*chatter, loaded.job.path.file);
+        found.insert(found.end(), not_computed.begin(), not_computed.end());
+    }
     report(found);
     s.warnings.insert(s.warnings.end(), found.begin(), found.end());
     for (const session::MillCollision& c : t.collisions) {
         s.collisions.push_back({c.line, c.t_s, milling::name(c.kind), c.tip_mm});
     }
     return s;
+}
+
+void print_chatter(const report::Summary& s) {
+    const std::vector<report::SummaryChatter>& lines = *s.chatter;
+    if (lines.empty()) {
+        std::printf("%-16s none", "chatter");
+    } else {
+        const auto& worst = *std::ranges::max_element(lines, {}, &report::SummaryChatter::multiplier);
+        std::printf("%-16s in %zu lines, most in line %d: it grows by %.3g at %.1f Hz", "chatter",
+                    lines.size(), worst.line, worst.multiplier, worst.chatter_hz);
+    }
+    std::printf("; the tool moves by %.3g mm at most\n", s.largest_displacement_mm.value_or(0));
 }
 
 void print(const report::Summary& s, const files::OutputFolder& folder) {
@@ -64,6 +84,7 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
                 s.peak_force_n, s.force_low_factor, s.force_high_factor);
     std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm, s.peak_power_w);
     if (s.tooth_passing_hz) std::printf("%-16s %.1f Hz\n", "tooth passing", *s.tooth_passing_hz);
+    if (s.chatter) print_chatter(s);
     if (s.scallop_max_mm)
         std::printf("%-16s gouge %.3f mm, rest %.3f mm, scallop %.3f mm\n", "deviation", *s.gouge_max_mm,
                     *s.rest_max_mm, *s.scallop_max_mm);
@@ -110,15 +131,25 @@ int render(const RenderCall& call) {
     RenderOutputs outputs(call, *loaded, *folder, parallel);
     if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
     session::MillSinks sinks;
-    if (outputs.needs_rows()) {
+    std::optional<session::ProgramChatter> chatter;
+    if (!loaded->job.modes.empty()) {
+        chatter.emplace(
+            session.setup(), loaded->job.modes, parallel,
+            [&](const milling::CutRow& row, const milling::RowForce& force,
+                const session::RowChatter& of_row) { outputs.add(row, force, session.setup(), &of_row); });
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
-            outputs.add(row, force, session.setup());
+            chatter->add(row, force);
+        };
+    } else if (outputs.needs_rows()) {
+        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            outputs.add(row, force, session.setup(), nullptr);
         };
     }
     sinks.progress = milling("milling");
     if (!session.run(sinks)) return interrupted_exit_code();
+    if (chatter) chatter->finish();
     progress.reset();
-    report::Summary summary = summary_of(call, *loaded, session);
+    report::Summary summary = summary_of(call, *loaded, session, chatter ? &chatter->totals() : nullptr);
     // Only a job can be run again as it was.
     const std::string& record = loaded->is_program ? call.program.job_out : call.job;
     if (record.empty()) {

@@ -48,7 +48,10 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
     };
     if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
     if (sound) facts.emplace_back("Sound", sound_of(loaded.job));
-    facts.emplace_back("Not modelled", "chatter, deflection of tool and part, heat, wear");
+    facts.emplace_back("Not modelled",
+                       loaded.job.modes.empty()
+                           ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
+                           : "what vibration does to force, sound and surface; heat, wear, chip evacuation");
     return facts;
 }
 
@@ -63,7 +66,7 @@ bool RenderOutputs::writes(const std::string& name) {
 
 FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
     if (call_.wants("forces")) {
-        auto file = ForceFile::create(folder_.file("forces.csv"));
+        auto file = ForceFile::create(folder_.file("forces.csv"), !loaded_.job.modes.empty());
         if (!file) return std::unexpected(file.error());
         forces_.emplace(std::move(*file));
         if (call_.as_published) {
@@ -87,8 +90,8 @@ FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
 }
 
 void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& force,
-                        const session::MillSetup& setup) {
-    if (forces_) forces_->add(row, force.peaks);
+                        const session::MillSetup& setup, const session::RowChatter* chatter) {
+    if (forces_) forces_->add(row, force.peaks, chatter);
     if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
     if (sound_) sound_->add(row, force, setup.cutters[row.cutter].flutes);
     if (call_.wants("report")) report_.add(row, force.peaks);

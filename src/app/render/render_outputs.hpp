@@ -27,7 +27,9 @@ class RenderOutputs {
     // Call before the session runs.
     FileResult<void> open(double duration_s, const Box3& blank);
     bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
-    void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup);
+    // `chatter`: null without modes.
+    void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup,
+             const session::RowChatter* chatter);
     // Call after it. Adds results to `summary`. Moves the mesh of the designed part out of the job.
     FileResult<void> finish(const session::MillSession& session, report::Summary& summary);
 

@@ -23,16 +23,22 @@ constexpr double kWaveS = 0.02;
 
 }  // namespace
 
-FileResult<ForceFile> ForceFile::create(const std::string& path) {
+FileResult<ForceFile> ForceFile::create(const std::string& path, bool chatter) {
     auto file = files::FileWriter::create(path);
     if (!file) return std::unexpected(file.error());
-    file->write(readers::forces_csv_header);
+    file->write(readers::forces_csv_header(chatter));
     return ForceFile(std::move(*file));
 }
 
-void ForceFile::add(const milling::CutRow& row, const milling::ForcePeaks& force) {
+void ForceFile::add(const milling::CutRow& row, const milling::ForcePeaks& force,
+                    const session::RowChatter* chatter) {
     line_.clear();
-    readers::append_force_row(line_, row, force);
+    readers::ChatterColumns columns;
+    if (chatter != nullptr) {
+        if (chatter->stability) columns.multiplier = chatter->stability->multiplier;
+        columns.peak_displacement_mm = chatter->peak_displacement_mm;
+    }
+    readers::append_force_row(line_, row, force, chatter != nullptr ? &columns : nullptr);
     file_.write(line_);
 }
 

@@ -11,6 +11,7 @@
 #include "files/sound/wav.hpp"
 #include "milling/force/published_force.hpp"
 #include "report/report_html.hpp"
+#include "session/chatter/program_chatter.hpp"
 #include "session/cut/mill_session.hpp"
 #include "sound/cut/waveform.hpp"
 #include "sound/play/soundtrack.hpp"
@@ -21,8 +22,10 @@ namespace tribo::app {
 // PublishedForceFile writes the forces of the paper.
 class ForceFile {
   public:
-    static FileResult<ForceFile> create(const std::string& path);
-    void add(const milling::CutRow& row, const milling::ForcePeaks& force);
+    static FileResult<ForceFile> create(const std::string& path, bool chatter);
+    // `chatter`: null without modes.
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force,
+             const session::RowChatter* chatter);
     FileResult<void> finish();
 
   private:

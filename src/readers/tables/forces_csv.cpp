@@ -11,6 +11,7 @@ namespace {
 constexpr int kTimeDecimals = 6, kLengthDecimals = 6, kAxisDecimals = 6, kVolumeDecimals = 9;
 constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 5, kTorqueDecimals = 8;
 constexpr int kDurationDecimals = 9, kFactorDecimals = 4;
+constexpr int kMultiplierDecimals = 6, kDisplacementDecimals = 9;
 
 void append(std::string& csv, double value, int decimals) {
     csv += ',';
@@ -24,7 +25,17 @@ void append(std::string& csv, Vec3 value, int decimals) {
 
 }  // namespace
 
-void append_force_row(std::string& csv, const milling::CutRow& row, const milling::ForcePeaks& force) {
+std::string forces_csv_header(bool chatter) {
+    std::string header =
+        "t_s,line,tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,spindle_rpm,feed_mm_per_min,entry_deg,exit_"
+        "deg,axial_depth_mm,mean_fx_n,mean_fy_n,mean_fz_n,peak_fx_n,peak_fy_n,peak_fz_n,peak_fxy_n,"
+        "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled";
+    if (chatter) header += ",multiplier,peak_displacement_mm";
+    return header + '\n';
+}
+
+void append_force_row(std::string& csv, const milling::CutRow& row, const milling::ForcePeaks& force,
+                      const ChatterColumns* chatter) {
     constexpr double kDegPerRad = 180 / math::kPi;
     const milling::EngagementHull hull = milling::hull(row.engagement);
     append_fixed(csv, row.start_s, kTimeDecimals);
@@ -45,6 +56,13 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
     append(csv, row.removed_mm3, kVolumeDecimals);
     append(csv, row.duration_s(), kDurationDecimals);
     append(csv, row.reconciled, kFactorDecimals);
+    if (chatter != nullptr) {
+        csv += ',';
+        if (chatter->multiplier) append_fixed(csv, *chatter->multiplier, kMultiplierDecimals);
+        csv += ',';
+        if (chatter->peak_displacement_mm)
+            append_fixed(csv, *chatter->peak_displacement_mm, kDisplacementDecimals);
+    }
     csv += '\n';
 }
 

@@ -20,18 +20,13 @@ struct CutPlace {
 
 // Mills the setup of a loaded job and takes engagement, tool, speed and feed direction of the row with the
 // largest multiplier among those at the place; of rows within 1 % of it the one that lasts longest. The bands
-// are those that the field measures, alike neighbours joined to at most kMostBands. Edges of a flat bottom
-// are left out. Refuses a job without modes, a place at which nothing is cut, and rows in which a machine
-// tilts the tool; where only some are tilted, they are left out with a warning. The setup must not have a
-// prescribed engagement. `progress` as in MillSinks; when it stops the run, the result means nothing.
+// are those that the field measures, alike neighbours joined to at most kMostBands (row_stability.hpp). Edges
+// of a flat bottom are left out. Refuses a job without modes, a place at which nothing is cut, and rows in
+// which a machine tilts the tool; where only some are tilted, they are left out with a warning. The setup
+// must not have a prescribed engagement. `progress` as in MillSinks; when it stops the run, the result means
+// nothing.
 Result<SteadyCut> critical_row(const job::LoadedJob& loaded, MillSetup setup, const CutPlace& place,
                                const ParallelFor& parallel,
                                const std::function<bool(double fraction)>& progress, Warnings& warnings);
-
-inline constexpr std::size_t kMostBands = 12;  // a ball: a point takes about a millisecond
-
-// Joins bands that stand on each other, those first whose borders differ least.
-std::vector<milling::EngagementBand> with_fewer_bands(std::vector<milling::EngagementBand> bands,
-                                                      std::size_t most);
 
 }  // namespace tribo::session

@@ -5,27 +5,13 @@
 #include <cmath>
 
 namespace tribo::session {
-namespace {
-
-constexpr double kStepsPerCycle = 20, kStepsPerTooth = 8;
-
-// Steps per sample.
-int steps_of(const SteadyCut& cut, double spindle_rpm) {
-    double fastest_hz = 0;
-    for (const dynamics::Mode& mode : cut.modes) fastest_hz = std::max(fastest_hz, mode.frequency_hz);
-    // With unequal pitch some teeth follow sooner.
-    double least_pitch_deg = 360.0 / cut.cutter.flutes;
-    for (const double pitch : cut.cutter.pitch_deg) least_pitch_deg = std::min(least_pitch_deg, pitch);
-    const double tooth_hz = spindle_rpm / 60 * 360 / least_pitch_deg;
-    const double steps_hz = std::max(kStepsPerCycle * fastest_hz, kStepsPerTooth * tooth_hz);
-    return std::max(1, static_cast<int>(std::ceil(steps_hz / kVibrationHz)));
+int steps_per_sample(std::span<const dynamics::Mode> modes, const milling::Cutter& cutter, double rpm) {
+    return std::max(1, static_cast<int>(std::ceil(enough_rate_hz(modes, cutter, rpm) / kVibrationHz)));
 }
-
-}  // namespace
 
 SimulationPeaks simulate(const SteadyCut& cut, const Simulation& simulation,
                          const std::function<bool(std::size_t n, const dynamics::VibrationSample&)>& visit) {
-    const int steps = steps_of(cut, simulation.spindle_rpm);
+    const int steps = steps_per_sample(cut.modes, cut.cutter, simulation.spindle_rpm);
     dynamics::Vibration vibration(cut.modes, cut.cutter, cut.coefficients, steps * kVibrationHz);
     vibration.engage(cut.bands_at(simulation.axial_depth_mm), {.across_mm = cut.feed_per_tooth_mm},
                      simulation.spindle_rpm);

@@ -20,6 +20,10 @@ struct Simulation {
     double lasts_s() const { return turns * 60 / spindle_rpm; }
 };
 
+// The steps are shorter than the samples where a mode or the teeth are fast (dynamics::enough_rate_hz).
+int steps_per_sample(std::span<const dynamics::Mode> modes, const milling::Cutter& cutter,
+                     double spindle_rpm);
+
 struct SimulationPeaks {
     double displacement_mm = 0, force_n = 0;  // lengths of vectors, at most
     std::optional<double> ended_s;            // where the tool moved farther than the equations hold
@@ -30,8 +34,7 @@ inline constexpr double kLargestDisplacement = 0.1;
 
 // Calls visit(n, sample) for t = n / kVibrationHz until the turns are over, the displacement exceeds
 // kLargestDisplacement times the diameter, or visit returns false. The feed per
-// tooth is that of the cut. The steps are shorter than the samples where a mode or the teeth are fast: at
-// least 20 to a cycle of each mode and 8 from tooth to tooth. Deterministic.
+// tooth is that of the cut. Deterministic.
 SimulationPeaks simulate(const SteadyCut& cut, const Simulation& simulation,
                          const std::function<bool(std::size_t n, const dynamics::VibrationSample&)>& visit);
 

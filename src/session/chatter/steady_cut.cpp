@@ -38,6 +38,10 @@ std::size_t first_cut(const std::vector<motion::Move>& moves) {
 
 }  // namespace
 
+milling::ToolFrame upright_frame(Vec3 axis) {
+    return {turned_with(axis, {1, 0, 0}), turned_with(axis, {0, 1, 0}), axis};
+}
+
 std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes) {
     std::vector<dynamics::Mode> turned(modes.begin(), modes.end());
     for (dynamics::Mode& mode : turned) {
@@ -45,6 +49,11 @@ std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<
         mode.direction = in_frame(frame, mode.direction);
     }
     return turned;
+}
+
+bool tilted_by_machine(const MillSetup& setup, Vec3 axis) {
+    constexpr double kUpright = 1e-9;
+    return setup.on_machine && length(cross(axis, {0, 0, 1})) > kUpright;
 }
 
 Result<void> check_modes(const job::Job& job) {
@@ -64,8 +73,7 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
                        "give the path one along the feed direction of the cut");
     }
     const motion::Move& move = setup->moves[n];
-    constexpr double kUpright = 1e-9;
-    if (!program.machine.empty() && length(cross(move.start.axis, {0, 0, 1})) > kUpright) {
+    if (tilted_by_machine(*setup, move.start.axis)) {
         return fail_at(program.source, move.line, 0, "the machine tilts the tool in the first cut",
                        "start with a cut of an upright tool, or remove the machine");
     }

@@ -10,6 +10,7 @@
 #include "job/job.hpp"
 #include "milling/tool/tool_frame.hpp"
 #include "motion/path/program.hpp"
+#include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 
@@ -37,15 +38,22 @@ struct SteadyCut {
     double least_rpm(double axial_depth_mm) const;
 };
 
+// The axes of the stock, turned by the shortest rotation of +z to this axis.
+milling::ToolFrame upright_frame(Vec3 axis);
+
 // The modes of a job in the frame of a feed. Those of the tool turn with its axis by the shortest rotation.
 std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes);
+
+// Whether a machine tilts the tool to this axis. Its head, with which the modes of the tool turn, cannot be
+// told from its table.
+bool tilted_by_machine(const MillSetup& setup, Vec3 axis);
 
 // Refuses a job without modes.
 Result<void> check_modes(const job::Job& job);
 
 // Takes the engagement of [engagement], which the job must have, and tool, speed and feed direction of the
 // first feed move across the tool axis. Refuses a job without such a move, and a tool axis that a machine
-// tilts: its head would have to be told from its table.
+// tilts.
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::session

@@ -33,6 +33,7 @@ struct MillSetup {
     std::vector<motion::Move> moves;
     std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
     std::vector<double> rpm_of_move;          // one per move; > 0 for every feed move
+    bool on_machine = false;                  // a machine moves tool and part by its joints
     std::vector<milling::Cutter> cutters;
     milling::CuttingCoefficients coefficients;
     std::unique_ptr<const field::Shape> blank;

@@ -156,6 +156,7 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
     setup.cutters = job.cutters;
     setup.coefficients = material->coefficients;
     setup.until_s = options.until_s;
+    setup.on_machine = !program.machine.empty();
     setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
     setup.timing.acceleration_mm_per_s2 = job.machine.acceleration_mm_per_s2;
     if (job.engagement) {

@@ -10,11 +10,12 @@ namespace tribo::readers {
 namespace {
 
 TEST(ForcesCsv, HasTheColumnsThatOthersReadInTheirOrder) {
-    EXPECT_EQ(
-        forces_csv_header,
+    const std::string header =
         "t_s,line,tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,spindle_rpm,feed_mm_per_min,entry_deg,"
         "exit_deg,axial_depth_mm,mean_fx_n,mean_fy_n,mean_fz_n,peak_fx_n,peak_fy_n,peak_fz_n,peak_fxy_n,"
-        "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled\n");
+        "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled";
+    EXPECT_EQ(forces_csv_header(false), header + "\n");
+    EXPECT_EQ(forces_csv_header(true), header + ",multiplier,peak_displacement_mm\n");
 }
 
 TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
@@ -43,7 +44,17 @@ TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
         "0.030000,12,1.500000,-2.000000,0.000000,0.000000,0.600000,0.800000,6000.00,900.00,90.000,180.123,"
         "2.000000,-50.75000,111.97000,29.67000,-171.10000,218.40000,45.70000,225.60000,0.50000000,"
         "1.25100000,6.000000000,0.125000000,1.0125\n");
-    EXPECT_EQ(std::ranges::count(csv, ','), std::ranges::count(forces_csv_header, ','));
+    EXPECT_EQ(std::ranges::count(csv, ','), std::ranges::count(forces_csv_header(false), ','));
+
+    const std::string rigid = csv.substr(0, csv.size() - 1);
+    csv.clear();
+    const ChatterColumns chatter{1.25, 0.0375};
+    append_force_row(csv, row, force, &chatter);
+    EXPECT_EQ(csv, rigid + ",1.250000,0.037500000\n");
+    csv.clear();
+    const ChatterColumns unknown;
+    append_force_row(csv, row, force, &unknown);
+    EXPECT_EQ(csv, rigid + ",,\n");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "session/chatter/critical_row.hpp"
+#include "session/chatter/row_stability.hpp"
 
 namespace tribo::session {
 namespace {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Chatter along a whole program: the multiplier and the vibration of each row.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "dynamics/stability.hpp"
+#include "session/chatter/row_simulation.hpp"
+
+namespace tribo::session {
+
+struct RowChatter {
+    // Of the row as a steady cut; absent where it is not computed (ChatterTotals).
+    std::optional<dynamics::Stability> stability;
+    std::optional<double> peak_displacement_mm;  // of the tool against the part, at most; absent likewise
+};
+
+// A line of the program that chatters: its row with the largest multiplier.
+struct ChatterLine {
+    int line = 0;
+    double t_s = 0, multiplier = 0, chatter_hz = 0;
+};
+
+struct ChatterTotals {
+    std::vector<ChatterLine> lines;  // in the order of time; a line that comes again, again
+    double largest_displacement_mm = 0;
+    struct Rows {
+        std::size_t count = 0;
+        int line = 0;  // of the first one
+    };
+    Rows tilted;         // by a machine: neither multiplier nor vibration
+    Rows on_bottom;      // only the flat bottom cuts: no multiplier
+    Rows slow;           // slower than SteadyCut::least_rpm(): no multiplier
+    Rows not_simulated;  // slower than RowSimulation follows: no vibration
+    Rows held;           // the tool moved farther than kLargestDisplacement
+};
+
+// Warnings about what is not computed.
+Warnings warnings_of(const ChatterTotals& totals, const std::string& program_file);
+
+// Takes the rows of a run and gives them on in the same order, each with its chatter, some hundred rows
+// later. Same bits for any number of threads.
+class ProgramChatter {
+  public:
+    using Sink = std::function<void(const milling::CutRow&, const milling::RowForce&, const RowChatter&)>;
+
+    // `modes`: at least one. Setup, modes and parallel must outlive this object.
+    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, const ParallelFor& parallel,
+                   Sink sink);
+
+    void add(const milling::CutRow& row, const milling::RowForce& force);
+    // Gives on the last rows.
+    void finish();
+    const ChatterTotals& totals() const { return totals_; }
+
+  private:
+    struct Row {
+        milling::CutRow cut;
+        milling::RowForce force;
+        RowChatter chatter;
+        bool held = false;
+    };
+    bool has_multiplier(const milling::CutRow& row) const;
+    void compute();
+    void count(const Row& row);
+
+    const MillSetup& setup_;
+    std::span<const dynamics::Mode> modes_;
+    const ParallelFor& parallel_;
+    Sink sink_;
+    RowSimulation simulation_;
+    std::vector<Row> batch_;  // the first count_ of them; the others keep their memory
+    std::size_t count_ = 0;
+    ChatterTotals totals_;
+};
+
+}  // namespace tribo::session
