@@ -15,6 +15,7 @@ set(TRIBO_MILL_HEADERS
     contact/contact_sample.hpp
     contact/distance_field.hpp
     contact/force_spectrum.hpp
+    contact/force_trace.hpp
     milling/engagement/chip.hpp
     milling/engagement/collision.hpp
     milling/engagement/cut_row.hpp

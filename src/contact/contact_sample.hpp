@@ -15,6 +15,7 @@
 //                ForceSpectrum
 //   spectrum     force over the turn                    none
 //   edges        that pass in a turn of the spindle     0
+//   vibration    what it adds to the force              none
 //
 // Plain data: copied freely, no allocation. Vectors are in the frame of the stock (the touched body). A
 // sample is a moment, not an interval. Between two samples all values are linear; the phase follows its rate.
@@ -24,6 +25,7 @@
 
 #include "base/vec3.hpp"
 #include "contact/force_spectrum.hpp"
+#include "contact/force_trace.hpp"
 
 namespace tribo::contact {
 
@@ -43,6 +45,10 @@ struct ContactSample {
     // long as the call that takes the sample.
     const ForceSpectrum* spectrum = nullptr;
     int edges = 0;  // of the cutter; 0: unknown
+
+    // What a vibration adds to the force of the spectrum; null: nothing. Each trace begins where the one of
+    // the sample before ended, or later, and may reach beyond t_s. It must live as long as the spectrum.
+    const ForceTrace* vibration = nullptr;
 };
 
 // Returns true if all values are finite; senses refuse other samples. Real-time safe.
@@ -52,6 +58,11 @@ inline bool is_finite(const ContactSample& s) {
           std::isfinite(s.removed_mm3_per_s) && std::isfinite(s.phase_rad) &&
           std::isfinite(s.phase_rate_rad_per_s))) {
         return false;
+    }
+    if (s.vibration != nullptr) {
+        for (const auto& [x, y] : s.vibration->force_n) {
+            if (!std::isfinite(x) || !std::isfinite(y)) return false;
+        }
     }
     if (s.spectrum == nullptr) return true;
     for (const ForceHarmonic& h : s.spectrum->harmonics) {

@@ -1,91 +1,168 @@
 // SPDX-License-Identifier: MIT
-// `tribo render` of a job with modes: two columns of forces.csv, two keys of summary.json.
+// `tribo render` of a job with modes: two columns of forces.csv, two keys of summary.json, and the howl.
 #include <cmath>
+#include <complex>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <vector>
+#include <numbers>
 
-#include "app/run/program.hpp"
-#include "app/run/small_inputs.hpp"
+#include "app/run/benchmark_slot.hpp"
+#include "app/run/job_folder.hpp"
+#include "files/riff.hpp"
 
 namespace tribo::test {
 namespace {
 
-std::string mode(double stiffness_n_per_mm) {
-    return "[[mode]]\ndirection = [1, 0, 0]\nfrequency_hz = 922\ndamping_ratio = 0.03\nstiffness_n_per_mm "
-           "= " +
-           std::to_string(stiffness_n_per_mm) + "\n";
+// A slot 1 mm deep, 0.1 mm per tooth.
+std::string slot(double rpm) {
+    const std::string feed = std::to_string(0.2 * rpm);
+    return "G21 G90 M3 S" + std::to_string(rpm) + " F" + feed + "\nG0 X-8 Y20 Z-1\nG1 X48\nM30\n";
 }
-
-struct Rendered {
-    nlohmann::json summary;
-    std::vector<std::string> lines;  // of forces.csv, without the header
-    std::string header;
-};
 
 class RenderChatter : public testing::Test {
   protected:
-    Rendered render(const std::string& more, std::vector<std::string> flags = {}) const {
-        scratch.put("slot.nc", kSlotProgram);
-        scratch.put("job.toml", kSlotJob + more);
-        const std::vector<std::string> verb{"render", "job.toml", "--out", "out", "--resolution", "0.5"};
-        flags.insert(flags.begin(), verb.begin(), verb.end());
-        const Outcome outcome = run_tribo(flags, scratch.path());
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        Rendered rendered;
-        rendered.summary = nlohmann::json::parse(scratch.get("out/summary.json"), nullptr, false);
-        std::istringstream csv(scratch.get("out/forces.csv"));
-        std::getline(csv, rendered.header);
-        for (std::string line; std::getline(csv, line);) rendered.lines.push_back(line);
-        return rendered;
+    void render(const std::string& more, double rpm, const std::vector<std::string>& flags) const {
+        job.put("slot.nc", slot(rpm));
+        job.put("job.toml", kBenchmarkSlot + more);
+        const Outcome run = job.render(flags);
+        ASSERT_EQ(run.code, 0) << run.err;
     }
-    Scratch scratch;
+    JobFolder job;
 };
 
-double cell(const std::string& line, int from_the_end) {
-    std::size_t at = line.size();
-    for (int n = 0; n < from_the_end; ++n) at = line.rfind(',', at - 1);
-    return std::stod(line.substr(at + 1));
-}
-
 TEST_F(RenderChatter, adds_two_columns_and_changes_no_other) {
-    const Rendered rigid = render("", {"--only", "forces"});
-    EXPECT_FALSE(rigid.summary.contains("chatter"));
-    EXPECT_FALSE(rigid.summary.contains("largest_displacement_mm"));
-    const Rendered bends = render(mode(20'000), {"--only", "forces"});
-    EXPECT_EQ(bends.header, rigid.header + ",multiplier,peak_displacement_mm");
-    ASSERT_EQ(bends.lines.size(), rigid.lines.size());
-    double largest = 0;
-    for (std::size_t n = 0; n < rigid.lines.size(); ++n) {
-        ASSERT_EQ(bends.lines[n].substr(0, rigid.lines[n].size() + 1), rigid.lines[n] + ",");
-        EXPECT_LT(cell(bends.lines[n], 2), 1);
-        EXPECT_GT(cell(bends.lines[n], 1), 0);
-        largest = std::max(largest, cell(bends.lines[n], 1));
+    render("", 9000, {"--only", "forces"});
+    std::istringstream rigid(job.get("forces.csv"));
+    const nlohmann::json of_rigid = job.summary();
+    EXPECT_FALSE(of_rigid.contains("chatter"));
+    EXPECT_FALSE(of_rigid.contains("largest_displacement_mm"));
+    const double peak_n = of_rigid["peak_force_n"], mean_n = of_rigid["mean_force_n"];
+
+    render(benchmark_mode("1, 0, 0"), 9000, {"--only", "forces"});
+    std::istringstream bends(job.get("forces.csv"));
+    std::string line, same;
+    std::getline(rigid, same);
+    std::getline(bends, line);
+    EXPECT_EQ(line, same + ",multiplier,peak_displacement_mm");
+    while (std::getline(rigid, same)) {
+        ASSERT_TRUE(std::getline(bends, line));
+        ASSERT_EQ(line.substr(0, same.size() + 1), same + ",");
     }
-    EXPECT_TRUE(bends.summary["chatter"].is_array());
-    EXPECT_TRUE(bends.summary["chatter"].empty());
-    EXPECT_NEAR(bends.summary["largest_displacement_mm"].get<double>(), largest, 1e-8);
+    double largest = 0;
+    const ForceColumns rows = job.forces();
+    for (const double mm : rows.at("peak_displacement_mm")) largest = std::max(largest, mm);
+    for (const double multiplier : rows.at("multiplier")) EXPECT_LT(multiplier, 1);
+    const nlohmann::json summary = job.summary();
+    EXPECT_EQ(summary["chatter"], nlohmann::json::array());
+    EXPECT_NEAR(summary["largest_displacement_mm"].get<double>(), largest, 1e-8);
     // Not more than a peak force would bend the mode at resonance, not less than half a mean force at rest.
-    const double peak_n = rigid.summary["peak_force_n"], mean_n = rigid.summary["mean_force_n"];
-    EXPECT_LT(largest, peak_n / 20'000 / (2 * 0.03));
-    EXPECT_GT(largest, 0.5 * mean_n / 20'000);
+    EXPECT_LT(largest, peak_n / 1340 / (2 * 0.011));
+    EXPECT_GT(largest, 0.5 * mean_n / 1340);
 }
 
 TEST_F(RenderChatter, names_the_lines_that_chatter_with_the_multiplier_of_the_stability_verb) {
-    const Rendered soft = render(mode(1500), {"--only", "summary"});
-    const auto& chatter = soft.summary["chatter"];
+    render(benchmark_mode("1, 0, 0"), 8000, {"--only", "summary"});
+    const nlohmann::json chatter = job.summary()["chatter"];
     ASSERT_EQ(chatter.size(), 1u);
     EXPECT_EQ(chatter[0]["line"], 3);
+    // As the notes have it for the whole slot; the field sees its walls to some hundredths.
+    EXPECT_NEAR(chatter[0]["chatter_hz"].get<double>(), 897.6, 2);
+    const std::string t_s = std::to_string(chatter[0]["t_s"].get<double>() + 1e-4);
     const Outcome other =
-        run_tribo({"stability", "job.toml", "--resolution", "0.5", "--t",
-                   std::to_string(chatter[0]["t_s"].get<double>() + 1e-4), "--at", "6000:2", "--json"},
-                  scratch.path());
+        run_tribo({"stability", "job.toml", "--t", t_s, "--at", "8000:1", "--json"}, job.path());
     ASSERT_EQ(other.code, 0) << other.err;
     const auto point = nlohmann::json::parse(other.out, nullptr, false)["points"][0];
     EXPECT_GT(point["multiplier"], 1);
     EXPECT_NEAR(chatter[0]["multiplier"].get<double>(), point["multiplier"].get<double>(), 1e-3);
     EXPECT_NEAR(chatter[0]["chatter_hz"].get<double>(), point["chatter_hz"].get<double>(), 1);
+}
+
+struct Line {
+    double hz = 0, level_db = -400;
+};
+
+// The strongest line from `low_hz` to `high_hz` in one channel, under a Blackman-Harris window; `leaves` says
+// which frequencies do not count.
+template <class Leaves>
+Line strongest(const std::vector<double>& stereo, double from_s, double to_s, double low_hz, double high_hz,
+               Leaves&& leaves) {
+    constexpr double kRate = 48000;
+    const auto first = static_cast<std::size_t>(from_s * kRate),
+               count = static_cast<std::size_t>((to_s - from_s) * kRate);
+    std::vector<double> x(count);
+    for (std::size_t n = 0; n < count; ++n) {
+        const double a = 2 * std::numbers::pi * (static_cast<double>(n) + 0.5) / static_cast<double>(count);
+        x[n] = stereo.at(2 * (first + n)) *
+               (1 - 0.48829 / 0.35875 * std::cos(a) + 0.14128 / 0.35875 * std::cos(2 * a) -
+                0.01168 / 0.35875 * std::cos(3 * a));
+    }
+    Line best;
+    for (double hz = low_hz; hz <= high_hz; hz += 0.5) {
+        if (leaves(hz)) continue;
+        const std::complex<double> step = std::polar(1.0, -2 * std::numbers::pi * hz / kRate);
+        std::complex<double> turn = 1, sum = 0;
+        for (const double v : x) {
+            sum += v * turn;
+            turn *= step;
+        }
+        const double level = 20 * std::log10(2 * std::abs(sum) / static_cast<double>(count));
+        if (level > best.level_db) best = {hz, level};
+    }
+    return best;
+}
+
+// The demo: 8000 rpm howls, 9000 rpm hums.
+TEST_F(RenderChatter, howls_where_theory_says_and_hums_where_it_does_not) {
+    for (const double rpm : {8000.0, 9000.0}) {
+        render(benchmark_mode("1, 0, 0") + "[sound]\nmachine = \"none\"\nbits = 32\n", rpm,
+               {"--only", "sound"});
+        const std::vector<double> wave = Riff(job.get("sound.wav")).samples(32);
+        const double tooth_hz = rpm / 30;
+        const auto all = [](double) { return false; };
+        const auto harmonic = [&](double hz) {
+            return std::abs(hz - tooth_hz * std::round(hz / tooth_hz)) < 8;
+        };
+        const Line tooth = strongest(wave, 0.6, 1.1, tooth_hz - 2, tooth_hz + 2, all);
+        const Line off = strongest(wave, 0.6, 1.1, 500, 1500, harmonic);
+        if (rpm == 9000) {
+            EXPECT_LT(off.level_db, tooth.level_db - 25);
+            continue;
+        }
+        EXPECT_GT(off.level_db, tooth.level_db - 6);
+        // Theory names +-chatter_hz and every tooth frequency from there.
+        const nlohmann::json summary = job.summary();
+        const double chatter_hz = summary["chatter"][0]["chatter_hz"];
+        double nearest = 1;
+        for (int n = -12; n <= 12; ++n) {
+            for (const double sign : {1.0, -1.0})
+                nearest = std::min(nearest, std::abs((sign * chatter_hz + n * tooth_hz) / off.hz - 1));
+        }
+        EXPECT_LT(nearest, 0.01) << off.hz;
+    }
+}
+
+// A slot that is fully there from the first chip on: the howl grows, and nowhere is it rougher than when it
+// is at its loudest.
+TEST_F(RenderChatter, begins_and_ends_its_howl_without_a_click) {
+    render("[engagement]\nentry_deg = 0\nexit_deg = 180\naxial_depth_mm = 1\n" + benchmark_mode("1, 0, 0") +
+               "[sound]\nmachine = \"none\"\nbits = 32\n",
+           8000, {"--only", "sound,forces"});
+    const std::vector<double> wave = Riff(job.get("sound.wav")).samples(32);
+    const auto roughest = [&](double from_s, double to_s) {
+        double worst = 0;
+        for (auto n = static_cast<std::size_t>(from_s * 48000); n < static_cast<std::size_t>(to_s * 48000);
+             ++n)
+            worst = std::max(worst, std::abs(wave.at(2 * n) - 2 * wave.at(2 * n + 2) + wave.at(2 * n + 4)));
+        return worst;
+    };
+    const std::vector<double> t_s = job.forces().at("t_s"), lasts_s = job.forces().at("duration_s");
+    const double begin_s = t_s.front(), end_s = t_s.back() + lasts_s.back();
+    const double steady = roughest(end_s - 0.5, end_s - 0.1);
+    EXPECT_EQ(roughest(0, begin_s), 0);
+    EXPECT_GT(steady, 0);
+    EXPECT_LT(roughest(begin_s, end_s - 0.5), 1.2 * steady);
+    EXPECT_LT(roughest(end_s - 0.1, end_s + 0.1), 1.2 * steady);
+    // It begins from nothing: in the first ten milliseconds it is much smoother.
+    EXPECT_LT(roughest(begin_s, begin_s + 0.01), 0.3 * steady);
 }
 
 }  // namespace

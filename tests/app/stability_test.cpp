@@ -8,46 +8,20 @@
 #include <sstream>
 #include <vector>
 
+#include "app/run/benchmark_slot.hpp"
 #include "app/run/program.hpp"
 
 namespace tribo::test {
 namespace {
 
-constexpr const char* kRest = R"([stock]
-box_mm = [[0, 0, -10], [40, 40, 0]]
-[cutter]
-kind = "flat"
-diameter_mm = 10
-flutes = 2
-helix_deg = 0
-length_mm = 20
-[material]
-ktc_n_per_mm2 = 600
-krc_n_per_mm2 = 200
-kac_n_per_mm2 = 0
-kte_n_per_mm = 0
-kre_n_per_mm = 0
-kae_n_per_mm = 0
-[process]
-spindle_rpm = 8000
-feed_mm_per_min = 1600
-[path]
-gcode = "slot.nc"
-)";
 constexpr const char* kEngagement = "[engagement]\nentry_deg = 0\nexit_deg = 180\naxial_depth_mm = 1\n";
-
-std::string mode(const std::string& direction, const std::string& on = "tool") {
-    return "[[mode]]\ndirection = [" + direction +
-           "]\nfrequency_hz = 922\ndamping_ratio = 0.011\nstiffness_n_per_mm = 1340.0496480507\non = \"" +
-           on + "\"\n";
-}
 
 class StabilityVerb : public testing::Test {
   protected:
     Outcome run(const std::string& more, std::vector<std::string> flags,
                 const std::string& program = "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n") const {
         scratch.put("slot.nc", program);
-        scratch.put("job.toml", kRest + more);
+        scratch.put("job.toml", kBenchmarkSlot + more);
         flags.insert(flags.begin(), {"stability", "job.toml"});
         return run_tribo(flags, scratch.path());
     }
@@ -63,7 +37,7 @@ class StabilityVerb : public testing::Test {
 };
 
 TEST_F(StabilityVerb, gives_the_benchmark_in_the_order_of_the_call) {
-    const auto json = answer(kEngagement + mode("1, 0, 0"),
+    const auto json = answer(kEngagement + benchmark_mode("1, 0, 0"),
                              {"--at", "5000:0.5", "--at", "5000:0.2", "--limit", "9000", "--limit", "8000"});
     EXPECT_EQ(json["schema"], "tribo.stability/1");
     ASSERT_EQ(json["points"].size(), 2u);
@@ -79,23 +53,23 @@ TEST_F(StabilityVerb, gives_the_benchmark_in_the_order_of_the_call) {
 }
 
 TEST_F(StabilityVerb, turns_the_modes_into_the_frame_of_the_feed) {
-    const auto along_x = answer(kEngagement + mode("1, 0, 0"), {"--at", "5000:0.5"});
-    const auto along_y = answer(kEngagement + mode("0, 3, 0", "part"), {"--at", "5000:0.5"},
+    const auto along_x = answer(kEngagement + benchmark_mode("1, 0, 0"), {"--at", "5000:0.5"});
+    const auto along_y = answer(kEngagement + benchmark_mode("0, 3, 0", "part"), {"--at", "5000:0.5"},
                                 "G21 G90 M3 F1600\nG0 X10 Y-8 Z-1\nG1 Y48\nM30\n");
     EXPECT_NEAR(along_y["points"][0]["multiplier"], along_x["points"][0]["multiplier"], 1e-8);
     EXPECT_NEAR(along_y["modes"][0]["direction"][0], 1, 1e-12);
     EXPECT_EQ(along_y["modes"][0]["on"], "part");
     // Square to the feed half of a slot is another cut.
     const std::string half = "[engagement]\nentry_deg = 0\nexit_deg = 90\naxial_depth_mm = 1\n";
-    const auto across = answer(half + mode("0, 1, 0"), {"--at", "5000:0.5"});
-    const auto along = answer(half + mode("1, 0, 0"), {"--at", "5000:0.5"});
+    const auto across = answer(half + benchmark_mode("0, 1, 0"), {"--at", "5000:0.5"});
+    const auto along = answer(half + benchmark_mode("1, 0, 0"), {"--at", "5000:0.5"});
     EXPECT_GT(std::abs(across["points"][0]["multiplier"].get<double>() -
                        along["points"][0]["multiplier"].get<double>()),
               1e-3);
 }
 
 TEST_F(StabilityVerb, asks_for_the_job_itself_without_flags) {
-    const Outcome outcome = run(kEngagement + mode("1, 0, 0"), {});
+    const Outcome outcome = run(kEngagement + benchmark_mode("1, 0, 0"), {});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("8000 rpm, 1 mm: chatter at 897.6 Hz (quasi-periodic)"), std::string::npos)
         << outcome.out;
@@ -104,8 +78,8 @@ TEST_F(StabilityVerb, asks_for_the_job_itself_without_flags) {
 
 TEST_F(StabilityVerb, takes_the_engagement_from_the_program) {
     // A slot across the block is the slot of the notes, as the field sees it.
-    const auto slot = answer(kEngagement + mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
-    const auto milled = answer(mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
+    const auto slot = answer(kEngagement + benchmark_mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
+    const auto milled = answer(benchmark_mode("1, 0, 0"), {"--at", "8000:1", "--limit", "8000"});
     EXPECT_NEAR(milled["points"][0]["multiplier"], slot["points"][0]["multiplier"], 2e-3);
     EXPECT_NEAR(milled["limits"][0]["limit_mm"], slot["limits"][0]["limit_mm"], 5e-3);
     EXPECT_EQ(slot["engagement"]["from"], "[engagement]");
@@ -114,7 +88,7 @@ TEST_F(StabilityVerb, takes_the_engagement_from_the_program) {
     EXPECT_NEAR(milled["engagement"]["axial_depth_mm"], 1, 1e-3);
     EXPECT_NEAR(milled["engagement"]["entry_deg"], 0, 1);
     EXPECT_NEAR(milled["engagement"]["exit_deg"], 180, 1);
-    const Outcome outcome = run(mode("1, 0, 0"), {"--at", "8000:1"});
+    const Outcome outcome = run(benchmark_mode("1, 0, 0"), {"--at", "8000:1"});
     EXPECT_NE(outcome.out.find("cut: line 3 of the program at "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("the most critical of "), std::string::npos) << outcome.out;
 }
@@ -124,7 +98,7 @@ TEST_F(StabilityVerb, finds_the_worst_line_of_a_program_or_takes_the_one_that_is
     const std::string program =
         "G21 G90 M3 F1600\nG0 X-8 Y8 Z-0.3\nG1 X48\nG0 Z5\nG0 X-8 Y20\nG0 Z-1.2\nG1 X48\nG0 Z5\n"
         "G0 X8 Y-8\nG0 Z-0.5\nG1 Y48\nM30\n";
-    const std::string job = mode("1, 0, 0");
+    const std::string job = benchmark_mode("1, 0, 0");
     const std::vector<std::string> at{"--at", "8000:1"};
     const auto all = answer(job, at, program);
     EXPECT_EQ(all["engagement"]["line"], 7);
@@ -146,9 +120,9 @@ TEST_F(StabilityVerb, keeps_the_bands_of_rounded_cutters) {
     // A slot with a ball is engaged from 0 to 180 degrees at each height; a second pass beside it is not.
     const auto with_ball = [&](const std::string& more, const std::string& program) {
         scratch.put("slot.nc", program);
-        std::string rest = kRest;
+        std::string rest = kBenchmarkSlot;
         rest.replace(rest.find("\"flat\""), 6, "\"ball\"");
-        scratch.put("job.toml", rest + more + mode("1, 0.3, 0.2"));
+        scratch.put("job.toml", rest + more + benchmark_mode("1, 0.3, 0.2"));
         const Outcome outcome = run_tribo(
             {"stability", "job.toml", "--json", "--at", "9000:1", "--at", "9000:2"}, scratch.path());
         EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -180,7 +154,7 @@ std::vector<std::vector<std::string>> table(const std::string& csv, const std::s
 }
 
 TEST_F(StabilityVerb, writes_the_chart_of_the_benchmark) {
-    const Outcome outcome = run(kEngagement + mode("1, 0, 0"),
+    const Outcome outcome = run(kEngagement + benchmark_mode("1, 0, 0"),
                                 {"--out", "chart", "--rpm", "5000:10000:500", "--depth", "3.5:0.1"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto points =
@@ -212,7 +186,7 @@ TEST_F(StabilityVerb, writes_the_chart_of_the_benchmark) {
 }
 
 TEST_F(StabilityVerb, chooses_the_range_of_a_chart_and_says_so) {
-    const std::string job = kEngagement + mode("1, 0, 0");
+    const std::string job = kEngagement + benchmark_mode("1, 0, 0");
     const auto json = answer(job, {});
     EXPECT_LE(json["chart"]["from_rpm"], 4500);
     EXPECT_GE(json["chart"]["to_rpm"], 12'000);
@@ -226,7 +200,7 @@ TEST_F(StabilityVerb, chooses_the_range_of_a_chart_and_says_so) {
 }
 
 TEST_F(StabilityVerb, replaces_its_own_folder_alone) {
-    const std::string job = kEngagement + mode("1, 0, 0");
+    const std::string job = kEngagement + benchmark_mode("1, 0, 0");
     const std::vector<std::string> flags{"--rpm", "8000:9000:500", "--depth", "1:0.5", "--out", "chart"};
     ASSERT_EQ(run(job, flags).code, 0);
     const std::string before = scratch.get("chart/stability.csv");
@@ -263,7 +237,7 @@ std::vector<std::array<double, 7>> vibration(const std::string& text) {
 // What the file shows grows as the multiplier says: a vibration of one pair of multipliers obeys
 // d(k + 1) = a d(k) + b d(k - 1) from tooth to tooth, and |mu|^2 = -b.
 TEST_F(StabilityVerb, simulates_a_vibration_that_grows_by_its_multiplier) {
-    const std::string job = kEngagement + mode("1, 0, 0");
+    const std::string job = kEngagement + benchmark_mode("1, 0, 0");
     for (const std::string depth : {"0.2", "0.5"}) {
         const auto json = answer(job, {"--at", "5000:" + depth, "--simulate", "5000:" + depth, "--turns",
                                        "16", "--out", "simulated"});
@@ -294,7 +268,7 @@ TEST_F(StabilityVerb, simulates_a_vibration_that_grows_by_its_multiplier) {
 
 TEST_F(StabilityVerb, simulates_chatter_that_teeth_outside_the_cut_bound) {
     const auto json =
-        answer(mode("1, 0, 0"), {"--simulate", "8000:1", "--turns", "60", "--out", "simulated"});
+        answer(benchmark_mode("1, 0, 0"), {"--simulate", "8000:1", "--turns", "60", "--out", "simulated"});
     EXPECT_NEAR(json["simulation"]["feed_per_tooth_mm"], 0.1, 1e-6);
     EXPECT_FALSE(json["simulation"].contains("ended_s"));
     const auto rows = vibration(scratch.get("simulated/vibration.csv"));
@@ -313,7 +287,7 @@ TEST_F(StabilityVerb, simulates_chatter_that_teeth_outside_the_cut_bound) {
 
 // Two soft modes far above their limit: no tool moves so.
 TEST_F(StabilityVerb, ends_a_simulation_where_its_equations_end) {
-    const Outcome outcome = run(kEngagement + mode("1, 0, 0") + mode("0, 1, 0"),
+    const Outcome outcome = run(kEngagement + benchmark_mode("1, 0, 0") + benchmark_mode("0, 1, 0"),
                                 {"--simulate", "8000:1", "--turns", "60", "--out", "simulated"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_NE(outcome.err.find("job.toml: warning: the simulation ends at 0."), std::string::npos)
@@ -325,7 +299,7 @@ TEST_F(StabilityVerb, ends_a_simulation_where_its_equations_end) {
 }
 
 TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
-    const std::string good = kEngagement + mode("1, 0, 0");
+    const std::string good = kEngagement + benchmark_mode("1, 0, 0");
     struct Case {
         std::string more;
         std::vector<std::string> flags;
@@ -333,14 +307,18 @@ TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
     };
     for (const Case& c : {
              Case{kEngagement, {}, "has no [[mode]]"},
-             Case{mode("1, 0, 0"), {"--line", "1"}, "slot.nc:1: error: this line cuts nothing"},
-             Case{mode("1, 0, 0"), {"--t", "1000"}, "at 1000 s the edges along the cutter cut nothing"},
-             Case{mode("1, 0, 0"), {"--t", "1", "--line", "3"}, "--line"},
+             Case{benchmark_mode("1, 0, 0"), {"--line", "1"}, "slot.nc:1: error: this line cuts nothing"},
+             Case{benchmark_mode("1, 0, 0"),
+                  {"--t", "1000"},
+                  "at 1000 s the edges along the cutter cut nothing"},
+             Case{benchmark_mode("1, 0, 0"), {"--t", "1", "--line", "3"}, "--line"},
              Case{good, {"--line", "3"}, "the job prescribes one in [engagement]"},
              Case{good, {"--t", "1"}, "remove [engagement]"},
-             Case{kEngagement + mode("0, 0, 0"), {}, "job.toml:26:13: error: 'direction' is no direction"},
+             Case{kEngagement + benchmark_mode("0, 0, 0"),
+                  {},
+                  "job.toml:26:13: error: 'direction' is no direction"},
              Case{kEngagement + std::string("[[mode]]\nfrequency_hz = 1\n"), {}, "'direction' is missing"},
-             Case{kEngagement + mode("1, 0, 0", "holder"), {}, "'on'"},
+             Case{kEngagement + benchmark_mode("1, 0, 0", "holder"), {}, "'on'"},
              Case{good, {"--at", "8000"}, "'8000' is no speed and depth; write RPM:MM"},
              Case{good, {"--at", "8000:-1"}, "the prescribed depth of -1 mm is out of range"},
              Case{good, {"--at", "8000:1e9"}, "keep the prescribed depth within 1e-4 to 1000 mm"},

@@ -134,7 +134,7 @@ int render(const RenderCall& call) {
     std::optional<session::ProgramChatter> chatter;
     if (!loaded->job.modes.empty()) {
         chatter.emplace(
-            session.setup(), loaded->job.modes, parallel,
+            session.setup(), loaded->job.modes, call.wants("sound") && !call.as_published, parallel,
             [&](const milling::CutRow& row, const milling::RowForce& force,
                 const session::RowChatter& of_row) { outputs.add(row, force, session.setup(), &of_row); });
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
     facts.emplace_back("Not modelled",
                        loaded.job.modes.empty()
                            ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
-                           : "what vibration does to force, sound and surface; heat, wear, chip evacuation");
+                           : "what vibration does to force and surface; heat, wear, chip evacuation");
     return facts;
 }
 
@@ -93,7 +93,9 @@ void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& for
                         const session::MillSetup& setup, const session::RowChatter* chatter) {
     if (forces_) forces_->add(row, force.peaks, chatter);
     if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
-    if (sound_) sound_->add(row, force, setup.cutters[row.cutter].flutes);
+    const bool vibrates = chatter != nullptr && chatter->vibration;
+    if (sound_)
+        sound_->add(row, force, setup.cutters[row.cutter].flutes, vibrates ? &*chatter->vibration : nullptr);
     if (call_.wants("report")) report_.add(row, force.peaks);
 }
 

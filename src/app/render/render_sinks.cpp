@@ -18,6 +18,8 @@ namespace {
 constexpr double kLeadInS = 0.2;
 // Rows with a smaller gap are one cut.
 constexpr double kSameCutS = 1e-6;
+// A row that vibrates is told to the sound at least that often.
+constexpr double kVibrationStepS = 0.02;
 // Length of the waveforms of figure 8, s.
 constexpr double kWaveS = 0.02;
 
@@ -102,7 +104,8 @@ void SoundFile::write(std::span<const float> block) {
     file_.write(block);
 }
 
-void SoundFile::add(const milling::CutRow& row, const milling::RowForce& force, int edges) {
+void SoundFile::add(const milling::CutRow& row, const milling::RowForce& force, int edges,
+                    const contact::ForceTrace* vibration) {
     const auto sink = [this](std::span<const float> block) { write(block); };
     const double start = row.start_s;
     if (start > last_end_s_ + kSameCutS) {
@@ -115,7 +118,28 @@ void SoundFile::add(const milling::CutRow& row, const milling::RowForce& force, 
         track_->play_to(session::contact_in_air(row, start), sink);
         track_->play_to(session::contact_of_cut(row, force, edges, start), sink);
     }
-    track_->play_to(session::contact_of_cut(row, force, edges, 0.5 * (start + row.end_s)), sink);
+    if (vibration == nullptr) {
+        track_->play_to(session::contact_of_cut(row, force, edges, 0.5 * (start + row.end_s)), sink);
+    } else {
+        // In steps for which the voice has room, each with the trace until the next one.
+        const int steps = std::max(1, static_cast<int>(row.duration_s() / kVibrationStepS) - 1);
+        contact::ForceTrace rest = *vibration;
+        for (int n = 1; n <= steps; ++n) {
+            const double at = steps == 1 ? 0.5 * (start + row.end_s) : start + n * kVibrationStepS;
+            contact::ContactSample sample = session::contact_of_cut(row, force, edges, at);
+            contact::ForceTrace part = rest;
+            if (n < steps) {
+                const auto until = static_cast<std::int64_t>((at + kVibrationStepS) * rest.rate_hz);
+                const auto left = static_cast<std::int64_t>(rest.force_n.size());
+                part.force_n = rest.force_n.first(
+                    static_cast<std::size_t>(std::clamp<std::int64_t>(until - rest.first, 0, left)));
+            }
+            sample.vibration = &part;
+            track_->play_to(sample, sink);
+            rest.first += static_cast<std::int64_t>(part.force_n.size());
+            rest.force_n = rest.force_n.subspan(part.force_n.size());
+        }
+    }
     last_end_s_ = row.end_s;
     idle_ = session::contact_in_air(row, row.end_s);
 }

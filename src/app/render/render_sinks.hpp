@@ -58,7 +58,9 @@ class SoundFile {
   public:
     static FileResult<SoundFile> create(const std::string& path, const SoundFileOptions& options,
                                         double duration_s);
-    void add(const milling::CutRow& row, const milling::RowForce& force, int edges);
+    // `vibration`: of the row; null: none.
+    void add(const milling::CutRow& row, const milling::RowForce& force, int edges,
+             const contact::ForceTrace* vibration);
     FileResult<void> finish(double duration_s);
     report::ReportSound for_report() const;
     const sound::SoundtrackOptions& options() const { return options_.track; }

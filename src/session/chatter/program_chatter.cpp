@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "session/chatter/row_stability.hpp"
+#include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::session {
 namespace {
 
-constexpr std::size_t kBatch = 512;  // rows that are computed at once
+constexpr std::size_t kBatch = 512;    // rows that are computed at once
+constexpr double kLongestBatchS = 20;  // bounds the memory of traces
 
 void add(ChatterTotals::Rows& rows, int line) {
     if (rows.count++ == 0) rows.line = line;
@@ -33,9 +35,14 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
     return warnings;
 }
 
-ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes,
+ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
                                const ParallelFor& parallel, Sink sink)
-    : setup_(setup), modes_(modes), parallel_(parallel), sink_(std::move(sink)), simulation_(setup, modes) {}
+    : setup_(setup),
+      modes_(modes),
+      parallel_(parallel),
+      sink_(std::move(sink)),
+      traces_(traces),
+      simulation_(setup, modes, traces) {}
 
 void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& force) {
     if (count_ == batch_.size()) batch_.emplace_back();
@@ -43,7 +50,9 @@ void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& fo
     copy.cut = row;
     copy.force = force;
     copy.chatter = {};
-    if (count_ == kBatch) compute();
+    copy.trace.clear();
+    lasts_s_ += row.duration_s();
+    if (count_ == kBatch || lasts_s_ > kLongestBatchS) compute();
 }
 
 void ProgramChatter::finish() {
@@ -70,8 +79,11 @@ void ProgramChatter::compute() {
             return;
         }
         for (std::size_t n = 0; n < count_; ++n) {
-            batch_[n].chatter.peak_displacement_mm = simulation_.run(batch_[n].cut);
-            batch_[n].held = simulation_.was_held();
+            Row& row = batch_[n];
+            row.chatter.peak_displacement_mm = simulation_.run(row.cut, traces_ ? &row.trace : nullptr);
+            row.held = simulation_.was_held();
+            if (traces_ && row.chatter.peak_displacement_mm)
+                row.chatter.vibration = {kVibrationHz, simulation_.first_sample(), row.trace};
         }
     });
     for (std::size_t n = 0; n < count_; ++n) {
@@ -81,6 +93,7 @@ void ProgramChatter::compute() {
         if (sink_) sink_(row.cut, row.force, row.chatter);
     }
     count_ = 0;
+    lasts_s_ = 0;
 }
 
 void ProgramChatter::count(const Row& row) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "contact/force_trace.hpp"
 #include "dynamics/stability.hpp"
 #include "session/chatter/row_simulation.hpp"
 
@@ -17,7 +18,8 @@ namespace tribo::session {
 struct RowChatter {
     // Of the row as a steady cut; absent where it is not computed (ChatterTotals).
     std::optional<dynamics::Stability> stability;
-    std::optional<double> peak_displacement_mm;  // of the tool against the part, at most; absent likewise
+    std::optional<contact::ForceTrace> vibration;  // what it adds to the force, if traces are asked for
+    std::optional<double> peak_displacement_mm;    // of the tool against the part, at most; absent likewise
 };
 
 // A line of the program that chatters: its row with the largest multiplier.
@@ -49,9 +51,10 @@ class ProgramChatter {
   public:
     using Sink = std::function<void(const milling::CutRow&, const milling::RowForce&, const RowChatter&)>;
 
-    // `modes`: at least one. Setup, modes and parallel must outlive this object.
-    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, const ParallelFor& parallel,
-                   Sink sink);
+    // `modes`: at least one. `traces`: rows have their vibration, valid during the call of the sink. Setup,
+    // modes and parallel must outlive this object.
+    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
+                   const ParallelFor& parallel, Sink sink);
 
     void add(const milling::CutRow& row, const milling::RowForce& force);
     // Gives on the last rows.
@@ -63,6 +66,7 @@ class ProgramChatter {
         milling::CutRow cut;
         milling::RowForce force;
         RowChatter chatter;
+        std::vector<std::array<float, 2>> trace;
         bool held = false;
     };
     bool has_multiplier(const milling::CutRow& row) const;
@@ -73,9 +77,11 @@ class ProgramChatter {
     std::span<const dynamics::Mode> modes_;
     const ParallelFor& parallel_;
     Sink sink_;
+    bool traces_;
     RowSimulation simulation_;
     std::vector<Row> batch_;  // the first count_ of them; the others keep their memory
     std::size_t count_ = 0;
+    double lasts_s_ = 0;  // all of them
     ChatterTotals totals_;
 };
 

@@ -14,6 +14,8 @@ namespace {
 constexpr double kDiedOut = 1e-4;
 // Rows with a smaller gap are one cut.
 constexpr double kSameCutS = 1e-6;
+// Of what is left of a turn of the feed, in a sample: it takes 4 ms.
+constexpr double kFollow = 0.01;
 // A frame that turns by more about the axis, from a row to the next, is another one: the axis points down.
 constexpr double kSameFrame = 0.995;
 
@@ -23,8 +25,8 @@ std::int64_t sample_at(double t_s) {
 
 }  // namespace
 
-RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes)
-    : setup_(setup), modes_(modes) {
+RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces)
+    : setup_(setup), modes_(modes), traces_(traces) {
     for (const dynamics::Mode& mode : modes)
         ring_s_ =
             std::max(ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
@@ -36,7 +38,8 @@ RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::M
     }
 }
 
-std::optional<double> RowSimulation::run(const milling::CutRow& row) {
+std::optional<double> RowSimulation::run(const milling::CutRow& row,
+                                         std::vector<std::array<float, 2>>* trace) {
     held_ = false;
     const milling::Cutter& cutter = setup_.cutters[row.cutter];
     const double longest_pitch_deg =
@@ -53,12 +56,13 @@ std::optional<double> RowSimulation::run(const milling::CutRow& row) {
         start(row);
     } else if (row.start_s > last_end_s_ + kSameCutS) {
         engage(row, {});
-        run_to(row.start_s);
+        run_to(row.start_s, nullptr);
     }
     frame_ = frame;
     engage(row, with_fewer_bands(row.engagement.bands, kRowBands));
     last_end_s_ = row.end_s;
-    return run_to(row.end_s);
+    first_ = next_;
+    return run_to(row.end_s, trace);
 }
 
 void RowSimulation::start(const milling::CutRow& row) {
@@ -68,8 +72,18 @@ void RowSimulation::start(const milling::CutRow& row) {
     const double first_s = static_cast<double>(next_) / kVibrationHz;
     frame_ = upright_frame(row.pose.frame.z);
     // The force of a row counts the rotation from its feed (milling/force/row_force.hpp).
-    vibration_.emplace(modes_in(frame_, modes_), setup_.cutters[cutter_], setup_.coefficients,
-                       steps_[cutter_] * kVibrationHz, row.phase_at_rad(first_s) - feed_rad(row));
+    const double rotation_rad = row.phase_at_rad(first_s) - feed_rad(row);
+    const double rate_hz = steps_[cutter_] * kVibrationHz;
+    vibration_.emplace(modes_in(frame_, modes_), setup_.cutters[cutter_], setup_.coefficients, rate_hz,
+                       rotation_rad);
+    if (traces_)
+        rigid_.emplace(std::span<const dynamics::Mode>{}, setup_.cutters[cutter_], setup_.coefficients,
+                       rate_hz, rotation_rad);
+    feed_.fill(feed_direction(row));
+}
+
+std::complex<double> RowSimulation::feed_direction(const milling::CutRow& row) const {
+    return {dot(row.pose.frame.x, frame_.x), dot(row.pose.frame.x, frame_.y)};
 }
 
 double RowSimulation::feed_rad(const milling::CutRow& row) const {
@@ -79,14 +93,19 @@ double RowSimulation::feed_rad(const milling::CutRow& row) const {
 void RowSimulation::engage(const milling::CutRow& row, std::span<const milling::EngagementBand> bands) {
     vibration_->turn_modes(modes_in(frame_, modes_));
     vibration_->engage(bands, row.feed, row.spindle_rpm, feed_rad(row));
+    if (traces_) rigid_->engage(bands, row.feed, row.spindle_rpm, feed_rad(row));
+    feed_now_ = feed_direction(row);
 }
 
-double RowSimulation::run_to(double end_s) {
+double RowSimulation::run_to(double end_s, std::vector<std::array<float, 2>>* trace) {
     const double most_mm = kLargestDisplacement * setup_.cutters[cutter_].diameter_mm;
     double largest = displacement_mm_;
     for (const std::int64_t end = sample_at(end_s); next_ < end; ++next_) {
+        Vec3 force_n{};
         for (int step = 0; step < steps_[cutter_]; ++step) {
-            displacement_mm_ = length(vibration_->step().displacement_mm);
+            const dynamics::VibrationSample sample = vibration_->step();
+            if (traces_) force_n += sample.force_n - rigid_->step().force_n;
+            displacement_mm_ = length(sample.displacement_mm);
             if (displacement_mm_ > most_mm) {
                 vibration_->scale_modes(most_mm / displacement_mm_);
                 displacement_mm_ = most_mm;
@@ -94,6 +113,14 @@ double RowSimulation::run_to(double end_s) {
             }
             largest = std::max(largest, displacement_mm_);
         }
+        feed_[0] += kFollow * (feed_now_ - feed_[0]);
+        feed_[1] += kFollow * (feed_[0] - feed_[1]);
+        if (trace == nullptr || static_cast<double>(trace->size()) >= kLongestTraceS * kVibrationHz) continue;
+        const double size = std::abs(feed_[1]);
+        const std::complex<double> across = std::complex<double>(force_n.x, force_n.y) *
+                                            std::conj(size > 0 ? feed_[1] / size : feed_now_) /
+                                            static_cast<double>(steps_[cutter_]);
+        trace->push_back({static_cast<float>(across.real()), static_cast<float>(across.imag())});
     }
     return largest;
 }

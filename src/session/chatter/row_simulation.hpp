@@ -2,6 +2,8 @@
 // The vibration of a program: simulated in time, row after row.
 #pragma once
 
+#include <array>
+#include <complex>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,15 +20,20 @@ namespace tribo::session {
 // kLargestDisplacement, the modes are held there. One thread.
 class RowSimulation {
   public:
-    // All arguments must outlive this object.
-    RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes);
+    // All arguments must outlive this object. `traces`: run() may be asked for them.
+    RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces = false);
 
     // Simulates the samples n / kVibrationHz from the start of the row to its end. Rows come in the order of
     // time. Edges of a flat bottom are left out. Returns the largest displacement, mm; nothing for a row in
     // which a machine tilts the tool, or its teeth follow each other by more than kLongestPitchS.
-    std::optional<double> run(const milling::CutRow& row);
+    // `trace`, if any, gets the difference from the force of a tool that does not bend, sample by sample for
+    // at most kLongestTraceS, in the frame of the tool. Where the feed turns, that frame follows in some
+    // milliseconds.
+    std::optional<double> run(const milling::CutRow& row, std::vector<std::array<float, 2>>* trace = nullptr);
+    // Number of the first sample of the last row.
+    std::int64_t first_sample() const { return first_; }
 
-    static constexpr double kLongestPitchS = 4;
+    static constexpr double kLongestPitchS = 4, kLongestTraceS = 60;
 
     // The tool was held in the last row.
     bool was_held() const { return held_; }
@@ -34,17 +41,23 @@ class RowSimulation {
   private:
     void start(const milling::CutRow& row);
     void engage(const milling::CutRow& row, std::span<const milling::EngagementBand> bands);
-    double run_to(double end_s);                        // returns the largest displacement, mm
+    // Returns the largest displacement, mm.
+    double run_to(double end_s, std::vector<std::array<float, 2>>* trace);
+    std::complex<double> feed_direction(const milling::CutRow& row) const;  // x of the row in frame_
     double feed_rad(const milling::CutRow& row) const;  // from x of frame_ to that of the row
 
     const MillSetup& setup_;
     std::span<const dynamics::Mode> modes_;
     double ring_s_ = 0;       // a vibration dies out in it
     std::vector<int> steps_;  // per sample, of each cutter at its highest speed
-    std::optional<dynamics::Vibration> vibration_;
+    bool traces_;
+    std::optional<dynamics::Vibration> vibration_, rigid_;
+    // Direction of the feed in frame_; smoothed once, and twice.
+    std::complex<double> feed_now_;
+    std::array<std::complex<double>, 2> feed_;
     milling::ToolFrame frame_;  // of the vibration
     std::size_t cutter_ = 0;
-    std::int64_t next_ = 0;  // sample
+    std::int64_t first_ = 0, next_ = 0;  // samples
     double last_end_s_ = 0;
     double displacement_mm_ = 0;  // at the last sample
     bool held_ = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "sound/cut/vibration_voice.hpp"
 #include "sound/play/calibration.hpp"
 
 namespace tribo::sound {
@@ -19,6 +20,17 @@ constexpr double kMmPerM = 1000;
 CutNoise mix(const CutNoise& a, const CutNoise& b, double t) {
     return {a.body_pa + t * (b.body_pa - a.body_pa), a.chips_pa + t * (b.chips_pa - a.chips_pa),
             a.coarse + t * (b.coarse - a.coarse)};
+}
+
+// Partials beside a vibration are heard with its phase.
+template <class Response>
+void turn(Partials& partials, Response&& response) {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(partials.count); ++n) {
+        const std::complex<double> turned =
+            std::complex<double>(partials.re[n], partials.im[n]) * response(static_cast<double>(n + 1));
+        partials.re[n] = turned.real();
+        partials.im[n] = turned.imag();
+    }
 }
 
 }  // namespace
@@ -74,6 +86,12 @@ void CuttingVoice::excite(const contact::ContactSample& next, std::int64_t quant
     const bool was_in_contact = !to_.level.partials.silent();
     to_.level.partials =
         next.spectrum != nullptr ? in_plane_partials(*next.spectrum, kPascalPerNewton) : Partials{};
+    if (next.vibration != nullptr) {
+        const double hz =
+            next.phase_rate_rad_per_s * (next.spectrum ? next.spectrum->order_step : 1) / math::kTwoPi;
+        turn(to_.level.partials,
+             [&](double order) { return vibration_response(order * hz, next.vibration->rate_hz); });
+    }
     to_.level.noise = noise_of(options_.sound, next);
     to_.step = to_.level.partials.silent() ? from_.step : next.spectrum->order_step;
     if (to_.step != from_.step) {

@@ -10,6 +10,7 @@
 #include "sound/cut/machine_voice.hpp"
 #include "sound/cut/partials.hpp"
 #include "sound/cut/published_voice.hpp"
+#include "sound/cut/vibration_voice.hpp"
 #include "sound/play/calibration.hpp"
 #include "sound/play/limiter.hpp"
 
@@ -43,6 +44,8 @@ std::vector<std::unique_ptr<Voice>> cutting_voices(const SoundtrackOptions& opti
             voices.push_back(std::make_unique<RecordedVoice>(*options.recording, recorded));
         }
         voices.push_back(std::make_unique<CuttingVoice>(cut));
+        voices.push_back(std::make_unique<VibrationVoice>(
+            VibrationVoiceOptions{cut.sample_rate_hz, cut.share, cut.sound.body}));
         if (options.idle) {
             recorded.share = 1;
             recorded.idle_pa = options.idle_pa;
