@@ -69,6 +69,14 @@ std::string cards(const Summary& s) {
     html += card("Removed", unit(s.removed_mm3 * cm3, "cm³"), number(s.remaining_mm3 * cm3) + " cm³ remain");
     if (s.gouge_max_mm) html += card("Deepest gouge", unit(*s.gouge_max_mm, "mm"));
     if (s.rest_max_mm) html += card("Most material left", unit(*s.rest_max_mm, "mm"));
+    if (s.chatter) {
+        const std::size_t lines = s.chatter->size();
+        html += card("Chatter",
+                     lines == 0 ? "none"
+                                : std::to_string(lines) +
+                                      (lines == 1 ? " <small>line</small>" : " <small>lines</small>"),
+                     "moves by " + number(s.largest_displacement_mm.value_or(0), 3) + " mm at most");
+    }
     if (s.scallop_max_mm) html += card("Highest scallop", unit(*s.scallop_max_mm, "mm"));
     html += card("Resolution", unit(s.resolution_mm, "mm"),
                  s.triangles ? std::to_string(*s.triangles) + " triangles" : "");
@@ -151,6 +159,25 @@ shows all again.</figcaption>
 </figure>)";
 }
 
+std::string chatter(const ReportChatter& chatter) {
+    std::string html = R"(<section id="chatter">
+<h2>Chatter along the program</h2>
+<p class="hint">By how much a small vibration grows from tooth to tooth. Above 1 the cut chatters.</p>
+<div class="plot"><canvas id="chatter-plot" role="img" aria-label="Multiplier over time"></canvas></div>
+)";
+    html += "<p>" + escaped(chatter.advice) + "</p>\n";
+    if (!chatter.chart_svg.empty())
+        html += "<figure class=\"chart\">" + chatter.chart_svg.substr(chatter.chart_svg.find("<svg")) +
+                "<figcaption>Stable speeds and depths where it chatters most</figcaption></figure>\n";
+    if (!chatter.displacement_mm.empty())
+        html +=
+            "<figure><div class=\"plot\"><canvas id=\"vibration-plot\" role=\"img\" "
+            "aria-label=\"Displacement over "
+            "time\"></canvas></div><figcaption>" +
+            escaped(chatter.label) + "</figcaption></figure>\n";
+    return html + "</section>";
+}
+
 // Returns a JSON array with at most `digits` digits per number.
 template <class Items, class Value>
 std::string array_of(const Items& items, int digits, const Value& value) {
@@ -164,14 +191,14 @@ std::string array_of(const Items& items, int digits, const Value& value) {
     return text + "]";
 }
 
-std::string rows_json(const std::vector<ReportRow>& rows) {
+std::string rows_json(const std::vector<ReportRow>& rows, bool chatter) {
     struct Column {
         const char* name;
         int digits;
         std::function<double(const ReportRow&)> value;
     };
     using R = const ReportRow&;
-    const Column columns[] = {
+    std::vector<Column> columns = {
         {"t", 8, [](R r) { return r.t_s; }},
         {"dt", 4, [](R r) { return r.duration_s; }},
         {"line", 9, [](R r) { return r.line; }},
@@ -186,6 +213,10 @@ std::string rows_json(const std::vector<ReportRow>& rows) {
         {"rpm", 5, [](R r) { return r.rpm; }},
         {"feed", 4, [](R r) { return r.feed_mm_per_min; }},
     };
+    if (chatter) {
+        columns.push_back({"mu", 4, [](R r) { return r.multiplier; }});
+        columns.push_back({"move", 4, [](R r) { return r.displacement_mm; }});
+    }
     std::string json = "{";
     for (const Column& column : columns) {
         json += (json.size() > 1 ? ",\"" : "\"") + std::string(column.name) +
@@ -202,6 +233,14 @@ std::string turn_json(const ReportTurn& turn) {
     json += ",\"z\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.z; });
     json += ",\"hz\":" + array_of(turn.spectrum, 6, [](const auto& line) { return line.first; });
     json += ",\"amplitude\":" + array_of(turn.spectrum, 4, [](const auto& line) { return line.second; });
+    return json + "}";
+}
+
+std::string vibration_json(const ReportChatter& chatter) {
+    std::string json =
+        "{\"label\":" + files::dump(files::Json(chatter.label)) + ",\"rate\":" + number(chatter.rate_hz, 8);
+    json += ",\"x\":" + array_of(chatter.displacement_mm, 4, [](const auto& mm) { return mm.first; });
+    json += ",\"y\":" + array_of(chatter.displacement_mm, 4, [](const auto& mm) { return mm.second; });
     return json + "}";
 }
 
@@ -223,8 +262,10 @@ std::string sound_json(const ReportSound& sound) {
 std::string data_json(const ReportData& data) {
     std::string json = "{\"schema\":\"tribo.report/1\",\"band\":[" + number(data.summary.force_low_factor) +
                        "," + number(data.summary.force_high_factor) +
-                       "],\"rows\":" + rows_json(thin_rows(data.rows, kMostRows));
+                       "],\"rows\":" + rows_json(thin_rows(data.rows, kMostRows), data.chatter.has_value());
     if (data.turn && !data.turn->force_n.empty()) json += ",\"turn\":" + turn_json(*data.turn);
+    if (data.chatter && !data.chatter->displacement_mm.empty())
+        json += ",\"vibration\":" + vibration_json(*data.chatter);
     if (data.sound && data.sound->seconds > 0) json += "," + sound_json(*data.sound);
     if (data.part) json += ",\"part\":" + report_part_json(*data.part);
     json += "}";
@@ -257,6 +298,8 @@ ReportRow joined(const ReportRow& a, const ReportRow& b) {
     ReportRow row = b.peak_n > a.peak_n ? b : a;
     row.t_s = a.t_s;
     row.duration_s = b.t_s + b.duration_s - a.t_s;
+    row.multiplier = std::max(a.multiplier, b.multiplier);
+    row.displacement_mm = std::max(a.displacement_mm, b.displacement_mm);
     const double both = a.duration_s + b.duration_s;
     if (both > 0) row.mean_n = (a.mean_n * a.duration_s + b.mean_n * b.duration_s) / both;
     return row;
@@ -293,6 +336,7 @@ std::string report_html(const ReportData& data) {
         if (mark == "script") return std::string(kReportScript);
         if (mark == "cards") return cards(data.summary);
         if (mark == "notices") return notices(data.summary);
+        if (mark == "chatter") return data.chatter ? chatter(*data.chatter) : "";
         if (mark == "facts") return facts(data.facts);
         if (mark == "audio") return data.sound ? audio(*data.sound) : "";
         if (mark == "data") return data_json(data);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // report.html: one file that opens offline and shows a render: the part in 3D, figures, warnings, force along
-// the program and along the path, one turn of the spindle with its spectrum, the sound and its waveforms, and
-// the assumptions. Text, style and script of the page are in page/ and are built in; the scripts are made
-// from web/report/.
+// the program and along the path, one turn of the spindle with its spectrum, chatter along the program and at
+// its worst place, the sound and its waveforms, and the assumptions. Text, style and script of the page are
+// in page/ and are built in; the scripts are made from web/report/.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +25,18 @@ struct ReportRow {
     double mean_n = 0, peak_n = 0;  // |mean force| over a turn, largest |F| in a turn
     double entry_deg = 0, exit_deg = 0, depth_mm = 0;
     double rpm = 0, feed_mm_per_min = 0;
+    // Of a job with modes; a multiplier of 0 is unknown.
+    double multiplier = 0, displacement_mm = 0;
+};
+
+// Chatter of a job with modes: its worst place.
+struct ReportChatter {
+    std::string advice;     // a sentence
+    std::string chart_svg;  // of stable speeds and depths there; empty: none
+    // The vibration of that cut from rest, in the plane across the axis: x along the feed.
+    std::string label;
+    double rate_hz = 48000;
+    std::vector<std::pair<float, float>> displacement_mm;
 };
 
 // The turn with the largest force.
@@ -61,6 +73,7 @@ struct ReportData {
     std::vector<ReportRow> rows;     // in the order of time
     std::optional<ReportTurn> turn;
     std::optional<ReportSound> sound;
+    std::optional<ReportChatter> chatter;                    // if the job has modes
     std::vector<std::pair<std::string, std::string>> facts;  // basis of the results: name, text
 };
 

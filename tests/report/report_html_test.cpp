@@ -61,6 +61,35 @@ TEST(Report, carries_the_data_of_its_plots) {
     EXPECT_EQ(json["waves"][0]["label"], "loud");
 }
 
+TEST(Report, shows_chatter_where_the_job_says_what_bends) {
+    ReportData data = example();
+    const std::string rigid = report_html(data);
+    EXPECT_EQ(rigid.find("chatter-plot\""), std::string::npos);
+    EXPECT_FALSE(embedded(rigid)["rows"].contains("mu"));
+    data.chatter = ReportChatter{
+        "Turn <slower>.", "<?xml?>\n<svg width=\"9\"></svg>", "line 5", 16000, {{0.5F, -0.25F}}};
+    data.rows[3].multiplier = 1.25;
+    data.rows[3].displacement_mm = 0.125;
+    data.summary.chatter.emplace();
+    data.summary.largest_displacement_mm = 0.125;
+    const std::string html = report_html(data);
+    EXPECT_NE(html.find("Turn &lt;slower&gt;."), std::string::npos);
+    EXPECT_NE(html.find("<figure class=\"chart\"><svg width=\"9\"></svg>"), std::string::npos);
+    EXPECT_NE(html.find("moves by 0.125 mm at most"), std::string::npos);
+    const Json json = embedded(html);
+    EXPECT_EQ(json["rows"]["mu"][3], 1.25);
+    EXPECT_EQ(json["rows"]["mu"][2], 0);
+    EXPECT_EQ(json["rows"]["move"][3], 0.125);
+    EXPECT_EQ(json["vibration"]["x"], Json::parse("[0.5]"));
+    EXPECT_EQ(json["vibration"]["y"], Json::parse("[-0.25]"));
+    EXPECT_EQ(json["vibration"]["rate"], 16000);
+    data.summary.chatter->resize(1);
+    EXPECT_NE(report_html(data).find("<b>1 <small>line</small></b>"), std::string::npos);
+    // A place without a chart and without a vibration is a sentence.
+    data.chatter = ReportChatter{"None.", "", "", 48000, {}};
+    EXPECT_FALSE(embedded(report_html(data)).contains("vibration"));
+}
+
 TEST(Report, is_one_file_that_needs_no_other) {
     const std::string html = report_html(example());
     for (const char* outside : {"http:", "https:", "<link", "src=\"/", "@import", "{{"}) {

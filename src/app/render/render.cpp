@@ -70,8 +70,9 @@ void print_chatter(const report::Summary& s) {
         std::printf("%-16s none", "chatter");
     } else {
         const auto& worst = *std::ranges::max_element(lines, {}, &report::SummaryChatter::multiplier);
-        std::printf("%-16s in %zu lines, most in line %d: it grows by %.3g at %.1f Hz", "chatter",
-                    lines.size(), worst.line, worst.multiplier, worst.chatter_hz);
+        std::printf("%-16s in %zu line%s, most in line %d: it grows by %.3g at %.1f Hz", "chatter",
+                    lines.size(), lines.size() == 1 ? "" : "s", worst.line, worst.multiplier,
+                    worst.chatter_hz);
     }
     std::printf("; the tool moves by %.3g mm at most\n", s.largest_displacement_mm.value_or(0));
 }
@@ -157,7 +158,8 @@ int render(const RenderCall& call) {
     } else {
         summary.stock_record->job = files::relative_to(folder->path(), record);
     }
-    if (auto done = outputs.finish(session, summary); !done) return report(done.error());
+    if (auto done = outputs.finish(session, chatter ? &*chatter : nullptr, summary); !done)
+        return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     summary.peak_memory_mb = static_cast<double>(files::peak_memory_bytes()) / kMegabyte;

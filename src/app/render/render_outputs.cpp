@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/render/report_chatter.hpp"
 #include "field/contour/contour.hpp"
 #include "field/shape/surface_points.hpp"
 #include "files/model/gltf.hpp"
@@ -96,10 +97,11 @@ void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& for
     const bool vibrates = chatter != nullptr && chatter->vibration;
     if (sound_)
         sound_->add(row, force, setup.cutters[row.cutter].flutes, vibrates ? &*chatter->vibration : nullptr);
-    if (call_.wants("report")) report_.add(row, force.peaks);
+    if (call_.wants("report")) report_.add(row, force.peaks, chatter);
 }
 
-FileResult<void> RenderOutputs::finish(const session::MillSession& session, report::Summary& summary) {
+FileResult<void> RenderOutputs::finish(const session::MillSession& session,
+                                       const session::ProgramChatter* chatter, report::Summary& summary) {
     if (forces_) {
         if (auto done = forces_->finish(); !done) return done;
     }
@@ -120,7 +122,7 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session, repo
     if (loaded_.part) {
         if (auto done = compare(session, summary); !done) return done;
     }
-    if (call_.wants("report")) return write_report(session, summary, std::move(mesh));
+    if (call_.wants("report")) return write_report(session, chatter, summary, std::move(mesh));
     return {};
 }
 
@@ -189,6 +191,7 @@ report::ReportPart RenderOutputs::report_part(const session::MillSession& sessio
 }
 
 FileResult<void> RenderOutputs::write_report(const session::MillSession& session,
+                                             const session::ProgramChatter* chatter,
                                              const report::Summary& summary, TriangleMesh mesh) {
     report::ReportData data;
     data.title = call_.job;
@@ -201,6 +204,8 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
     mesh = {};
     data.rows = report::thin_rows(report_.rows, 4000);
     data.turn = report_.turn(session.setup());
+    if (chatter != nullptr)
+        data.chatter = report_chatter(*chatter, session.setup(), loaded_.job.modes, parallel_);
     if (sound_) {
         data.sound = sound_->for_report();
         data.sound->waves = report_.waves(session.setup(), sound_->options());

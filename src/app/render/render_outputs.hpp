@@ -31,15 +31,17 @@ class RenderOutputs {
     void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup,
              const session::RowChatter* chatter);
     // Call after it. Adds results to `summary`. Moves the mesh of the designed part out of the job.
-    FileResult<void> finish(const session::MillSession& session, report::Summary& summary);
+    // `chatter`: null without modes.
+    FileResult<void> finish(const session::MillSession& session, const session::ProgramChatter* chatter,
+                            report::Summary& summary);
 
   private:
     FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
     FileResult<void> compare(const session::MillSession& session, report::Summary& summary);
     report::ReportPart report_part(const session::MillSession& session, const report::Summary& summary,
                                    const TriangleMesh& mesh) const;
-    FileResult<void> write_report(const session::MillSession& session, const report::Summary& summary,
-                                  TriangleMesh mesh);
+    FileResult<void> write_report(const session::MillSession& session, const session::ProgramChatter* chatter,
+                                  const report::Summary& summary, TriangleMesh mesh);
 
     const RenderCall& call_;
     PreparedJob& loaded_;

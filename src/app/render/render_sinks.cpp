@@ -171,12 +171,17 @@ report::ReportSound SoundFile::for_report() const {
     return sound;
 }
 
-void ReportRows::add(const milling::CutRow& row, const milling::ForcePeaks& force) {
+void ReportRows::add(const milling::CutRow& row, const milling::ForcePeaks& force,
+                     const session::RowChatter* chatter) {
     constexpr double kDegPerRad = 180 / math::kPi;
     const milling::EngagementHull hull = milling::hull(row.engagement);
     rows.push_back({row.start_s, row.duration_s(), row.line, row.pose.tip_mm, length(force.mean_n),
                     force.peak_force_n, hull.entry_rad * kDegPerRad, hull.exit_rad * kDegPerRad,
                     hull.axial_depth_mm, row.spindle_rpm, row.feed_mm_per_s() * 60});
+    if (chatter != nullptr) {
+        if (chatter->stability) rows.back().multiplier = chatter->stability->multiplier;
+        rows.back().displacement_mm = chatter->peak_displacement_mm.value_or(0);
+    }
     if (force.peak_force_n > worst_force_n_) {
         worst_force_n_ = force.peak_force_n;
         worst_ = row;

@@ -84,7 +84,9 @@ class SoundFile {
 // Collects rows for the plots, and the turn with the largest force.
 class ReportRows {
   public:
-    void add(const milling::CutRow& row, const milling::ForcePeaks& force);
+    // `chatter`: null without modes.
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force,
+             const session::RowChatter* chatter);
     std::vector<report::ReportRow> rows;
     // Computes the turn with the largest force again, with all instants.
     std::optional<report::ReportTurn> turn(const session::MillSetup& setup) const;

@@ -96,12 +96,6 @@ std::string source_of(const StabilityCall& call, const session::SteadyCut& cut) 
     return all;
 }
 
-// Three digits, never more than the value.
-double rounded_down(double value) {
-    const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
-    return digit * std::floor(value / digit + 1e-9);
-}
-
 template <class... Values>
 std::string words(const char* format, Values... values) {
     char text[200];
@@ -109,34 +103,9 @@ std::string words(const char* format, Values... values) {
     return text;
 }
 
-std::string sentence_of(const session::SteadyCut& cut, const ComputedChart& computed) {
-    const dynamics::StabilityChart& chart = computed.chart;
-    const session::Advice& a = computed.advice;
-    const double rpm = cut.spindle_rpm, depth = cut.axial_depth_mm;
-    std::string text;
-    if (a.here.multiplier <= 1) {
-        text = words("%.6g rpm and %.4g mm are stable", rpm, depth);
-        text += a.limit.depth_mm
-                    ? words("; at this speed the cut stays stable down to %.4g mm",
-                            rounded_down(*a.limit.depth_mm))
-                    : words("; at this speed the whole edge of %.4g mm is stable", cut.cutter.length_mm);
-    } else {
-        text = words("%.6g rpm and %.4g mm chatter at %.1f Hz; ", rpm, depth, a.here.chatter_hz);
-        text += a.nearest_rpm ? words("nearest stable speed at this depth: %.6g rpm", *a.nearest_rpm)
-                              : words("no speed from %.6g to %.6g rpm is stable at this depth",
-                                      chart.speeds_rpm.front(), chart.speeds_rpm.back());
-        if (a.limit.depth_mm)
-            text += words("; largest stable depth at this speed: %.4g mm", rounded_down(*a.limit.depth_mm));
-    }
-    if (a.pockets.empty()) return text + ".";
-    const dynamics::SafePocket& best = a.pockets.front();
-    return text + words("; deepest pocket of the chart: %.6g rpm, %.4g mm%s.", best.spindle_rpm,
-                        rounded_down(best.depth_mm), best.deeper ? " or more" : "");
-}
-
 void add_chart(const session::SteadyCut& cut, const ComputedChart& computed, files::Json& json) {
     const dynamics::ChartRange& r = computed.range;
-    json["advice"] = sentence_of(cut, computed);
+    json["advice"] = session::in_words(cut, computed.chart, computed.advice);
     files::set(json, "nearest_stable_rpm", computed.advice.nearest_rpm);
     json["chart"] = {{"from_rpm", nine(r.from_rpm)},
                      {"to_rpm", nine(r.to_rpm)},
@@ -211,14 +180,6 @@ std::string summary_json(const StabilityCall& call, const StabilityAnswer& answe
     return files::pretty(json);
 }
 
-std::string title_of(const session::SteadyCut& cut) {
-    char text[160];
-    std::snprintf(text, sizeof text, "Stable depths: %.4g mm cutter, %d %s, engaged from %.4g to %.4g deg",
-                  cut.cutter.diameter_mm, cut.cutter.flutes, cut.cutter.flutes == 1 ? "tooth" : "teeth",
-                  cut.entry_rad() * math::kDegPerRad, cut.exit_rad() * math::kDegPerRad);
-    return text;
-}
-
 constexpr std::array<const char*, 4> kChartFiles{"stability.csv", "limits.csv", "stability.svg",
                                                  "stability.png"};
 constexpr const char *kVibration = "vibration.csv", *kSummary = "summary.json";
@@ -284,7 +245,7 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
     std::printf("chart: %g to %g rpm in steps of %g rpm%s, to %g mm in steps of %g mm%s\n", r.from_rpm,
                 r.to_rpm, r.step_rpm, call.speeds ? "" : " (--rpm asks for others)", r.most_mm, r.step_mm,
                 call.depths ? "" : " (--depth asks for others)");
-    std::printf("advice: %s\n", sentence_of(cut, *answer.chart).c_str());
+    std::printf("advice: %s\n", session::in_words(cut, answer.chart->chart, answer.chart->advice).c_str());
 }
 
 bool is_stability_file(const std::string& name) {
@@ -327,8 +288,8 @@ FileResult<void> write_files(const StabilityCall& call, const StabilityAnswer& a
     if (answer.chart) {
         const session::SteadyCut& cut = answer.cut;
         const report::Drawing drawing = report::draw_stability(
-            answer.chart->chart,
-            {title_of(cut), cut.spindle_rpm, cut.axial_depth_mm, answer.chart->advice.here.multiplier <= 1});
+            answer.chart->chart, {session::chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm,
+                                  answer.chart->advice.here.multiplier <= 1});
         const std::array<std::string, kChartFiles.size()> texts{
             points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),
             files::png_bytes(report::image_of(drawing))};

@@ -33,19 +33,13 @@ class Search {
             // What is too slow to be computed counts as bad, and is said to be so.
             multipliers[n] = stability ? stability->multiplier : std::numeric_limits<double>::max();
         });
-        for (std::size_t n = 0; n < batch_.size(); ++n) {
-            // Of rows that chatter alike the one that lasts longest, not one on the way into the cut.
-            constexpr double kAlike = 1.01;
-            const double m = multipliers[n];
-            const bool longer = worst_ && m * kAlike >= most_ && batch_[n].lasts_s > worst_->lasts_s;
-            if (!worst_ || m > kAlike * most_ || longer) worst_ = batch_[n];
-            most_ = std::max(most_, m);
-        }
+        for (std::size_t n = 0; n < batch_.size(); ++n)
+            worst_.add(batch_[n].row, batch_[n].lasts_s, multipliers[n]);
         batch_.clear();
     }
     std::size_t rows() const { return rows_; }
     SteadyCut worst() const {
-        SteadyCut cut = steady_cut_of(worst_->row, setup_, modes_, kMostBands);
+        SteadyCut cut = steady_cut_of(*worst_.row(), setup_, modes_, kMostBands);
         cut.rows = rows_;
         return cut;
     }
@@ -60,8 +54,7 @@ class Search {
     const MillSetup& setup_;
     const ParallelFor& parallel_;
     std::vector<Stretch> batch_;
-    std::optional<Stretch> worst_;
-    double most_ = 0;
+    WorstRow worst_;
     std::size_t rows_ = 0;
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "session/chatter/row_stability.hpp"
 #include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::session {
@@ -86,9 +85,14 @@ void ProgramChatter::compute() {
                 row.chatter.vibration = {kVibrationHz, simulation_.first_sample(), row.trace};
         }
     });
+    std::vector<double> lasts_s(count_);
+    for (std::size_t n = 0; n < count_; ++n)
+        if (has_multiplier(batch_[n].cut)) lasts_s[first_of[n]] += batch_[n].cut.duration_s();
     for (std::size_t n = 0; n < count_; ++n) {
         Row& row = batch_[n];
         if (has_multiplier(row.cut)) row.chatter.stability = batch_[first_of[n]].chatter.stability;
+        if (row.chatter.stability && first_of[n] == n)
+            worst_.add(row.cut, lasts_s[n], row.chatter.stability->multiplier);
         count(row);
         if (sink_) sink_(row.cut, row.force, row.chatter);
     }

@@ -12,6 +12,7 @@
 #include "contact/force_trace.hpp"
 #include "dynamics/stability.hpp"
 #include "session/chatter/row_simulation.hpp"
+#include "session/chatter/row_stability.hpp"
 
 namespace tribo::session {
 
@@ -60,6 +61,8 @@ class ProgramChatter {
     // Gives on the last rows.
     void finish();
     const ChatterTotals& totals() const { return totals_; }
+    // The row that chatters most; null if none has a multiplier.
+    const milling::CutRow* worst() const { return worst_.row(); }
 
   private:
     struct Row {
@@ -83,6 +86,7 @@ class ProgramChatter {
     std::size_t count_ = 0;
     double lasts_s_ = 0;  // all of them
     ChatterTotals totals_;
+    WorstRow worst_;
 };
 
 }  // namespace tribo::session

@@ -36,6 +36,16 @@ std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, cons
     return cut.at(cut.spindle_rpm, depth);
 }
 
+void WorstRow::add(const milling::CutRow& row, double lasts_s, double multiplier) {
+    constexpr double kAlike = 1.01;
+    const bool longer = multiplier * kAlike >= most_ && lasts_s > lasts_s_;
+    if (!row_ || multiplier > kAlike * most_ || longer) {
+        row_ = row;
+        lasts_s_ = lasts_s;
+    }
+    most_ = std::max(most_, multiplier);
+}
+
 bool chatter_alike(const milling::CutRow& a, const milling::CutRow& b) {
     const auto& bands = a.engagement.bands;
     const auto& others = b.engagement.bands;

@@ -25,6 +25,20 @@ std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, cons
 // Whether two rows differ by so little (0.001 mm, 0.001 rad) that one multiplier is enough for both.
 bool chatter_alike(const milling::CutRow& a, const milling::CutRow& b);
 
+// Keeps the row with the largest multiplier; of rows within 1 % of it the one that lasts longest, which is
+// not one on the way into the cut.
+class WorstRow {
+  public:
+    // `lasts_s`: with the alike rows that follow.
+    void add(const milling::CutRow& row, double lasts_s, double multiplier);
+    // Null before the first row.
+    const milling::CutRow* row() const { return row_ ? &*row_ : nullptr; }
+
+  private:
+    std::optional<milling::CutRow> row_;
+    double lasts_s_ = 0, most_ = 0;
+};
+
 // Joins bands that stand on each other, those first whose borders differ least.
 std::vector<milling::EngagementBand> with_fewer_bands(std::vector<milling::EngagementBand> bands,
                                                       std::size_t most);

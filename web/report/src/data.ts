@@ -21,6 +21,17 @@ export interface Rows {
   depth: number[];
   rpm: number[];
   feed: number[];
+  /** Of a job with modes: growth of a vibration (0: unknown) and largest displacement. */
+  mu?: number[];
+  move?: number[];
+}
+
+/** The vibration of the cut that chatters most, from rest, along the feed and across it, mm. */
+export interface Vibration {
+  label: string;
+  rate: number;
+  x: number[];
+  y: number[];
 }
 
 /** The turn with the largest force, and its spectrum. */
@@ -65,6 +76,7 @@ interface ReportData {
   band: Pair;
   rows: Rows;
   turn?: Turn;
+  vibration?: Vibration;
   envelope?: Envelope;
   waves?: Wave[];
   part?: Part;

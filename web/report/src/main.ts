@@ -3,6 +3,7 @@
 // without a part does not contain.
 
 import { element } from "@tribo/ui/dom";
+import { chatterPlot, vibrationPlot } from "./chatter_plots.js";
 import { count, data, rows } from "./data.js";
 import { forcePlot } from "./force_plot.js";
 import { largest } from "./numbers.js";
@@ -19,6 +20,7 @@ if (count) {
   listenToSlider();
   forcePlot();
   pathPlot();
+  if (rows.mu) chatterPlot(rows.mu);
   select(rows.peak.indexOf(largest(rows.peak)));
 } else {
   remove("forces");
@@ -26,6 +28,7 @@ if (count) {
 }
 if (data.turn) turnPlots(data.turn);
 else remove("turn");
+if (data.vibration) vibrationPlot(data.vibration);
 if (data.envelope) {
   envelopePlot(data.envelope);
   wavePlots(data.waves ?? []);

@@ -16,7 +16,7 @@ const SCALE: Vec3[] = [
   [226, 160, 30],
   [200, 45, 30],
 ];
-const UNITS = { peak: "N", mean: "N", depth: "mm", feed: "mm/min" };
+const UNITS = { peak: "N", mean: "N", depth: "mm", feed: "mm/min", mu: "growth" };
 // A pointer selects a row within this distance, in pixels.
 const REACH = 30;
 
@@ -31,6 +31,9 @@ function span(list: number[]): { middle: number; width: number } {
 
 export function pathPlot(): void {
   let by: keyof typeof UNITS = "peak";
+  const value = (i: number) => rows[by]?.[i] ?? 0;
+  const most = () => largest(rows[by] ?? []) || 1;
+  if (rows.mu) document.querySelector("#colouring [hidden]")?.removeAttribute("hidden");
   const x = span(rows.x);
   const y = span(rows.y);
   const plot = new Plot("path-plot", {
@@ -43,13 +46,13 @@ export function pathPlot(): void {
       return { x: [x.middle - half * aspect, x.middle + half * aspect], y: [y.middle - half, y.middle + half] };
     },
     paint(c) {
-      const top = largest(rows[by]) || 1;
+      const top = most();
       c.lineCap = "round";
       c.lineWidth = 2;
       for (const [first, end] of runs) {
         for (let i = first; i < end; ++i) {
           const next = Math.min(i + 1, end - 1);
-          c.strokeStyle = colour(rows[by][i]! / top);
+          c.strokeStyle = colour(value(i) / top);
           line(c, plot.x(rows.x[i]!), plot.y(rows.y[i]!), plot.x(rows.x[next]!), plot.y(rows.y[next]!));
         }
       }
@@ -57,7 +60,6 @@ export function pathPlot(): void {
     cursor(c) {
       const left = plot.left + plot.width + 14;
       const h = Math.min(plot.height, 220);
-      const most = largest(rows[by]) || 1;
       for (let i = 0; i < h; ++i) {
         c.fillStyle = colour(1 - i / h);
         c.fillRect(left, plot.top + i, 12, 1.5);
@@ -66,7 +68,7 @@ export function pathPlot(): void {
       c.textAlign = "left";
       c.textBaseline = "middle";
       for (const share of [0, 0.5, 1])
-        c.fillText(short(share * most), left + 17, plot.top + 6 + (1 - share) * (h - 12));
+        c.fillText(short(share * most()), left + 17, plot.top + 6 + (1 - share) * (h - 12));
       c.fillText(UNITS[by], left, plot.top + h + 14);
       if (selected < 0) return;
       c.strokeStyle = css("--cursor");

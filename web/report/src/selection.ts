@@ -16,6 +16,12 @@ export function follow(redraw: () => void): void {
   linked.push(redraw);
 }
 
+function vibrates(i: number): string {
+  const growth = rows.mu?.[i];
+  if (!growth) return "";
+  return `; a vibration grows by <b>${short(growth)}</b>, the tool moves by ${short(rows.move?.[i] ?? 0)} mm`;
+}
+
 export function select(i: number): void {
   if (i === selected || i < 0 || i >= count) return;
   selected = i;
@@ -25,7 +31,7 @@ export function select(i: number): void {
   element("readout").innerHTML =
     `line <b>${rows.line[i]}</b> at <b>${s(rows.t)} s</b>, tip (${s(rows.x)}, ${s(rows.y)}, ${s(rows.z)}) mm:` +
     ` peak <b>${s(rows.peak)} N</b> (${s(rows.peak, low)} to ${s(rows.peak, high)}), mean <b>${s(rows.mean)} N</b>;` +
-    ` engaged ${s(rows.entry)}° to ${s(rows.exit)}°, ${s(rows.depth)} mm deep, ${s(rows.rpm)} rpm, ${s(rows.feed)} mm/min`;
+    ` engaged ${s(rows.entry)}° to ${s(rows.exit)}°, ${s(rows.depth)} mm deep, ${s(rows.rpm)} rpm, ${s(rows.feed)} mm/min${vibrates(i)}`;
   for (const redraw of linked) redraw();
 }
 

@@ -16,6 +16,11 @@ const JOB = jobText(
   "[[0, 0, -8], [40, 20, 0]]",
   `[part]
 surface = "plane.stl"
+[[mode]]
+direction = [1, 0, 0]
+frequency_hz = 900
+damping_ratio = 0.02
+stiffness_n_per_mm = 900
 `,
 );
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\n";
@@ -83,6 +88,26 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
   it("is one file of less than 5 MB that asks for nothing else", () => {
     expect(asked.filter((url) => !url.startsWith("data:"))).toEqual([address]);
     expect(statSync(join(folder, "out/report.html")).size).toBeLessThan(5e6);
+    expect(problems).toEqual([]);
+  });
+
+  it("draws growth and vibration of a job that says what bends, and colours the path by it", async () => {
+    const painted = (id: string) =>
+      page.evaluate((name) => {
+        const canvas = document.querySelector<HTMLCanvasElement>(`#${name}`)!;
+        const bytes = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height).data;
+        let sum = 0;
+        for (let n = 0; n < bytes.length; n += 4) if (bytes[n + 3]! > 0) sum += bytes[n]! + (n % 1009);
+        return sum;
+      }, id);
+    expect(await painted("chatter-plot")).toBeGreaterThan(10_000);
+    expect(await painted("vibration-plot")).toBeGreaterThan(10_000);
+    expect(await page.locator("#chatter .chart svg").count()).toBe(1);
+    const byForce = await painted("path-plot");
+    await page.check('#colouring input[value="mu"]');
+    expect(await painted("path-plot")).not.toBe(byForce);
+    expect(await page.textContent("#readout")).toContain("a vibration grows by");
+    await page.evaluate(() => window.scrollTo(0, 0));
     expect(problems).toEqual([]);
   });
 
