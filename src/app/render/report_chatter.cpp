@@ -3,8 +3,8 @@
 
 #include <cstdio>
 
+#include "app/stability/stability_words.hpp"
 #include "report/stability_picture.hpp"
-#include "session/chatter/advice.hpp"
 #include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::app {
@@ -38,10 +38,9 @@ report::ReportChatter report_chatter(const session::ProgramChatter& chatter, con
         const dynamics::StabilityChart chart = dynamics::stability_chart(
             range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel);
         const session::Advice advice = session::advise(cut, chart, parallel);
-        shown.advice += session::in_words(cut, chart, advice);
-        shown.chart_svg =
-            report::svg_of(report::draw_stability(chart, {session::chart_title(cut), cut.spindle_rpm,
-                                                          cut.axial_depth_mm, advice.here.multiplier <= 1}));
+        shown.advice += in_words(cut, chart, advice);
+        shown.chart_svg = report::svg_of(report::draw_stability(
+            chart, {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm, advice.here.multiplier <= 1}));
     }
     std::snprintf(text, sizeof text,
                   "The tool against the part in this cut, from rest: line %d, %.6g rpm, %.4g mm deep",

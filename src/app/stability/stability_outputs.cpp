@@ -10,6 +10,7 @@
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
 #include "app/progress.hpp"
+#include "app/stability/stability_words.hpp"
 #include "base/math.hpp"
 #include "files/image/png.hpp"
 #include "files/json/json.hpp"
@@ -96,16 +97,9 @@ std::string source_of(const StabilityCall& call, const session::SteadyCut& cut) 
     return all;
 }
 
-template <class... Values>
-std::string words(const char* format, Values... values) {
-    char text[200];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
-
 void add_chart(const session::SteadyCut& cut, const ComputedChart& computed, files::Json& json) {
     const dynamics::ChartRange& r = computed.range;
-    json["advice"] = session::in_words(cut, computed.chart, computed.advice);
+    json["advice"] = in_words(cut, computed.chart, computed.advice);
     files::set(json, "nearest_stable_rpm", computed.advice.nearest_rpm);
     json["chart"] = {{"from_rpm", nine(r.from_rpm)},
                      {"to_rpm", nine(r.to_rpm)},
@@ -245,7 +239,7 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
     std::printf("chart: %g to %g rpm in steps of %g rpm%s, to %g mm in steps of %g mm%s\n", r.from_rpm,
                 r.to_rpm, r.step_rpm, call.speeds ? "" : " (--rpm asks for others)", r.most_mm, r.step_mm,
                 call.depths ? "" : " (--depth asks for others)");
-    std::printf("advice: %s\n", session::in_words(cut, answer.chart->chart, answer.chart->advice).c_str());
+    std::printf("advice: %s\n", in_words(cut, answer.chart->chart, answer.chart->advice).c_str());
 }
 
 bool is_stability_file(const std::string& name) {
@@ -273,11 +267,13 @@ FileResult<void> write_vibration(const StabilityCall& call, StabilityAnswer& ans
             return !interrupted();
         });
     if (answer.simulated->ended_s) {
-        answer.warnings.push_back({call.job, 0,
-                                   words("the simulation ends at %.4g s: the tool moves by more than a tenth "
-                                         "of its diameter, and there the "
-                                         "equations no longer hold",
-                                         *answer.simulated->ended_s)});
+        char cause[160];
+        std::snprintf(
+            cause, sizeof cause,
+            "the simulation ends at %.4g s: the tool moves by more than a tenth of its diameter, and "
+            "there the equations no longer hold",
+            *answer.simulated->ended_s);
+        answer.warnings.push_back({call.job, 0, cause});
         report(Warnings{answer.warnings.back()});
     }
     return file->finish();
@@ -288,7 +284,7 @@ FileResult<void> write_files(const StabilityCall& call, const StabilityAnswer& a
     if (answer.chart) {
         const session::SteadyCut& cut = answer.cut;
         const report::Drawing drawing = report::draw_stability(
-            answer.chart->chart, {session::chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm,
+            answer.chart->chart, {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm,
                                   answer.chart->advice.here.multiplier <= 1});
         const std::array<std::string, kChartFiles.size()> texts{
             points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),

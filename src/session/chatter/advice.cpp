@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/math.hpp"
 
@@ -19,19 +18,6 @@ double round_below(double value) {
     for (const double times : {5.0, 2.0})
         if (times * decade <= value) return times * decade;
     return decade;
-}
-
-// Three digits, never more than the value.
-double rounded_down(double value) {
-    const double digit = std::pow(10.0, std::floor(std::log10(value)) - 2);
-    return digit * std::floor(value / digit + 1e-9);
-}
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-    char text[200];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
 }
 
 }  // namespace
@@ -81,35 +67,6 @@ Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const
             advice.nearest_rpm = rpm;
     }
     return advice;
-}
-
-std::string in_words(const SteadyCut& cut, const dynamics::StabilityChart& chart, const Advice& a) {
-    const double rpm = cut.spindle_rpm, depth = cut.axial_depth_mm;
-    std::string text;
-    if (a.here.multiplier <= 1) {
-        text = words("%.6g rpm and %.4g mm are stable", rpm, depth);
-        text += a.limit.depth_mm
-                    ? words("; at this speed the cut stays stable down to %.4g mm",
-                            rounded_down(*a.limit.depth_mm))
-                    : words("; at this speed the whole edge of %.4g mm is stable", cut.cutter.length_mm);
-    } else {
-        text = words("%.6g rpm and %.4g mm chatter at %.1f Hz; ", rpm, depth, a.here.chatter_hz);
-        text += a.nearest_rpm ? words("nearest stable speed at this depth: %.6g rpm", *a.nearest_rpm)
-                              : words("no speed from %.6g to %.6g rpm is stable at this depth",
-                                      chart.speeds_rpm.front(), chart.speeds_rpm.back());
-        if (a.limit.depth_mm)
-            text += words("; largest stable depth at this speed: %.4g mm", rounded_down(*a.limit.depth_mm));
-    }
-    if (a.pockets.empty()) return text + ".";
-    const dynamics::SafePocket& best = a.pockets.front();
-    return text + words("; deepest pocket of the chart: %.6g rpm, %.4g mm%s.", best.spindle_rpm,
-                        rounded_down(best.depth_mm), best.deeper ? " or more" : "");
-}
-
-std::string chart_title(const SteadyCut& cut) {
-    return words("Stable depths: %.4g mm cutter, %d %s, engaged from %.4g to %.4g deg",
-                 cut.cutter.diameter_mm, cut.cutter.flutes, cut.cutter.flutes == 1 ? "tooth" : "teeth",
-                 cut.entry_rad() * math::kDegPerRad, cut.exit_rad() * math::kDegPerRad);
 }
 
 }  // namespace tribo::session

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "dynamics/stability_chart.hpp"
@@ -28,9 +27,5 @@ struct Advice {
 
 // `parallel` as in stability_chart().
 Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel);
-// A sentence. `chart`: that of advise().
-std::string in_words(const SteadyCut& cut, const dynamics::StabilityChart& chart, const Advice& advice);
-// Cutter and engagement.
-std::string chart_title(const SteadyCut& cut);
 
 }  // namespace tribo::session
