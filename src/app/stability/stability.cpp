@@ -50,13 +50,10 @@ FileResult<session::SteadyCut> milled_cut(const StabilityCall& call, const Paral
     if (auto fits = check_memory(call.job, *setup, {}, {}); !fits)
         return std::unexpected(FileFailure(fits.error()));
     Progress progress;
-    auto cut = session::critical_row(
-        *loaded, *std::move(setup), call.place, parallel,
-        [&](double fraction) {
-            progress.update("milling", fraction);
-            return !interrupted();
-        },
-        warnings);
+    auto cut = session::critical_row(*loaded, *std::move(setup), call.place, parallel, [&](double fraction) {
+        progress.update("milling", fraction);
+        return !interrupted();
+    });
     if (!cut) return std::unexpected(FileFailure(cut.error()));
     return *std::move(cut);
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cell_index.hpp"
 #include "contact/texture_record.hpp"
 
 namespace tribo::haptics {
@@ -29,15 +30,8 @@ class TextureMap {
     static constexpr int kMostLooked = 32;
 
   private:
-    struct Entry {
-        std::uint64_t cell;
-        std::uint32_t record;
-    };
-    std::uint64_t cell_of(Vec3 place, int dx, int dy, int dz) const;
-
     std::vector<contact::TextureRecord> records_;
-    std::vector<Entry> entries_;  // sorted by cell, then by path
-    Vec3 origin_;
+    CellIndex cells_;
     double reach_ = 1;
 };
 

@@ -26,4 +26,12 @@ Vec3 slerp(Vec3 a, Vec3 b, double t) {
     return normalized(c * a + s * sideways, a);
 }
 
+Vec3 turned_upright(Vec3 v, Vec3 axis) {
+    const Vec3 z{0, 0, 1}, normal = cross(z, axis);
+    const double cosine = dot(z, axis);
+    // Every half turn is a shortest one.
+    if (cosine < -1 + 1e-12) return {v.x, -v.y, -v.z};
+    return cosine * v + cross(normal, v) + (dot(normal, v) / (1 + cosine)) * normal;
+}
+
 }  // namespace tribo::motion

@@ -18,4 +18,7 @@ Vec3 turned(Vec3 v, Vec3 about, double turn_rad);
 // at constant angular speed. Between opposite directions the path goes through any_perpendicular(a).
 Vec3 slerp(Vec3 a, Vec3 b, double t);
 
+// Returns v turned by the shortest rotation of +z to a unit axis. To -z: the half turn about x.
+Vec3 turned_upright(Vec3 v, Vec3 axis);
+
 }  // namespace tribo::motion

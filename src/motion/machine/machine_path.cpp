@@ -77,9 +77,11 @@ Joints joints_at(const Kinematics& machine, const MachineBlock& block, double t)
 
 ToolPose pose_at(const Kinematics& machine, const MachineBlock& block, double t) {
     const Vec3 coordinates = coordinates_at(block, t), rotary = rotary_at(block, t);
-    if (block.tip_control) return {coordinates, normalized(machine.axis(rotary))};
+    const double turn = machine.turn_rad(rotary);
+    if (block.tip_control) return {coordinates, normalized(machine.axis(rotary)), turn};
     ToolPose pose = machine.pose({coordinates + machine.stock_mm(), rotary});
     pose.axis = normalized(pose.axis);
+    pose.turn_rad = turn;
     return pose;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "motion/path/program.hpp"
 
+#include <cmath>
+
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
 #include "motion/curve/arc_frame.hpp"
@@ -45,16 +47,19 @@ void include_extremes(Box3& box, const Move& move, const ArcFrame& frame, int k)
 ToolPose pose_at(const Move& move, double t) {
     if (t <= 0) return move.start;
     if (t >= 1) return move.end;
+    double turn = move.start.turn_rad;
+    if (move.end.turn_rad != turn) turn += t * std::remainder(move.end.turn_rad - turn, math::kTwoPi);
     if (move.quadratic) {
         const Quadratic& q = *move.quadratic;
         return {
             quadratic_point(move.start.tip_mm, q.tip_control_mm, move.end.tip_mm, t),
-            normalized(quadratic_point(move.start.axis, q.axis_control, move.end.axis, t), move.start.axis)};
+            normalized(quadratic_point(move.start.axis, q.axis_control, move.end.axis, t), move.start.axis),
+            turn};
     }
     const Vec3 axis =
         move.start.axis == move.end.axis ? move.start.axis : slerp(move.start.axis, move.end.axis, t);
-    if (move.arc) return {arc_point(move, ArcFrame(move), t), axis};
-    return {lerp(move.start.tip_mm, move.end.tip_mm, t), axis};
+    if (move.arc) return {arc_point(move, ArcFrame(move), t), axis, turn};
+    return {lerp(move.start.tip_mm, move.end.tip_mm, t), axis, turn};
 }
 
 Box3 tip_bounds(const Move& move) {

@@ -13,9 +13,12 @@
 namespace tribo::motion {
 
 // The tool tip (lowest point on the tool axis, mm, stock frame) and the unit axis from the tip to the shank.
+// `turn_rad`: the turn of the head about this axis, right-handed, from the shortest rotation of +z to it
+// (direction.hpp: turned_upright). A table that turns the part turns the head against the part.
 struct ToolPose {
     Vec3 tip_mm;
     Vec3 axis{0, 0, 1};
+    double turn_rad = 0;
 
     bool operator==(const ToolPose&) const = default;
 };

@@ -170,7 +170,8 @@ Result<void> Path::follow(const motion::BSpline<motion::HomogeneousPoint>& curve
     if (pieces.empty()) return {};
     pieces.front().start = from;
     pieces.back().end = pose_in_stock();
-    for (const motion::Move& piece : pieces) {
+    for (motion::Move& piece : pieces) {
+        piece.start.turn_rad = piece.end.turn_rad = from.turn_rad;
         if (auto done = append(piece); !done) return done;
     }
     return {};

@@ -158,7 +158,7 @@ std::string write_keyframes(const std::vector<motion::Keyframe>& keyframes) {
     if (feeds) csv += ",feed_mm_per_min";
     csv += '\n';
     for (const motion::Keyframe& keyframe : keyframes) {
-        const auto [tip, axis] = keyframe.pose;
+        const Vec3 tip = keyframe.pose.tip_mm, axis = keyframe.pose.axis;
         append_decimal(csv, tip.x);
         for (const double value : {tip.y, tip.z, axis.x, axis.y, axis.z}) {
             csv += ',';

@@ -75,36 +75,22 @@ std::unexpected<Error> nothing_cut(const std::string& file, const CutPlace& plac
 
 Result<SteadyCut> critical_row(const job::LoadedJob& loaded, MillSetup setup, const CutPlace& place,
                                const ParallelFor& parallel,
-                               const std::function<bool(double fraction)>& progress, Warnings& warnings) {
+                               const std::function<bool(double fraction)>& progress) {
     if (auto good = check_modes(loaded.job); !good) return std::unexpected(good.error());
     const std::string& file = loaded.program.source;
     MillSession session(std::move(setup), parallel, progress);
     Search search(loaded.job, session.setup(), parallel);
-    std::size_t tilted = 0;
-    int tilted_line = 0;
     MillSinks sinks;
     sinks.row = [&](const milling::CutRow& row, const milling::RowForce&) {
         if (row.engagement.bands.empty()) return;
         if (place.line && row.line != *place.line) return;
         if (place.t_s && (row.start_s > *place.t_s || row.end_s <= *place.t_s)) return;
-        if (tilted_by_machine(session.setup(), row.pose.frame.z)) {
-            ++tilted;
-            tilted_line = row.line;
-            return;
-        }
         search.add(row);
     };
     sinks.progress = progress;
     session.run(sinks);
     search.compute();
-    if (search.rows() == 0 && tilted > 0)
-        return fail_at(file, tilted_line, 0, "the machine tilts the tool in every row of the cut in question",
-                       "name a cut of an upright tool, or remove the machine");
     if (search.rows() == 0) return nothing_cut(file, place);
-    if (tilted > 0)
-        warnings.push_back({file, tilted_line,
-                            std::to_string(tilted) + " rows were left out: the machine tilts "
-                                                     "the tool in them"});
     return search.worst();
 }
 

@@ -21,12 +21,11 @@ struct CutPlace {
 // Mills the setup of a loaded job and takes engagement, tool, speed and feed direction of the row with the
 // largest multiplier among those at the place; of rows within 1 % of it the one that lasts longest. The bands
 // are those that the field measures, alike neighbours joined to at most kMostBands (row_stability.hpp). Edges
-// of a flat bottom are left out. Refuses a job without modes, a place at which nothing is cut, and rows in
-// which a machine tilts the tool; where only some are tilted, they are left out with a warning. The setup
+// of a flat bottom are left out. Refuses a job without modes and a place at which nothing is cut. The setup
 // must not have a prescribed engagement. `progress` as in MillSinks; when it stops the run, the result means
 // nothing.
 Result<SteadyCut> critical_row(const job::LoadedJob& loaded, MillSetup setup, const CutPlace& place,
                                const ParallelFor& parallel,
-                               const std::function<bool(double fraction)>& progress, Warnings& warnings);
+                               const std::function<bool(double fraction)>& progress);
 
 }  // namespace tribo::session

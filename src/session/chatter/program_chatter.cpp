@@ -23,7 +23,6 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
         if (rows.count > 0)
             warnings.push_back({file, rows.line, std::to_string(rows.count) + " rows " + cause});
     };
-    warn(totals.tilted, "have no multiplier and no vibration: a machine tilts the tool in them");
     warn(totals.on_bottom, "have no multiplier: only the flat bottom of the tool cuts in them");
     warn(totals.slow,
          "have no multiplier: the spindle is too slow for it, the modes vibrate too often in a turn");
@@ -59,7 +58,7 @@ void ProgramChatter::finish() {
 }
 
 bool ProgramChatter::has_multiplier(const milling::CutRow& row) const {
-    return !row.engagement.bands.empty() && !tilted_by_machine(setup_, row.pose.frame.z);
+    return !row.engagement.bands.empty();
 }
 
 void ProgramChatter::compute() {
@@ -102,19 +101,15 @@ void ProgramChatter::compute() {
 
 void ProgramChatter::count(const Row& row) {
     const milling::CutRow& cut = row.cut;
-    const bool tilted = tilted_by_machine(setup_, cut.pose.frame.z);
     if (row.chatter.peak_displacement_mm) {
         totals_.largest_displacement_mm =
             std::max(totals_.largest_displacement_mm, *row.chatter.peak_displacement_mm);
-    } else if (!tilted) {
+    } else {
         session::add(totals_.not_simulated, cut.line);
     }
     if (row.held) session::add(totals_.held, cut.line);
     if (!row.chatter.stability) {
-        session::add(tilted                         ? totals_.tilted
-                     : cut.engagement.bands.empty() ? totals_.on_bottom
-                                                    : totals_.slow,
-                     cut.line);
+        session::add(cut.engagement.bands.empty() ? totals_.on_bottom : totals_.slow, cut.line);
         return;
     }
     const dynamics::Stability& s = *row.chatter.stability;

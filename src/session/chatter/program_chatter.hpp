@@ -36,7 +36,6 @@ struct ChatterTotals {
         std::size_t count = 0;
         int line = 0;  // of the first one
     };
-    Rows tilted;         // by a machine: neither multiplier nor vibration
     Rows on_bottom;      // only the flat bottom cuts: no multiplier
     Rows slow;           // slower than SteadyCut::least_rpm(): no multiplier
     Rows not_simulated;  // slower than RowSimulation follows: no vibration

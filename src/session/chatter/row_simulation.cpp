@@ -45,11 +45,11 @@ std::optional<double> RowSimulation::run(const milling::CutRow& row,
     const double longest_pitch_deg =
         cutter.pitch_deg.empty() ? 360.0 / cutter.flutes : std::ranges::max(cutter.pitch_deg);
     const bool slow = longest_pitch_deg / 360 * 60 > kLongestPitchS * row.spindle_rpm;
-    if (slow || tilted_by_machine(setup_, row.pose.frame.z)) {
+    if (slow) {
         vibration_.reset();
         return std::nullopt;
     }
-    const milling::ToolFrame frame = upright_frame(row.pose.frame.z);
+    const milling::ToolFrame frame = head_frame(row, setup_);
     const bool goes_on = vibration_ && row.cutter == cutter_ && row.start_s <= last_end_s_ + ring_s_ &&
                          dot(frame.x, frame_.x) > kSameFrame;
     if (!goes_on) {
@@ -70,12 +70,12 @@ void RowSimulation::start(const milling::CutRow& row) {
     next_ = sample_at(row.start_s);
     displacement_mm_ = 0;
     const double first_s = static_cast<double>(next_) / kVibrationHz;
-    frame_ = upright_frame(row.pose.frame.z);
+    frame_ = head_frame(row, setup_);
     // The force of a row counts the rotation from its feed (milling/force/row_force.hpp).
     const double rotation_rad = row.phase_at_rad(first_s) - feed_rad(row);
     const double rate_hz = steps_[cutter_] * kVibrationHz;
-    vibration_.emplace(modes_in(frame_, modes_), setup_.cutters[cutter_], setup_.coefficients, rate_hz,
-                       rotation_rad);
+    vibration_.emplace(modes_in(frame_, frame_, modes_), setup_.cutters[cutter_], setup_.coefficients,
+                       rate_hz, rotation_rad);
     if (traces_)
         rigid_.emplace(std::span<const dynamics::Mode>{}, setup_.cutters[cutter_], setup_.coefficients,
                        rate_hz, rotation_rad);
@@ -91,7 +91,7 @@ double RowSimulation::feed_rad(const milling::CutRow& row) const {
 }
 
 void RowSimulation::engage(const milling::CutRow& row, std::span<const milling::EngagementBand> bands) {
-    vibration_->turn_modes(modes_in(frame_, modes_));
+    vibration_->turn_modes(modes_in(frame_, frame_, modes_));
     vibration_->engage(bands, row.feed, row.spindle_rpm, feed_rad(row));
     if (traces_) rigid_->engage(bands, row.feed, row.spindle_rpm, feed_rad(row));
     feed_now_ = feed_direction(row);

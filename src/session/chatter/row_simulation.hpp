@@ -16,7 +16,7 @@ namespace tribo::session {
 
 // Follows the rows of a program with one dynamics::Vibration, at kVibrationHz (simulated_cut.hpp). It starts
 // at rest at the first row, after a gap in which everything dies out, and with another cutter. Its frame is
-// that of the stock, turned by the shortest rotation to the tool axis. Where the tool moves farther than
+// that of the head (head_frame()). Where the tool moves farther than
 // kLargestDisplacement, the modes are held there. One thread.
 class RowSimulation {
   public:
@@ -24,8 +24,8 @@ class RowSimulation {
     RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces = false);
 
     // Simulates the samples n / kVibrationHz from the start of the row to its end. Rows come in the order of
-    // time. Edges of a flat bottom are left out. Returns the largest displacement, mm; nothing for a row in
-    // which a machine tilts the tool, or its teeth follow each other by more than kLongestPitchS.
+    // time. Edges of a flat bottom are left out. Returns the largest displacement, mm; nothing for a row
+    // whose teeth follow each other by more than kLongestPitchS.
     // `trace`, if any, gets the difference from the force of a tool that does not bend, sample by sample for
     // at most kLongestTraceS, in the frame of the tool. Where the feed turns, that frame follows in some
     // milliseconds.

@@ -18,7 +18,7 @@ SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup,
     SteadyCut cut;
     cut.cutter = setup.cutters[row.cutter];
     cut.coefficients = setup.coefficients;
-    cut.modes = modes_in(row.pose.frame, modes);
+    cut.modes = modes_in(row.pose.frame, head_frame(row, setup), modes);
     cut.bands = with_fewer_bands(row.engagement.bands, most_bands);
     cut.axial_depth_mm = milling::hull({row.engagement.bands, {}}).axial_depth_mm;
     cut.spindle_rpm = row.spindle_rpm;

@@ -5,20 +5,12 @@
 #include <cmath>
 
 #include "milling/tool/tool_frame.hpp"
+#include "motion/algebra/direction.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/mill_setup.hpp"
 
 namespace tribo::session {
 namespace {
-
-// The shortest rotation that turns +z to a unit axis.
-Vec3 turned_with(Vec3 axis, Vec3 v) {
-    const Vec3 z{0, 0, 1}, normal = cross(z, axis);
-    const double cosine = dot(z, axis);
-    // Upside down every half turn is a shortest one: about x.
-    if (cosine < -1 + 1e-12) return {v.x, -v.y, -v.z};
-    return cosine * v + cross(normal, v) + (dot(normal, v) / (1 + cosine)) * normal;
-}
 
 Vec3 in_frame(const milling::ToolFrame& frame, Vec3 v) {
     return {dot(frame.x, v), dot(frame.y, v), dot(frame.z, v)};
@@ -38,22 +30,30 @@ std::size_t first_cut(const std::vector<motion::Move>& moves) {
 
 }  // namespace
 
-milling::ToolFrame upright_frame(Vec3 axis) {
-    return {turned_with(axis, {1, 0, 0}), turned_with(axis, {0, 1, 0}), axis};
+milling::ToolFrame head_frame(const motion::ToolPose& pose) {
+    const auto turned = [&](Vec3 v) {
+        return motion::turned(motion::turned_upright(v, pose.axis), pose.axis, pose.turn_rad);
+    };
+    return {turned({1, 0, 0}), turned({0, 1, 0}), pose.axis};
 }
 
-std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes) {
+milling::ToolFrame head_frame(const milling::CutRow& row, const MillSetup& setup) {
+    motion::ToolPose pose{row.pose.tip_mm, row.pose.frame.z};
+    if (setup.on_machine) {
+        const double middle_s = 0.5 * (row.start_s + row.end_s);
+        pose.turn_rad = motion::pose_at_time(setup.moves, *setup.schedule, middle_s).turn_rad;
+    }
+    return head_frame(pose);
+}
+
+std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, const milling::ToolFrame& head,
+                                     std::span<const dynamics::Mode> modes) {
     std::vector<dynamics::Mode> turned(modes.begin(), modes.end());
     for (dynamics::Mode& mode : turned) {
-        if (mode.on == dynamics::ModeOn::tool) mode.direction = turned_with(frame.z, mode.direction);
+        if (mode.on == dynamics::ModeOn::tool) mode.direction = head.in_stock(mode.direction);
         mode.direction = in_frame(frame, mode.direction);
     }
     return turned;
-}
-
-bool tilted_by_machine(const MillSetup& setup, Vec3 axis) {
-    constexpr double kUpright = 1e-9;
-    return setup.on_machine && length(cross(axis, {0, 0, 1})) > kUpright;
 }
 
 Result<void> check_modes(const job::Job& job) {
@@ -73,10 +73,6 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
                        "give the path one along the feed direction of the cut");
     }
     const motion::Move& move = setup->moves[n];
-    if (tilted_by_machine(*setup, move.start.axis)) {
-        return fail_at(program.source, move.line, 0, "the machine tilts the tool in the first cut",
-                       "start with a cut of an upright tool, or remove the machine");
-    }
     SteadyCut cut;
     cut.cutter = setup->cutters[setup->cutter_of_move[n]];
     cut.coefficients = setup->coefficients;
@@ -87,7 +83,8 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
     cut.axial_depth_mm = engagement.axial_depth_mm;
     cut.bands = {{0, engagement.axial_depth_mm, engagement.entry_rad, engagement.exit_rad}};
     const Vec3 way = motion::pose_at(move, 0.01).tip_mm - move.start.tip_mm;
-    cut.modes = modes_in(milling::tool_frame(move.start.axis, way, {1, 0, 0}), job.modes);
+    cut.modes =
+        modes_in(milling::tool_frame(move.start.axis, way, {1, 0, 0}), head_frame(move.start), job.modes);
     return cut;
 }
 

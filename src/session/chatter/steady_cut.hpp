@@ -38,22 +38,22 @@ struct SteadyCut {
     double least_rpm(double axial_depth_mm) const;
 };
 
-// The axes of the stock, turned by the shortest rotation of +z to this axis.
-milling::ToolFrame upright_frame(Vec3 axis);
+// The axes of the head as they stand in the stock: at rotary zero those of the machine. Without a machine
+// they are those of the stock, turned by the shortest rotation of +z to the tool axis.
+milling::ToolFrame head_frame(const motion::ToolPose& pose);
+// The same in the middle of a row, whose setup this is.
+milling::ToolFrame head_frame(const milling::CutRow& row, const MillSetup& setup);
 
-// The modes of a job in the frame of a feed. Those of the tool turn with its axis by the shortest rotation.
-std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, std::span<const dynamics::Mode> modes);
-
-// Whether a machine tilts the tool to this axis. Its head, with which the modes of the tool turn, cannot be
-// told from its table.
-bool tilted_by_machine(const MillSetup& setup, Vec3 axis);
+// The modes of a job in a frame. Those of the tool stand in the axes of the head, those of the part in the
+// axes of the stock.
+std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, const milling::ToolFrame& head,
+                                     std::span<const dynamics::Mode> modes);
 
 // Refuses a job without modes.
 Result<void> check_modes(const job::Job& job);
 
 // Takes the engagement of [engagement], which the job must have, and tool, speed and feed direction of the
-// first feed move across the tool axis. Refuses a job without such a move, and a tool axis that a machine
-// tilts.
+// first feed move across the tool axis. Refuses a job without such a move.
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings);
 
 }  // namespace tribo::session
