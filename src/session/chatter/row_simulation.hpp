@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/vibration.hpp"
+#include "session/chatter/bending_tool.hpp"
 #include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 
-// Follows the rows of a program with one dynamics::Vibration, at kVibrationHz (simulated_cut.hpp). It starts
+// Follows the rows of a program with one BendingTool, at kVibrationHz (simulated_cut.hpp). It starts
 // at rest at the first row, after a gap in which everything dies out, and with another cutter. Its frame is
 // that of the head (head_frame()). Where the tool moves farther than
 // kLargestDisplacement, the modes are held there. One thread.
@@ -44,22 +44,17 @@ class RowSimulation {
     // Returns the largest displacement, mm.
     double run_to(double end_s, std::vector<std::array<float, 2>>* trace);
     std::complex<double> feed_direction(const milling::CutRow& row) const;  // x of the row in frame_
-    double feed_rad(const milling::CutRow& row) const;  // from x of frame_ to that of the row
 
     const MillSetup& setup_;
     std::span<const dynamics::Mode> modes_;
     double ring_s_ = 0;       // a vibration dies out in it
     std::vector<int> steps_;  // per sample, of each cutter at its highest speed
     bool traces_;
-    std::optional<dynamics::Vibration> vibration_, rigid_;
-    // Direction of the feed in frame_; smoothed once, and twice.
-    std::complex<double> feed_now_;
-    std::array<std::complex<double>, 2> feed_;
+    std::optional<BendingTool> tool_;
     milling::ToolFrame frame_;  // of the vibration
     std::size_t cutter_ = 0;
     std::int64_t first_ = 0, next_ = 0;  // samples
     double last_end_s_ = 0;
-    double displacement_mm_ = 0;  // at the last sample
     bool held_ = false;
 };
 
