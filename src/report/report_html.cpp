@@ -150,7 +150,8 @@ std::string picture(const ReportData& data) {
 aria-label="The part as milled" aria-describedby="part-hint"></canvas></div>
 <div class="choices" role="radiogroup" aria-label="Colour the part by" hidden>
 <label><input type="radio" name="part-colour" value="surface" checked> surface</label>
-<label><input type="radio" name="part-colour" value="deviation"> deviation from the designed surface</label>
+<label><input type="radio" name="part-colour" value="deviation"> )" +
+           data.part->deviation_from + R"(</label>
 </div>
 <div class="scale" hidden><i></i><span></span><span></span><span></span></div>
 <figcaption class="live" id="part-hint" hidden>Blue: machined. Grey: untouched stock. Yellow: the tool's tip at the row below. Drag

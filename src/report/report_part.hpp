@@ -19,6 +19,7 @@ struct ReportPart {
     std::vector<std::uint8_t> untouched;  // per vertex: 1 on a face of the blank, else 0
     std::vector<float> deviation_mm;      // per vertex: + material left, - gouge; or empty
     double deviation_range_mm = 0;        // value at the ends of the colour scale; > 0 with deviations
+    std::string deviation_from = "deviation from the designed surface";
 };
 
 // Returns a mesh of the same shape with at most `most` vertices, or the same mesh if it has no more. Vertices

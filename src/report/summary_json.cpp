@@ -78,6 +78,15 @@ std::string summary_json(const Summary& s) {
         }
     }
     files::set(json, "largest_displacement_mm", s.largest_displacement_mm);
+    if (s.form_error) {
+        files::Json error;
+        files::set(error, "left_max_mm", s.form_error->left_mm);
+        files::set(error, "overcut_max_mm", s.form_error->overcut_mm);
+        files::set(error, "wave_max_mm", s.form_error->wave_mm);
+        if (s.form_error->left_line > 0) error["left_line"] = s.form_error->left_line;
+        if (s.form_error->overcut_line > 0) error["overcut_line"] = s.form_error->overcut_line;
+        json["form_error"] = std::move(error);
+    }
     json["warnings"] = files::Json::array();
     for (const Warning& w : s.warnings) json["warnings"].push_back(w.message());
     files::set(json, "seconds", s.seconds);

@@ -27,6 +27,13 @@ struct SummaryChatter {
     double t_s = 0, multiplier = 0, chatter_hz = 0;
 };
 
+// What bending of tool and part leaves on the surface; lines of the program.
+struct SummaryFormError {
+    double left_mm = 0, overcut_mm = 0;   // at most, >= 0
+    double wave_mm = 0;                   // highest to lowest within half a millimetre, at most
+    int left_line = 0, overcut_line = 0;  // 0: none
+};
+
 struct Summary {
     std::string job;      // name of the job file
     std::string version;  // of the program
@@ -49,6 +56,7 @@ struct Summary {
     std::vector<SummaryCollision> collisions;
     std::optional<std::vector<SummaryChatter>> chatter;  // absent: the job has no modes
     std::optional<double> largest_displacement_mm;
+    std::optional<SummaryFormError> form_error;  // absent: no modes, or no tooth left a known surface
     Warnings warnings;
     double seconds = 0, peak_memory_mb = 0;
 };

@@ -86,6 +86,9 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
     std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm, s.peak_power_w);
     if (s.tooth_passing_hz) std::printf("%-16s %.1f Hz\n", "tooth passing", *s.tooth_passing_hz);
     if (s.chatter) print_chatter(s);
+    if (s.form_error)
+        std::printf("%-16s bending leaves %.3g mm and cuts %.3g mm too deep, waves of %.3g mm\n", "surface",
+                    s.form_error->left_mm, s.form_error->overcut_mm, s.form_error->wave_mm);
     if (s.scallop_max_mm)
         std::printf("%-16s gouge %.3f mm, rest %.3f mm, scallop %.3f mm\n", "deviation", *s.gouge_max_mm,
                     *s.rest_max_mm, *s.scallop_max_mm);
@@ -135,7 +138,8 @@ int render(const RenderCall& call) {
     std::optional<session::ProgramChatter> chatter;
     if (!loaded->job.modes.empty()) {
         chatter.emplace(
-            session.setup(), loaded->job.modes, call.wants("sound") && !call.as_published, parallel,
+            session.setup(), loaded->job.modes,
+            session::ProgramChatter::Options{call.wants("sound") && !call.as_published, true}, parallel,
             [&](const milling::CutRow& row, const milling::RowForce& force,
                 const session::RowChatter& of_row) { outputs.add(row, force, session.setup(), &of_row); });
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {

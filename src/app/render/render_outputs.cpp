@@ -13,6 +13,7 @@
 #include "job/listening.hpp"
 #include "readers/mesh/stl.hpp"
 #include "report/picture.hpp"
+#include "report/surface_csv.hpp"
 #include "surface/deviation.hpp"
 
 namespace tribo::app {
@@ -52,16 +53,16 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
     facts.emplace_back("Not modelled",
                        loaded.job.modes.empty()
                            ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
-                           : "what vibration does to force and surface; heat, wear, chip evacuation");
+                           : "what vibration does to the forces above; heat, wear, chip evacuation");
     return facts;
 }
 
 }  // namespace
 
 bool RenderOutputs::writes(const std::string& name) {
-    static constexpr std::array<std::string_view, 7> names{
-        "summary.json", "forces.csv",   "published_forces.csv", "sound.wav",
-        "machined.stl", "machined.glb", "report.html"};
+    static constexpr std::array<std::string_view, 8> names{
+        "summary.json", "forces.csv",   "published_forces.csv", "surface.csv",
+        "sound.wav",    "machined.stl", "machined.glb",         "report.html"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -100,8 +101,8 @@ void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& for
     if (call_.wants("report")) report_.add(row, force.peaks, chatter);
 }
 
-FileResult<void> RenderOutputs::finish(const session::MillSession& session,
-                                       const session::ProgramChatter* chatter, report::Summary& summary) {
+FileResult<void> RenderOutputs::finish(const session::MillSession& session, session::ProgramChatter* chatter,
+                                       report::Summary& summary) {
     if (forces_) {
         if (auto done = forces_->finish(); !done) return done;
     }
@@ -110,6 +111,10 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
     }
     if (sound_) {
         if (auto done = sound_->finish(session.totals().duration_s); !done) return done;
+    }
+    if (chatter != nullptr) {
+        form_error_ = surface::FormError(chatter->take_surface(), session.stock(), parallel_);
+        if (auto done = write_surface(summary); !done) return done;
     }
     TriangleMesh mesh;
     if (call_.wants("mesh") || call_.wants("report")) {
@@ -124,6 +129,23 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
     }
     if (call_.wants("report")) return write_report(session, chatter, summary, std::move(mesh));
     return {};
+}
+
+FileResult<void> RenderOutputs::write_surface(report::Summary& summary) {
+    const surface::FormError::Extremes& e = form_error_.extremes();
+    if (!form_error_.empty())
+        summary.form_error = {e.left_mm, e.overcut_mm, e.wave_mm, e.left_line, e.overcut_line};
+    if (!call_.wants("surface")) return {};
+    auto file = files::FileWriter::create(folder_.file("surface.csv"));
+    if (!file) return std::unexpected(file.error());
+    file->write(report::surface_csv_header());
+    std::string text;
+    for (const surface::ToothTrace& trace : form_error_.kept().traces) {
+        text.clear();
+        report::append_surface_rows(text, trace, form_error_.kept());
+        file->write(text);
+    }
+    return file->finish();
 }
 
 FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const field::Shape& blank) {
@@ -159,7 +181,10 @@ FileResult<void> RenderOutputs::compare(const session::MillSession& session, rep
         session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
     const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel_);
     options.machined_mm = points;
-    const surface::DeviationReport d = surface::compare(session.stock(), *designed, options, parallel_);
+    const surface::SurfaceWithFormError bent(session.stock(), form_error_);
+    const contact::DistanceField& machined =
+        form_error_.empty() ? session.stock() : static_cast<const contact::DistanceField&>(bent);
+    const surface::DeviationReport d = surface::compare(machined, *designed, options, parallel_);
     designed_.emplace(*std::move(designed));
     summary.gouge_max_mm = d.gouge.mm;
     summary.rest_max_mm = d.rest.mm;
@@ -181,12 +206,27 @@ report::ReportPart RenderOutputs::report_part(const session::MillSession& sessio
         }
     });
     part.mesh = report::with_fewer_vertices(mesh, report::kMostPartVertices, part.untouched);
-    if (!designed_) return part;
+    std::vector<float> bent_mm(form_error_.empty() ? 0 : part.mesh.positions.size());
+    parallel_((bent_mm.size() + kVerticesAtOnce - 1) / kVerticesAtOnce, [&](std::size_t piece) {
+        const std::size_t end = std::min(bent_mm.size(), (piece + 1) * kVerticesAtOnce);
+        for (std::size_t n = piece * kVerticesAtOnce; n < end; ++n)
+            bent_mm[n] = static_cast<float>(
+                form_error_.at(part.mesh.position(static_cast<std::uint32_t>(n))).value_or(0));
+    });
+    if (!designed_) {
+        if (form_error_.empty()) return part;
+        const surface::FormError::Extremes& e = form_error_.extremes();
+        part.deviation_from = "deviation by bending of tool and part";
+        part.deviation_range_mm = std::max({e.left_mm, e.overcut_mm, kOnFaceMm});
+        part.deviation_mm = std::move(bent_mm);
+        return part;
+    }
     // The colour scale ends at the largest deviation in machined areas. Areas that the tool never reached
     // exceed it.
     const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));
     part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kOnFaceMm);
     part.deviation_mm = surface::deviations_of(part.mesh, *designed_, parallel_);
+    for (std::size_t n = 0; n < bent_mm.size(); ++n) part.deviation_mm[n] += bent_mm[n];
     return part;
 }
 

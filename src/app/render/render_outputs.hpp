@@ -11,6 +11,7 @@
 #include "files/output_folder.hpp"
 #include "report/summary_json.hpp"
 #include "surface/designed_surface.hpp"
+#include "surface/form_error.hpp"
 
 namespace tribo::app {
 
@@ -32,10 +33,11 @@ class RenderOutputs {
              const session::RowChatter* chatter);
     // Call after it. Adds results to `summary`. Moves the mesh of the designed part out of the job.
     // `chatter`: null without modes.
-    FileResult<void> finish(const session::MillSession& session, const session::ProgramChatter* chatter,
+    FileResult<void> finish(const session::MillSession& session, session::ProgramChatter* chatter,
                             report::Summary& summary);
 
   private:
+    FileResult<void> write_surface(report::Summary& summary);
     FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
     FileResult<void> compare(const session::MillSession& session, report::Summary& summary);
     report::ReportPart report_part(const session::MillSession& session, const report::Summary& summary,
@@ -51,6 +53,7 @@ class RenderOutputs {
     std::optional<PublishedForceFile> published_;
     std::optional<SoundFile> sound_;
     ReportRows report_;
+    surface::FormError form_error_;                     // by bending of tool and part
     std::optional<surface::DesignedSurface> designed_;  // once compared
 };
 

@@ -32,9 +32,9 @@ void add_render(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({44100, 48000}))
         ->type_name("HZ");
     verb->add_option("--only", *only,
-                     "Write only these: summary, forces, sound, mesh, report (comma separated)")
+                     "Write only these: summary, forces, sound, mesh, report, surface (comma separated)")
         ->delimiter(',')
-        ->check(one_of({"summary", "forces", "sound", "mesh", "report"}))
+        ->check(one_of({"summary", "forces", "sound", "mesh", "report", "surface"}))
         ->type_name("LIST");
     verb->add_option("--memory", call->memory_mb,
                      "Refuse a job that could take more; half of the machine's if absent")

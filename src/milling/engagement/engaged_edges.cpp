@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "milling/tool/tooth_phases.hpp"
 
 namespace tribo::milling {
 namespace {
@@ -61,17 +62,10 @@ EngagedEdges::EngagedEdges(const Cutter& cutter, const CuttingCoefficients& coef
     }
     const double even = math::kTwoPi / flutes_;
     uniform_ = runout_ == 0;
-    phase_.push_back(0);
-    for (int j = 0; j < flutes_; ++j) {
-        const double pitch = cutter.pitch_deg.empty()
-                                 ? even
-                                 : cutter.pitch_deg[static_cast<std::size_t>(j)] * math::kRadPerDeg;
-        if (std::abs(pitch - even) > kEvenPitchRad) uniform_ = false;
-        phase_.push_back(phase_.back() + pitch);
-    }
-    const double closing = math::kTwoPi / phase_.back();
-    for (double& phase : phase_) phase *= closing;
-    phase_.back() = math::kTwoPi;
+    for (const double pitch_deg : cutter.pitch_deg)
+        if (std::abs(pitch_deg * math::kRadPerDeg - even) > kEvenPitchRad) uniform_ = false;
+    phase_ = tooth_phases_rad(cutter);
+    phase_.push_back(math::kTwoPi);
     offset_.resize(static_cast<std::size_t>(flutes_));
     edges_.reserve(uniform_ ? kUsualPieces : std::max(kUsualPieces, kUsualPiecesPerFlute * offset_.size()));
 }

@@ -39,7 +39,9 @@ void BendingTool::engage(std::span<const dynamics::Mode> modes,
 void BendingTool::next() {
     Vec3 added{};
     for (int step = 0; step < steps_; ++step) {
+        displaced_at_rad_ = vibration_.rotation_rad();
         const dynamics::VibrationSample sample = vibration_.step();
+        displaced_mm_ = sample.displacement_mm;
         if (rigid_) added += sample.force_n - rigid_->step().force_n;
         displacement_mm_ = length(sample.displacement_mm);
         if (displacement_mm_ > most_mm_) {

@@ -33,6 +33,9 @@ class BendingTool {
     // What the vibration added to the force in it, along the feed and to its left. Where the feed turns, that
     // frame follows in some milliseconds.
     std::array<float, 2> added_n() const;
+    // Displacement in its last step, in the frame of the vibration, and the rotation of flute 0 there.
+    Vec3 displaced_mm() const { return displaced_mm_; }
+    double displaced_at_rad() const { return displaced_at_rad_; }
     // Displacement after the last step, and the largest of all since reset_largest().
     double displacement_mm() const { return displacement_mm_; }
     double largest_mm() const { return largest_mm_; }
@@ -51,7 +54,8 @@ class BendingTool {
     std::complex<double> feed_now_;
     std::array<std::complex<double>, 2> feed_;
     Vec3 added_n_{};  // mean of the steps, in the frame of the vibration
-    double displacement_mm_ = 0, largest_mm_ = 0;
+    Vec3 displaced_mm_{};
+    double displaced_at_rad_ = 0, displacement_mm_ = 0, largest_mm_ = 0;
     bool held_ = false;
 };
 

@@ -30,17 +30,22 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
     warn(totals.held,
          "vibrate by more than a tenth of the tool's diameter, where the equations end: the tool is held "
          "there");
+    if (totals.surface_full_at_line)
+        warnings.push_back({file, *totals.surface_full_at_line,
+                            "from here on no marks of teeth are kept: there are " +
+                                std::to_string(SurfaceRecorder::kMostMarks) + " before"});
     return warnings;
 }
 
-ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
+ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, Options options,
                                const ParallelFor& parallel, Sink sink)
     : setup_(setup),
       modes_(modes),
       parallel_(parallel),
       sink_(std::move(sink)),
-      traces_(traces),
-      simulation_(setup, modes, traces) {}
+      options_(options),
+      recorder_(setup, modes),
+      simulation_(setup, modes, options.traces, options.surface ? &recorder_ : nullptr) {}
 
 void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& force) {
     if (count_ == batch_.size()) batch_.emplace_back();
@@ -55,6 +60,7 @@ void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& fo
 
 void ProgramChatter::finish() {
     compute();
+    totals_.surface_full_at_line = recorder_.full_at_line();
 }
 
 bool ProgramChatter::has_multiplier(const milling::CutRow& row) const {
@@ -78,9 +84,10 @@ void ProgramChatter::compute() {
         }
         for (std::size_t n = 0; n < count_; ++n) {
             Row& row = batch_[n];
-            row.chatter.peak_displacement_mm = simulation_.run(row.cut, traces_ ? &row.trace : nullptr);
+            row.chatter.peak_displacement_mm =
+                simulation_.run(row.cut, options_.traces ? &row.trace : nullptr);
             row.held = simulation_.was_held();
-            if (traces_ && row.chatter.peak_displacement_mm)
+            if (options_.traces && row.chatter.peak_displacement_mm)
                 row.chatter.vibration = {kVibrationHz, simulation_.first_sample(), row.trace};
         }
     });

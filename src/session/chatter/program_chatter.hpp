@@ -36,10 +36,11 @@ struct ChatterTotals {
         std::size_t count = 0;
         int line = 0;  // of the first one
     };
-    Rows on_bottom;      // only the flat bottom cuts: no multiplier
-    Rows slow;           // slower than SteadyCut::least_rpm(): no multiplier
-    Rows not_simulated;  // slower than RowSimulation follows: no vibration
-    Rows held;           // the tool moved farther than kLargestDisplacement
+    Rows on_bottom;                           // only the flat bottom cuts: no multiplier
+    Rows slow;                                // slower than SteadyCut::least_rpm(): no multiplier
+    Rows not_simulated;                       // slower than RowSimulation follows: no vibration
+    Rows held;                                // the tool moved farther than kLargestDisplacement
+    std::optional<int> surface_full_at_line;  // SurfaceRecorder::full_at_line()
 };
 
 // Warnings about what is not computed.
@@ -51,15 +52,20 @@ class ProgramChatter {
   public:
     using Sink = std::function<void(const milling::CutRow&, const milling::RowForce&, const RowChatter&)>;
 
-    // `modes`: at least one. `traces`: rows have their vibration, valid during the call of the sink. Setup,
-    // modes and parallel must outlive this object.
-    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
+    struct Options {
+        bool traces = false;   // rows have their vibration, valid during the call of the sink
+        bool surface = false;  // what the teeth leave is recorded
+    };
+    // `modes`: at least one. Setup, modes and parallel must outlive this object.
+    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, Options options,
                    const ParallelFor& parallel, Sink sink);
 
     void add(const milling::CutRow& row, const milling::RowForce& force);
     // Gives on the last rows.
     void finish();
     const ChatterTotals& totals() const { return totals_; }
+    // What the teeth left, to be kept where it is still on the part. Once, after finish().
+    surface::ToothTraces take_surface() { return recorder_.take(); }
     // The row that chatters most; null if none has a multiplier.
     const milling::CutRow* worst() const { return worst_.row(); }
 
@@ -79,7 +85,8 @@ class ProgramChatter {
     std::span<const dynamics::Mode> modes_;
     const ParallelFor& parallel_;
     Sink sink_;
-    bool traces_;
+    Options options_;
+    SurfaceRecorder recorder_;
     RowSimulation simulation_;
     std::vector<Row> batch_;  // the first count_ of them; the others keep their memory
     std::size_t count_ = 0;

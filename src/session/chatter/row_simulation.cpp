@@ -23,8 +23,9 @@ std::int64_t sample_at(double t_s) {
 
 }  // namespace
 
-RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces)
-    : setup_(setup), modes_(modes), traces_(traces) {
+RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
+                             SurfaceRecorder* recorder)
+    : setup_(setup), modes_(modes), traces_(traces), recorder_(recorder) {
     for (const dynamics::Mode& mode : modes)
         ring_s_ =
             std::max(ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
@@ -57,13 +58,20 @@ std::optional<double> RowSimulation::run(const milling::CutRow& row,
         run_to(row.start_s, nullptr);
     }
     frame_ = frame;
-    engage(row, with_fewer_bands(row.engagement.bands, kRowBands));
+    const std::vector<milling::EngagementBand> bands = with_fewer_bands(row.engagement.bands, kRowBands);
+    engage(row, bands);
+    if (recorder_ != nullptr)
+        recorder_->begin(row, bands, frame_, tool_->rotation_rad(),
+                         static_cast<double>(next_) / kVibrationHz);
     last_end_s_ = row.end_s;
     first_ = next_;
-    return run_to(row.end_s, trace);
+    const double largest = run_to(row.end_s, trace);
+    if (recorder_ != nullptr) recorder_->end();
+    return largest;
 }
 
 void RowSimulation::start(const milling::CutRow& row) {
+    if (recorder_ != nullptr) recorder_->interrupt();
     cutter_ = row.cutter;
     next_ = sample_at(row.start_s);
     const double first_s = static_cast<double>(next_) / kVibrationHz;
@@ -87,6 +95,7 @@ double RowSimulation::run_to(double end_s, std::vector<std::array<float, 2>>* tr
     tool_->reset_largest();
     for (const std::int64_t end = sample_at(end_s); next_ < end; ++next_) {
         tool_->next();
+        if (recorder_ != nullptr) recorder_->add(tool_->displaced_at_rad(), tool_->displaced_mm());
         if (trace != nullptr && static_cast<double>(trace->size()) < kLongestTraceS * kVibrationHz)
             trace->push_back(tool_->added_n());
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "session/chatter/bending_tool.hpp"
+#include "session/chatter/surface_recorder.hpp"
 #include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
@@ -20,8 +21,10 @@ namespace tribo::session {
 // kLargestDisplacement, the modes are held there. One thread.
 class RowSimulation {
   public:
-    // All arguments must outlive this object. `traces`: run() may be asked for them.
-    RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces = false);
+    // All arguments must outlive this object. `traces`: run() may be asked for them. `recorder`, if any, gets
+    // the displacements.
+    RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces = false,
+                  SurfaceRecorder* recorder = nullptr);
 
     // Simulates the samples n / kVibrationHz from the start of the row to its end. Rows come in the order of
     // time. Edges of a flat bottom are left out. Returns the largest displacement, mm; nothing for a row
@@ -50,6 +53,7 @@ class RowSimulation {
     double ring_s_ = 0;       // a vibration dies out in it
     std::vector<int> steps_;  // per sample, of each cutter at its highest speed
     bool traces_;
+    SurfaceRecorder* recorder_;
     std::optional<BendingTool> tool_;
     milling::ToolFrame frame_;  // of the vibration
     std::size_t cutter_ = 0;

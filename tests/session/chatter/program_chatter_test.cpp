@@ -165,7 +165,7 @@ TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
     const ParallelFor backwards = [](std::size_t count, const std::function<void(std::size_t)>& body) {
         for (std::size_t n = count; n-- > 0;) body(n);
     };
-    ProgramChatter chatter(setup, modes, false, backwards, sink);
+    ProgramChatter chatter(setup, modes, {}, backwards, sink);
     for (int n = 0; n < kRows; ++n) {
         milling::CutRow row = row_of(0.005 * n, 0.005 * (n + 1), n < 650 ? 0.2 : 1);
         row.line = 1 + n / 10;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// What the teeth of a vibrating tool leave on the surface, recorded while a program is simulated.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dynamics/mode.hpp"
+#include "session/cut/mill_session.hpp"
+#include "surface/form_error.hpp"
+
+namespace tribo::session {
+
+// A tooth makes the surface where its way goes along it: at the ends of its cut, at 0 deg where it comes from
+// the wall on the left of the feed, at 180 deg where it runs out to the wall on the right. This recorder
+// takes the displacement at these instants, at several heights of the edge. Floors of flat bottoms are left
+// out. Run-out counts by what the other teeth reach less than the farthest one. One thread.
+class SurfaceRecorder {
+  public:
+    // Both must outlive this object.
+    SurfaceRecorder(const MillSetup& setup, std::span<const dynamics::Mode> modes);
+
+    // The row whose samples come next, with its bands as they are simulated. `frame`: of the vibration.
+    // `rotation_rad`: that of the first sample, at the time `t_s`.
+    void begin(const milling::CutRow& row, std::span<const milling::EngagementBand> bands,
+               const milling::ToolFrame& frame, double rotation_rad, double t_s);
+    // A sample: the rotation of flute 0 from y of the frame, and the displacement of tool against part.
+    void add(double rotation_rad, Vec3 displacement_mm);
+    // The row is over.
+    void end();
+    // What comes next does not continue what was before.
+    void interrupt();
+
+    // About 60 bytes each, with their traces.
+    static constexpr std::size_t kMostMarks = 4'000'000;
+    // The line of the program from which on nothing is recorded: there are kMostMarks.
+    std::optional<int> full_at_line() const { return full_at_line_; }
+
+    surface::ToothTraces take() { return std::move(record_); }
+
+  private:
+    struct Sample {
+        double rotation_rad = 0;
+        Vec3 displacement_mm;
+    };
+    // A height of the edge at an end of its cut.
+    struct Watch {
+        int side = 0;  // 0: the begin of the cut, 1: its end
+        double height_mm = 0;
+        double angle_rad = 0;  // of the tip of an edge that is there
+        Vec3 normal;           // of the tooth, outward, in the frame of the vibration
+        double next_rad = 0;   // rotation of flute 0 at the next passage
+        std::size_t next_tooth = 0;
+        surface::ToothTrace trace;
+        std::vector<surface::ToothMark> marks;
+        std::uint32_t recorded_as = 0;  // number of the trace, if it has marks
+    };
+    // Where the tool is at a share of a row.
+    struct Place {
+        Vec3 tip_mm;
+        milling::ToolFrame frame;
+    };
+
+    Place place(const milling::CutRow& row, double t_s) const;
+    void watch(const milling::CutRow& row, const milling::EngagementBand& band, std::array<Place, 2> ends);
+    void find_next(Watch& watch, double after_rad) const;
+    void mark(Watch& watch);
+    bool continues(const Watch& watch, const Watch& before) const;
+
+    const MillSetup& setup_;
+    double fastest_rad_per_s_ = 0;
+    std::vector<std::vector<double>> phases_rad_;  // of the teeth of each cutter
+    std::size_t cutter_ = 0;
+    double feed_rad_ = 0;                 // from x of the frame to that of the feed
+    double begin_rad_ = 0, row_rad_ = 0;  // rotation at the start of the row, and over it
+    double next_rad_ = 0;                 // of all watches
+    std::array<Sample, 4> last_{};
+    int samples_ = 0;                           // of last_ that are known
+    std::vector<Watch> watches_, before_;       // of this row and of the one before
+    std::size_t count_ = 0, count_before_ = 0;  // of those that are used; the others keep their memory
+    surface::ToothTraces record_;
+    std::optional<int> full_at_line_;
+};
+
+}  // namespace tribo::session
