@@ -11,8 +11,10 @@
 #include "haptics/servo/force_table_player.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "session/block_setup.hpp"
+#include "session/chatter/program_chatter.hpp"
 #include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
+#include "session/feel/vibration_track.hpp"
 #include "session/live/force_look_ahead.hpp"
 #include "session/live/live_finger.hpp"
 #include "session/live/live_mill.hpp"
@@ -94,6 +96,35 @@ TEST(ServoSources, feeling_a_milled_part_neither_allocates_nor_locks_nor_prints)
     options.probe_radius_mm = 0;
     InspectSource finger(milled.stock(), options, haptics::ProbeShape::cylinder(3));
     expect_none(run(finger, [](double) {}));
+}
+
+// With the waves that a bending tool left, and with the force of its vibration.
+TEST(ServoSources, feeling_what_bends_neither_allocates_nor_locks_nor_prints) {
+    const std::vector<dynamics::Mode> modes{{{0.3, 1, 0}, 900, 0.02, 2000}};
+    MillSession milled(*slot(), serial_for);
+    VibrationTrack track(1 / kTickS, milled.duration_s());
+    ProgramChatter chatter(
+        milled.setup(), modes, {true, true}, serial_for,
+        [&](const milling::CutRow& row, const milling::RowForce&, const RowChatter& of_row) {
+            if (of_row.vibration) track.add(*of_row.vibration, row.pose.frame);
+        });
+    MillSinks sinks;
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) { chatter.add(row, force); };
+    ASSERT_TRUE(milled.run(sinks));
+    chatter.finish();
+    const surface::FormError error(chatter.take_surface(), milled.stock());
+    ASSERT_FALSE(error.empty());
+    haptics::ContactOptions options;
+    options.tick_s = kTickS;
+    InspectSource source(milled.stock(), options, {}, &error);
+    expect_none(run(source, [](double) {}));
+
+    const CutterTrack cutter(*slot());
+    haptics::ForceTablePlayer table(1 / kTickS);
+    VibratingForce force(table, track, {});
+    const haptics::TextureMap textures;
+    CutSource cut(cutter, force, textures, {.tick_s = kTickS});
+    expect_none(run(cut, [](double) {}));
 }
 
 // The table of forces and the textures of the slot, as the program and the live view make them.

@@ -12,6 +12,7 @@
 #include "files/files.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "readers/tables/force_bake.hpp"
+#include "session/chatter/program_chatter.hpp"
 #include "tribo/threads.hpp"
 
 namespace tribo::app {
@@ -84,12 +85,30 @@ bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
         };
     };
     milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel, milling("earlier jobs"));
+    const bool cut = call_.mode == "cut";
+    std::optional<session::ProgramChatter> chatter;
+    if (!job_.modes.empty()) {
+        if (cut) vibration_.emplace(call_.rate_hz, milled_->duration_s());
+        chatter.emplace(
+            milled_->setup(), job_.modes, session::ProgramChatter::Options{cut, !cut}, parallel,
+            [this](const milling::CutRow& row, const milling::RowForce&, const session::RowChatter& of_row) {
+                if (vibration_ && of_row.vibration) vibration_->add(*of_row.vibration, row.pose.frame);
+            });
+    }
     session::MillSinks sinks;
-    if (call_.mode == "cut") {
-        sinks.row = [this](const milling::CutRow& row, const milling::RowForce&) { record_.add(row); };
+    if (cut || chatter) {
+        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            if (cut) record_.add(row);
+            if (chatter) chatter->add(row, force);
+        };
     }
     sinks.progress = milling("milling");
-    return milled_->run(sinks);
+    if (!milled_->run(sinks)) return false;
+    if (!chatter) return true;
+    chatter->finish();
+    if (!cut) form_error_ = surface::FormError(chatter->take_surface(), milled_->stock(), parallel);
+    report(session::warnings_of(chatter->totals(), job_.path.file));
+    return true;
 }
 
 haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) const {
@@ -116,7 +135,8 @@ haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) 
 void FeelSource::inspect(const contact::DistanceField& surface) {
     haptics::ProbeShape probe;
     const haptics::ContactOptions contact = contact_options(probe);
-    source_ = std::make_unique<session::InspectSource>(surface, contact, std::move(probe));
+    source_ = std::make_unique<session::InspectSource>(surface, contact, std::move(probe),
+                                                       form_error_.empty() ? nullptr : &form_error_);
 }
 
 void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
@@ -136,7 +156,9 @@ void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
         options.part = &stock_->reader();
         options.contact = contact_options(options.probe);
     }
-    source_ = std::make_unique<session::CutSource>(*track_, *force_, textures_, options);
+    if (vibration_) vibrating_.emplace(*force_, *vibration_, scaling_);
+    haptics::CuttingForce& force = vibrating_ ? static_cast<haptics::CuttingForce&>(*vibrating_) : *force_;
+    source_ = std::make_unique<session::CutSource>(*track_, force, textures_, options);
 }
 
 FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<session::MillSetup> in_time) {
@@ -151,7 +173,7 @@ FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<sessio
     track_ = std::make_unique<session::CutterTrack>(setup);
     auto table = baked(key);
     from_bake_ = table.has_value();
-    if (!table || call_.texture) {
+    if (!table || call_.texture || !job_.modes.empty()) {
         if (!mill(std::move(setup), parallel)) return {};
     }
     if (!table) {

@@ -12,6 +12,7 @@
 #include "report/feel_stats_json.hpp"
 #include "session/cut/stock_at_time.hpp"
 #include "session/feel/feel_session.hpp"
+#include "session/feel/vibration_track.hpp"
 
 namespace tribo::app {
 
@@ -57,6 +58,10 @@ class FeelSource {
     session::CutRecord record_;
     std::unique_ptr<session::CutterTrack> track_;
     std::unique_ptr<haptics::ForceTablePlayer> force_;
+    // Of a job with modes: what vibration adds to the force, or what it left on the part.
+    std::optional<session::VibrationTrack> vibration_;
+    std::optional<session::VibratingForce> vibrating_;
+    surface::FormError form_error_;
     haptics::TextureMap textures_;
     std::unique_ptr<session::StockAtTime> stock_;
     std::unique_ptr<haptics::ForceSource> source_;

@@ -44,8 +44,8 @@ ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics:
       parallel_(parallel),
       sink_(std::move(sink)),
       options_(options),
-      recorder_(setup, modes),
-      simulation_(setup, modes, options.traces, options.surface ? &recorder_ : nullptr) {}
+      recorder_(options.surface ? std::optional<SurfaceRecorder>(std::in_place, setup, modes) : std::nullopt),
+      simulation_(setup, modes, options.traces, recorder_ ? &*recorder_ : nullptr) {}
 
 void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& force) {
     if (count_ == batch_.size()) batch_.emplace_back();
@@ -60,7 +60,7 @@ void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& fo
 
 void ProgramChatter::finish() {
     compute();
-    totals_.surface_full_at_line = recorder_.full_at_line();
+    if (recorder_) totals_.surface_full_at_line = recorder_->full_at_line();
 }
 
 bool ProgramChatter::has_multiplier(const milling::CutRow& row) const {

@@ -64,8 +64,9 @@ class ProgramChatter {
     // Gives on the last rows.
     void finish();
     const ChatterTotals& totals() const { return totals_; }
-    // What the teeth left, to be kept where it is still on the part. Once, after finish().
-    surface::ToothTraces take_surface() { return recorder_.take(); }
+    // What the teeth left, to be kept where it is still on the part. Once, after finish(), with
+    // Options::surface.
+    surface::ToothTraces take_surface() { return recorder_->take(); }
     // The row that chatters most; null if none has a multiplier.
     const milling::CutRow* worst() const { return worst_.row(); }
 
@@ -86,7 +87,7 @@ class ProgramChatter {
     const ParallelFor& parallel_;
     Sink sink_;
     Options options_;
-    SurfaceRecorder recorder_;
+    std::optional<SurfaceRecorder> recorder_;  // with options_.surface
     RowSimulation simulation_;
     std::vector<Row> batch_;  // the first count_ of them; the others keep their memory
     std::size_t count_ = 0;

@@ -32,7 +32,7 @@ double in_turn(double angle_rad) {
 }  // namespace
 
 SurfaceRecorder::SurfaceRecorder(const MillSetup& setup, std::span<const dynamics::Mode> modes)
-    : setup_(setup) {
+    : setup_(setup), schedule_(schedule_of(setup)) {
     for (const dynamics::Mode& mode : modes)
         fastest_rad_per_s_ = std::max(fastest_rad_per_s_, math::kTwoPi * mode.frequency_hz);
     for (const milling::Cutter& cutter : setup.cutters)
@@ -41,7 +41,7 @@ SurfaceRecorder::SurfaceRecorder(const MillSetup& setup, std::span<const dynamic
 
 SurfaceRecorder::Place SurfaceRecorder::place(const milling::CutRow& row, double t_s) const {
     const double step_s = kDirectionShare * row.duration_s();
-    const auto pose = [&](double at_s) { return motion::pose_at_time(setup_.moves, *setup_.schedule, at_s); };
+    const auto pose = [&](double at_s) { return motion::pose_at_time(setup_.moves, *schedule_, at_s); };
     const motion::ToolPose here = pose(t_s);
     const Vec3 way =
         pose(std::min(t_s + step_s, row.end_s)).tip_mm - pose(std::max(t_s - step_s, row.start_s)).tip_mm;
@@ -51,7 +51,7 @@ SurfaceRecorder::Place SurfaceRecorder::place(const milling::CutRow& row, double
 void SurfaceRecorder::begin(const milling::CutRow& row, std::span<const milling::EngagementBand> bands,
                             const milling::ToolFrame& frame, double rotation_rad, double t_s) {
     count_ = 0;
-    if (full_at_line_ || !setup_.schedule) return;
+    if (full_at_line_) return;
     if (record_.marks.size() >= kMostMarks) {
         full_at_line_ = row.line;
         return;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -71,6 +72,7 @@ class SurfaceRecorder {
     bool continues(const Watch& watch, const Watch& before) const;
 
     const MillSetup& setup_;
+    std::shared_ptr<const motion::Schedule> schedule_;
     double fastest_rad_per_s_ = 0;
     std::vector<std::vector<double>> phases_rad_;  // of the teeth of each cutter
     std::size_t cutter_ = 0;

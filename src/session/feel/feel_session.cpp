@@ -24,10 +24,11 @@ haptics::ProbeContact SurfaceContact::update(const haptics::HandReading& hand) n
 }
 
 haptics::RenderedForce InspectSource::render(const haptics::HandReading& hand, double now_s,
-                                             double /*tick_s*/) noexcept {
+                                             double tick_s) noexcept {
     const haptics::ProbeContact contact = touch_.update(hand);
     haptics::RenderedForce felt;
     felt.contact_n = contact.force_n;
+    if (waves_) felt.contact_n += waves_->force(contact, tick_s);
     felt.touching = contact.in_contact;
     felt.simulation_s = now_s;  // the part does not change any more
     return felt;

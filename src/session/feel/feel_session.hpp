@@ -15,6 +15,7 @@
 #include "haptics/servo/servo.hpp"
 #include "haptics/texture/haptic_texture.hpp"
 #include "session/cut/cut_record.hpp"
+#include "session/feel/surface_waves.hpp"
 
 namespace tribo::session {
 
@@ -40,16 +41,20 @@ class SurfaceContact {
 // Inspect mode: contact with the finished part.
 class InspectSource final : public haptics::ForceSource {
   public:
-    // `surface` must outlive this object and must not change.
+    // `surface` must outlive this object and must not change; so must `waves`, what bending left on it, if
+    // any.
     InspectSource(const contact::DistanceField& surface, const haptics::ContactOptions& options,
-                  haptics::ProbeShape probe = {})
-        : touch_(surface, options, std::move(probe)) {}
+                  haptics::ProbeShape probe = {}, const surface::FormError* waves = nullptr)
+        : touch_(surface, options, std::move(probe)) {
+        if (waves != nullptr) waves_.emplace(*waves, options.stiffness_n_per_mm);
+    }
 
     haptics::RenderedForce render(const haptics::HandReading& hand, double now_s,
                                   double tick_s) noexcept override;
 
   private:
     SurfaceContact touch_;
+    std::optional<SurfaceWaves> waves_;
 };
 
 // Position of the cutter as a function of program time. Real-time safe; any thread.
