@@ -12,6 +12,10 @@ constexpr double kOnSurfaceMm = 0.02;
 // Of its length, by which the end of a trace goes on where no other one continues it.
 constexpr double kBeyond = 0.25, kBeyondWeight = 1e-6;
 constexpr int kMostLooked = 32;  // traces of a cell
+// Cosine between normals of one face.
+constexpr double kSameFace = 0.9;
+// Less is rounding.
+constexpr double kLeastErrorMm = 1e-6;
 constexpr std::size_t kChunk = 1024;
 
 double length_of(const ToothTrace& t) {
@@ -88,6 +92,7 @@ void FormError::cut_beside(std::size_t n) {
 }
 
 void FormError::find_extremes() {
+    extremes_ = {kLeastErrorMm, kLeastErrorMm, kLeastErrorMm};
     for (const ToothTrace& t : kept_.traces) {
         double least = 0, most = 0;
         for (std::size_t k = t.first; k < t.first + t.count; ++k) {
@@ -105,6 +110,8 @@ void FormError::find_extremes() {
             extremes_.overcut_line = t.line;
         }
     }
+    for (double* mm : {&extremes_.left_mm, &extremes_.overcut_mm, &extremes_.wave_mm})
+        if (*mm <= kLeastErrorMm) *mm = 0;
 }
 
 // Linear between the marks, also from those of one trace to those of the next.
@@ -179,7 +186,14 @@ double SurfaceWithFormError::distance_mm(Vec3 point_mm) const {
     const FormError::Extremes& e = error_.extremes();
     const double most = std::max(e.left_mm, e.overcut_mm);
     if (std::abs(off) > 2 * most) return off > 0 ? off - most : off + most;
-    return off - error_.at(point_mm - off * machined_.normal(point_mm)).value_or(0);
+    const Vec3 normal = machined_.normal(point_mm), foot = point_mm - off * normal;
+    const auto wave = error_.wave_at(foot);
+    if (!wave) return off;
+    // Beside an edge the other face stays where it is, and no distance along one normal tells of both.
+    const Vec3 aside = (2 * most + kOnSurfaceMm) * cross(wave->along, normal);
+    for (const Vec3 beside : {foot + aside, foot - aside})
+        if (dot(machined_.normal(beside), normal) < kSameFace) return off;
+    return off - wave->left_mm;
 }
 
 }  // namespace tribo::surface

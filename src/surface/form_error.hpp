@@ -84,7 +84,7 @@ class FormError {
 };
 
 // A machined surface with its form error, for comparisons with a design. Near the surface only; normals are
-// those of the surface without it.
+// those of the surface without it. The error is left out along edges, as far as twice its largest value.
 class SurfaceWithFormError final : public contact::DistanceField {
   public:
     // Both must outlive this object.

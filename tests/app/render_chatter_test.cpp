@@ -165,5 +165,57 @@ TEST_F(RenderChatter, begins_and_ends_its_howl_without_a_click) {
     EXPECT_LT(roughest(begin_s, begin_s + 0.01), 0.3 * steady);
 }
 
+// A slot by a soft tool whose teeth come slowly: it bends by force over stiffness. As one tooth makes a wall,
+// another one cuts at 90 deg, with ktc times its chip across the feed. So the tool cuts the left wall too
+// deep and leaves as much on the right one: in surface.csv, in the summary, as deviation from the part of a
+// stiff tool, and under the finger.
+TEST_F(RenderChatter, leaves_the_error_of_a_wall_in_all_outputs) {
+    std::string stiff = kBenchmarkSlot;
+    stiff.replace(stiff.find("flutes = 2"), 10, "flutes = 4");
+    job.put("slot.nc", "G21 G90 M3 S600 F120\nG0 X-8 Y20 Z-0.5\nG1 X48\nM30\n");
+    job.put("job.toml", stiff);
+    ASSERT_EQ(job.render({"--only", "mesh"}).code, 0);
+    job.put("stiff.stl", job.get("machined.stl"));
+    job.put("job.toml", stiff + R"([part]
+surface = "stiff.stl"
+[[mode]]
+direction = [0, 1, 0]
+frequency_hz = 1500
+damping_ratio = 0.4
+stiffness_n_per_mm = 1000
+)");
+    const Outcome run = job.render({"--only", "surface"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    constexpr double kBentMm = 600 * 0.5 * 0.05 / 1000;
+
+    const ForceColumns marks = job.columns("surface.csv");
+    ASSERT_GT(marks.at("left_mm").size(), 1000u);
+    for (std::size_t n = 0; n < marks.at("t_s").size(); ++n) {
+        const double x = marks.at("x_mm")[n], side = marks.at("ny")[n];
+        if (x < 6 || x > 34) continue;  // the whole slot
+        EXPECT_NEAR(marks.at("y_mm")[n], 20 - 5 * side, 1e-6);
+        EXPECT_NEAR(marks.at("left_mm")[n], side * kBentMm, 0.03 * kBentMm) << x;
+        EXPECT_EQ(marks.at("line")[n], 3);
+    }
+    const nlohmann::json summary = job.summary(), error = summary["form_error"];
+    EXPECT_NEAR(error["left_max_mm"].get<double>(), kBentMm, 0.1 * kBentMm);
+    EXPECT_NEAR(error["overcut_max_mm"].get<double>(), kBentMm, 0.1 * kBentMm);
+    EXPECT_EQ(error["left_line"], 3);
+    EXPECT_NEAR(summary["rest_max_mm"].get<double>(), error["left_max_mm"].get<double>(), 0.002);
+    EXPECT_NEAR(summary["gouge_max_mm"].get<double>(), error["overcut_max_mm"].get<double>(), 0.002);
+
+    // Pressed 0.2 mm into the right wall, then into the left one.
+    job.put("stroke.csv",
+            "t_s,x_mm,y_mm,z_mm\n0,20,20,-0.2\n0.5,20,14.8,-0.2\n1,20,14.8,-0.2\n2,20,25.2,-0.2\n2.5,20,25.2,-0.2\n");
+    const Outcome felt = run_tribo(
+        {"feel", "job.toml", "--stroke", "stroke.csv", "--device", "playback", "--out", "out/trace.csv"},
+        job.path());
+    ASSERT_EQ(felt.code, 0) << felt.err;
+    const ForceColumns trace = job.columns("trace.csv");
+    EXPECT_NEAR(trace.at("fy_n")[900], 0.5 * (0.2 + kBentMm), 0.003);
+    EXPECT_NEAR(trace.at("fy_n")[2400], -0.5 * (0.2 - kBentMm), 0.003);
+    EXPECT_EQ(trace.at("fy_n")[1500], 0);
+}
+
 }  // namespace
 }  // namespace tribo::test

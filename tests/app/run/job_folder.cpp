@@ -11,8 +11,8 @@ Outcome JobFolder::render(const std::vector<std::string>& more) const {
     return run_tribo(arguments, scratch_.path());
 }
 
-ForceColumns JobFolder::forces() const {
-    std::istringstream file(get("forces.csv"));
+ForceColumns JobFolder::columns(const std::string& name) const {
+    std::istringstream file(get(name));
     std::string line, cell;
     std::vector<std::string> names;
     ForceColumns columns;

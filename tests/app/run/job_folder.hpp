@@ -11,7 +11,7 @@
 
 namespace tribo::test {
 
-// forces.csv: the columns by their names, one number a row each.
+// A CSV file: the columns by their names, one number a row each.
 using ForceColumns = std::map<std::string, std::vector<double>>;
 
 class JobFolder {
@@ -21,7 +21,8 @@ class JobFolder {
     Outcome render(const std::vector<std::string>& more = {}) const;
     std::string get(const std::string& name) const { return scratch_.get("out/" + name); }
     std::string file(const std::string& name) const { return scratch_.get(name); }
-    ForceColumns forces() const;
+    ForceColumns forces() const { return columns("forces.csv"); }
+    ForceColumns columns(const std::string& name) const;  // of a file in `out`
     nlohmann::json summary() const { return nlohmann::json::parse(get("summary.json")); }
     const std::string& path() const { return scratch_.path(); }
 

@@ -1,0 +1,17 @@
+%
+(wall: 60 long, 2.5 thick, 25 high, top at Z0; 0.25 mm off both sides of its upper millimetre)
+(T1 D=8 CR=0 flat end mill, 3 flutes)
+G21 G90 G17 G94 G40 G49 G80
+T1 M6
+(one side at a speed that looks harmless)
+S8100 M3
+G0 X68 Y-3.75 Z5
+G0 Z-1
+G1 X-8 F972
+(the other one in a pocket of the chart)
+S12500
+G0 Y6.25
+G1 X68 F1500
+G0 Z5
+M30
+%
