@@ -136,6 +136,13 @@ struct Limits {
                  {0.01, 1e4},
                  "`diameter_mm` and `length_mm` of a holder",
                  "Spindle heads count as holders; none is ten metres."};
+    Limit stickout{"stick-out of a cutter",
+                   "mm",
+                   {0.01, 2000},
+                   "`stickout_mm`, `reach_mm`",
+                   "As long as the longest edge, and as far again."};
+    Limit shank_diameter{
+        "diameter of shank or neck", "mm", {0.01, 1000}, "`shank_mm`, `neck_mm`", "As cutters themselves."};
     Limit tool_length{"length from the spindle nose",
                       "mm",
                       {-1e6, 1e6},
@@ -200,6 +207,12 @@ struct Limits {
                          {1e-3, 1e10},
                          "`stiffness_n_per_mm` of a mode",
                          "A thin wall has 100, a rigid machine 100,000."};
+    Limit spread{
+        "spread",
+        "",
+        {0, 9},
+        "`frequency_spread`, `damping_spread` and `stiffness_spread` of a mode, `spread` of `[material]`",
+        "A factor of ten to both sides; what is known less well is not known."};
 
     // The run.
     Limit resolution{"spacing of the grid",

@@ -92,13 +92,14 @@ Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
       probes_(kShares) {
     for (const Cutter& cutter : cutters_) {
         for (auto& share : probes_) share.emplace_back(cutter);
-        std::vector<HolderStep> steps = cutter.holder;
+        std::vector<HolderStep> steps = cutter.steps();
         if (steps.empty()) steps.push_back({cutter.diameter_mm, 2 * cutter.length_mm});
         std::vector<Cylinder>& body = bodies_.emplace_back();
         double height = cutter.length_mm;
         for (const HolderStep& step : steps) {
             Cylinder& part = body.emplace_back();
-            const bool shank = step.diameter_mm <= cutter.diameter_mm * (1 + 1e-9);
+            const bool shank = height < cutter.stickout_mm * (1 - 1e-9) ||
+                               step.diameter_mm <= cutter.diameter_mm * (1 + 1e-9);
             part.in_stock = shank ? CollisionKind::shank : CollisionKind::holder;
             part.solid.kind = CutterKind::flat;
             part.solid.diameter_mm = step.diameter_mm;

@@ -45,6 +45,43 @@ Result<void> check_numbers(const Cutter& c) {
     return {};
 }
 
+// Neck, shank and stick-out, which are 0 where they are not given.
+Result<void> check_shank(const Cutter& c) {
+    struct Number {
+        const char* key;
+        double value;
+        const Limit& limit;
+    };
+    for (const auto& [key, value, limit] : {Number{"stickout_mm", c.stickout_mm, kLimits.stickout},
+                                            Number{"shank_mm", c.shank_mm, kLimits.shank_diameter},
+                                            Number{"neck_mm", c.neck_mm, kLimits.shank_diameter},
+                                            Number{"reach_mm", c.reach_mm, kLimits.stickout}}) {
+        if (value == 0) continue;
+        if (!limit.range.contains(value))
+            return refuse(key, "is " + plain_number(value), range_remedy(limit));
+        if (c.stickout_mm == 0)
+            return refuse(key, "says nothing without a stick-out",
+                          "add stickout_mm, from the tip to the holder's face");
+    }
+    if (c.stickout_mm == 0) return {};
+    if (c.stickout_mm < c.length_mm)
+        return refuse("stickout_mm",
+                      "is shorter than the cutting edges of " + plain_number(c.length_mm) + " mm",
+                      "give the length from the tip to the holder's face, or correct length_mm");
+    const double shank = c.shank_mm > 0 ? c.shank_mm : c.diameter_mm;
+    if (c.neck_mm > shank)
+        return refuse("neck_mm", "is wider than the shank of " + plain_number(shank) + " mm",
+                      "give the diameter of the relieved neck, or the shank's as shank_mm");
+    if (c.reach_mm == 0) return {};
+    if (c.neck_mm == 0)
+        return refuse("reach_mm", "is the end of a neck, and there is none", "add neck_mm, its diameter");
+    if (c.reach_mm < c.length_mm || c.reach_mm > c.stickout_mm)
+        return refuse("reach_mm", "is not between the end of the edges and the holder",
+                      "give the height above the tip at which the neck ends: " + plain_number(c.length_mm) +
+                          " to " + plain_number(c.stickout_mm));
+    return {};
+}
+
 Result<void> check_pitch(const Cutter& c) {
     if (c.pitch_deg.empty()) return {};
     if (c.pitch_deg.size() != static_cast<std::size_t>(c.flutes)) {
@@ -72,6 +109,24 @@ double Cutter::lag_rad(double z_mm) const {
     return z_mm * math::tan(helix_deg * math::kRadPerDeg) / radius_mm();
 }
 
+std::vector<HolderStep> Cutter::shank_steps() const {
+    std::vector<HolderStep> steps;
+    double height = length_mm;
+    const auto up_to = [&](double end_mm, double wide_mm) {
+        if (end_mm > height) steps.push_back({wide_mm, end_mm - height});
+        height = std::max(height, end_mm);
+    };
+    if (neck_mm > 0) up_to(reach_mm > 0 ? reach_mm : stickout_mm, neck_mm);
+    up_to(stickout_mm, shank_mm > 0 ? shank_mm : diameter_mm);
+    return steps;
+}
+
+std::vector<HolderStep> Cutter::steps() const {
+    std::vector<HolderStep> all = shank_steps();
+    all.insert(all.end(), holder.begin(), holder.end());
+    return all;
+}
+
 Result<void> check(const Cutter& c) {
     if (auto done = check_numbers(c); !done) return done;
     if (c.kind == CutterKind::bull && !(c.corner_mm > 0 && c.corner_mm < c.radius_mm())) {
@@ -90,6 +145,7 @@ Result<void> check(const Cutter& c) {
         return refuse("runout_mm", "is not between 0 and the radius",
                       "give the offset of the tool axis, usually 0.005 to 0.05 mm");
     }
+    if (auto done = check_shank(c); !done) return done;
     return check_pitch(c);
 }
 

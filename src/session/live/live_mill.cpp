@@ -59,7 +59,7 @@ Box3 swept_box(const MillSession& session, double from_s, double to_s) {
 protocol::LiveCutter live_cutter(const milling::Cutter& cutter) {
     protocol::LiveCutter told{
         cutter.number, cutter.flutes, cutter.radius_mm(), cutter.corner_radius_mm(), cutter.length_mm, {}};
-    for (const milling::HolderStep& step : cutter.holder)
+    for (const milling::HolderStep& step : cutter.steps())
         told.holder.push_back({0.5 * step.diameter_mm, step.length_mm});
     return told;
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "dynamics/tool_estimate.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "dynamics/beam.hpp"
+
+namespace tribo::dynamics {
+namespace {
+
+constexpr BeamMaterial kCarbide{600e3, 0.22, 14.5e-9}, kHighSpeedSteel{210e3, 0.3, 8.1e-9};
+constexpr BeamMaterial kSteel{210e3, 0.3, 7.85e-9};
+constexpr double kFluted = 0.8;  // of the diameter
+constexpr double kDamping = 0.02;
+constexpr std::size_t kAsked = 6;    // modes of which the most flexible ones are kept
+constexpr double kSmallShare = 0.3;  // of the flexibility of the first: the second is left out
+// Of the size that fits to measured tools identify: of the tool in its holder, and of the holder in the
+// spindle (docs/chatter.md).
+constexpr BeamJoint kInHolder{20e3, 1.5e9}, kInSpindle{50e3, 1.5e9};
+
+BeamJoint in_series(const BeamJoint& a, const BeamJoint& b) {
+    const auto both = [](double p, double q) { return p * q / (p + q); };
+    return {both(a.across_n_per_mm, b.across_n_per_mm), both(a.turn_nmm_per_rad, b.turn_nmm_per_rad)};
+}
+
+std::vector<BeamPart> parts_of(const milling::Cutter& cutter) {
+    const BeamMaterial& body = cutter.body == milling::CutterBody::carbide ? kCarbide : kHighSpeedSteel;
+    BeamPart tool{{{kFluted * cutter.diameter_mm, cutter.length_mm, body}}, kInHolder};
+    for (const milling::HolderStep& step : cutter.shank_steps())
+        tool.sections.push_back({step.diameter_mm, step.length_mm, body});
+    if (cutter.holder.empty()) {
+        tool.joint = in_series(kInHolder, kInSpindle);
+        return {tool};
+    }
+    BeamPart holder{{}, kInSpindle};
+    for (const milling::HolderStep& step : cutter.holder)
+        holder.sections.push_back({step.diameter_mm, step.length_mm, kSteel});
+    return {tool, holder};
+}
+
+}  // namespace
+
+std::vector<Mode> estimated_modes(const milling::Cutter& cutter) {
+    assert(cutter.stickout_mm > 0);
+    std::vector<BendingMode> bending = bending_modes(parts_of(cutter), kAsked);
+    const auto sort_by = [&](double BendingMode::* value) {
+        std::stable_sort(bending.begin(), bending.end(),
+                         [&](const BendingMode& a, const BendingMode& b) { return a.*value < b.*value; });
+    };
+    sort_by(&BendingMode::stiffness_n_per_mm);
+    const bool one = bending[0].stiffness_n_per_mm < kSmallShare * bending[1].stiffness_n_per_mm;
+    bending.resize(one ? 1 : 2);
+    sort_by(&BendingMode::frequency_hz);
+    std::vector<Mode> modes;
+    for (const BendingMode& mode : bending)
+        for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}})
+            modes.push_back({direction, mode.frequency_hz, kDamping, mode.stiffness_n_per_mm, ModeOn::tool,
+                             kEstimateSpread, true});
+    return modes;
+}
+
+}  // namespace tribo::dynamics
