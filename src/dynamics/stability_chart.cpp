@@ -30,13 +30,21 @@ std::optional<std::vector<double>> ChartRange::depths_mm() const {
     return steps(step_mm, most_mm, step_mm, kMostDepths);
 }
 
+double StabilityChart::safe_mm(std::size_t speed) const {
+    if (probability.empty()) return limits[speed].depth_mm.value_or(depths_mm.back());
+    double safe = 0;
+    for (std::size_t n = 0; n < depths_mm.size(); ++n)
+        if (probability[speed * depths_mm.size() + n] <= kRarely) safe = depths_mm[n];
+    return safe;
+}
+
 StabilityChart stability_chart(const ChartRange& range,
                                const std::function<Stability(double rpm, double depth_mm)>& at,
                                const ParallelFor& parallel,
                                const std::function<bool(double fraction)>& may_go_on) {
     const auto speeds = range.speeds_rpm(), depths = range.depths_mm();
     assert(speeds && depths);
-    StabilityChart chart{*speeds, *depths, {}, {}};
+    StabilityChart chart{*speeds, *depths, {}, {}, {}};
     chart.points.resize(speeds->size() * depths->size());
     chart.limits.resize(speeds->size());
     std::atomic<std::size_t> done = 0;
@@ -64,8 +72,7 @@ std::vector<SafePocket> safe_pockets(const StabilityChart& chart, std::size_t mo
     constexpr double kOff = 0.01, kAboveMedian = 1.5, kShallower = 0.8;
     const std::size_t count = chart.speeds_rpm.size();
     std::vector<double> limits;
-    for (const DepthLimit& limit : chart.limits)
-        limits.push_back(limit.depth_mm.value_or(chart.depths_mm.back()));
+    for (std::size_t n = 0; n < count; ++n) limits.push_back(chart.safe_mm(n));
     // The least limit within 1 % of each speed, but at least of its neighbours.
     std::vector<double> safe = limits;
     for (std::size_t n = 0; n < count; ++n) {
@@ -87,7 +94,7 @@ std::vector<SafePocket> safe_pockets(const StabilityChart& chart, std::size_t mo
         while (end < count && safe[end] == safe[n]) ++end;
         const bool rises = n == 0 || safe[n - 1] < safe[n];
         const bool falls = end == count || safe[end] < safe[n];
-        if (rises && falls && safe[n] >= least) peaks.push_back((n + end - 1) / 2);
+        if (rises && falls && safe[n] >= least && safe[n] > 0) peaks.push_back((n + end - 1) / 2);
         n = end;
     }
     std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) {

@@ -26,11 +26,17 @@ struct StabilityChart {
     std::vector<double> speeds_rpm, depths_mm;  // ascending
     std::vector<Stability> points;              // speed by speed, all depths of each
     std::vector<DepthLimit> limits;             // one per speed, down to the last depth
+    // Of chatter, as `points`; empty where nothing has a spread. Never falls with depth.
+    std::vector<double> probability{};
 
     const Stability& at(std::size_t speed, std::size_t depth) const {
         return points[speed * depths_mm.size() + depth];
     }
+    // The border; with probabilities the last depth that rarely chatters, or 0. The last depth at most.
+    double safe_mm(std::size_t speed) const;
 };
+
+inline constexpr double kRarely = 0.1;  // a probability of chatter up to which a cut counts as safe
 
 // `at` is called from the threads of `parallel`; `range` must have speeds and depths (asserted). `may_go_on`
 // is called from them too, with the finished share; where it returns false, the rest of the chart is empty.
@@ -40,7 +46,7 @@ StabilityChart stability_chart(const ChartRange& range,
                                const std::function<bool(double fraction)>& may_go_on = {});
 
 // A speed that may be recommended: also with the spindle 1 % slower or faster the cut is stable to that
-// depth.
+// depth, with probabilities in nine of ten cases (kRarely).
 struct SafePocket {
     double spindle_rpm = 0, depth_mm = 0;
     bool deeper = false;  // stable to the last depth of the chart: perhaps deeper

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "dynamics/beam.hpp"
 
@@ -15,7 +16,7 @@ constexpr double kFluted = 0.8;  // of the diameter
 constexpr double kDamping = 0.02;
 constexpr std::size_t kAsked = 6;    // modes of which the most flexible ones are kept
 constexpr double kSmallShare = 0.3;  // of the flexibility of the first: the second is left out
-// Of the size that fits to measured tools identify: of the tool in its holder, and of the holder in the
+// Round numbers of the size that published models have: of the tool in its holder, and of the holder in the
 // spindle (docs/chatter.md).
 constexpr BeamJoint kInHolder{20e3, 1.5e9}, kInSpindle{50e3, 1.5e9};
 
@@ -44,14 +45,15 @@ std::vector<BeamPart> parts_of(const milling::Cutter& cutter) {
 std::vector<Mode> estimated_modes(const milling::Cutter& cutter) {
     assert(cutter.stickout_mm > 0);
     std::vector<BendingMode> bending = bending_modes(parts_of(cutter), kAsked);
-    const auto sort_by = [&](double BendingMode::* value) {
-        std::stable_sort(bending.begin(), bending.end(),
-                         [&](const BendingMode& a, const BendingMode& b) { return a.*value < b.*value; });
+    // No two modes are alike in both.
+    const auto flexible_first = [](const BendingMode& a, const BendingMode& b) {
+        return std::pair(a.stiffness_n_per_mm, a.frequency_hz) <
+               std::pair(b.stiffness_n_per_mm, b.frequency_hz);
     };
-    sort_by(&BendingMode::stiffness_n_per_mm);
+    std::sort(bending.begin(), bending.end(), flexible_first);
     const bool one = bending[0].stiffness_n_per_mm < kSmallShare * bending[1].stiffness_n_per_mm;
     bending.resize(one ? 1 : 2);
-    sort_by(&BendingMode::frequency_hz);
+    if (!one && bending[0].frequency_hz > bending[1].frequency_hz) std::swap(bending[0], bending[1]);
     std::vector<Mode> modes;
     for (const BendingMode& mode : bending)
         for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}})

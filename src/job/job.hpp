@@ -36,6 +36,14 @@ struct JobStockFrom {
 struct JobMaterial {
     std::string name;
     std::optional<milling::CuttingCoefficients> coefficients;
+    // Of own coefficients: in 9 of 10 cases a true force is the computed one divided by 1 + spread to times
+    // that.
+    double spread = 0;
+};
+
+// The modes of every cutter are estimated from its shape (dynamics/tool_estimate.hpp).
+struct JobEstimate {
+    int line = 0, column = 0;  // of the key in the file of this job
 };
 
 using motion::Interpolation;
@@ -123,10 +131,12 @@ struct Job {
     std::optional<JobEngagement> engagement;
     // Unit directions in stock axes. Those of a tool are where its axis is +z; they turn with it.
     std::vector<dynamics::Mode> modes;
+    std::optional<JobEstimate> estimate;  // beside modes of the part; the tool has no others then
     JobSound sound;
     JobHaptics haptics;
     JobMachine machine;
 
+    bool can_vibrate() const { return estimate || !modes.empty(); }
     bool has_stock() const { return stock_from || stock.model || !stock.box_mm.empty(); }
 };
 

@@ -102,6 +102,7 @@ std::string cutter_text(const milling::Cutter& c) {
     if (c.kind == milling::CutterKind::bull) text += " corner " + number(c.corner_mm);
     text += ", " + std::to_string(c.flutes) + (c.flutes == 1 ? " flute" : " flutes") + ", helix " +
             number(c.helix_deg) + " deg, " + number(c.length_mm) + " mm long";
+    if (c.stickout_mm > 0) text += ", sticks out " + number(c.stickout_mm) + " mm";
     if (!c.holder.empty()) text += ", holder of " + std::to_string(c.holder.size()) + " steps";
     return text;
 }
@@ -115,6 +116,7 @@ files::Json cutter_json(const milling::Cutter& c) {
     json["flutes"] = c.flutes;
     json["helix_deg"] = c.helix_deg;
     json["length_mm"] = c.length_mm;
+    if (c.stickout_mm > 0) json["stickout_mm"] = c.stickout_mm;
     return json;
 }
 

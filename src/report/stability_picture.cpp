@@ -27,9 +27,16 @@ constexpr Growth kGrowths[] = {
     {1e300, {0.55F, 0.25F, 0.26F}, "above 2"},
 };
 
-std::size_t growth_of(const dynamics::Stability& s) {
+// The same for a probability of chatter of at most `most`, in the same colours.
+constexpr Growth kShares[] = {
+    {0.1, kGrowths[0].colour, "up to 10 %"},   {0.25, kGrowths[1].colour, "10 to 25 %"},
+    {0.5, kGrowths[2].colour, "25 to 50 %"},   {0.75, kGrowths[3].colour, "50 to 75 %"},
+    {1e300, kGrowths[4].colour, "above 75 %"},
+};
+
+std::size_t step_of(double value, const Growth (&steps)[5]) {
     std::size_t n = 0;
-    while (n + 1 < std::size(kGrowths) && s.multiplier > kGrowths[n].most) ++n;
+    while (n + 1 < std::size(steps) && value > steps[n].most) ++n;
     return n;
 }
 
@@ -100,14 +107,21 @@ class Chart {
         text(middle, at_y, kLetter, what, TextAnchor::middle, colour);
     }
 
+    bool has_spread() const { return !chart_.probability.empty(); }
+    std::size_t step_at(std::size_t speed, std::size_t depth) const {
+        if (has_spread())
+            return step_of(chart_.probability[speed * chart_.depths_mm.size() + depth], kShares);
+        return step_of(chart_.at(speed, depth).multiplier, kGrowths);
+    }
+
     void cells() {
         for (std::size_t s = 0; s < chart_.speeds_rpm.size(); ++s) {
             const double from = std::round(x(chart_.speeds_rpm[s] - half_rpm_));
             const double to = std::round(x(chart_.speeds_rpm[s] + half_rpm_));
             for (std::size_t n = 0; n < chart_.depths_mm.size();) {
-                const std::size_t growth = growth_of(chart_.at(s, n));
+                const std::size_t growth = step_at(s, n);
                 std::size_t end = n;
-                while (end < chart_.depths_mm.size() && growth_of(chart_.at(s, end)) == growth) ++end;
+                while (end < chart_.depths_mm.size() && step_at(s, end) == growth) ++end;
                 const double low = std::round(y(chart_.depths_mm[n] - 0.5 * step_mm_));
                 const double high = std::round(y(chart_.depths_mm[end - 1] + 0.5 * step_mm_));
                 n = end;
@@ -167,18 +181,20 @@ class Chart {
         drawing_.shapes.emplace_back(DrawnDisc{x(rpm), y(mm), 9, kWhite});
         drawing_.shapes.emplace_back(DrawnDisc{x(rpm), y(mm), 7, kMark});
         drawing_.shapes.emplace_back(DrawnDisc{x(rpm), y(mm), 3, kWhite});
-        char words[80];
-        std::snprintf(words, sizeof words, "the job: %.6g rpm, %.4g mm, %s", rpm, mm,
-                      notes_.stable ? "stable" : "chatters");
+        char words[120], share[40] = "";
+        if (notes_.probability)
+            std::snprintf(share, sizeof share, "; probability %.0f %%", 100 * *notes_.probability);
+        std::snprintf(words, sizeof words, "the job: %.6g rpm, %.4g mm, %s%s", rpm, mm,
+                      notes_.stable ? "stable" : "chatters", share);
         label(x(rpm), y(mm) + (y(mm) + 30 < kBottom - 8 ? 30 : -16), words, kMark);
     }
 
     void legend() {
         const double left = kRight + 24;
-        text(left, kTop + 12, 11, "A vibration grows");
-        text(left, kTop + 30, 11, "in a period by");
+        text(left, kTop + 12, 11, has_spread() ? "Of all cases in the" : "A vibration grows");
+        text(left, kTop + 30, 11, has_spread() ? "band chatter" : "in a period by");
         double top = kTop + 48;
-        for (const Growth& growth : kGrowths) {
+        for (const Growth& growth : has_spread() ? kShares : kGrowths) {
             drawing_.shapes.emplace_back(DrawnArea{left, top, 26, 18, kInk});
             drawing_.shapes.emplace_back(DrawnArea{left + 1, top + 1, 24, 16, growth.colour});
             text(left + 36, top + 14, 11, growth.text);
@@ -186,7 +202,7 @@ class Chart {
         }
         line(left, top + 20, left + 26, top + 20, 2.5, kInk);
         text(left + 36, top + 25, 11, "border of the");
-        text(left + 36, top + 43, 11, "stable depths");
+        text(left + 36, top + 43, 11, has_spread() ? "stated values" : "stable depths");
         drawing_.shapes.emplace_back(DrawnDisc{left + 13, top + 74, 5, kSafe});
         text(left + 36, top + 79, 11, "safe pocket");
         drawing_.shapes.emplace_back(DrawnDisc{left + 13, top + 104, 7, kMark});

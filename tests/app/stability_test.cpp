@@ -140,6 +140,83 @@ TEST_F(StabilityVerb, keeps_the_bands_of_rounded_cutters) {
     EXPECT_GT(beside["engagement"]["bands"], 0);
 }
 
+// A job of its own: a carbide tool with a stick-out, and an alloy of the library.
+std::string estimated_job(const std::string& cutter = "stickout_mm = 50\n", const std::string& more = "") {
+    return "[stock]\nbox_mm = [[0, 0, -10], [40, 40, 0]]\n[cutter]\nkind = \"flat\"\ndiameter_mm = 10\n"
+           "flutes = 3\nlength_mm = 22\n" +
+           cutter +
+           "[material]\nname = \"al7075-t6\"\n[process]\nspindle_rpm = 8000\nfeed_mm_per_min = "
+           "1600\n[path]\ngcode = \"slot.nc\"\n[dynamics]\nestimate = true\n" +
+           more;
+}
+
+TEST_F(StabilityVerb, says_that_modes_are_estimated_and_how_likely_chatter_is) {
+    scratch.put("slot.nc", "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n");
+    scratch.put("job.toml", estimated_job("stickout_mm = 50\n", kEngagement));
+    const auto run_with = [&](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), {"stability", "job.toml"});
+        return run_tribo(flags, scratch.path());
+    };
+    const Outcome asked = run_with({"--json", "--at", "8000:0.01", "--at", "8000:1", "--at", "8000:20"});
+    ASSERT_EQ(asked.code, 0) << asked.err;
+    const auto json = nlohmann::json::parse(asked.out);
+    ASSERT_FALSE(json["modes"].empty());
+    for (const auto& mode : json["modes"]) {
+        EXPECT_EQ(mode["from"], "estimate");
+        EXPECT_EQ(mode["damping_ratio"], 0.02);
+        EXPECT_EQ(mode["stiffness_spread"], 1);
+        EXPECT_EQ(mode["frequency_spread"], 0.25);
+    }
+    EXPECT_EQ(json["points"][0]["probability"], 0);
+    EXPECT_GT(json["points"][1]["probability"], 0);
+    EXPECT_EQ(json["points"][2]["probability"], 1);
+    EXPECT_NE(asked.err.find("the modes of the tool are estimated, not measured"), std::string::npos)
+        << asked.err;
+    EXPECT_NE(asked.err.find(
+                  "0.8 to 1.25 times that frequency, 0.5 to 2 times that stiffness, damping 0.01 to 0.04"),
+              std::string::npos)
+        << asked.err;
+    const Outcome charted = run_with({"--out", "chart", "--rpm", "6000:10000:1000", "--depth", "4:0.5"});
+    ASSERT_EQ(charted.code, 0) << charted.err;
+    EXPECT_NE(charted.out.find("modes of the tool: estimated"), std::string::npos) << charted.out;
+    EXPECT_NE(charted.out.find("within the band it chatters in "), std::string::npos) << charted.out;
+    EXPECT_NE(scratch.get("chart/stability.svg").find("modes estimated"), std::string::npos);
+    EXPECT_NE(scratch.get("chart/stability.svg").find("50 to 75 %"), std::string::npos);
+    const std::string csv = scratch.get("chart/stability.csv");
+    EXPECT_TRUE(csv.starts_with("spindle_rpm,axial_depth_mm,multiplier,chatter_hz,kind,probability\n"));
+    const auto summary = nlohmann::json::parse(scratch.get("chart/summary.json"));
+    EXPECT_TRUE(summary["point"].contains("probability"));
+    EXPECT_EQ(summary["modes"][0]["from"], "estimate");
+    EXPECT_NE(summary["warnings"].dump().find("estimated, not measured"), std::string::npos);
+    EXPECT_NE(summary["advice"].get<std::string>().find("within the band of modes and forces it chatters in"),
+              std::string::npos);
+}
+
+TEST_F(StabilityVerb, has_a_probability_only_where_something_has_a_spread) {
+    const auto known = answer(kEngagement + benchmark_mode("1, 0, 0"), {"--at", "8000:1"});
+    EXPECT_FALSE(known["points"][0].contains("probability"));
+    EXPECT_FALSE(known["modes"][0].contains("from"));
+    const auto spread = answer(kEngagement + benchmark_mode("1, 0, 0") + "stiffness_spread = 0.5\n",
+                               {"--at", "8000:0.6764", "--at", "8000:1"});
+    // At the border half of the cases chatter.
+    EXPECT_NEAR(spread["points"][0]["probability"], 0.5, 0.026);
+    EXPECT_GT(spread["points"][1]["probability"], 0.8);
+    EXPECT_NEAR(spread["points"][1]["multiplier"], known["points"][0]["multiplier"], 1e-9);
+    EXPECT_EQ(spread["modes"][0]["stiffness_spread"], 0.5);
+}
+
+TEST_F(StabilityVerb, refuses_an_estimate_of_a_tool_without_a_stick_out) {
+    scratch.put("slot.nc", "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n");
+    scratch.put("job.toml", estimated_job(""));
+    const Outcome outcome = run_tribo({"stability", "job.toml"}, scratch.path());
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(
+        outcome.err.find("job.toml:3:1: error: [dynamics] estimates the modes of this cutter, and it has no "
+                         "'stickout_mm'; try add stickout_mm"),
+        std::string::npos)
+        << outcome.err;
+}
+
 // The fields of the lines of a CSV, without its header.
 std::vector<std::vector<std::string>> table(const std::string& csv, const std::string& header) {
     EXPECT_TRUE(csv.starts_with(header + "\n")) << csv.substr(0, 80);

@@ -100,11 +100,12 @@ TEST(ServoSources, feeling_a_milled_part_neither_allocates_nor_locks_nor_prints)
 
 // With the waves that a bending tool left, and with the force of its vibration.
 TEST(ServoSources, feeling_what_bends_neither_allocates_nor_locks_nor_prints) {
-    const std::vector<dynamics::Mode> modes{{{0.3, 1, 0}, 900, 0.02, 2000}};
-    MillSession milled(*slot(), serial_for);
+    MillSetup setup = *slot();
+    setup.modes_of_cutter = {{{{0.3, 1, 0}, 900, 0.02, 2000}}};
+    MillSession milled(std::move(setup), serial_for);
     VibrationTrack track(1 / kTickS, milled.duration_s());
     ProgramChatter chatter(
-        milled.setup(), modes, {true, true}, serial_for,
+        milled.setup(), {true, true}, serial_for,
         [&](const milling::CutRow& row, const milling::RowForce&, const RowChatter& of_row) {
             if (of_row.vibration) track.add(*of_row.vibration, row.pose.frame);
         });

@@ -87,10 +87,10 @@ bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
     milled_ = std::make_unique<session::MillSession>(std::move(setup), parallel, milling("earlier jobs"));
     const bool cut = call_.mode == "cut";
     std::optional<session::ProgramChatter> chatter;
-    if (!job_.modes.empty()) {
+    if (job_.can_vibrate()) {
         if (cut) vibration_.emplace(call_.rate_hz, milled_->duration_s());
         chatter.emplace(
-            milled_->setup(), job_.modes, session::ProgramChatter::Options{cut, !cut}, parallel,
+            milled_->setup(), session::ProgramChatter::Options{cut, !cut}, parallel,
             [this](const milling::CutRow& row, const milling::RowForce&, const session::RowChatter& of_row) {
                 if (vibration_ && of_row.vibration) vibration_->add(*of_row.vibration, row.pose.frame);
             });
@@ -173,7 +173,7 @@ FileResult<void> FeelSource::make(session::MillSetup setup, std::optional<sessio
     track_ = std::make_unique<session::CutterTrack>(setup);
     auto table = baked(key);
     from_bake_ = table.has_value();
-    if (!table || call_.texture || !job_.modes.empty()) {
+    if (!table || call_.texture || job_.can_vibrate()) {
         if (!mill(std::move(setup), parallel)) return {};
     }
     if (!table) {

@@ -136,9 +136,9 @@ int render(const RenderCall& call) {
     if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
     session::MillSinks sinks;
     std::optional<session::ProgramChatter> chatter;
-    if (!loaded->job.modes.empty()) {
+    if (loaded->job.can_vibrate()) {
         chatter.emplace(
-            session.setup(), loaded->job.modes,
+            session.setup(),
             session::ProgramChatter::Options{call.wants("sound") && !call.as_published, true}, parallel,
             [&](const milling::CutRow& row, const milling::RowForce& force,
                 const session::RowChatter& of_row) { outputs.add(row, force, session.setup(), &of_row); });

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
     if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
     if (sound) facts.emplace_back("Sound", sound_of(loaded.job));
     facts.emplace_back("Not modelled",
-                       loaded.job.modes.empty()
+                       !loaded.job.can_vibrate()
                            ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
                            : "what vibration does to the forces above; heat, wear, chip evacuation");
     return facts;
@@ -68,7 +68,7 @@ bool RenderOutputs::writes(const std::string& name) {
 
 FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
     if (call_.wants("forces")) {
-        auto file = ForceFile::create(folder_.file("forces.csv"), !loaded_.job.modes.empty());
+        auto file = ForceFile::create(folder_.file("forces.csv"), loaded_.job.can_vibrate());
         if (!file) return std::unexpected(file.error());
         forces_.emplace(std::move(*file));
         if (call_.as_published) {
@@ -244,8 +244,7 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
     mesh = {};
     data.rows = report::thin_rows(report_.rows, 4000);
     data.turn = report_.turn(session.setup());
-    if (chatter != nullptr)
-        data.chatter = report_chatter(*chatter, session.setup(), loaded_.job.modes, parallel_);
+    if (chatter != nullptr) data.chatter = report_chatter(*chatter, session.setup(), parallel_);
     if (sound_) {
         data.sound = sound_->for_report();
         data.sound->waves = report_.waves(session.setup(), sound_->options());

@@ -5,6 +5,7 @@
 
 #include "app/stability/stability_words.hpp"
 #include "report/stability_picture.hpp"
+#include "session/chatter/probability.hpp"
 #include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::app {
@@ -17,14 +18,14 @@ constexpr double kCoarser = 2;     // than the chart of tribo stability
 }  // namespace
 
 report::ReportChatter report_chatter(const session::ProgramChatter& chatter, const session::MillSetup& setup,
-                                     std::span<const dynamics::Mode> modes, const ParallelFor& parallel) {
+                                     const ParallelFor& parallel) {
     report::ReportChatter shown;
     const milling::CutRow* worst = chatter.worst();
     if (worst == nullptr) {
         shown.advice = "No multiplier is known in any row (see the warnings).";
         return shown;
     }
-    const session::SteadyCut cut = session::steady_cut_of(*worst, setup, modes, session::kRowBands);
+    const session::SteadyCut cut = session::steady_cut_of(*worst, setup, session::kRowBands);
     char text[160];
     std::snprintf(text, sizeof text, "Line %d at %.5g s: ", cut.line, *cut.t_s);
     shown.advice = text;
@@ -35,12 +36,14 @@ report::ReportChatter report_chatter(const session::ProgramChatter& chatter, con
         session::add_default_depths(cut, range);
         range.step_rpm *= kCoarser;
         range.step_mm *= kCoarser;
-        const dynamics::StabilityChart chart = dynamics::stability_chart(
+        dynamics::StabilityChart chart = dynamics::stability_chart(
             range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel);
+        session::add_probability(cut, chart, parallel);
         const session::Advice advice = session::advise(cut, chart, parallel);
         shown.advice += in_words(cut, chart, advice);
-        shown.chart_svg = report::svg_of(report::draw_stability(
-            chart, {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm, advice.here.multiplier <= 1}));
+        shown.chart_svg = report::svg_of(
+            report::draw_stability(chart, {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm,
+                                           advice.here.multiplier <= 1, advice.probability}));
     }
     std::snprintf(text, sizeof text,
                   "The tool against the part in this cut, from rest: line %d, %.6g rpm, %.4g mm deep",

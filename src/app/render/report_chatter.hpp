@@ -2,8 +2,6 @@
 // What the report says about the place of a program that chatters most.
 #pragma once
 
-#include <span>
-
 #include "report/report_html.hpp"
 #include "session/chatter/program_chatter.hpp"
 
@@ -12,6 +10,6 @@ namespace tribo::app {
 // Chart, advice and vibration of the worst row, as a steady cut. Takes about a second. Without a row that has
 // a multiplier, and where the spindle is too slow for a chart, the advice says so.
 report::ReportChatter report_chatter(const session::ProgramChatter& chatter, const session::MillSetup& setup,
-                                     std::span<const dynamics::Mode> modes, const ParallelFor& parallel);
+                                     const ParallelFor& parallel);
 
 }  // namespace tribo::app

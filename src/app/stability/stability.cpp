@@ -15,6 +15,7 @@
 #include "files/machine_limits.hpp"
 #include "job/loader.hpp"
 #include "job/toml/job_toml.hpp"
+#include "session/chatter/probability.hpp"
 #include "tribo/threads.hpp"
 
 namespace tribo::app {
@@ -117,19 +118,28 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
         if (!found) return std::unexpected(found.error());
         range = *found;
     }
-    for (StabilityPoint& p : answer.points) p.stability = cut.at(p.spindle_rpm, p.axial_depth_mm);
+    const std::vector<session::SteadyCut> cases = session::cases_of(cut);
+    for (StabilityPoint& p : answer.points) {
+        if (interrupted()) return {};
+        p.stability = cut.at(p.spindle_rpm, p.axial_depth_mm);
+        if (!cases.empty())
+            p.probability = session::probability_of_chatter(cases, p.spindle_rpm, p.axial_depth_mm);
+    }
     for (const double rpm : speeds) {
         if (interrupted()) return {};
         answer.limits.push_back({rpm, cut.limit(rpm)});
     }
     if (!range) return {};
     Progress progress;
-    auto chart = dynamics::stability_chart(
-        *range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel,
-        [&](double fraction) {
-            progress.update("chart", fraction);
+    const auto stage = [&](const char* name) {
+        return [&progress, name](double fraction) {
+            progress.update(name, fraction);
             return !interrupted();
-        });
+        };
+    };
+    auto chart = dynamics::stability_chart(
+        *range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel, stage("chart"));
+    session::add_probability(cut, chart, parallel, stage("probability"));
     if (interrupted()) return {};
     auto advice = session::advise(cut, chart, parallel);
     answer.chart = {*range, std::move(chart), std::move(advice)};

@@ -16,6 +16,7 @@ namespace tribo::app {
 struct StabilityPoint {
     double spindle_rpm = 0, axial_depth_mm = 0;
     dynamics::Stability stability{};
+    std::optional<double> probability{};  // of chatter, where modes or forces have a spread
 };
 
 struct StabilityLimit {

@@ -42,13 +42,15 @@ double nine(double value) {
 
 files::Json json_of(const StabilityPoint& p) {
     const dynamics::Stability& s = p.stability;
-    return {{"spindle_rpm", nine(p.spindle_rpm)},
-            {"axial_depth_mm", nine(p.axial_depth_mm)},
-            {"multiplier", nine(s.multiplier)},
-            {"period_s", nine(s.period_s)},
-            {"angle_rad", nine(s.angle_rad)},
-            {"chatter_hz", nine(s.chatter_hz)},
-            {"kind", name_of(s.kind)}};
+    files::Json json = {{"spindle_rpm", nine(p.spindle_rpm)},
+                        {"axial_depth_mm", nine(p.axial_depth_mm)},
+                        {"multiplier", nine(s.multiplier)},
+                        {"period_s", nine(s.period_s)},
+                        {"angle_rad", nine(s.angle_rad)},
+                        {"chatter_hz", nine(s.chatter_hz)},
+                        {"kind", name_of(s.kind)}};
+    files::set(json, "probability", p.probability);
+    return json;
 }
 
 files::Json json_of(double spindle_rpm, const dynamics::DepthLimit& limit) {
@@ -63,11 +65,19 @@ files::Json json_of(double spindle_rpm, const dynamics::DepthLimit& limit) {
 files::Json modes_json(const session::SteadyCut& cut) {
     files::Json modes = files::Json::array();
     for (const dynamics::Mode& m : cut.modes) {
-        modes.push_back({{"direction", files::triple(m.direction)},
-                         {"on", m.on == dynamics::ModeOn::part ? "part" : "tool"},
-                         {"frequency_hz", nine(m.frequency_hz)},
-                         {"damping_ratio", nine(m.damping_ratio)},
-                         {"stiffness_n_per_mm", nine(m.stiffness_n_per_mm)}});
+        files::Json mode = {{"direction", files::triple(m.direction)},
+                            {"on", m.on == dynamics::ModeOn::part ? "part" : "tool"},
+                            {"frequency_hz", nine(m.frequency_hz)},
+                            {"damping_ratio", nine(m.damping_ratio)},
+                            {"stiffness_n_per_mm", nine(m.stiffness_n_per_mm)}};
+        if (m.estimated) mode["from"] = "estimate";
+        const auto set_spread = [&](const char* key, double spread) {
+            if (spread > 0) mode[key] = nine(spread);
+        };
+        set_spread("frequency_spread", m.spread.frequency);
+        set_spread("damping_spread", m.spread.damping);
+        set_spread("stiffness_spread", m.spread.stiffness);
+        modes.push_back(std::move(mode));
     }
     return modes;
 }
@@ -82,6 +92,8 @@ files::Json engagement_json(const session::SteadyCut& cut) {
     json["exit_deg"] = nine(cut.exit_rad() * math::kDegPerRad);
     json["axial_depth_mm"] = nine(cut.axial_depth_mm);
     json["bands"] = cut.bands.size();
+    if (cut.force_low_factor != cut.force_high_factor)
+        json["force_band"] = {nine(cut.force_low_factor), nine(cut.force_high_factor)};
     return json;
 }
 
@@ -101,6 +113,7 @@ void add_chart(const session::SteadyCut& cut, const ComputedChart& computed, fil
     const dynamics::ChartRange& r = computed.range;
     json["advice"] = in_words(cut, computed.chart, computed.advice);
     files::set(json, "nearest_stable_rpm", computed.advice.nearest_rpm);
+    files::set(json, "safe_mm", computed.advice.safe_mm);
     json["chart"] = {{"from_rpm", nine(r.from_rpm)},
                      {"to_rpm", nine(r.to_rpm)},
                      {"step_rpm", nine(r.step_rpm)},
@@ -114,14 +127,21 @@ void add_chart(const session::SteadyCut& cut, const ComputedChart& computed, fil
 }
 
 std::string points_csv(const dynamics::StabilityChart& chart) {
-    std::string text = "spindle_rpm,axial_depth_mm,multiplier,chatter_hz,kind\n";
+    const bool has_spread = !chart.probability.empty();
+    std::string text = "spindle_rpm,axial_depth_mm,multiplier,chatter_hz,kind";
+    text += has_spread ? ",probability\n" : "\n";
     char line[160];
     for (std::size_t s = 0; s < chart.speeds_rpm.size(); ++s) {
         for (std::size_t d = 0; d < chart.depths_mm.size(); ++d) {
             const dynamics::Stability& p = chart.at(s, d);
-            std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%s\n", chart.speeds_rpm[s],
+            std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%s", chart.speeds_rpm[s],
                           chart.depths_mm[d], p.multiplier, p.chatter_hz, name_of(p.kind));
             text += line;
+            if (has_spread) {
+                std::snprintf(line, sizeof line, ",%.9g", chart.probability[s * chart.depths_mm.size() + d]);
+                text += line;
+            }
+            text += '\n';
         }
     }
     return text;
@@ -163,7 +183,8 @@ std::string summary_json(const StabilityCall& call, const StabilityAnswer& answe
     json["engagement"] = engagement_json(cut);
     if (answer.chart) {
         const session::Advice& advice = answer.chart->advice;
-        json["point"] = json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here});
+        json["point"] =
+            json_of(StabilityPoint{cut.spindle_rpm, cut.axial_depth_mm, advice.here, advice.probability});
         json["limit"] = json_of(cut.spindle_rpm, advice.limit);
         add_chart(answer.cut, *answer.chart, json);
     }
@@ -207,6 +228,8 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
     std::printf("cut: %s; %.4g mm deep, engaged from %.4g to %.4g deg, %g rpm\n",
                 source_of(call, cut).c_str(), cut.axial_depth_mm, cut.entry_rad() * math::kDegPerRad,
                 cut.exit_rad() * math::kDegPerRad, cut.spindle_rpm);
+    if (is_estimated(cut))
+        std::printf("modes of the tool: estimated, not measured (see the warning for their band)\n");
     for (const StabilityPoint& p : answer.points) {
         const dynamics::Stability& s = p.stability;
         std::printf("%g rpm, %g mm: ", p.spindle_rpm, p.axial_depth_mm);
@@ -217,6 +240,8 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
             std::printf("chatter at %.1f Hz (%s); a vibration grows by %.4g in each %.4g ms\n", s.chatter_hz,
                         name_of(s.kind), s.multiplier, 1e3 * s.period_s);
         }
+        if (p.probability)
+            std::printf("  within the band it chatters in %s\n", cases_in_words(*p.probability).c_str());
     }
     for (const StabilityLimit& l : answer.limits) {
         if (l.limit.depth_mm) {
@@ -284,8 +309,9 @@ FileResult<void> write_files(const StabilityCall& call, const StabilityAnswer& a
     if (answer.chart) {
         const session::SteadyCut& cut = answer.cut;
         const report::Drawing drawing = report::draw_stability(
-            answer.chart->chart, {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm,
-                                  answer.chart->advice.here.multiplier <= 1});
+            answer.chart->chart,
+            {chart_title(cut), cut.spindle_rpm, cut.axial_depth_mm, answer.chart->advice.here.multiplier <= 1,
+             answer.chart->advice.probability});
         const std::array<std::string, kChartFiles.size()> texts{
             points_csv(answer.chart->chart), limits_csv(answer.chart->chart), report::svg_of(drawing),
             files::png_bytes(report::image_of(drawing))};

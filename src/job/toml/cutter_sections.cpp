@@ -9,9 +9,11 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kCutterKeys{"number"sv,     "kind"sv,      "diameter_mm"sv, "corner_mm"sv,
-                                 "flutes"sv,     "helix_deg"sv, "length_mm"sv,   "runout_mm"sv,
-                                 "runout_deg"sv, "pitch_deg"sv, "holder"sv,      "core_mm"sv};
+constexpr std::array kCutterKeys{"number"sv,    "kind"sv,      "diameter_mm"sv, "corner_mm"sv,  "flutes"sv,
+                                 "helix_deg"sv, "length_mm"sv, "runout_mm"sv,   "runout_deg"sv, "pitch_deg"sv,
+                                 "holder"sv,    "core_mm"sv,   "stickout_mm"sv, "shank_mm"sv,   "neck_mm"sv,
+                                 "reach_mm"sv,  "body"sv};
+constexpr std::array kBodyWords{"carbide"sv, "hss"sv};  // in the order of CutterBody
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
 
@@ -83,6 +85,11 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
     cutter.runout_mm = section.number("runout_mm", kLimits.runout).value_or(0);
     cutter.runout_deg = section.number("runout_deg", kLimits.runout_angle).value_or(0);
     cutter.pitch_deg = section.numbers("pitch_deg", kLimits.pitch).value_or(std::vector<double>());
+    cutter.stickout_mm = section.number("stickout_mm", kLimits.stickout).value_or(0);
+    cutter.shank_mm = section.number("shank_mm", kLimits.shank_diameter).value_or(0);
+    cutter.neck_mm = section.number("neck_mm", kLimits.shank_diameter).value_or(0);
+    cutter.reach_mm = section.number("reach_mm", kLimits.stickout).value_or(0);
+    cutter.body = static_cast<milling::CutterBody>(section.word("body", kBodyWords).value_or(0));
     cutter.holder = read_holder(section);
     check_cutter(section, cutter);
     return cutter;

@@ -22,14 +22,16 @@ constexpr std::array kCoefficientKeys{"ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac
 constexpr std::array kCoefficientLimits{kLimits.ktc, kLimits.krc, kLimits.krc,
                                         kLimits.kte, kLimits.kre, kLimits.kre};
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
-                                   "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv};
+                                   "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv,  "spread"sv};
 constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
-constexpr std::array kModeKeys{"direction"sv, "frequency_hz"sv, "damping_ratio"sv, "stiffness_n_per_mm"sv,
-                               "on"sv};
+constexpr std::array kModeKeys{
+    "direction"sv, "frequency_hz"sv,     "damping_ratio"sv,  "stiffness_n_per_mm"sv,
+    "on"sv,        "frequency_spread"sv, "damping_spread"sv, "stiffness_spread"sv};
 constexpr std::array kModeOn{"tool"sv, "part"sv};
+constexpr std::array kDynamicsKeys{"estimate"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv,
                                 "distance_factor"sv,
@@ -78,6 +80,10 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
         material.name = section.text("name").value_or("");
         const Result<milling::WorkpieceMaterial> known = milling::find_material(material.name);
         if (!known) section.fail("name", known.error().cause, known.error().remedy);
+        if (section.has("spread"))
+            section.fail("spread",
+                         "'spread' belongs to coefficients of your own: a named material has its band",
+                         "remove it, or give the six coefficients");
     } else if (!present.empty()) {
         milling::CuttingCoefficients k;
         double* const values[] = {&k.ktc, &k.krc, &k.kac, &k.kte, &k.kre, &k.kae};
@@ -85,6 +91,7 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
             *values[i] = section.required_number(kCoefficientKeys[i], kCoefficientLimits[i]);
         }
         material.coefficients = k;
+        material.spread = section.number("spread", kLimits.spread).value_or(0);
     } else {
         section.fail("", "[material] has no name and no coefficients",
                      "write name = \"al7075-t6\" or ktc_n_per_mm2, krc_, kac_, kte_n_per_mm, kre_ and kae_");
@@ -175,7 +182,27 @@ dynamics::Mode read_mode(TomlFile& file, const toml::table& table) {
     mode.damping_ratio = section.required_number("damping_ratio", kLimits.mode_damping);
     mode.stiffness_n_per_mm = section.required_number("stiffness_n_per_mm", kLimits.mode_stiffness);
     if (section.word("on", kModeOn).value_or(0) == 1) mode.on = dynamics::ModeOn::part;
+    const auto spread = [&](std::string_view key) { return section.number(key, kLimits.spread).value_or(0); };
+    mode.spread = {spread("frequency_spread"), spread("damping_spread"), spread("stiffness_spread")};
     return mode;
+}
+
+std::optional<JobEstimate> read_dynamics(TomlSection& root, const toml::table& table, const Job& job) {
+    TomlSection section(root.file(), table, "[dynamics]", kDynamicsKeys);
+    if (!section.flag("estimate").value_or(false)) return std::nullopt;
+    if (std::ranges::any_of(job.modes,
+                            [](const dynamics::Mode& m) { return m.on == dynamics::ModeOn::tool; }))
+        section.fail("estimate", "the job has modes of the tool, and asks to estimate them",
+                     "remove 'estimate' or the [[mode]] of the tool; modes on = \"part\" may stay");
+    const std::vector<const toml::table*> cutters = root.tables("cutter");
+    for (std::size_t n = 0; n < std::min(cutters.size(), job.cutters.size()); ++n) {
+        if (job.cutters[n].stickout_mm > 0) continue;
+        root.file().fail(cutters[n]->source(),
+                         "[dynamics] estimates the modes of this cutter, and it has no 'stickout_mm'",
+                         "add stickout_mm, from the tip to the holder's face");
+    }
+    const toml::source_position place = table.get("estimate")->source().begin;
+    return JobEstimate{static_cast<int>(place.line), static_cast<int>(place.column)};
 }
 
 template <class Named>

@@ -34,6 +34,8 @@ JobPath read_path(TomlFile& file, const toml::table& table);
 JobEngagement read_engagement(TomlFile& file, const toml::table& table);
 // One [[mode]].
 dynamics::Mode read_mode(TomlFile& file, const toml::table& table);
+// [dynamics]. `job` has its modes and cutters; `root` is its table.
+std::optional<JobEstimate> read_dynamics(TomlSection& root, const toml::table& table, const Job& job);
 JobSound read_sound(TomlFile& file, const toml::table& table);
 JobHaptics read_haptics(TomlFile& file, const toml::table& table);
 // Whether [path] names a file that describes a machine, or a machine.

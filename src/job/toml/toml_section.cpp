@@ -115,6 +115,12 @@ std::optional<int> TomlSection::integer(std::string_view key, const Limit& limit
     return static_cast<int>(*value);
 }
 
+std::optional<bool> TomlSection::flag(std::string_view key) {
+    const toml::node* node = table_.get(key);
+    if (node && !node->is_boolean()) wrong_type(key, *node, "true or false");
+    return node ? node->value_exact<bool>() : std::nullopt;
+}
+
 std::optional<std::string> TomlSection::text(std::string_view key) {
     const toml::node* node = table_.get(key);
     if (!node) return {};

@@ -71,6 +71,7 @@ class TomlSection {
     bool has_text(std::string_view key) const { return table_[key].is_string(); }
     std::optional<double> number(std::string_view key, const Limit& limit);
     std::optional<int> integer(std::string_view key, const Limit& limit);
+    std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
     // The index of the word among `words`.
     std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "session/chatter/probability.hpp"
 
 namespace tribo::session {
 namespace {
@@ -56,9 +57,20 @@ Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const
     advice.here = cut.at(cut.spindle_rpm, cut.axial_depth_mm);
     advice.limit = cut.limit(cut.spindle_rpm);
     advice.pockets = dynamics::safe_pockets(chart, kMostPockets);
+    const std::vector<SteadyCut> cases = cases_of(cut);
+    if (!cases.empty()) {
+        advice.probability = probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
+        std::vector<std::size_t> stable;
+        for (const SteadyCut& c : cases) stable.push_back(stable_depths(c, cut.spindle_rpm, chart.depths_mm));
+        const auto rare = stable.begin() + static_cast<std::ptrdiff_t>(dynamics::kRarely * kCases);
+        std::nth_element(stable.begin(), rare, stable.end());
+        advice.safe_mm = *rare > 0 ? chart.depths_mm[*rare - 1] : 0;
+    }
     std::vector<char> stable(chart.speeds_rpm.size());
     parallel(stable.size(), [&](std::size_t n) {
-        stable[n] = cut.at(chart.speeds_rpm[n], cut.axial_depth_mm).multiplier <= 1;
+        const double rpm = chart.speeds_rpm[n], depth_mm = cut.axial_depth_mm;
+        stable[n] = cases.empty() ? cut.at(rpm, depth_mm).multiplier <= 1
+                                  : probability_of_chatter(cases, rpm, depth_mm) <= dynamics::kRarely;
     });
     for (std::size_t n = 0; n < stable.size(); ++n) {
         const double rpm = chart.speeds_rpm[n];

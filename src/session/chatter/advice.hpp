@@ -23,9 +23,13 @@ struct Advice {
     // The speed of the chart nearest to the job's at which its depth is stable.
     std::optional<double> nearest_rpm;
     std::vector<dynamics::SafePocket> pockets;
+    // Where modes or forces have a spread: the probability of chatter at the job's speed and depth, and the
+    // last depth of the chart that rarely chatters at its speed, or 0. `nearest_rpm` is then a speed at which
+    // the depth rarely does (dynamics::kRarely).
+    std::optional<double> probability, safe_mm;
 };
 
-// `parallel` as in stability_chart().
+// The chart with its probabilities. `parallel` as in stability_chart().
 Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel);
 
 }  // namespace tribo::session

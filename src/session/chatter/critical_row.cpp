@@ -14,8 +14,7 @@ constexpr std::size_t kBatch = 512;  // rows that are computed at once
 
 class Search {
   public:
-    Search(const job::Job& job, const MillSetup& setup, const ParallelFor& parallel)
-        : modes_(job.modes), setup_(setup), parallel_(parallel) {}
+    Search(const MillSetup& setup, const ParallelFor& parallel) : setup_(setup), parallel_(parallel) {}
 
     void add(const milling::CutRow& row) {
         ++rows_;
@@ -29,7 +28,7 @@ class Search {
     void compute() {
         std::vector<double> multipliers(batch_.size());
         parallel_(batch_.size(), [&](std::size_t n) {
-            const auto stability = stability_of(batch_[n].row, setup_, modes_);
+            const auto stability = stability_of(batch_[n].row, setup_);
             // What is too slow to be computed counts as bad, and is said to be so.
             multipliers[n] = stability ? stability->multiplier : std::numeric_limits<double>::max();
         });
@@ -39,7 +38,7 @@ class Search {
     }
     std::size_t rows() const { return rows_; }
     SteadyCut worst() const {
-        SteadyCut cut = steady_cut_of(*worst_.row(), setup_, modes_, kMostBands);
+        SteadyCut cut = steady_cut_of(*worst_.row(), setup_, kMostBands);
         cut.rows = rows_;
         return cut;
     }
@@ -50,7 +49,6 @@ class Search {
         double lasts_s = 0;
     };
 
-    std::span<const dynamics::Mode> modes_;
     const MillSetup& setup_;
     const ParallelFor& parallel_;
     std::vector<Stretch> batch_;
@@ -79,7 +77,7 @@ Result<SteadyCut> critical_row(const job::LoadedJob& loaded, MillSetup setup, co
     if (auto good = check_modes(loaded.job); !good) return std::unexpected(good.error());
     const std::string& file = loaded.program.source;
     MillSession session(std::move(setup), parallel, progress);
-    Search search(loaded.job, session.setup(), parallel);
+    Search search(session.setup(), parallel);
     MillSinks sinks;
     sinks.row = [&](const milling::CutRow& row, const milling::RowForce&) {
         if (row.engagement.bands.empty()) return;

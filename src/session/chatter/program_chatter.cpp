@@ -37,15 +37,14 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
     return warnings;
 }
 
-ProgramChatter::ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, Options options,
-                               const ParallelFor& parallel, Sink sink)
+ProgramChatter::ProgramChatter(const MillSetup& setup, Options options, const ParallelFor& parallel,
+                               Sink sink)
     : setup_(setup),
-      modes_(modes),
       parallel_(parallel),
       sink_(std::move(sink)),
       options_(options),
-      recorder_(options.surface ? std::optional<SurfaceRecorder>(std::in_place, setup, modes) : std::nullopt),
-      simulation_(setup, modes, options.traces, recorder_ ? &*recorder_ : nullptr) {}
+      recorder_(options.surface ? std::optional<SurfaceRecorder>(std::in_place, setup) : std::nullopt),
+      simulation_(setup, options.traces, recorder_ ? &*recorder_ : nullptr) {}
 
 void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& force) {
     if (count_ == batch_.size()) batch_.emplace_back();
@@ -79,7 +78,7 @@ void ProgramChatter::compute() {
     parallel_(1 + firsts.size(), [&](std::size_t task) {
         if (task > 0) {
             Row& row = batch_[firsts[task - 1]];
-            row.chatter.stability = stability_of(row.cut, setup_, modes_);
+            row.chatter.stability = stability_of(row.cut, setup_);
             return;
         }
         for (std::size_t n = 0; n < count_; ++n) {

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -56,9 +55,8 @@ class ProgramChatter {
         bool traces = false;   // rows have their vibration, valid during the call of the sink
         bool surface = false;  // what the teeth leave is recorded
     };
-    // `modes`: at least one. Setup, modes and parallel must outlive this object.
-    ProgramChatter(const MillSetup& setup, std::span<const dynamics::Mode> modes, Options options,
-                   const ParallelFor& parallel, Sink sink);
+    // Setup, with modes of each cutter, and parallel must outlive this object.
+    ProgramChatter(const MillSetup& setup, Options options, const ParallelFor& parallel, Sink sink);
 
     void add(const milling::CutRow& row, const milling::RowForce& force);
     // Gives on the last rows.
@@ -83,7 +81,6 @@ class ProgramChatter {
     void count(const Row& row);
 
     const MillSetup& setup_;
-    std::span<const dynamics::Mode> modes_;
     const ParallelFor& parallel_;
     Sink sink_;
     Options options_;

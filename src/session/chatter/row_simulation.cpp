@@ -23,17 +23,17 @@ std::int64_t sample_at(double t_s) {
 
 }  // namespace
 
-RowSimulation::RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces,
-                             SurfaceRecorder* recorder)
-    : setup_(setup), modes_(modes), traces_(traces), recorder_(recorder) {
-    for (const dynamics::Mode& mode : modes)
-        ring_s_ =
-            std::max(ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
+RowSimulation::RowSimulation(const MillSetup& setup, bool traces, SurfaceRecorder* recorder)
+    : setup_(setup), traces_(traces), recorder_(recorder) {
+    for (const auto& modes : setup.modes_of_cutter)
+        for (const dynamics::Mode& mode : modes)
+            ring_s_ = std::max(
+                ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
     steps_.assign(setup.cutters.size(), 1);
     for (std::size_t n = 0; n < setup.moves.size(); ++n) {
         const std::size_t cutter = setup.cutter_of_move[n];
-        steps_[cutter] =
-            std::max(steps_[cutter], steps_per_sample(modes, setup.cutters[cutter], setup.rpm_of_move[n]));
+        steps_[cutter] = std::max(steps_[cutter], steps_per_sample(setup.modes(cutter), setup.cutters[cutter],
+                                                                   setup.rpm_of_move[n]));
     }
 }
 
@@ -73,6 +73,7 @@ std::optional<double> RowSimulation::run(const milling::CutRow& row,
 void RowSimulation::start(const milling::CutRow& row) {
     if (recorder_ != nullptr) recorder_->interrupt();
     cutter_ = row.cutter;
+    modes_ = setup_.modes(cutter_);
     next_ = sample_at(row.start_s);
     const double first_s = static_cast<double>(next_) / kVibrationHz;
     frame_ = head_frame(row, setup_);

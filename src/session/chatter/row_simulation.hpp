@@ -23,8 +23,7 @@ class RowSimulation {
   public:
     // All arguments must outlive this object. `traces`: run() may be asked for them. `recorder`, if any, gets
     // the displacements.
-    RowSimulation(const MillSetup& setup, std::span<const dynamics::Mode> modes, bool traces = false,
-                  SurfaceRecorder* recorder = nullptr);
+    explicit RowSimulation(const MillSetup& setup, bool traces = false, SurfaceRecorder* recorder = nullptr);
 
     // Simulates the samples n / kVibrationHz from the start of the row to its end. Rows come in the order of
     // time. Edges of a flat bottom are left out. Returns the largest displacement, mm; nothing for a row
@@ -49,9 +48,9 @@ class RowSimulation {
     std::complex<double> feed_direction(const milling::CutRow& row) const;  // x of the row in frame_
 
     const MillSetup& setup_;
-    std::span<const dynamics::Mode> modes_;
-    double ring_s_ = 0;       // a vibration dies out in it
-    std::vector<int> steps_;  // per sample, of each cutter at its highest speed
+    std::span<const dynamics::Mode> modes_;  // of the cutter
+    double ring_s_ = 0;                      // a vibration dies out in it
+    std::vector<int> steps_;                 // per sample, of each cutter at its highest speed
     bool traces_;
     SurfaceRecorder* recorder_;
     std::optional<BendingTool> tool_;

@@ -13,12 +13,13 @@ constexpr double kRad = 1e-3, kMm = 1e-3;
 
 }  // namespace
 
-SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup,
-                        std::span<const dynamics::Mode> modes, std::size_t most_bands) {
+SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup, std::size_t most_bands) {
     SteadyCut cut;
     cut.cutter = setup.cutters[row.cutter];
     cut.coefficients = setup.coefficients;
-    cut.modes = modes_in(row.pose.frame, head_frame(row, setup), modes);
+    cut.force_low_factor = setup.force_low_factor;
+    cut.force_high_factor = setup.force_high_factor;
+    cut.modes = modes_in(row.pose.frame, head_frame(row, setup), setup.modes(row.cutter));
     cut.bands = with_fewer_bands(row.engagement.bands, most_bands);
     cut.axial_depth_mm = milling::hull({row.engagement.bands, {}}).axial_depth_mm;
     cut.spindle_rpm = row.spindle_rpm;
@@ -28,9 +29,8 @@ SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup,
     return cut;
 }
 
-std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup,
-                                                std::span<const dynamics::Mode> modes) {
-    const SteadyCut cut = steady_cut_of(row, setup, modes, kRowBands);
+std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup) {
+    const SteadyCut cut = steady_cut_of(row, setup, kRowBands);
     const double depth = cut.axial_depth_mm;
     if (cut.spindle_rpm < cut.least_rpm(depth)) return std::nullopt;
     return cut.at(cut.spindle_rpm, depth);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "session/chatter/steady_cut.hpp"
 #include "session/cut/mill_session.hpp"
@@ -15,12 +14,10 @@ inline constexpr std::size_t kRowBands = 4;    // for all rows of a program: eno
 
 // The steady cut of a row that has bands, alike neighbours joined to at most `most_bands`. Edges of a flat
 // bottom are left out. The setup is that of the run that made the row.
-SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup,
-                        std::span<const dynamics::Mode> modes, std::size_t most_bands);
+SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup, std::size_t most_bands);
 
 // With at most kRowBands bands. Absent where the spindle is slower than SteadyCut::least_rpm().
-std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup,
-                                                std::span<const dynamics::Mode> modes);
+std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup);
 
 // Whether two rows differ by so little (0.001 mm, 0.001 rad) that one multiplier is enough for both.
 bool chatter_alike(const milling::CutRow& a, const milling::CutRow& b);

@@ -7,6 +7,7 @@
 #include "milling/tool/tool_frame.hpp"
 #include "motion/algebra/direction.hpp"
 #include "motion/path/path.hpp"
+#include "session/cut/cutter_modes.hpp"
 #include "session/cut/mill_setup.hpp"
 
 namespace tribo::session {
@@ -57,16 +58,17 @@ std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, const mill
 }
 
 Result<void> check_modes(const job::Job& job) {
-    if (!job.modes.empty()) return {};
+    if (job.can_vibrate()) return {};
     return fail_at(job.file, 0, 0, "the job has no [[mode]]: nothing in it can vibrate",
                    "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
-                   "stiffness_n_per_mm");
+                   "stiffness_n_per_mm; or stickout_mm of the cutter, and [dynamics] with estimate = true");
 }
 
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings) {
     if (auto good = check_modes(job); !good) return std::unexpected(good.error());
     auto setup = prepare_moves(job, program, {}, warnings);
     if (!setup) return std::unexpected(setup.error());
+    if (auto done = add_modes(job, *setup, warnings); !done) return std::unexpected(done.error());
     const std::size_t n = first_cut(setup->moves);
     if (n == setup->moves.size()) {
         return fail_at(program.source, 0, 0, "no feed move goes across the tool axis",
@@ -76,6 +78,8 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
     SteadyCut cut;
     cut.cutter = setup->cutters[setup->cutter_of_move[n]];
     cut.coefficients = setup->coefficients;
+    cut.force_low_factor = setup->force_low_factor;
+    cut.force_high_factor = setup->force_high_factor;
     cut.spindle_rpm = setup->rpm_of_move[n];
     cut.feed_per_tooth_mm = move.feed_mm_per_min / (cut.spindle_rpm * cut.cutter.flutes);
     cut.line = move.line;
@@ -83,8 +87,8 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
     cut.axial_depth_mm = engagement.axial_depth_mm;
     cut.bands = {{0, engagement.axial_depth_mm, engagement.entry_rad, engagement.exit_rad}};
     const Vec3 way = motion::pose_at(move, 0.01).tip_mm - move.start.tip_mm;
-    cut.modes =
-        modes_in(milling::tool_frame(move.start.axis, way, {1, 0, 0}), head_frame(move.start), job.modes);
+    cut.modes = modes_in(milling::tool_frame(move.start.axis, way, {1, 0, 0}), head_frame(move.start),
+                         setup->modes(setup->cutter_of_move[n]));
     return cut;
 }
 

@@ -17,6 +17,8 @@ namespace tribo::session {
 struct SteadyCut {
     milling::Cutter cutter;
     milling::CuttingCoefficients coefficients;
+    // Factors on a force: the band in which the true one lies.
+    double force_low_factor = 1, force_high_factor = 1;
     std::vector<dynamics::Mode> modes;  // directions in the frame of the feed: x along it, z to the shank
     std::vector<milling::EngagementBand> bands;  // at the job's depth, sorted by z0; never empty
     double axial_depth_mm = 0, spindle_rpm = 0, feed_per_tooth_mm = 0;  // as the job has them

@@ -31,10 +31,10 @@ double in_turn(double angle_rad) {
 
 }  // namespace
 
-SurfaceRecorder::SurfaceRecorder(const MillSetup& setup, std::span<const dynamics::Mode> modes)
-    : setup_(setup), schedule_(schedule_of(setup)) {
-    for (const dynamics::Mode& mode : modes)
-        fastest_rad_per_s_ = std::max(fastest_rad_per_s_, math::kTwoPi * mode.frequency_hz);
+SurfaceRecorder::SurfaceRecorder(const MillSetup& setup) : setup_(setup), schedule_(schedule_of(setup)) {
+    for (const auto& modes : setup.modes_of_cutter)
+        for (const dynamics::Mode& mode : modes)
+            fastest_rad_per_s_ = std::max(fastest_rad_per_s_, math::kTwoPi * mode.frequency_hz);
     for (const milling::Cutter& cutter : setup.cutters)
         phases_rad_.push_back(milling::tooth_phases_rad(cutter));
 }

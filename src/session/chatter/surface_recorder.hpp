@@ -21,8 +21,8 @@ namespace tribo::session {
 // out. Run-out counts by what the other teeth reach less than the farthest one. One thread.
 class SurfaceRecorder {
   public:
-    // Both must outlive this object.
-    SurfaceRecorder(const MillSetup& setup, std::span<const dynamics::Mode> modes);
+    // The setup must outlive this object.
+    explicit SurfaceRecorder(const MillSetup& setup);
 
     // The row whose samples come next, with its bands as they are simulated. `frame`: of the vibration.
     // `rotation_rad`: that of the first sample, at the time `t_s`.

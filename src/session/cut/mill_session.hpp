@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "dynamics/mode.hpp"
 #include "field/carved/field_reader.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/force/force.hpp"
@@ -36,6 +37,10 @@ struct MillSetup {
     bool on_machine = false;                  // a machine moves tool and part by its joints
     std::vector<milling::Cutter> cutters;
     milling::CuttingCoefficients coefficients;
+    // Factors on a force: the band in which the true one lies (milling/tool/materials.hpp).
+    double force_low_factor = 1, force_high_factor = 1;
+    // What bends with each cutter, as in job::Job; empty or one list per cutter.
+    std::vector<std::vector<dynamics::Mode>> modes_of_cutter;
     std::unique_ptr<const field::Shape> blank;
     double blank_volume_mm3 = 0;
     std::vector<EarlierCuts> earlier;  // carved before the run, in this order
@@ -49,6 +54,11 @@ struct MillSetup {
     std::optional<double> until_s;
     int harmonics =
         16;  // multiples of the tooth passing frequency; if teeth differ: of the spindle's, times flutes
+
+    std::span<const dynamics::Mode> modes(std::size_t cutter) const {
+        if (modes_of_cutter.empty()) return {};
+        return modes_of_cutter[cutter];
+    }
 };
 
 // The times of the moves: from prepare_mill(), or computed for a setup that prepare_mill() did not make.

@@ -12,6 +12,7 @@
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
 #include "readers/text/move_limit.hpp"
+#include "session/cut/cutter_modes.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/part_in_stock.hpp"
 #include "session/cut/speed_warnings.hpp"
@@ -124,9 +125,12 @@ Result<milling::WorkpieceMaterial> job_material(const job::Job& job) {
     own.name = "own coefficients";
     own.what = "as the job file gives them";
     own.source = "job file";
-    own.note = "no spread is known; the band is the calibration's own";
+    const double spread = job.material.spread;
+    own.note = spread > 0 ? "the band is as the job file gives it"
+                          : "no spread is known; the band is the calibration's own";
     own.coefficients = *job.material.coefficients;
-    own.spread_low = own.spread_high = 1;
+    own.spread_low = 1 / (1 + spread);
+    own.spread_high = 1 + spread;
     if (auto ok = milling::check(own.coefficients); !ok) return std::unexpected(ok.error());
     return own;
 }
@@ -155,6 +159,8 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
     MillSetup setup;
     setup.cutters = job.cutters;
     setup.coefficients = material->coefficients;
+    setup.force_low_factor = material->spread_low;
+    setup.force_high_factor = material->spread_high;
     setup.until_s = options.until_s;
     setup.on_machine = !program.machine.empty();
     setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
@@ -204,6 +210,7 @@ Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& 
     auto prepared = prepare_moves(loaded.job, loaded.program, options, warnings);
     if (!prepared) return std::unexpected(prepared.error());
     MillSetup setup = *std::move(prepared);
+    if (auto done = add_modes(loaded.job, setup, warnings); !done) return std::unexpected(done.error());
     setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded.job, stock->blank->bounds_mm()));
     warn_where_the_grid_is_coarse(setup, loaded.job.file, warnings);
     warn_of_passes_below_the_grid(setup, loaded.job.file, warnings);

@@ -24,10 +24,11 @@ struct MillOptions {
 // radius, within 0.02 mm to 1 mm.
 double default_cell_mm(const job::Job& job, const Box3& blank_mm);
 
-// The material of the job: from the library, or with the coefficients of the job file and a spread of 1.
+// The material of the job: from the library, or with coefficients and spread of the job file.
 Result<milling::WorkpieceMaterial> job_material(const job::Job& job);
 
-// The part of prepare_mill() that needs no stock: moves, cutters, speeds and times, without a grid spacing.
+// The part of prepare_mill() that needs no stock: moves, cutters, speeds and times, without a grid
+// spacing and without modes.
 Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& program,
                                 const MillOptions& options, Warnings& warnings);
 

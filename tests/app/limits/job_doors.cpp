@@ -88,6 +88,8 @@ Doors job_doors() {
     const std::string axis = "[[machine.axes]]\nword = \"A\"\ncarries = \"part\"\n";
     const std::string turns = axis + "direction = [1, 0, 0]\n";
     const std::string flat = "kind = \"flat\"\ndiameter_mm = ", bull = "kind = \"bull\"\n";
+    const std::string known_mode =
+        "[[mode]]\ndirection = [1, 0, 0]\nfrequency_hz = 10\ndamping_ratio = 0.1\nstiffness_n_per_mm = 10\n";
     return {
         door(l.coordinate, more, "[sound]\nlistener_mm = [0, ", ", 0]\n"),
         door(l.coordinate, more, turns + "pivot_mm = [", ", 0, 0]\n"),
@@ -131,6 +133,10 @@ Doors job_doors() {
         door(l.runout_angle, cutter, "runout_deg = "),
         door(l.holder, more, "[holder]\nlength_mm = 10\ndiameter_mm = "),
         door(l.holder, more, "[holder]\ndiameter_mm = 10\nlength_mm = "),
+        door(l.stickout, cutter, "stickout_mm = ", "\n", "is shorter than the cutting edges"),
+        door(l.stickout, cutter, "length_mm = 0.01\nstickout_mm = 2000\nneck_mm = 1\nreach_mm = "),
+        door(l.shank_diameter, cutter, "stickout_mm = 100\nshank_mm = "),
+        door(l.shank_diameter, cutter, "stickout_mm = 100\nneck_mm = "),
         door(l.tool_length, more, turns + "[machine]\ntool_length_mm = "),
         alone(l.edge, &JobText::stock, "box_mm = [[0, 0, 0], [10, 10, ", "]]\n"),
         door(l.edge, more, "[[fixture]]\nbox_mm = [[0, 0, 0], [10, 10, ", "]]\n"),
@@ -143,6 +149,9 @@ Doors job_doors() {
         coefficient(l.kte, "kte_n_per_mm"),
         coefficient(l.kre, "kre_n_per_mm"),
         coefficient(l.kre, "kae_n_per_mm"),
+        alone(l.spread, &JobText::material,
+              "ktc_n_per_mm2 = 1\nkrc_n_per_mm2 = 1\nkac_n_per_mm2 = 1\nkte_n_per_mm = 1\nkre_n_per_mm = 1\n"
+              "kae_n_per_mm = 1\nspread = "),
         door(l.engagement_angle, more, "[engagement]\nexit_deg = 360\naxial_depth_mm = 1\nentry_deg = ", "\n",
              "is not behind 'entry_deg'"),
         door(l.engagement_angle, more, "[engagement]\nentry_deg = 0\naxial_depth_mm = 1\nexit_deg = ", "\n",
@@ -155,6 +164,9 @@ Doors job_doors() {
         door(
             l.mode_stiffness, more,
             "[[mode]]\ndirection = [1, 0, 0]\nfrequency_hz = 10\ndamping_ratio = 0.1\nstiffness_n_per_mm = "),
+        door(l.spread, more, known_mode + "frequency_spread = "),
+        door(l.spread, more, known_mode + "damping_spread = "),
+        door(l.spread, more, known_mode + "stiffness_spread = "),
         door(l.axial_depth, more, "[engagement]\nentry_deg = 0\nexit_deg = 90\naxial_depth_mm = "),
         door(l.force_scale, more, "[haptics]\nforce_scale = "),
         door(l.friction, more, "[haptics]\nfriction_static = "),

@@ -23,10 +23,11 @@ dynamics::Mode stiff(const Vec3& direction, dynamics::ModeOn on = dynamics::Mode
     return {direction, 922, 0.03, 13'400, on};
 }
 
-MillSetup setup_of(double helix_deg = 30) {
+MillSetup setup_of(const std::vector<dynamics::Mode>& modes, double helix_deg = 30) {
     MillSetup setup;
     setup.cutters = {{.diameter_mm = 10, .flutes = 2, .helix_deg = helix_deg, .length_mm = 20}};
     setup.coefficients = {600, 200, 0, 0, 0, 0};
+    setup.modes_of_cutter = {modes};
     setup.moves.resize(1);
     setup.cutter_of_move = {0};
     setup.rpm_of_move = {kRpm};
@@ -48,9 +49,10 @@ milling::CutRow row_of(double start_s, double end_s, double depth_mm, Vec3 feed 
     return row;
 }
 
-std::vector<double> peaks(const MillSetup& setup, const std::vector<dynamics::Mode>& modes,
+std::vector<double> peaks(const std::vector<dynamics::Mode>& modes,
                           const std::vector<milling::CutRow>& rows) {
-    RowSimulation simulation(setup, modes);
+    const MillSetup setup = setup_of(modes);
+    RowSimulation simulation(setup);
     std::vector<double> largest;
     for (const milling::CutRow& row : rows) largest.push_back(simulation.run(row).value());
     return largest;
@@ -58,8 +60,8 @@ std::vector<double> peaks(const MillSetup& setup, const std::vector<dynamics::Mo
 
 // However the program cuts its path into rows, the tool vibrates as in one steady cut.
 TEST(RowSimulation, of_many_rows_is_that_of_one_cut) {
-    const MillSetup setup = setup_of();
     const std::vector<dynamics::Mode> modes{stiff({1, 0, 0}), stiff({0.3, 1, 0})};
+    const MillSetup setup = setup_of(modes);
     SteadyCut cut;
     cut.cutter = setup.cutters[0];
     cut.coefficients = setup.coefficients;
@@ -79,33 +81,30 @@ TEST(RowSimulation, of_many_rows_is_that_of_one_cut) {
         t = end;
     }
     ASSERT_GT(rows.size(), 20u);
-    EXPECT_NEAR(std::ranges::max(peaks(setup, modes, rows)), known.displacement_mm, 1e-9);
+    EXPECT_NEAR(std::ranges::max(peaks(modes, rows)), known.displacement_mm, 1e-9);
 }
 
 // A cut that turns with its modes, and one of a tilted tool, are the same cut seen from elsewhere.
 TEST(RowSimulation, knows_no_direction_of_the_stock) {
-    const MillSetup setup = setup_of();
     const auto rows = [](const Vec3& feed, const Vec3& axis) {
         std::vector<milling::CutRow> all;
         for (int n = 0; n < 20; ++n)
             all.push_back(row_of(0.01 * n, 0.01 * (n + 1), 0.4 + 0.02 * n, feed, axis));
         return all;
     };
-    const std::vector<double> known = peaks(
-        setup, {stiff({1, 0.2, 0.1}), stiff({0, 1, 0}, dynamics::ModeOn::part)}, rows({1, 0, 0}, {0, 0, 1}));
+    const std::vector<double> known =
+        peaks({stiff({1, 0.2, 0.1}), stiff({0, 1, 0}, dynamics::ModeOn::part)}, rows({1, 0, 0}, {0, 0, 1}));
     const double turn = 2.2, s = std::sin(turn), c = std::cos(turn);
     const std::vector<double> turned =
-        peaks(setup, {stiff({c - 0.2 * s, s + 0.2 * c, 0.1}), stiff({-s, c, 0}, dynamics::ModeOn::part)},
+        peaks({stiff({c - 0.2 * s, s + 0.2 * c, 0.1}), stiff({-s, c, 0}, dynamics::ModeOn::part)},
               rows({c, s, 0}, {0, 0, 1}));
     // Tilted about y: tool modes go with the axis, those of the part stay.
     const double tilt = 0.8, ts = std::sin(tilt), tc = std::cos(tilt);
-    const std::vector<double> tilted =
-        peaks(setup, {stiff({1, 0.2, 0.1}), stiff({0, 1, 0}, dynamics::ModeOn::part)},
-              rows({tc, 0, -ts}, {ts, 0, tc}));
+    const std::vector<double> tilted = peaks({stiff({1, 0.2, 0.1}), stiff({0, 1, 0}, dynamics::ModeOn::part)},
+                                             rows({tc, 0, -ts}, {ts, 0, tc}));
     // A tool that points up.
     const std::vector<double> upside_down =
-        peaks(setup, {stiff({1, 0.2, 0.1}), stiff({0, -1, 0}, dynamics::ModeOn::part)},
-              rows({1, 0, 0}, {0, 0, -1}));
+        peaks({stiff({1, 0.2, 0.1}), stiff({0, -1, 0}, dynamics::ModeOn::part)}, rows({1, 0, 0}, {0, 0, -1}));
     for (std::size_t n = 0; n < known.size(); ++n) {
         EXPECT_GT(known[n], 1e-3);
         EXPECT_NEAR(turned[n], known[n], 1e-9) << n;
@@ -115,18 +114,17 @@ TEST(RowSimulation, knows_no_direction_of_the_stock) {
 }
 
 TEST(RowSimulation, starts_again_after_a_long_gap_and_dies_out_in_a_short_one) {
-    const MillSetup setup = setup_of();
     const std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
     const double turn_s = 60 / kRpm;  // gaps of whole turns: the same phase
     const std::vector<double> p =
-        peaks(setup, modes,
-              {row_of(0, 4 * turn_s, 0.5), row_of(4 * turn_s, 8 * turn_s, 0.5),
-               row_of(208 * turn_s, 212 * turn_s, 0.5), row_of(212 * turn_s, 216 * turn_s, 0.5)});
+        peaks(modes, {row_of(0, 4 * turn_s, 0.5), row_of(4 * turn_s, 8 * turn_s, 0.5),
+                      row_of(208 * turn_s, 212 * turn_s, 0.5), row_of(212 * turn_s, 216 * turn_s, 0.5)});
     EXPECT_NEAR(p[0], p[2], 1e-7);
     EXPECT_NEAR(p[1], p[3], 1e-7);
 
     // Four turns in air: what is left of a vibration is its decay.
-    RowSimulation simulation(setup, modes);
+    const MillSetup setup = setup_of(modes);
+    RowSimulation simulation(setup);
     (void)simulation.run(row_of(0, 8 * turn_s, 1));
     const double before = *simulation.run(row_of(8 * turn_s, 8 * turn_s + 1e-4, 1));
     milling::CutRow air = row_of(12 * turn_s, 12 * turn_s + 1e-4, 1);
@@ -138,21 +136,52 @@ TEST(RowSimulation, starts_again_after_a_long_gap_and_dies_out_in_a_short_one) {
 }
 
 TEST(RowSimulation, holds_what_moves_farther_than_the_equations_hold) {
-    const MillSetup setup = setup_of();
-    std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
-    RowSimulation shallow(setup, modes);
+    MillSetup setup = setup_of({soft({1, 0, 0})});
+    RowSimulation shallow(setup);
     (void)shallow.run(row_of(0, 0.1, 0.2));
     EXPECT_FALSE(shallow.was_held());
-    modes[0].stiffness_n_per_mm = 20;
-    RowSimulation loose(setup, modes);
+    setup.modes_of_cutter[0][0].stiffness_n_per_mm = 20;
+    RowSimulation loose(setup);
     EXPECT_DOUBLE_EQ(*loose.run(row_of(0, 0.5, 10)), 1);  // a tenth of the diameter
     EXPECT_TRUE(loose.was_held());
 }
 
+// Of two cutters each bends as its own modes say.
+TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
+    MillSetup setup = setup_of({soft({1, 0, 0})});
+    setup.cutters.push_back(setup.cutters[0]);
+    setup.modes_of_cutter.push_back({stiff({1, 0, 0})});
+    std::vector<RowChatter> found;
+    const ParallelFor one_by_one = [](std::size_t count, const std::function<void(std::size_t)>& body) {
+        for (std::size_t n = 0; n < count; ++n) body(n);
+    };
+    ProgramChatter chatter(setup, false, one_by_one,
+                           [&](const milling::CutRow&, const milling::RowForce&, const RowChatter& of_row) {
+                               found.push_back(of_row);
+                           });
+    for (std::size_t n = 0; n < 2; ++n) {
+        milling::CutRow row = row_of(0.1 * static_cast<double>(n), 0.1 * static_cast<double>(n + 1), 0.2);
+        row.cutter = n;
+        chatter.add(row, {});
+    }
+    chatter.finish();
+    ASSERT_EQ(found.size(), 2u);
+    for (std::size_t n = 0; n < 2; ++n) {
+        const milling::EngagementBand slot{0, 0.2, 0, kPi};
+        const double known =
+            dynamics::stability(setup.modes(n),
+                                dynamics::CutFeedback(setup.cutters[n], setup.coefficients, {&slot, 1}, kRpm))
+                .multiplier;
+        EXPECT_DOUBLE_EQ(found[n].stability->multiplier, known);
+    }
+    // Ten times as stiff: it moves a tenth, or less.
+    EXPECT_LT(*found[1].peak_displacement_mm, 0.2 * *found[0].peak_displacement_mm);
+}
+
 // Rows of all kinds come out in order, with what is missing counted.
 TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
-    MillSetup setup = setup_of(0);
     const std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
+    MillSetup setup = setup_of(modes, 0);
     constexpr int kRows = 1300;  // more than two batches
     std::vector<int> lines;
     std::vector<double> multipliers, displacements;
@@ -165,7 +194,7 @@ TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
     const ParallelFor backwards = [](std::size_t count, const std::function<void(std::size_t)>& body) {
         for (std::size_t n = count; n-- > 0;) body(n);
     };
-    ProgramChatter chatter(setup, modes, {}, backwards, sink);
+    ProgramChatter chatter(setup, {}, backwards, sink);
     for (int n = 0; n < kRows; ++n) {
         milling::CutRow row = row_of(0.005 * n, 0.005 * (n + 1), n < 650 ? 0.2 : 1);
         row.line = 1 + n / 10;

@@ -36,6 +36,7 @@ MillSetup setup_of(const Wall& w) {
     MillSetup setup;
     setup.cutters = {w.cutter};
     setup.coefficients = w.coefficients;
+    setup.modes_of_cutter = {w.modes};
     motion::Move move;
     move.start = {{1, 2, 3}, w.axis};
     move.end = {move.start.tip_mm + feed_speed(w) * w.seconds * w.feed, w.axis};
@@ -63,8 +64,8 @@ milling::CutRow row_of(const Wall& w, const MillSetup& setup, double start_s, do
 
 surface::ToothTraces recorded(const Wall& w) {
     const MillSetup setup = setup_of(w);
-    SurfaceRecorder recorder(setup, w.modes);
-    RowSimulation simulation(setup, w.modes, false, &recorder);
+    SurfaceRecorder recorder(setup);
+    RowSimulation simulation(setup, false, &recorder);
     const double length_s = 0.5 / feed_speed(w);
     const int rows = static_cast<int>(std::ceil(w.seconds / length_s));
     for (int n = 0; n < rows; ++n)
@@ -117,7 +118,7 @@ double wall_error_mm(const Wall& w, double at_rad, double height_mm) {
 
 dynamics::Stability theory(const Wall& w) {
     const MillSetup setup = setup_of(w);
-    return *stability_of(row_of(w, setup, 0, 0.01), setup, w.modes);
+    return *stability_of(row_of(w, setup, 0, 0.01), setup);
 }
 
 TEST(SurfaceRecorder, finds_the_steady_wall_error_of_the_harmonics) {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "session/chatter/probability.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+
+#include "base/limits.hpp"
+#include "base/math.hpp"
+#include "base/noise_hash.hpp"
+
+namespace tribo::session {
+namespace {
+
+// The normal deviate with this probability below it (Abramowitz and Stegun 1964, 26.2.23: to 4.5e-4).
+double normal_deviate(double below) {
+    const double t = std::sqrt(-2 * math::log(std::min(below, 1 - below)));
+    const double z =
+        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+    return below < 0.5 ? -z : z;
+}
+
+// The factors of one value in all cases.
+class Factors {
+  public:
+    // 9 of 10 lie between `low` and `high`. `value`: a number for each value that is off by itself.
+    Factors(std::size_t value, double low, double high) : middle_(0.5 * (math::log(low) + math::log(high))) {
+        constexpr double kNineOfTen = 1.6448536;  // standard deviations
+        sigma_ = 0.5 * (math::log(high) - math::log(low)) / kNineOfTen;
+        // The quantiles in an order of their own.
+        const CounterNoise noise(0x63686174746572 + value);
+        for (std::size_t n = 0; n < kCases; ++n) order_[n] = n;
+        std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+            return noise.bits(a) != noise.bits(b) ? noise.bits(a) < noise.bits(b) : a < b;
+        });
+    }
+    // 1 + spread to both sides.
+    Factors(std::size_t value, double spread) : Factors(value, 1 / (1 + spread), 1 + spread) {}
+
+    double at(std::size_t n) const {
+        const double below = (static_cast<double>(order_[n]) + 0.5) / static_cast<double>(kCases);
+        return math::exp(middle_ + sigma_ * normal_deviate(below));
+    }
+
+  private:
+    double middle_, sigma_;
+    std::array<std::size_t, kCases> order_;
+};
+
+milling::CuttingCoefficients times(double factor, const milling::CuttingCoefficients& k) {
+    return {factor * k.ktc, factor * k.krc, factor * k.kac, factor * k.kte, factor * k.kre, factor * k.kae};
+}
+
+}  // namespace
+
+std::vector<SteadyCut> cases_of(const SteadyCut& cut) {
+    const bool some = std::ranges::any_of(cut.modes, [](const auto& mode) { return mode.spread.any(); });
+    if (!some && cut.force_low_factor == cut.force_high_factor) return {};
+    std::vector<SteadyCut> cases(kCases, cut);
+    std::size_t value = 0;
+    const Factors force(value++, cut.force_low_factor, cut.force_high_factor);
+    for (std::size_t n = 0; n < kCases; ++n) cases[n].coefficients = times(force.at(n), cut.coefficients);
+    const double most_damping = kLimits.mode_damping.range.max;
+    std::size_t estimate = 0;  // the first value of the estimated modes
+    for (std::size_t m = 0; m < cut.modes.size(); ++m) {
+        const dynamics::Mode& mode = cut.modes[m];
+        std::size_t first = value;
+        if (mode.estimated && estimate > 0) {
+            first = estimate;
+        } else {
+            value += 3;
+            if (mode.estimated) estimate = first;
+        }
+        const Factors frequency(first, mode.spread.frequency), damping(first + 1, mode.spread.damping),
+            stiffness(first + 2, mode.spread.stiffness);
+        for (std::size_t n = 0; n < kCases; ++n) {
+            dynamics::Mode& changed = cases[n].modes[m];
+            changed.frequency_hz *= frequency.at(n);
+            changed.damping_ratio = std::min(most_damping, changed.damping_ratio * damping.at(n));
+            changed.stiffness_n_per_mm *= stiffness.at(n);
+        }
+    }
+    return cases;
+}
+
+double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_rpm, double axial_depth_mm) {
+    assert(!cases.empty());
+    const auto chatters = [&](const SteadyCut& c) {
+        return c.at(spindle_rpm, axial_depth_mm).multiplier > 1;
+    };
+    return static_cast<double>(std::ranges::count_if(cases, chatters)) / static_cast<double>(cases.size());
+}
+
+std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm) {
+    const auto is_stable = [&](std::size_t n) { return cut.at(spindle_rpm, depths_mm[n]).multiplier <= 1; };
+    std::size_t stable = 0, step = 1;  // the first depths that are
+    while (stable < depths_mm.size()) {
+        const std::size_t asked = std::min(stable + step, depths_mm.size());
+        if (is_stable(asked - 1)) {
+            stable = asked;
+            step *= 2;
+            continue;
+        }
+        // Between `stable` and `asked`.
+        for (std::size_t unstable = asked; unstable - stable > 1;) {
+            const std::size_t middle = stable + (unstable - stable) / 2;
+            (is_stable(middle - 1) ? stable : unstable) = middle;
+        }
+        break;
+    }
+    return stable;
+}
+
+void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
+                     const std::function<bool(double fraction)>& may_go_on) {
+    const std::vector<SteadyCut> cases = cases_of(cut);
+    if (cases.empty()) return;
+    const std::size_t depths = chart.depths_mm.size();
+    chart.probability.assign(chart.points.size(), 0);
+    std::atomic<std::size_t> done = 0;
+    parallel(chart.speeds_rpm.size(), [&](std::size_t speed) {
+        double* const at = &chart.probability[speed * depths];
+        std::vector<std::size_t> first(depths + 1);  // how many cases have their border before that depth
+        for (const SteadyCut& c : cases) {
+            const double share = static_cast<double>(done) / static_cast<double>(chart.speeds_rpm.size());
+            if (may_go_on && !may_go_on(share)) return;
+            ++first[stable_depths(c, chart.speeds_rpm[speed], chart.depths_mm)];
+        }
+        std::size_t chattering = 0;
+        for (std::size_t n = 0; n < depths; ++n) {
+            chattering += first[n];
+            at[n] = static_cast<double>(chattering) / static_cast<double>(cases.size());
+        }
+        ++done;
+    });
+}
+
+}  // namespace tribo::session

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The probability of chatter where modes or cutting forces are known with a spread only.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "dynamics/stability_chart.hpp"
+#include "session/chatter/steady_cut.hpp"
+
+namespace tribo::session {
+
+inline constexpr std::size_t kCases = 40;
+
+// The cut as it may be in truth: kCases, equally likely, always the same ones. Empty where nothing has a
+// spread. Every value with one is lognormal, 9 of 10 within its band: the cutting forces altogether, and of
+// each mode frequency, damping and stiffness, all independent of each other; the estimated modes of a tool
+// are off together. A Latin hypercube (McKay, Beckman and Conover 1979): each value takes each of its 40
+// quantiles once.
+std::vector<SteadyCut> cases_of(const SteadyCut& cut);
+
+// The share of the cases that chatter. There must be some.
+double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_rpm, double axial_depth_mm);
+
+// The number of depths, from the least one, before the first that chatters. Depths are asked in steps that
+// double: a narrower island of chatter may be missed.
+std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm);
+
+// Adds the probability to a chart of the cut: of each point the share of the cases whose first border lies
+// below. Nothing where nothing has a spread. `parallel` and `may_go_on` as in stability_chart(). Takes about
+// 400 multipliers for each speed.
+void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
+                     const std::function<bool(double fraction)>& may_go_on = {});
+
+}  // namespace tribo::session
