@@ -212,7 +212,7 @@ TEST_F(StabilityVerb, refuses_an_estimate_of_a_tool_without_a_stick_out) {
     EXPECT_EQ(outcome.code, 2);
     EXPECT_NE(
         outcome.err.find("job.toml:3:1: error: [dynamics] estimates the modes of this cutter, and it has no "
-                         "'stickout_mm'; try add stickout_mm"),
+                         "'stickout_mm'; add stickout_mm"),
         std::string::npos)
         << outcome.err;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
@@ -130,10 +131,9 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
         answer.limits.push_back({rpm, cut.limit(rpm)});
     }
     if (!range) return {};
-    Progress progress;
-    const auto stage = [&](const char* name) {
-        return [&progress, name](double fraction) {
-            progress.update(name, fraction);
+    const auto stage = [](const char* name) {
+        return [name, progress = std::make_shared<Progress>()](double fraction) {
+            progress->update(name, fraction);
             return !interrupted();
         };
     };

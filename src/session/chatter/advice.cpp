@@ -69,8 +69,13 @@ Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const
     std::vector<char> stable(chart.speeds_rpm.size());
     parallel(stable.size(), [&](std::size_t n) {
         const double rpm = chart.speeds_rpm[n], depth_mm = cut.axial_depth_mm;
-        stable[n] = cases.empty() ? cut.at(rpm, depth_mm).multiplier <= 1
-                                  : probability_of_chatter(cases, rpm, depth_mm) <= dynamics::kRarely;
+        if (chart.probability.empty()) {
+            stable[n] = cut.at(rpm, depth_mm).multiplier <= 1;
+        } else if (depth_mm <= chart.depths_mm.back()) {
+            stable[n] = chart.safe_mm(n) >= depth_mm;
+        } else {
+            stable[n] = probability_of_chatter(cases, rpm, depth_mm) <= dynamics::kRarely;
+        }
     });
     for (std::size_t n = 0; n < stable.size(); ++n) {
         const double rpm = chart.speeds_rpm[n];

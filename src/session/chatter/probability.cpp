@@ -2,7 +2,6 @@
 #include "session/chatter/probability.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -26,27 +25,29 @@ double normal_deviate(double below) {
 class Factors {
   public:
     // 9 of 10 lie between `low` and `high`. `value`: a number for each value that is off by itself.
-    Factors(std::size_t value, double low, double high) : middle_(0.5 * (math::log(low) + math::log(high))) {
+    Factors(std::size_t count, std::size_t value, double low, double high)
+        : middle_(0.5 * (math::log(low) + math::log(high))), order_(count) {
         constexpr double kNineOfTen = 1.6448536;  // standard deviations
         sigma_ = 0.5 * (math::log(high) - math::log(low)) / kNineOfTen;
         // The quantiles in an order of their own.
         const CounterNoise noise(0x63686174746572 + value);
-        for (std::size_t n = 0; n < kCases; ++n) order_[n] = n;
+        for (std::size_t n = 0; n < count; ++n) order_[n] = n;
         std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
             return noise.bits(a) != noise.bits(b) ? noise.bits(a) < noise.bits(b) : a < b;
         });
     }
     // 1 + spread to both sides.
-    Factors(std::size_t value, double spread) : Factors(value, 1 / (1 + spread), 1 + spread) {}
+    Factors(std::size_t count, std::size_t value, double spread)
+        : Factors(count, value, 1 / (1 + spread), 1 + spread) {}
 
     double at(std::size_t n) const {
-        const double below = (static_cast<double>(order_[n]) + 0.5) / static_cast<double>(kCases);
+        const double below = (static_cast<double>(order_[n]) + 0.5) / static_cast<double>(order_.size());
         return math::exp(middle_ + sigma_ * normal_deviate(below));
     }
 
   private:
     double middle_, sigma_;
-    std::array<std::size_t, kCases> order_;
+    std::vector<std::size_t> order_;
 };
 
 milling::CuttingCoefficients times(double factor, const milling::CuttingCoefficients& k) {
@@ -55,13 +56,13 @@ milling::CuttingCoefficients times(double factor, const milling::CuttingCoeffici
 
 }  // namespace
 
-std::vector<SteadyCut> cases_of(const SteadyCut& cut) {
+std::vector<SteadyCut> cases_of(const SteadyCut& cut, std::size_t count) {
     const bool some = std::ranges::any_of(cut.modes, [](const auto& mode) { return mode.spread.any(); });
     if (!some && cut.force_low_factor == cut.force_high_factor) return {};
-    std::vector<SteadyCut> cases(kCases, cut);
+    std::vector<SteadyCut> cases(count, cut);
     std::size_t value = 0;
-    const Factors force(value++, cut.force_low_factor, cut.force_high_factor);
-    for (std::size_t n = 0; n < kCases; ++n) cases[n].coefficients = times(force.at(n), cut.coefficients);
+    const Factors force(count, value++, cut.force_low_factor, cut.force_high_factor);
+    for (std::size_t n = 0; n < count; ++n) cases[n].coefficients = times(force.at(n), cut.coefficients);
     const double most_damping = kLimits.mode_damping.range.max;
     std::size_t estimate = 0;  // the first value of the estimated modes
     for (std::size_t m = 0; m < cut.modes.size(); ++m) {
@@ -73,9 +74,10 @@ std::vector<SteadyCut> cases_of(const SteadyCut& cut) {
             value += 3;
             if (mode.estimated) estimate = first;
         }
-        const Factors frequency(first, mode.spread.frequency), damping(first + 1, mode.spread.damping),
-            stiffness(first + 2, mode.spread.stiffness);
-        for (std::size_t n = 0; n < kCases; ++n) {
+        const Factors frequency(count, first, mode.spread.frequency),
+            damping(count, first + 1, mode.spread.damping),
+            stiffness(count, first + 2, mode.spread.stiffness);
+        for (std::size_t n = 0; n < count; ++n) {
             dynamics::Mode& changed = cases[n].modes[m];
             changed.frequency_hz *= frequency.at(n);
             changed.damping_ratio = std::min(most_damping, changed.damping_ratio * damping.at(n));
@@ -114,8 +116,8 @@ std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<co
 }
 
 void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
-                     const std::function<bool(double fraction)>& may_go_on) {
-    const std::vector<SteadyCut> cases = cases_of(cut);
+                     const std::function<bool(double fraction)>& may_go_on, std::size_t count) {
+    const std::vector<SteadyCut> cases = cases_of(cut, count);
     if (cases.empty()) return;
     const std::size_t depths = chart.depths_mm.size();
     chart.probability.assign(chart.points.size(), 0);

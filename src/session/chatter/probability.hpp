@@ -14,12 +14,12 @@ namespace tribo::session {
 
 inline constexpr std::size_t kCases = 40;
 
-// The cut as it may be in truth: kCases, equally likely, always the same ones. Empty where nothing has a
-// spread. Every value with one is lognormal, 9 of 10 within its band: the cutting forces altogether, and of
+// The cut as it may be in truth: `count` cases, equally likely, always the same ones. Empty where nothing has
+// a spread. Every value with one is lognormal, 9 of 10 within its band: the cutting forces altogether, and of
 // each mode frequency, damping and stiffness, all independent of each other; the estimated modes of a tool
-// are off together. A Latin hypercube (McKay, Beckman and Conover 1979): each value takes each of its 40
+// are off together. A Latin hypercube (McKay, Beckman and Conover 1979): each value takes each of its `count`
 // quantiles once.
-std::vector<SteadyCut> cases_of(const SteadyCut& cut);
+std::vector<SteadyCut> cases_of(const SteadyCut& cut, std::size_t count = kCases);
 
 // The share of the cases that chatter. There must be some.
 double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_rpm, double axial_depth_mm);
@@ -29,9 +29,9 @@ double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_r
 std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm);
 
 // Adds the probability to a chart of the cut: of each point the share of the cases whose first border lies
-// below. Nothing where nothing has a spread. `parallel` and `may_go_on` as in stability_chart(). Takes about
-// 400 multipliers for each speed.
+// below. Nothing where nothing has a spread. `parallel` and `may_go_on` as in stability_chart(). Takes
+// about ten multipliers for each speed and case.
 void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
-                     const std::function<bool(double fraction)>& may_go_on = {});
+                     const std::function<bool(double fraction)>& may_go_on = {}, std::size_t count = kCases);
 
 }  // namespace tribo::session
