@@ -59,6 +59,22 @@ TEST_F(RenderChatter, adds_two_columns_and_changes_no_other) {
     EXPECT_GT(largest, 0.5 * mean_n / 1340);
 }
 
+TEST_F(RenderChatter, says_that_its_modes_are_estimated) {
+    job.put("slot.nc", "G21 G90 M3 F1600\nG0 X-8 Y10 Z-1\nG1 X48\nM30\n");
+    std::string text = kBenchmarkSlot;
+    text.insert(text.find("[material]"), "stickout_mm = 60\n[holder]\ndiameter_mm = 40\nlength_mm = 60\n");
+    job.put("job.toml", text + "[dynamics]\nestimate = true\n");
+    const Outcome run = job.render({"--only", "summary,forces,report"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_FALSE(job.forces().at("multiplier").empty());
+    const nlohmann::json summary = job.summary();
+    EXPECT_TRUE(summary.contains("chatter"));
+    const char* said = "the modes of the tool are estimated, not measured";
+    EXPECT_NE(summary["warnings"].dump().find(said), std::string::npos);
+    EXPECT_NE(job.get("report.html").find(said), std::string::npos);
+    EXPECT_NE(job.get("report.html").find("modes estimated"), std::string::npos);
+}
+
 TEST_F(RenderChatter, names_the_lines_that_chatter_with_the_multiplier_of_the_stability_verb) {
     render(benchmark_mode("1, 0, 0"), 8000, {"--only", "summary"});
     const nlohmann::json chatter = job.summary()["chatter"];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "milling/tool/cutter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -49,6 +50,12 @@ TEST(Cutter, what_cannot_be_a_tool_is_refused_by_the_name_of_the_key) {
         {"pitch_deg", [&](Cutter& c) { c.pitch_deg = {170, 180}; }},
         {"pitch_deg", [&](Cutter& c) { c.pitch_deg = {400, -40}; }},
         {"holder", [&](Cutter& c) { c.holder = {{40, 0}}; }},
+        {"stickout_mm", [&](Cutter& c) { c.stickout_mm = 39; }},
+        {"stickout_mm", [&](Cutter& c) { c.stickout_mm = -60; }},
+        {"shank_mm", [&](Cutter& c) { c.shank_mm = 12; }},
+        {"neck_mm", [&](Cutter& c) { c.stickout_mm = 60, c.neck_mm = 10.1; }},
+        {"reach_mm", [&](Cutter& c) { c.stickout_mm = 60, c.reach_mm = 50; }},
+        {"reach_mm", [&](Cutter& c) { c.stickout_mm = 60, c.neck_mm = 9, c.reach_mm = 61; }},
     };
     for (const Bad& b : bad) {
         Cutter c;
@@ -64,6 +71,29 @@ TEST(Cutter, what_cannot_be_a_tool_is_refused_by_the_name_of_the_key) {
 TEST(Cutter, pitch_as_a_drawing_rounds_it_is_taken) {
     Cutter c{.flutes = 3, .pitch_deg = {119.99, 120.0, 119.99}};
     EXPECT_TRUE(check(c));
+}
+
+TEST(Cutter, has_neck_and_shank_between_its_edges_and_its_holder) {
+    Cutter c{.diameter_mm = 10, .length_mm = 20, .holder = {{30, 25}}};
+    const auto is = [](const std::vector<HolderStep>& found, const std::vector<HolderStep>& known) {
+        return std::equal(found.begin(), found.end(), known.begin(), known.end(),
+                          [](const HolderStep& a, const HolderStep& b) {
+                              return a.diameter_mm == b.diameter_mm && a.length_mm == b.length_mm;
+                          });
+    };
+    EXPECT_TRUE(is(c.steps(), {{30, 25}}));
+    c.stickout_mm = 60;
+    EXPECT_TRUE(is(c.steps(), {{10, 40}, {30, 25}}));
+    c.shank_mm = 12;
+    EXPECT_TRUE(is(c.shank_steps(), {{12, 40}}));
+    c.neck_mm = 9;
+    EXPECT_TRUE(is(c.steps(), {{9, 40}, {30, 25}}));
+    c.reach_mm = 50;
+    EXPECT_TRUE(is(c.steps(), {{9, 30}, {12, 10}, {30, 25}}));
+    EXPECT_TRUE(check(c));
+    c.stickout_mm = 20;
+    c.neck_mm = c.reach_mm = 0;
+    EXPECT_TRUE(is(c.steps(), {{30, 25}}));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "session/chatter/probability.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 
@@ -121,12 +120,11 @@ void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, cons
     if (cases.empty()) return;
     const std::size_t depths = chart.depths_mm.size();
     chart.probability.assign(chart.points.size(), 0);
-    std::atomic<std::size_t> done = 0;
     parallel(chart.speeds_rpm.size(), [&](std::size_t speed) {
         double* const at = &chart.probability[speed * depths];
         std::vector<std::size_t> first(depths + 1);  // how many cases have their border before that depth
+        const double share = static_cast<double>(speed) / static_cast<double>(chart.speeds_rpm.size());
         for (const SteadyCut& c : cases) {
-            const double share = static_cast<double>(done) / static_cast<double>(chart.speeds_rpm.size());
             if (may_go_on && !may_go_on(share)) return;
             ++first[stable_depths(c, chart.speeds_rpm[speed], chart.depths_mm)];
         }
@@ -135,7 +133,6 @@ void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, cons
             chattering += first[n];
             at[n] = static_cast<double>(chattering) / static_cast<double>(cases.size());
         }
-        ++done;
     });
 }
 

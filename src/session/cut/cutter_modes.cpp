@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "session/cut/cutter_modes.hpp"
 
-#include <cstdio>
+#include <cmath>
 #include <string>
 
+#include "base/text/limit_text.hpp"
 #include "dynamics/tool_estimate.hpp"
 
 namespace tribo::session {
@@ -13,24 +14,28 @@ std::string name_of(const milling::Cutter& cutter) {
     return cutter.number > 0 ? "tool T" + std::to_string(cutter.number) : "the tool";
 }
 
+// With three digits, or as a whole number.
+std::string about(double value) {
+    double digit = 1;
+    while (value >= 1000 * digit) digit *= 10;
+    return plain_number(digit * std::floor(value / digit + 0.5));
+}
+
+// "0.5 to 2" of 1 and a spread of 1.
+std::string band(double value, double spread) {
+    return plain_number(value / (1 + spread)) + " to " + plain_number(value * (1 + spread));
+}
+
 // What is estimated of one cutter, and how far it may be off.
 std::string estimate_text(const milling::Cutter& cutter, std::span<const dynamics::Mode> modes) {
     std::string text = "the modes of " + name_of(cutter) + " are estimated, not measured: ";
-    char part[160];
-    for (std::size_t n = 0; n < modes.size(); n += 2) {  // of x and y alike
-        std::snprintf(part, sizeof part, "%s%.0f Hz with %.3g N/mm", n > 0 ? " and " : "",
-                      modes[n].frequency_hz, modes[n].stiffness_n_per_mm);
-        text += part;
-    }
+    for (std::size_t n = 0; n < modes.size(); n += 2)  // of x and y alike
+        text += (n > 0 ? " and " : "") + about(modes[n].frequency_hz) + " Hz with " +
+                about(modes[n].stiffness_n_per_mm) + " N/mm";
     const dynamics::ModeSpread& spread = dynamics::kEstimateSpread;
-    const double damping = modes.front().damping_ratio;
-    std::snprintf(
-        part, sizeof part,
-        " at the tip; in truth %.3g to %.3g times that frequency, %.3g to %.3g times that stiffness, "
-        "damping %.3g to %.3g",
-        1 / (1 + spread.frequency), 1 + spread.frequency, 1 / (1 + spread.stiffness), 1 + spread.stiffness,
-        damping / (1 + spread.damping), damping * (1 + spread.damping));
-    text += part;
+    text += " at the tip; in truth " + band(1, spread.frequency) + " times that frequency, " +
+            band(1, spread.stiffness) + " times that stiffness, damping " +
+            band(modes.front().damping_ratio, spread.damping);
     const bool carbide = cutter.body == milling::CutterBody::carbide;
     text += std::string("; body of ") + (carbide ? "carbide" : "high-speed steel");
     if (cutter.holder.empty()) text += ", and no [holder]: a rigid one";
