@@ -14,7 +14,6 @@ namespace {
 constexpr double kLastsS = 0.2;    // of the vibration
 constexpr std::size_t kEvery = 3;  // of its samples is shown: 16 kHz
 constexpr double kCoarser = 2;     // than the chart of tribo stability
-constexpr std::size_t kChartCases = session::kCases / 2;
 
 }  // namespace
 
@@ -39,7 +38,7 @@ report::ReportChatter report_chatter(const session::ProgramChatter& chatter, con
         range.step_mm *= kCoarser;
         dynamics::StabilityChart chart = dynamics::stability_chart(
             range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel);
-        session::add_probability(cut, chart, parallel, {}, kChartCases);
+        session::add_probability(cut, chart, parallel, {}, session::kFewCases);
         const session::Advice advice = session::advise(cut, chart, parallel);
         shown.advice += in_words(cut, chart, advice);
         shown.chart_svg = report::svg_of(

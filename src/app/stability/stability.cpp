@@ -139,7 +139,9 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
     };
     auto chart = dynamics::stability_chart(
         *range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel, stage("chart"));
-    session::add_probability(cut, chart, parallel, stage("probability"));
+    // Several bands take several times as long.
+    session::add_probability(cut, chart, parallel, stage("probability"),
+                             cut.bands.size() > 1 ? session::kFewCases : session::kCases);
     if (interrupted()) return {};
     auto advice = session::advise(cut, chart, parallel);
     answer.chart = {*range, std::move(chart), std::move(advice)};

@@ -8,6 +8,7 @@
 #include "base/limits.hpp"
 #include "base/math.hpp"
 #include "base/noise_hash.hpp"
+#include "session/chatter/row_stability.hpp"
 
 namespace tribo::session {
 namespace {
@@ -116,7 +117,9 @@ std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<co
 
 void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
                      const std::function<bool(double fraction)>& may_go_on, std::size_t count) {
-    const std::vector<SteadyCut> cases = cases_of(cut, count);
+    SteadyCut coarse = cut;
+    coarse.bands = with_fewer_bands(coarse.bands, kRowBands);
+    const std::vector<SteadyCut> cases = cases_of(coarse, count);
     if (cases.empty()) return;
     const std::size_t depths = chart.depths_mm.size();
     chart.probability.assign(chart.points.size(), 0);

@@ -12,7 +12,7 @@
 
 namespace tribo::session {
 
-inline constexpr std::size_t kCases = 40;
+inline constexpr std::size_t kCases = 40, kFewCases = 20;
 
 // The cut as it may be in truth: `count` cases, equally likely, always the same ones. Empty where nothing has
 // a spread. Every value with one is lognormal, 9 of 10 within its band: the cutting forces altogether, and of
@@ -29,8 +29,8 @@ double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_r
 std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm);
 
 // Adds the probability to a chart of the cut: of each point the share of the cases whose first border lies
-// below. Nothing where nothing has a spread. `parallel` and `may_go_on` as in stability_chart(). Takes
-// about ten multipliers for each speed and case.
+// below, with its bands joined to at most kRowBands. Nothing where nothing has a spread. `parallel` and
+// `may_go_on` as in stability_chart(). Takes about ten multipliers for each speed and case.
 void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,
                      const std::function<bool(double fraction)>& may_go_on = {}, std::size_t count = kCases);
 
