@@ -146,7 +146,9 @@ TEST(Probability, of_a_chart_counts_the_first_borders_of_all_cases) {
             const auto above =
                 std::ranges::count_if(limits, [&](double limit) { return limit < chart.depths_mm[d]; });
             const double found = chart.probability[s * chart.depths_mm.size() + d];
-            if (d > 0) EXPECT_GE(found, chart.probability[s * chart.depths_mm.size() + d - 1]);
+            if (d > 0) {
+                EXPECT_GE(found, chart.probability[s * chart.depths_mm.size() + d - 1]);
+            }
             // An island narrower than the steps may be missed.
             if (std::abs(found - static_cast<double>(above) / 40) > 1e-9) ++differ;
         }

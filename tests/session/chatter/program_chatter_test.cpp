@@ -155,7 +155,7 @@ TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
     const ParallelFor one_by_one = [](std::size_t count, const std::function<void(std::size_t)>& body) {
         for (std::size_t n = 0; n < count; ++n) body(n);
     };
-    ProgramChatter chatter(setup, false, one_by_one,
+    ProgramChatter chatter(setup, {}, one_by_one,
                            [&](const milling::CutRow&, const milling::RowForce&, const RowChatter& of_row) {
                                found.push_back(of_row);
                            });
