@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Which slices of which teeth are in the cut, from sample to sample.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dynamics/edge_slices.hpp"
+
+namespace tribo::dynamics {
+
+struct EdgeInCut {
+    std::uint32_t tooth = 0, slice = 0;
+    bool whole = false;  // all of the edge in the slice, or a part that changes from sample to sample
+};
+
+// Remembers for each edge the sample until which nothing changes, so that edges cost nothing between their
+// entry and exit. One thread.
+class EdgesInCut {
+  public:
+    // Angles of the teeth ahead of the first one.
+    explicit EdgesInCut(std::vector<double> phase_rad) : phase_rad_(std::move(phase_rad)) {}
+
+    // From this sample on. The slices must outlive the calls of update(). Allocates for more slices than
+    // before.
+    void engage(std::span<const EdgeSlice> slices, double step_rad);
+
+    // Call it for each sample; `turn_rad`: rotation of the first tooth, in the first turn. Returns whether
+    // list() has changed. Real-time safe.
+    bool update(std::size_t sample, double turn_rad) { return sample >= next_ && find(sample, turn_rad); }
+
+    // Sorted by tooth.
+    std::span<const EdgeInCut> list() const { return list_; }
+
+  private:
+    enum class State : std::uint8_t { unknown, out, part, whole };
+    struct Edge {
+        std::size_t next = 0;  // the first sample at which the state may be another one
+        State state = State::unknown;
+    };
+    bool find(std::size_t sample, double turn_rad);
+    void look(Edge& edge, const EdgeSlice& slice, std::size_t sample, double tip_rad) const;
+
+    std::vector<double> phase_rad_;
+    std::span<const EdgeSlice> slices_;
+    std::vector<Edge> edges_;  // by teeth
+    std::vector<EdgeInCut> list_;
+    std::size_t next_ = 0;
+    double per_rad_ = 0;  // samples
+};
+
+}  // namespace tribo::dynamics

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The rotation of a spindle from sample to sample, with its sine and cosine.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "base/math.hpp"
+
+namespace tribo::dynamics {
+
+// The same angle in the first turn.
+inline double in_turn(double angle_rad) {
+    return angle_rad - math::kTwoPi * std::floor(angle_rad / math::kTwoPi);
+}
+
+// One thread, real-time safe.
+class SpindleTurn {
+  public:
+    explicit SpindleTurn(double rotation_rad)
+        : rotation_rad_(rotation_rad), turn_rad_(in_turn(rotation_rad)) {
+        math::sincos(turn_rad_, sine_, cosine_);
+    }
+
+    // From a sample to the next one.
+    void set_step(double step_rad) {
+        step_rad_ = step_rad;
+        math::sincos(step_rad, step_sine_, step_cosine_);
+    }
+    double step_rad() const { return step_rad_; }
+
+    double rotation_rad() const { return rotation_rad_; }  // of all turns
+    double turn_rad() const { return turn_rad_; }          // of this one
+    double sine() const { return sine_; }
+    double cosine() const { return cosine_; }
+
+    void advance() {
+        constexpr unsigned kFreshEvery = 256;  // samples after which sine and cosine are computed anew
+        rotation_rad_ += step_rad_;
+        turn_rad_ += step_rad_;
+        if (turn_rad_ >= math::kTwoPi) turn_rad_ -= math::kTwoPi;
+        if (++since_fresh_ == kFreshEvery) {
+            since_fresh_ = 0;
+            math::sincos(turn_rad_, sine_, cosine_);
+            return;
+        }
+        const double sine = sine_ * step_cosine_ + cosine_ * step_sine_;
+        cosine_ = cosine_ * step_cosine_ - sine_ * step_sine_;
+        sine_ = sine;
+    }
+
+  private:
+    double rotation_rad_, turn_rad_, sine_ = 0, cosine_ = 1;
+    double step_rad_ = 0, step_sine_ = 0, step_cosine_ = 1;
+    unsigned since_fresh_ = 0;
+};
+
+}  // namespace tribo::dynamics
