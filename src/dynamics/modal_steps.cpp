@@ -70,6 +70,8 @@ void ModalSteps::sum_up() {
             level_ = level_ && z == 0;
         }
     }
+    pushed_ = {};
+    push(force_n_);
 }
 
 }  // namespace tribo::dynamics

@@ -22,17 +22,13 @@ class ModalSteps {
     // Multiplies displacement and speed.
     void scale(double factor);
 
-    // Displacement at this sample under a force since the begin of its step, mm.
-    LaneVec3 displacement(const LaneVec3& force_n) const {
-        LaneVec3 sum{free_.xy + (both(force_n.xy[0]) * push_x_ + both(force_n.xy[1]) * push_y_), free_.z};
-        if (level_) return sum;
-        sum.xy += both(force_n.z) * push_z_.xy;
-        sum.z += push_z_.xy[0] * force_n.xy[0] + push_z_.xy[1] * force_n.xy[1] + push_z_.z * force_n.z;
-        return sum;
-    }
+    // Displacement at this sample if the force were that of the last step, mm.
+    LaneVec3 foreseen() const { return {free_.xy + pushed_.xy, free_.z + pushed_.z}; }
 
-    // To the next sample: the force acts until the end of its step.
-    void advance(const LaneVec3& force_n) {
+    // Goes to the next sample under the force of this step. Returns the displacement at this sample, mm.
+    LaneVec3 step(const LaneVec3& force_n) {
+        push(force_n);
+        const LaneVec3 displacement_mm = foreseen();
         D2 x{}, y{}, z{};
         const D2 fx = both(force_n.xy[0]), fy = both(force_n.xy[1]), fz = both(force_n.z);
         for (Two& t : twos_) {
@@ -47,6 +43,7 @@ class ModalSteps {
         }
         free_.xy = D2{x[0], y[0]} + D2{x[1], y[1]};
         free_.z = z[0] + z[1];
+        return displacement_mm;
     }
 
   private:
@@ -58,12 +55,20 @@ class ModalSteps {
         D2 q_by_q{}, q_by_v{}, q_by_force{}, v_by_q{}, v_by_v{}, v_by_force{};
         D2 q{}, v{};
     };
+    void push(const LaneVec3& force_n) {
+        force_n_ = force_n;
+        pushed_.xy = both(force_n.xy[0]) * push_x_ + both(force_n.xy[1]) * push_y_;
+        if (level_) return;
+        pushed_.xy += both(force_n.z) * push_z_.xy;
+        pushed_.z = push_z_.xy[0] * force_n.xy[0] + push_z_.xy[1] * force_n.xy[1] + push_z_.z * force_n.z;
+    }
     void sum_up();
 
     std::vector<Two> twos_;
     bool level_ = true;  // no mode goes along z
-    // Sums over the modes: displacement without force, and by a force along x, y and z.
-    LaneVec3 free_;
+    LaneVec3 force_n_;   // of the last step
+    // Sums over the modes: displacement without force, by that one, and by a newton along x, y and z.
+    LaneVec3 free_, pushed_;
     D2 push_x_{}, push_y_{};
     LaneVec3 push_z_;
 };

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "base/math.hpp"
+#include "dynamics/tool_place.hpp"
 
 namespace tribo::dynamics {
 
@@ -19,20 +20,21 @@ class SpindleTurn {
   public:
     explicit SpindleTurn(double rotation_rad)
         : rotation_rad_(rotation_rad), turn_rad_(in_turn(rotation_rad)) {
-        math::sincos(turn_rad_, sine_, cosine_);
+        refresh();
     }
 
     // From a sample to the next one.
     void set_step(double step_rad) {
         step_rad_ = step_rad;
-        math::sincos(step_rad, step_sine_, step_cosine_);
+        double sine, cosine;
+        math::sincos(step_rad, sine, cosine);
+        step_ = {sine, cosine};
     }
     double step_rad() const { return step_rad_; }
 
     double rotation_rad() const { return rotation_rad_; }  // of all turns
     double turn_rad() const { return turn_rad_; }          // of this one
-    double sine() const { return sine_; }
-    double cosine() const { return cosine_; }
+    D2 sine_cosine() const { return sine_cosine_; }
 
     void advance() {
         constexpr unsigned kFreshEvery = 256;  // samples after which sine and cosine are computed anew
@@ -41,17 +43,22 @@ class SpindleTurn {
         if (turn_rad_ >= math::kTwoPi) turn_rad_ -= math::kTwoPi;
         if (++since_fresh_ == kFreshEvery) {
             since_fresh_ = 0;
-            math::sincos(turn_rad_, sine_, cosine_);
-            return;
+            refresh();
+        } else {
+            sine_cosine_ = step_(sine_cosine_);
         }
-        const double sine = sine_ * step_cosine_ + cosine_ * step_sine_;
-        cosine_ = cosine_ * step_cosine_ - sine_ * step_sine_;
-        sine_ = sine;
     }
 
   private:
-    double rotation_rad_, turn_rad_, sine_ = 0, cosine_ = 1;
-    double step_rad_ = 0, step_sine_ = 0, step_cosine_ = 1;
+    void refresh() {
+        double sine, cosine;
+        math::sincos(turn_rad_, sine, cosine);
+        sine_cosine_ = D2{sine, cosine};
+    }
+
+    double rotation_rad_, turn_rad_, step_rad_ = 0;
+    D2 sine_cosine_{};
+    Turner step_{0, 1};
     unsigned since_fresh_ = 0;
 };
 

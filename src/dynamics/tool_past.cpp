@@ -86,10 +86,8 @@ void ToolPast::look_back_anywhere(Passage& p) const {
     if (samples_ < 4 || !(at_rad > first_rad_)) {
         p.known_at = samples_ + 1;
         p.cut = ~TeethThatCut{0};
-        // As the feed alone has brought it here, and what it is displaced.
-        p.beyond.tip_mm.xy = (now_.tip_mm.xy - fed_.tip_mm.xy) + both(p.back_rad) * per_rad_.tip_mm.xy;
-        p.beyond.tip_mm.z = (now_.tip_mm.z - fed_.tip_mm.z) + p.back_rad * per_rad_.tip_mm.z;
-        p.beyond.turn_rad = both(p.back_rad) * per_rad_.turn_rad;
+        p.place = fed_;
+        move(p.place, -p.back_rad);
         return;
     }
     std::size_t n = p.back < samples_ ? samples_ - p.back : 0;
@@ -107,9 +105,13 @@ void ToolPast::look_back_anywhere(Passage& p) const {
     weights[1] += weights[0];
     weights[0] = 0;
     see(p, n, weights);
-    p.beyond.tip_mm.xy += both(lost) * per_rad_.tip_mm.xy;
-    p.beyond.tip_mm.z += lost * per_rad_.tip_mm.z;
-    p.beyond.turn_rad += both(lost) * per_rad_.turn_rad;
+    move(p.place, -lost);
+}
+
+void ToolPast::move(ToolPlace& place, double rad) const {
+    place.tip_mm.xy += both(rad) * per_rad_.tip_mm.xy;
+    place.tip_mm.z += rad * per_rad_.tip_mm.z;
+    place.turn_rad += both(rad) * per_rad_.turn_rad;
 }
 
 }  // namespace tribo::dynamics

@@ -27,7 +27,7 @@ class ToolPast {
     // Teeth that passed before a tooth and are asked: at most.
     static constexpr std::size_t kMostPassages = 16;
 
-    // A tooth that passed before: how far back, and by how much the tool is beyond its place of that time.
+    // A tooth that passed before: how far back, and where the tool stood then.
     struct Passage {
         double back_rad = 0, back_samples = 0;
         std::size_t back = 0;  // back_samples, rounded up
@@ -37,7 +37,7 @@ class ToolPast {
         std::size_t ahead = 0;            // teeth from this one to that
         std::size_t known_at = 0;         // 1 + number of the sample for which the rest was computed
         TeethThatCut cut = 0;
-        ToolPlace beyond{};
+        ToolPlace place{};
     };
 
     // `first_rad`: rotation at the first sample.
@@ -54,13 +54,8 @@ class ToolPast {
     // By the feed alone.
     const ToolPlace& fed() const { return fed_; }
 
-    // The next sample is at that rotation, displaced as foreseen.
-    void expect(double rotation_rad, const LaneVec3& displacement_mm) {
-        rotation_rad_ = rotation_rad;
-        now_.tip_mm.xy = fed_.tip_mm.xy + displacement_mm.xy;
-        now_.tip_mm.z = fed_.tip_mm.z + displacement_mm.z;
-        now_.turn_rad = fed_.turn_rad;
-    }
+    // Rotation of the next sample. Passages are of that time.
+    void expect(double rotation_rad) { rotation_rad_ = rotation_rad; }
     // The k-th tooth before this one at its place, 0: the one just before it.
     const Passage& passage(std::size_t tooth, std::size_t k) {
         Passage& p = before_[(alike_ ? 0 : tooth * kMostPassages) + k];
@@ -118,15 +113,17 @@ class ToolPast {
         p.known_at = samples_ + 1;
         const std::size_t a = (n - 1) & mask_, b = n & mask_, c = (n + 1) & mask_, d = (n + 2) & mask_;
         p.cut = marks_[b].cut & marks_[c].cut;
-        p.beyond.tip_mm.xy = now_.tip_mm.xy - ((both(weights[0]) * xy_[a] + both(weights[1]) * xy_[b]) +
-                                               (both(weights[2]) * xy_[c] + both(weights[3]) * xy_[d]));
+        p.place.tip_mm.xy = (both(weights[0]) * xy_[a] + both(weights[1]) * xy_[b]) +
+                            (both(weights[2]) * xy_[c] + both(weights[3]) * xy_[d]);
         if (deep_)
-            p.beyond.tip_mm.z = now_.tip_mm.z - ((weights[0] * z_[a] + weights[1] * z_[b]) +
-                                                 (weights[2] * z_[c] + weights[3] * z_[d]));
+            p.place.tip_mm.z =
+                (weights[0] * z_[a] + weights[1] * z_[b]) + (weights[2] * z_[c] + weights[3] * z_[d]);
         if (turns_)
-            p.beyond.turn_rad = now_.turn_rad - ((both(weights[0]) * turn_[a] + both(weights[1]) * turn_[b]) +
-                                                 (both(weights[2]) * turn_[c] + both(weights[3]) * turn_[d]));
+            p.place.turn_rad = (both(weights[0]) * turn_[a] + both(weights[1]) * turn_[b]) +
+                               (both(weights[2]) * turn_[c] + both(weights[3]) * turn_[d]);
     }
+    // By the feed while the spindle turns by so much.
+    void move(ToolPlace& place, double rad) const;
     void keep(std::size_t samples);
     double rotation_of(std::size_t sample) const { return marks_[sample & mask_].rotation_rad; }
 
@@ -139,7 +136,7 @@ class ToolPast {
     std::vector<Passage> before_;
     std::size_t passages_ = 1;
     double first_rad_, rotation_rad_ = 0, step_rad_ = 0;
-    ToolPlace per_rad_, fed_, now_;
+    ToolPlace per_rad_, fed_;
     // Rings, whose length is a power of two; from even_from_ on at the same speed.
     std::vector<D2> xy_, turn_;
     std::vector<double> z_;

@@ -13,6 +13,21 @@ inline D2 both(double value) {
     return D2{value, value};
 }
 
+inline D2 swapped(D2 lanes) {
+    return D2{lanes[1], lanes[0]};
+}
+
+// Turns (sine, cosine) of an angle to that of the angle plus a constant one, or makes of it another vector
+// that turns with the angle.
+struct Turner {
+    D2 same{}, crossed{};
+
+    Turner() = default;
+    // Of an angle with that sine and cosine, times the same number.
+    Turner(double sine, double cosine) : same(both(cosine)), crossed(D2{sine, -sine}) {}
+    D2 operator()(D2 turning) const { return same * turning + crossed * swapped(turning); }
+};
+
 // A vector; frame and units are those of its use.
 struct LaneVec3 {
     D2 xy{};

@@ -48,8 +48,7 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
     for (const double phase : phase_rad_) {
         double sine, cosine;
         math::sincos(phase, sine, cosine);
-        by_sine_.push_back(D2{cosine, -sine});
-        by_cosine_.push_back(D2{sine, cosine});
+        ahead_.emplace_back(sine, cosine);
         math::sincos(cutter.runout_deg * math::kRadPerDeg - phase, sine, cosine);
         runout_mm_.push_back(D2{-cutter.runout_mm * sine, cutter.runout_mm * cosine});
     }
@@ -87,15 +86,68 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, const mil
     straight_teeth_.clear();
 }
 
+void Vibration::gather_straight_teeth() {
+    const milling::CuttingCoefficients& k = coefficients_;
+    straight_teeth_.clear();
+    double height = 0;
+    const std::span<const EdgeInCut> list = in_cut_.list();
+    for (std::size_t n = 0; n < list.size(); ++n) {
+        const std::size_t tooth = list[n].tooth;
+        height += slices_[list[n].slice].whole.height_mm;
+        if (n + 1 < list.size() && list[n + 1].tooth == tooth) continue;
+        const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
+        StraightTooth t;
+        t.tooth = tooth;
+        t.before = tooth_bit(other);
+        t.outward_mm = runout_mm_[tooth][1] - runout_mm_[other][1];
+        t.normal = ahead_[tooth];
+        // Against the way of the edge (cos, -sin), and inward.
+        double sine, cosine;
+        math::sincos(phase_rad_[tooth], sine, cosine);
+        const auto across = [&](double tangential, double radial) {
+            return Turner(-height * (radial * sine + tangential * cosine),
+                          height * (tangential * sine - radial * cosine));
+        };
+        t.per_mm = across(k.ktc, k.krc);
+        t.edge_n = across(k.kte, k.kre);
+        t.axial_per_mm = height * k.kac;
+        t.axial_n = height * k.kae;
+        straight_teeth_.push_back(t);
+        height = 0;
+    }
+}
+
+// The bands of a straight edge, all at one angle.
+inline LaneVec3 Vibration::straight_force(D2 place_mm) {
+    if (in_cut_.update(past_.samples(), spindle_.turn_rad())) gather_straight_teeth();
+    const D2 turn = spindle_.sine_cosine();
+    LaneVec3 force_n;
+    for (const StraightTooth& t : straight_teeth_) {
+        const ToolPast::Passage& last = past_.passage(t.tooth, 0);
+        const D2 normal = t.normal(turn);
+        const D2 along = (place_mm - last.place.tip_mm.xy) * normal;
+        double thickness = along[0] + along[1] + t.outward_mm;
+        if ((last.cut & t.before) == 0 || !(thickness > 0)) [[unlikely]] {
+            thickness = straight_chip(t.tooth, normal);
+            if (!(thickness > 0)) continue;
+        }
+        force_n.xy += both(thickness) * t.per_mm(turn) + t.edge_n(turn);
+        force_n.z -= t.axial_per_mm * thickness + t.axial_n;
+    }
+    return force_n;
+}
+
 VibrationSample Vibration::step() {
-    past_.expect(spindle_.rotation_rad(), modes_.displacement(force_n_));
+    past_.expect(spindle_.rotation_rad());
+    const LaneVec3 foreseen_mm = modes_.foreseen();
+    const ToolPlace& fed = past_.fed();
+    place_ = {{fed.tip_mm.xy + foreseen_mm.xy, fed.tip_mm.z + foreseen_mm.z}, fed.turn_rad};
     cut_ = ~TeethThatCut{0};
-    force_n_ = straight_ && !past_.turns() ? straight_force() : helical_force();
-    const LaneVec3 displacement_mm = modes_.displacement(force_n_);
-    modes_.advance(force_n_);
+    const LaneVec3 force_n = straight_ && !past_.turns() ? straight_force(place_.tip_mm.xy) : helical_force();
+    const LaneVec3 displacement_mm = modes_.step(force_n);
     past_.add(displacement_mm, cut_);
     spindle_.advance();
-    return {displacement_mm.vec3(), force_n_.vec3()};
+    return {displacement_mm.vec3(), force_n.vec3()};
 }
 
 }  // namespace tribo::dynamics

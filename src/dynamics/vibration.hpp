@@ -61,11 +61,13 @@ class Vibration {
     double rotation_rad() const { return spindle_.rotation_rad(); }
 
   private:
-    // A tooth of a straight edge in the cut, with its force by the chip: newton per mm and newton.
+    // A tooth of a straight edge in the cut.
     struct StraightTooth {
         std::size_t tooth = 0;
-        double outward_mm = 0;  // by run-out, than the tooth before it
-        double tangential = 0, tangential_n = 0, radial = 0, radial_n = 0, axial = 0, axial_n = 0;
+        TeethThatCut before = 0;        // the bit of the tooth before it
+        double outward_mm = 0;          // by run-out, than that one
+        Turner normal, per_mm, edge_n;  // of the chip; of the force across the axis by mm of it
+        double axial_per_mm = 0, axial_n = 0;
     };
     // The edge of a tooth at this sample.
     struct Edge {
@@ -73,24 +75,25 @@ class Vibration {
         D2 tip{};  // sine and cosine of its rotation at the tip
         std::span<const ToolPast::Passage> before;
     };
-    // A direction across the axis, and how a surface left by another tooth stands to it.
-    struct Outward {
-        D2 normal{};  // sine and cosine of the rotation
+    // A point of it.
+    struct EdgePoint {
+        D2 normal{};  // sine and cosine of its rotation
         Lag lag;
         milling::ProfilePoint at;
     };
 
     void gather_straight_teeth();
-    LaneVec3 straight_force();
+    LaneVec3 straight_force(D2 place_mm);
     LaneVec3 helical_force();
+    // Where a point of an edge stands at a place of the tool, along its normal, as a law of the rotation.
+    template <bool kRound>
+    milling::TurnLaw outward(const ToolPlace& place, std::size_t tooth, const EdgePoint& point) const;
     Vec3 piece_force(const Edge& edge, const EdgePiece& piece);
     Vec3 nodes_force(const Edge& edge, const EdgeNodes& nodes);
-    // The law of the surface that stands highest there.
+    // The law of the chip over the surface that stands highest there.
     template <bool kRound>
-    milling::TurnLaw chip(const Edge& edge, const Outward& there);
-    D2 tip(std::size_t tooth) const {
-        return both(spindle_.sine()) * by_sine_[tooth] + both(spindle_.cosine()) * by_cosine_[tooth];
-    }
+    milling::TurnLaw chip(const Edge& edge, const EdgePoint& point);
+    double straight_chip(std::size_t tooth, D2 normal);
     void stands_clear(std::size_t tooth) { cut_ &= ~tooth_bit(tooth); }
 
     milling::Cutter cutter_;
@@ -98,10 +101,10 @@ class Vibration {
     double rate_hz_;
     bool straight_;  // a cylinder without helix: one angle for all bands
     EdgeSlicer slicer_;
-    // Of each tooth: its angle ahead of flute 0; its sine and cosine by those of flute 0; its run-out by sine
-    // and cosine of a lag.
+    // Of each tooth: its angle ahead of flute 0, and its run-out by sine and cosine of a lag.
     std::vector<double> phase_rad_;
-    std::vector<D2> by_sine_, by_cosine_, runout_mm_;
+    std::vector<Turner> ahead_;
+    std::vector<D2> runout_mm_;
 
     ModalSteps modes_;
     SpindleTurn spindle_;
@@ -109,7 +112,8 @@ class Vibration {
     std::vector<EdgeSlice> slices_;
     EdgesInCut in_cut_;
     std::vector<StraightTooth> straight_teeth_;
-    LaneVec3 force_n_;
+    // At this sample, as foreseen.
+    ToolPlace place_;
     TeethThatCut cut_ = 0;
 };
 

@@ -2,6 +2,7 @@
 // The force on the teeth of a tool that vibrates.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/math.hpp"
 #include "dynamics/vibration.hpp"
@@ -13,7 +14,7 @@ double sum(D2 lanes) {
     return lanes[0] + lanes[1];
 }
 
-double chip_at(const milling::TurnLaw& law, D2 normal) {
+double at_rotation(const milling::TurnLaw& law, D2 normal) {
     return law.sine * normal[0] + law.cosine * normal[1] + law.constant;
 }
 
@@ -24,51 +25,13 @@ D2 behind(D2 normal, double sine, double cosine) {
 
 }  // namespace
 
-void Vibration::gather_straight_teeth() {
-    const milling::CuttingCoefficients& k = coefficients_;
-    straight_teeth_.clear();
-    double height = 0;
-    const std::span<const EdgeInCut> list = in_cut_.list();
-    for (std::size_t n = 0; n < list.size(); ++n) {
-        const std::size_t tooth = list[n].tooth;
-        height += slices_[list[n].slice].whole.height_mm;
-        if (n + 1 < list.size() && list[n + 1].tooth == tooth) continue;
-        const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
-        straight_teeth_.push_back({tooth, runout_mm_[tooth][1] - runout_mm_[other][1], height * k.ktc,
-                                   height * k.kte, height * k.krc, height * k.kre, height * k.kac,
-                                   height * k.kae});
-        height = 0;
-    }
-}
-
-// The bands of a straight edge, all at one angle.
-LaneVec3 Vibration::straight_force() {
-    if (in_cut_.update(past_.samples(), spindle_.turn_rad())) gather_straight_teeth();
-    LaneVec3 force_n;
-    for (const StraightTooth& t : straight_teeth_) {
-        const D2 normal = tip(t.tooth);
-        const ToolPast::Passage& last = past_.passage(t.tooth, 0);
-        double thickness = sum(last.beyond.tip_mm.xy * normal) + t.outward_mm;
-        if (!past_.cut_whole(last, t.tooth) || !(thickness > 0)) [[unlikely]] {
-            const Outward there{normal, {}, {.radius_mm = cutter_.radius_mm()}};
-            thickness = chip_at(chip<false>({t.tooth, normal, past_.passages(t.tooth)}, there), normal);
-            if (!(thickness > 0)) continue;
-        }
-        const double tangential = t.tangential * thickness + t.tangential_n;
-        const double radial = t.radial * thickness + t.radial_n;
-        force_n.xy += both(tangential) * D2{-normal[1], normal[0]} - both(radial) * normal;
-        force_n.z -= t.axial * thickness + t.axial_n;
-    }
-    return force_n;
-}
-
 LaneVec3 Vibration::helical_force() {
     in_cut_.update(past_.samples(), spindle_.turn_rad());
     Vec3 force_n{};
     Edge edge;
     for (const EdgeInCut& in_cut : in_cut_.list()) {
         if (edge.before.empty() || edge.tooth != in_cut.tooth)
-            edge = {in_cut.tooth, tip(in_cut.tooth), past_.passages(in_cut.tooth)};
+            edge = {in_cut.tooth, ahead_[in_cut.tooth](spindle_.sine_cosine()), past_.passages(in_cut.tooth)};
         const EdgeSlice& slice = slices_[in_cut.slice];
         if (in_cut.whole) {
             force_n += slice.round ? nodes_force(edge, slice.nodes) : piece_force(edge, slice.whole);
@@ -84,33 +47,42 @@ LaneVec3 Vibration::helical_force() {
 }
 
 template <bool kRound>
-milling::TurnLaw Vibration::chip(const Edge& edge, const Outward& there) {
-    const bool turns = past_.turns(), runout = cutter_.runout_mm != 0;
-    const milling::ProfilePoint& at = there.at;
-    const double arm = kRound ? at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa : at.height_mm;
-    const auto law_of = [&](const ToolPast::Passage& p) {
-        D2 xy = p.beyond.tip_mm.xy;
-        if constexpr (kRound) xy *= both(at.sin_kappa);
-        if (turns) xy += both(arm) * p.beyond.turn_rad;
-        milling::TurnLaw law{xy[0], xy[1], 0};
-        if (runout) {
-            const D2 outward = runout_mm_[edge.tooth] - runout_mm_[past_.tooth_of(p, edge.tooth)];
-            law.constant = at.sin_kappa * sum(outward * D2{there.lag.sine, there.lag.cosine});
-        }
-        if constexpr (kRound) law.constant -= p.beyond.tip_mm.z * at.cos_kappa;
-        return law;
-    };
-    milling::TurnLaw thinnest = law_of(edge.before[0]);
-    double least = chip_at(thinnest, there.normal);
-    for (const ToolPast::Passage& p : edge.before.subspan(1)) {
-        const milling::TurnLaw law = law_of(p);
-        const double thickness = chip_at(law, there.normal);
-        if (thickness >= least) continue;
-        thinnest = law;
-        least = thickness;
+milling::TurnLaw Vibration::outward(const ToolPlace& place, std::size_t tooth, const EdgePoint& point) const {
+    const milling::ProfilePoint& at = point.at;
+    D2 xy = place.tip_mm.xy;
+    if constexpr (kRound) xy *= both(at.sin_kappa);
+    if (past_.turns()) {
+        const double arm = kRound ? at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa : at.height_mm;
+        xy += both(arm) * place.turn_rad;
     }
-    if (!(least > 0)) stands_clear(edge.tooth);
-    return thinnest;
+    milling::TurnLaw law{xy[0], xy[1], 0};
+    if (cutter_.runout_mm != 0)
+        law.constant = at.sin_kappa * sum(runout_mm_[tooth] * D2{point.lag.sine, point.lag.cosine});
+    if constexpr (kRound) law.constant -= place.tip_mm.z * at.cos_kappa;
+    return law;
+}
+
+template <bool kRound>
+milling::TurnLaw Vibration::chip(const Edge& edge, const EdgePoint& point) {
+    milling::TurnLaw highest;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const ToolPast::Passage& p : edge.before) {
+        const milling::TurnLaw law = outward<kRound>(p.place, past_.tooth_of(p, edge.tooth), point);
+        const double height = at_rotation(law, point.normal);
+        if (height <= most) continue;
+        highest = law;
+        most = height;
+    }
+    const milling::TurnLaw own = outward<kRound>(place_, edge.tooth, point);
+    const milling::TurnLaw chip{own.sine - highest.sine, own.cosine - highest.cosine,
+                                own.constant - highest.constant};
+    if (!(at_rotation(chip, point.normal) > 0)) stands_clear(edge.tooth);
+    return chip;
+}
+
+double Vibration::straight_chip(std::size_t tooth, D2 normal) {
+    const EdgePoint point{normal, {}, {.radius_mm = cutter_.radius_mm()}};
+    return at_rotation(chip<false>({tooth, normal, past_.passages(tooth)}, point), normal);
 }
 
 Vec3 Vibration::piece_force(const Edge& edge, const EdgePiece& piece) {
@@ -118,8 +90,8 @@ Vec3 Vibration::piece_force(const Edge& edge, const EdgePiece& piece) {
     const milling::TurnLaw law = chip<false>(edge, {normal, piece.lag, piece.middle});
     // At both ends.
     const milling::HalfSpan& half = piece.half;
-    const double low = chip_at(law, behind(normal, half.sine, half.cosine)),
-                 high = chip_at(law, behind(normal, -half.sine, half.cosine));
+    const double low = at_rotation(law, behind(normal, half.sine, half.cosine)),
+                 high = at_rotation(law, behind(normal, -half.sine, half.cosine));
     const milling::EdgeLoad load = milling::edge_load(coefficients_, law, piece.middle);
     if (low > 0 && high > 0)
         return milling::segment_force(load, normal[0], normal[1], half, piece.height_mm).force_n;
@@ -141,7 +113,7 @@ Vec3 Vibration::nodes_force(const Edge& edge, const EdgeNodes& nodes) {
     for (const EdgeNode& node : nodes) {
         const D2 normal = behind(edge.tip, node.lag.sine, node.lag.cosine);
         const milling::TurnLaw law = chip<true>(edge, {normal, node.lag, node.at});
-        if (chip_at(law, normal) <= 0) continue;
+        if (at_rotation(law, normal) <= 0) continue;
         const milling::EdgeLoad load = milling::edge_load(coefficients_, law, node.at);
         force_n += node.length_mm * milling::force_at_rotation(load, normal[0], normal[1]).force_n;
     }
