@@ -85,9 +85,6 @@ class Vibration {
     void gather_straight_teeth();
     LaneVec3 straight_force(D2 place_mm);
     LaneVec3 helical_force();
-    // Where a point of an edge stands at a place of the tool, along its normal, as a law of the rotation.
-    template <bool kRound>
-    milling::TurnLaw outward(const ToolPlace& place, std::size_t tooth, const EdgePoint& point) const;
     Vec3 piece_force(const Edge& edge, const EdgePiece& piece);
     Vec3 nodes_force(const Edge& edge, const EdgeNodes& nodes);
     // The law of the chip over the surface that stands highest there.

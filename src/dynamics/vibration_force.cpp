@@ -47,37 +47,40 @@ LaneVec3 Vibration::helical_force() {
 }
 
 template <bool kRound>
-milling::TurnLaw Vibration::outward(const ToolPlace& place, std::size_t tooth, const EdgePoint& point) const {
-    const milling::ProfilePoint& at = point.at;
-    D2 xy = place.tip_mm.xy;
-    if constexpr (kRound) xy *= both(at.sin_kappa);
-    if (past_.turns()) {
-        const double arm = kRound ? at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa : at.height_mm;
-        xy += both(arm) * place.turn_rad;
-    }
-    milling::TurnLaw law{xy[0], xy[1], 0};
-    if (cutter_.runout_mm != 0)
-        law.constant = at.sin_kappa * sum(runout_mm_[tooth] * D2{point.lag.sine, point.lag.cosine});
-    if constexpr (kRound) law.constant -= place.tip_mm.z * at.cos_kappa;
-    return law;
-}
-
-template <bool kRound>
 milling::TurnLaw Vibration::chip(const Edge& edge, const EdgePoint& point) {
-    milling::TurnLaw highest;
-    double most = -std::numeric_limits<double>::infinity();
-    for (const ToolPast::Passage& p : edge.before) {
-        const milling::TurnLaw law = outward<kRound>(p.place, past_.tooth_of(p, edge.tooth), point);
-        const double height = at_rotation(law, point.normal);
-        if (height <= most) continue;
-        highest = law;
-        most = height;
+    // A tool moves the point along its normal by its tip, by its turn, and by run-out of the tooth.
+    const milling::ProfilePoint& at = point.at;
+    const double by_tip = kRound ? at.sin_kappa : 1,
+                 by_turn = kRound ? at.height_mm * at.sin_kappa + at.radius_mm * at.cos_kappa : at.height_mm;
+    const D2 by_xy = both(by_tip) * point.normal, by_turn_xy = both(by_turn) * point.normal;
+    const D2 by_runout = both(by_tip) * D2{point.lag.sine, point.lag.cosine};
+    const bool runout = cutter_.runout_mm != 0;
+    const auto height = [&](const ToolPast::Passage& p) {
+        double h = sum(p.place.tip_mm.xy * by_xy + p.place.turn_rad * by_turn_xy);
+        if constexpr (kRound) h -= p.place.tip_mm.z * at.cos_kappa;
+        if (runout) h += sum(runout_mm_[past_.tooth_of(p, edge.tooth)] * by_runout);
+        return h;
+    };
+    const ToolPast::Passage* highest = edge.before.data();
+    if (edge.before.size() > 1) {
+        double most = height(*highest);
+        for (const ToolPast::Passage& p : edge.before.subspan(1)) {
+            const double h = height(p);
+            const bool higher = h > most;
+            highest = higher ? &p : highest;
+            most = higher ? h : most;
+        }
     }
-    const milling::TurnLaw own = outward<kRound>(place_, edge.tooth, point);
-    const milling::TurnLaw chip{own.sine - highest.sine, own.cosine - highest.cosine,
-                                own.constant - highest.constant};
-    if (!(at_rotation(chip, point.normal) > 0)) stands_clear(edge.tooth);
-    return chip;
+    const ToolPlace& there = highest->place;
+    const D2 across = both(by_tip) * (place_.tip_mm.xy - there.tip_mm.xy) +
+                      both(by_turn) * (place_.turn_rad - there.turn_rad);
+    milling::TurnLaw law{across[0], across[1],
+                         kRound ? (there.tip_mm.z - place_.tip_mm.z) * at.cos_kappa : 0};
+    if (runout)
+        law.constant +=
+            sum((runout_mm_[edge.tooth] - runout_mm_[past_.tooth_of(*highest, edge.tooth)]) * by_runout);
+    if (!(at_rotation(law, point.normal) > 0)) stands_clear(edge.tooth);
+    return law;
 }
 
 double Vibration::straight_chip(std::size_t tooth, D2 normal) {

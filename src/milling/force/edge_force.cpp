@@ -60,17 +60,6 @@ EdgeLoad edge_load(const CuttingCoefficients& k, const Chip& chip, const Profile
     return edge_load(k, thickness(chip, at), at);
 }
 
-EdgeLoad edge_load(const CuttingCoefficients& k, const TurnLaw& h, const ProfilePoint& at) {
-    const auto law = [&](double shear, double edge) {
-        return TurnLaw{shear * h.sine, shear * h.cosine, shear * h.constant + edge};
-    };
-    const double s = at.sin_kappa, c = at.cos_kappa, radius = at.radius_mm;
-    return {.t = law(k.ktc, k.kte),
-            .r = law(k.krc * s + k.kac * c, k.kre * s + k.kae * c),
-            .a = law(k.krc * c - k.kac * s, k.kre * c - k.kae * s),
-            .m = law(radius * k.ktc, radius * k.kte)};
-}
-
 EdgeLoad bottom_load(const CuttingCoefficients& k, const ToolTravel& travel, double r0_mm, double r1_mm) {
     const double width = r1_mm - r0_mm, middle = 0.5 * (r0_mm + r1_mm);
     const double first = width * middle;                                                // integral of r
@@ -86,14 +75,6 @@ EdgeLoad bottom_load(const CuttingCoefficients& k, const ToolTravel& travel, dou
             .m = law(k.ktc, k.kte, first, second)};
 }
 
-contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, double cos_phi) {
-    const auto at = [&](const TurnLaw& law) {
-        return law.sine * sin_phi + law.cosine * cos_phi + law.constant;
-    };
-    const double t = at(load.t), r = at(load.r);
-    return {{-t * cos_phi - r * sin_phi, t * sin_phi - r * cos_phi, at(load.a)}, at(load.m)};
-}
-
 contact::ToolForce segment_force(const EdgeLoad& load, double phi_low, double phi_high, double height_mm) {
     double sin_mid, cos_mid;
     math::sincos(0.5 * (phi_low + phi_high), sin_mid, cos_mid);
@@ -105,22 +86,6 @@ HalfSpan half_span(double angle_rad) {
     sinc_and_cos(angle_rad, half.sinc, half.cosine);
     half.sine = half.sinc * angle_rad;
     return half;
-}
-
-contact::ToolForce segment_force(const EdgeLoad& load, double sin_mid, double cos_mid, const HalfSpan& half,
-                                 double height_mm) {
-    const double q = half.sinc, s = q * half.cosine;  // sin(d/2) / (d/2), sin d / d
-    // Means of sin, cos, sin cos, sin^2 and cos^2 over the piece.
-    const double sine = q * sin_mid, cosine = q * cos_mid, sin_cos = s * sin_mid * cos_mid;
-    const double sin2 = 0.5 * (1 - s * (1 - 2 * sin_mid * sin_mid)), cos2 = 1 - sin2;
-    const TurnLaw &t = load.t, &r = load.r;
-    const double b = height_mm;
-    return {{-b * (t.sine * sin_cos + t.cosine * cos2 + t.constant * cosine + r.sine * sin2 +
-                   r.cosine * sin_cos + r.constant * sine),
-             b * (t.sine * sin2 + t.cosine * sin_cos + t.constant * sine - r.sine * sin_cos -
-                  r.cosine * cos2 - r.constant * cosine),
-             b * (load.a.sine * sine + load.a.cosine * cosine + load.a.constant)},
-            b * (load.m.sine * sine + load.m.cosine * cosine + load.m.constant)};
 }
 
 contact::ToolForce flute_segment_force(const CuttingCoefficients& k, double radius_mm,
