@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "milling/force/edge_force.hpp"
 
 namespace tribo::dynamics {
 namespace {
@@ -77,12 +78,12 @@ Matrix3 CutFeedback::stiffness(int tooth, double t_s) const {
 
 // In closed form: a mean over an angle is the value in its middle times sin(x) / x.
 void CutFeedback::add_straight(double rotation_rad, EngagedZone cut, Matrix3& sum) const {
-    const double height = cut.z1_mm - cut.z0_mm, half_rad = 0.5 * lag_per_mm_ * height;
-    double sine, cosine, half_sine, half_cosine;
+    const double height = cut.z1_mm - cut.z0_mm;
+    double sine, cosine;
     math::sincos(rotation_rad - 0.5 * lag_per_mm_ * (cut.z0_mm + cut.z1_mm), sine, cosine);
-    math::sincos(half_rad, half_sine, half_cosine);
-    const double once = std::abs(half_rad) < 1e-8 ? height : height * half_sine / half_rad;
-    const double twice = once * half_cosine;  // of the double angle
+    const milling::HalfSpan half = milling::half_span(0.5 * std::abs(lag_per_mm_) * height);
+    const double once = height * half.sinc;
+    const double twice = once * half.cosine;  // of the double angle
     const double ss = 0.5 * height - 0.5 * twice * (cosine * cosine - sine * sine), cc = height - ss;
     const double sc = twice * sine * cosine;
     const milling::CuttingCoefficients& k = coefficients_;

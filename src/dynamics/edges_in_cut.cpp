@@ -8,21 +8,20 @@
 
 namespace tribo::dynamics {
 
-void EdgesInCut::engage(std::span<const EdgeSlice> slices, double step_rad) {
-    slices_ = slices;
+void EdgesInCut::engage(std::size_t slices, double step_rad) {
     per_rad_ = 1 / step_rad;
-    edges_.assign(phase_rad_.size() * slices.size(), {});
+    edges_.assign(phase_rad_.size() * slices, {});
     list_.clear();
     list_.reserve(edges_.size());
     next_ = 0;
 }
 
-bool EdgesInCut::find(std::size_t sample, double turn_rad) {
+bool EdgesInCut::find(std::span<const EdgeSlice> slices, std::size_t sample, double turn_rad) {
     bool changed = false;
     next_ = std::numeric_limits<std::size_t>::max();
     std::size_t n = 0;
     for (const double phase : phase_rad_) {
-        for (const EdgeSlice& slice : slices_) {
+        for (const EdgeSlice& slice : slices) {
             Edge& edge = edges_[n++];
             if (edge.next <= sample) {
                 const State before = edge.state;
@@ -37,8 +36,8 @@ bool EdgesInCut::find(std::size_t sample, double turn_rad) {
     for (n = 0; n < edges_.size(); ++n) {
         const State state = edges_[n].state;
         if (state == State::out) continue;
-        list_.push_back({static_cast<std::uint32_t>(n / slices_.size()),
-                         static_cast<std::uint32_t>(n % slices_.size()), state == State::whole});
+        list_.push_back({static_cast<std::uint32_t>(n / slices.size()),
+                         static_cast<std::uint32_t>(n % slices.size()), state == State::whole});
     }
     return true;
 }

@@ -23,13 +23,14 @@ class EdgesInCut {
     // Angles of the teeth ahead of the first one.
     explicit EdgesInCut(std::vector<double> phase_rad) : phase_rad_(std::move(phase_rad)) {}
 
-    // From this sample on. The slices must outlive the calls of update(). Allocates for more slices than
-    // before.
-    void engage(std::span<const EdgeSlice> slices, double step_rad);
+    // From the next sample on there are as many slices. Allocates for more than before.
+    void engage(std::size_t slices, double step_rad);
 
     // Call it for each sample; `turn_rad`: rotation of the first tooth, in the first turn. Returns whether
     // list() has changed. Real-time safe.
-    bool update(std::size_t sample, double turn_rad) { return sample >= next_ && find(sample, turn_rad); }
+    bool update(std::span<const EdgeSlice> slices, std::size_t sample, double turn_rad) {
+        return sample >= next_ && find(slices, sample, turn_rad);
+    }
 
     // Sorted by tooth.
     std::span<const EdgeInCut> list() const { return list_; }
@@ -40,11 +41,10 @@ class EdgesInCut {
         std::size_t next = 0;  // the first sample at which the state may be another one
         State state = State::unknown;
     };
-    bool find(std::size_t sample, double turn_rad);
+    bool find(std::span<const EdgeSlice> slices, std::size_t sample, double turn_rad);
     void look(Edge& edge, const EdgeSlice& slice, std::size_t sample, double tip_rad) const;
 
     std::vector<double> phase_rad_;
-    std::span<const EdgeSlice> slices_;
     std::vector<Edge> edges_;  // by teeth
     std::vector<EdgeInCut> list_;
     std::size_t next_ = 0;

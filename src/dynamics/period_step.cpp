@@ -18,15 +18,18 @@ bool has_one_delay(const CutFeedback& cut) {
     return true;
 }
 
-const GaussPoints& points_for(bool one_delay) {
-    static const GaussPoints few(8), many(12);
-    return one_delay ? few : many;
+// For a piece in which the fastest mode turns by so much. The error in the states at its end is a number
+// times turn^(2 points + 1); these turns keep it below 1e-11 of the states.
+const GaussPoints& points_for(double turn_rad, bool one_delay) {
+    static const GaussPoints three(3), four(4), five(5), six(6), eight(8), twelve(12);
+    if (!one_delay) return twelve;
+    return turn_rad < 0.2 ? three : turn_rad < 1 ? four : turn_rad < 1.5 ? five : turn_rad < 2.2 ? six : eight;
 }
 
 }  // namespace
 
 PeriodStep::PeriodStep(std::span<const Mode> modes, const CutFeedback& cut)
-    : cut_(cut), oscillators_(modes), one_delay_(has_one_delay(cut)), points_(points_for(one_delay_)) {
+    : cut_(cut), oscillators_(modes), one_delay_(has_one_delay(cut)) {
     constexpr double kMostTurn = 4;  // rad
     const std::vector<double>& events = cut.events_s();
     for (std::size_t n = 0; n + 1 < events.size(); ++n) {
@@ -40,12 +43,14 @@ PeriodStep::PeriodStep(std::span<const Mode> modes, const CutFeedback& cut)
         const double turn = oscillators_.fastest(cut.spring(middle)) * lasts;
         const auto count = static_cast<std::size_t>(std::ceil(turn / kMostTurn));
         const double piece = lasts / static_cast<double>(count);
+        const GaussPoints& points = points_for(turn / static_cast<double>(count), one_delay_);
         for (std::size_t k = 0; k < count; ++k) {
-            pieces_.push_back(
-                {events[n] + static_cast<double>(k) * piece, piece, true, answers_.size(), displacements_});
-            displacements_ += points_.x.size() * oscillators_.dimensions();
+            pieces_.push_back({events[n] + static_cast<double>(k) * piece, piece, true, answers_.size(),
+                               &points, displacements_});
+            displacements_ += points.x.size() * oscillators_.dimensions();
         }
-        answers_.push_back(oscillators_.answer(piece, points_));
+        most_points_ = std::max(most_points_, points.x.size());
+        answers_.push_back(oscillators_.answer(piece, points));
     }
     for (Piece& piece : pieces_)
         if (piece.cuts) add_matrix(piece);
@@ -55,12 +60,13 @@ PeriodStep::PeriodStep(std::span<const Mode> modes, const CutFeedback& cut)
 // the delayed forces at the points; with one delay over the displacements a period ago instead.
 void PeriodStep::add_matrix(Piece& piece) {
     const Oscillators::Answer& answer = answers_[piece.answer];
-    const std::size_t p = points_.x.size(), d = oscillators_.dimensions(), n = p * d;
+    const GaussPoints& points = *piece.points;
+    const std::size_t p = points.x.size(), d = oscillators_.dimensions(), n = p * d;
     const std::size_t s = states(), width = n + s + n;
     std::vector<double> spring(n * d);  // force over the displacement at the same time, p times d x d
     piece.link = links_.size();
     for (std::size_t l = 0; l < p; ++l) {
-        const double t = piece.from_s + points_.x[l] * piece.lasts_s;
+        const double t = piece.from_s + points.x[l] * piece.lasts_s;
         for (int tooth = 0; tooth < cut_.teeth(); ++tooth) {
             const std::array<double, 9> force = oscillators_.reduced(cut_.stiffness(tooth, t));
             if (force == std::array<double, 9>{}) continue;
@@ -73,9 +79,10 @@ void PeriodStep::add_matrix(Piece& piece) {
     std::vector<double> system(n * width);
     for (std::size_t r = 0; r < n; ++r) {
         double* row = &system[r * width];
-        for (std::size_t l = 0; l < n; ++l)
-            for (std::size_t b = 0; b < d; ++b)
-                row[l / d * d + b] -= answer.moved[r * n + l] * spring[l * d + b];
+        for (std::size_t at = 0; at < n; at += d)
+            for (std::size_t a = at; a < at + d; ++a)
+                for (std::size_t b = 0; b < d; ++b)
+                    row[at + b] -= answer.moved[r * n + a] * spring[a * d + b];
         row[r] += 1;
         for (std::size_t c = 0; c < s; ++c) row[n + c] = answer.free[r * s + c];
         for (std::size_t c = 0; c < n; ++c) row[n + s + c] = -answer.moved[r * n + c];
@@ -88,9 +95,11 @@ void PeriodStep::add_matrix(Piece& piece) {
     for (std::size_t c = 0; c < s + n; ++c) {
         double* column = matrix + c * (n + s);
         for (std::size_t r = 0; r < n; ++r) column[r] = system[r * width + n + c];
-        for (std::size_t r = 0; r < n; ++r) {
-            force[r] = r + s == c ? -1 : 0;
-            for (std::size_t b = 0; b < d; ++b) force[r] += spring[r * d + b] * column[r / d * d + b];
+        for (std::size_t at = 0; at < n; at += d) {
+            for (std::size_t a = at; a < at + d; ++a) {
+                force[a] = a + s == c ? -1 : 0;
+                for (std::size_t b = 0; b < d; ++b) force[a] += spring[a * d + b] * column[at + b];
+            }
         }
         for (std::size_t i = 0; i < s; ++i) {
             column[n + i] = i / 2 == c / 2 ? answer.decay[2 * i + c % 2] : 0;
@@ -123,15 +132,15 @@ void PeriodStep::add_link(std::size_t point, double t_s, const std::array<double
         least = apart;
     }
     if (least > kSame * cut_.period_s()) return;
-    Link link{point, last_period, nearest->first, std::vector<double>(points_.x.size()), stiffness};
-    points_.shares((t - nearest->from_s) / nearest->lasts_s, link.share.data());
+    Link link{point, last_period, nearest->first, std::vector<double>(nearest->points->x.size()), stiffness};
+    nearest->points->shares((t - nearest->from_s) / nearest->lasts_s, link.share.data());
     links_.push_back(std::move(link));
 }
 
 void PeriodStep::delayed_forces(const Piece& piece, const double* from, const double* to,
                                 double* forces) const {
     const std::size_t d = oscillators_.dimensions();
-    std::fill_n(forces, points_.x.size() * d, 0.0);
+    std::fill_n(forces, piece.points->x.size() * d, 0.0);
     for (std::size_t k = piece.link; k < piece.link + piece.links; ++k) {
         const Link& link = links_[k];
         const double* displacement = (link.last_period ? from : to) + link.first;
@@ -144,10 +153,10 @@ void PeriodStep::delayed_forces(const Piece& piece, const double* from, const do
 }
 
 void PeriodStep::advance(const double* from, double* to) const {
-    const std::size_t n = points_.x.size() * oscillators_.dimensions(), s = states();
+    const std::size_t d = oscillators_.dimensions(), s = states();
     double* state = to + displacements_;
     std::copy_n(from + displacements_, s, state);
-    std::vector<double> input(s + n), output(n + s);
+    std::vector<double> input(s + most_points_ * d), output(s + most_points_ * d);
     for (const Piece& piece : pieces_) {
         std::copy_n(state, s, input.begin());
         if (!piece.cuts) {
@@ -156,12 +165,13 @@ void PeriodStep::advance(const double* from, double* to) const {
                 state[i] = decay[2 * i] * input[i / 2 * 2] + decay[2 * i + 1] * input[i / 2 * 2 + 1];
             continue;
         }
+        const std::size_t n = piece.points->x.size() * d;
         if (one_delay_) {
             std::copy_n(from + piece.first, n, input.begin() + static_cast<std::ptrdiff_t>(s));
         } else {
             delayed_forces(piece, from, to, &input[s]);
         }
-        std::fill(output.begin(), output.end(), 0.0);
+        std::fill_n(output.begin(), n + s, 0.0);
         const double* column = &matrices_[piece.matrix];
         for (std::size_t c = 0; c < s + n; ++c, column += n + s)
             for (std::size_t r = 0; r < n + s; ++r) output[r] += column[r] * input[c];

@@ -32,7 +32,8 @@ class PeriodStep {
     struct Piece {
         double from_s, lasts_s;
         bool cuts;
-        std::size_t answer;      // in answers_
+        std::size_t answer;  // in answers_
+        const GaussPoints* points = nullptr;
         std::size_t first = 0;   // of its displacements
         std::size_t matrix = 0;  // in matrices_: see add_matrix
         std::size_t link = 0, links = 0;
@@ -53,12 +54,11 @@ class PeriodStep {
     const CutFeedback& cut_;
     const Oscillators oscillators_;
     const bool one_delay_;  // of the whole period
-    const GaussPoints& points_;
     std::vector<Oscillators::Answer> answers_;
     std::vector<Piece> pieces_;
     std::vector<Link> links_;
     std::vector<double> matrices_;
-    std::size_t displacements_ = 0;
+    std::size_t displacements_ = 0, most_points_ = 0;
 };
 
 }  // namespace tribo::dynamics

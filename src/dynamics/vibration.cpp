@@ -82,7 +82,7 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, const mil
     const double step_rad = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
     spindle_.set_step(step_rad);
     past_.set_speed(step_rad);
-    in_cut_.engage(slices_, step_rad);
+    in_cut_.engage(slices_.size(), step_rad);
     straight_teeth_.clear();
 }
 
@@ -119,7 +119,7 @@ void Vibration::gather_straight_teeth() {
 
 // The bands of a straight edge, all at one angle.
 inline LaneVec3 Vibration::straight_force(D2 place_mm) {
-    if (in_cut_.update(past_.samples(), spindle_.turn_rad())) gather_straight_teeth();
+    if (in_cut_.update(slices_, past_.samples(), spindle_.turn_rad())) gather_straight_teeth();
     const D2 turn = spindle_.sine_cosine();
     LaneVec3 force_n;
     for (const StraightTooth& t : straight_teeth_) {

@@ -26,7 +26,7 @@ D2 behind(D2 normal, double sine, double cosine) {
 }  // namespace
 
 LaneVec3 Vibration::helical_force() {
-    in_cut_.update(past_.samples(), spindle_.turn_rad());
+    in_cut_.update(slices_, past_.samples(), spindle_.turn_rad());
     Vec3 force_n{};
     Edge edge;
     for (const EdgeInCut& in_cut : in_cut_.list()) {

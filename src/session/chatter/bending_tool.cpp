@@ -51,6 +51,7 @@ void BendingTool::next() {
         }
         largest_mm_ = std::max(largest_mm_, displacement_mm_);
     }
+    if (!rigid_) return;
     added_n_ = added / steps_;
     feed_[0] += kFollow * (feed_now_ - feed_[0]);
     feed_[1] += kFollow * (feed_[0] - feed_[1]);
