@@ -68,19 +68,22 @@ void CutFeedback::for_each_zone(double rotation_rad, Use&& use) const {
 
 Matrix3 CutFeedback::stiffness(int tooth, double t_s) const {
     const double rotation_rad = rotation(tooth, t_s), corner = cutter_.corner_radius_mm();
+    double sine, cosine;
+    math::sincos(rotation_rad, sine, cosine);
     Matrix3 sum{};
     for_each_zone(rotation_rad, [&](EngagedZone cut) {
         if (cut.z0_mm < corner) add_rounded(rotation_rad, {cut.z0_mm, std::min(cut.z1_mm, corner)}, sum);
-        if (cut.z1_mm > corner) add_straight(rotation_rad, {std::max(cut.z0_mm, corner), cut.z1_mm}, sum);
+        if (cut.z1_mm > corner) add_straight(sine, cosine, {std::max(cut.z0_mm, corner), cut.z1_mm}, sum);
     });
     return sum;
 }
 
 // In closed form: a mean over an angle is the value in its middle times sin(x) / x.
-void CutFeedback::add_straight(double rotation_rad, EngagedZone cut, Matrix3& sum) const {
+void CutFeedback::add_straight(double tip_sine, double tip_cosine, EngagedZone cut, Matrix3& sum) const {
     const double height = cut.z1_mm - cut.z0_mm;
-    double sine, cosine;
-    math::sincos(rotation_rad - 0.5 * lag_per_mm_ * (cut.z0_mm + cut.z1_mm), sine, cosine);
+    const milling::HalfSpan lag = milling::half_span(0.5 * lag_per_mm_ * (cut.z0_mm + cut.z1_mm));
+    const double sine = tip_sine * lag.cosine - tip_cosine * lag.sine,
+                 cosine = tip_cosine * lag.cosine + tip_sine * lag.sine;
     const milling::HalfSpan half = milling::half_span(0.5 * std::abs(lag_per_mm_) * height);
     const double once = height * half.sinc;
     const double twice = once * half.cosine;  // of the double angle

@@ -51,7 +51,7 @@ class CutFeedback {
     double rotation(int tooth, double t_s) const;
     // Adds S of a piece of one edge: below the rounded part's top, and above it.
     void add_rounded(double rotation_rad, EngagedZone cut, Matrix3& sum) const;
-    void add_straight(double rotation_rad, EngagedZone cut, Matrix3& sum) const;
+    void add_straight(double tip_sine, double tip_cosine, EngagedZone cut, Matrix3& sum) const;
     void find_events();
 
     milling::Cutter cutter_;

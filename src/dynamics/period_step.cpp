@@ -23,7 +23,11 @@ bool has_one_delay(const CutFeedback& cut) {
 const GaussPoints& points_for(double turn_rad, bool one_delay) {
     static const GaussPoints three(3), four(4), five(5), six(6), eight(8), twelve(12);
     if (!one_delay) return twelve;
-    return turn_rad < 0.2 ? three : turn_rad < 1 ? four : turn_rad < 1.5 ? five : turn_rad < 2.2 ? six : eight;
+    return turn_rad < 0.2   ? three
+           : turn_rad < 1   ? four
+           : turn_rad < 1.5 ? five
+           : turn_rad < 2.2 ? six
+                            : eight;
 }
 
 }  // namespace

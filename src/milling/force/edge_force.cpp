@@ -12,7 +12,7 @@ namespace {
 constexpr double kSeriesRad = 0.5;
 
 void sinc_and_cos(double x, double& sinc, double& cosine) {
-    if (x > kSeriesRad) {
+    if (std::abs(x) > kSeriesRad) {
         double sine;
         math::sincos(x, sine, cosine);
         sinc = sine / x;

@@ -90,7 +90,8 @@ contact::ToolForce force_at_rotation(const EdgeLoad& load, double sin_phi, doubl
 // sin(d/2) / (d/2), every integral is the height times a bounded term.
 contact::ToolForce segment_force(const EdgeLoad& load, double phi_low, double phi_high, double height_mm);
 
-// Half of the span of such a piece, 0 or more, and the sinc factor q of it.
+// Half of the span of such a piece, and the sinc factor q of it; also sine and cosine of any angle, most
+// cheaply of a small one.
 struct HalfSpan {
     double sine = 0, cosine = 1, sinc = 1;
 };
