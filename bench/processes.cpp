@@ -81,6 +81,35 @@ class TemporaryFolder {
     fs::path path_;
 };
 
+// examples/bowl with a mode along x and one along y, and without: what chatter costs along a program. In
+// turn, so that both meet the same load.
+void measure_modes(Report& report, int repeats, const fs::path& folder) {
+    const fs::path bowl = folder / "bowl";
+    std::error_code failed;
+    fs::copy(TRIBO_SOURCE_DIR "/examples/bowl", bowl, failed);
+    if (failed) return report.note("examples/bowl is not there: left out");
+    const std::string rigid = bowl / "bowl.toml", bends = bowl / "bends.toml";
+    fs::copy_file(rigid, bends, failed);
+    for (const char* mode : {"[1, 0, 0]\nfrequency_hz = 922", "[0, 1, 0]\nfrequency_hz = 950"})
+        std::ofstream(bends, std::ios::app)
+            << "\n[[mode]]\ndirection = " << mode << "\ndamping_ratio = 0.011\nstiffness_n_per_mm = 13400\n";
+    std::vector<double> seconds, ratios, processor;
+    for (int n = 0; n < repeats; ++n) {
+        const auto cost = [&](const std::string& job) {
+            return run(TRIBO_PROGRAM, {"render", job, "--out", folder / "out", "--only", "summary"},
+                       folder / "log.txt");
+        };
+        const auto without = cost(rigid), with = cost(bends);
+        if (!without || !with) return report.note("tribo render failed: left out");
+        seconds.push_back(with->seconds);
+        ratios.push_back(with->seconds / without->seconds);
+        processor.push_back(with->processor_s / without->processor_s);
+    }
+    report.add({"examples/bowl with two modes, --only summary", median(seconds), "s"});
+    report.add({"the same over that without modes", median(ratios), "times", 1.3});
+    report.add({"the same, processor time", median(processor), "times"});
+}
+
 }  // namespace
 
 // Comes first: a child's peak memory starts from what this process holds at the fork.
@@ -139,6 +168,7 @@ void measure_processes(Report& report, int repeats) {
         report.add({name + ", processor time over the bandwidth limit",
                     median(processor) / (median(peak) * memory_s_per_mb()), "times"});
     }
+    measure_modes(report, repeats, folder.path());
 }
 
 }  // namespace tribo::bench
