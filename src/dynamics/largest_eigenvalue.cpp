@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math.hpp"
+#include "dynamics/tool_place.hpp"
 
 namespace tribo::dynamics {
 namespace {
@@ -14,10 +15,22 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
+// In four partial sums: one after the other they would wait for each other.
+double dot(const double* a, const double* b, std::size_t size) {
+    D2 even{}, odd{};
+    std::size_t n = 0;
+    for (; n + 4 <= size; n += 4) {
+        even += D2{a[n], a[n + 1]} * D2{b[n], b[n + 1]};
+        odd += D2{a[n + 2], a[n + 3]} * D2{b[n + 2], b[n + 3]};
+    }
+    even += odd;
+    double sum = even[0] + even[1];
+    for (; n < size; ++n) sum += a[n] * b[n];
+    return sum;
+}
+
 double length(const double* v, std::size_t size) {
-    double sum = 0;
-    for (std::size_t n = 0; n < size; ++n) sum += v[n] * v[n];
-    return std::sqrt(sum);
+    return std::sqrt(dot(v, v, size));
 }
 
 // The share of the last basis vector in the eigenvector of a Hessenberg matrix whose lower diagonal has no
@@ -64,8 +77,7 @@ Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
         for (int pass = 0; pass < 2; ++pass) {
             for (std::size_t k = 0; k < count; ++k) {
                 const double* v = &space[k * size];
-                double share = 0;
-                for (std::size_t n = 0; n < size; ++n) share += v[n] * image[n];
+                const double share = dot(v, image.data(), size);
                 for (std::size_t n = 0; n < size; ++n) image[n] -= share * v[n];
                 columns[column + k] += share;
             }
