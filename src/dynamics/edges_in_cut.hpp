@@ -23,11 +23,12 @@ class EdgesInCut {
     // Angles of the teeth ahead of the first one.
     explicit EdgesInCut(std::vector<double> phase_rad) : phase_rad_(std::move(phase_rad)) {}
 
-    // From the next sample on there are as many slices. Allocates for more than before.
+    // From the next sample on there are that many slices, all of unknown state. Allocates for more than
+    // before.
     void engage(std::size_t slices, double step_rad);
 
-    // Call it for each sample; `turn_rad`: rotation of the first tooth, in the first turn. Returns whether
-    // list() has changed. Real-time safe.
+    // Call it for each sample, with the slices; `turn_rad`: rotation of the first tooth, in the first turn.
+    // Returns whether list() has changed. Real-time safe.
     bool update(std::span<const EdgeSlice> slices, std::size_t sample, double turn_rad) {
         return sample >= next_ && find(slices, sample, turn_rad);
     }

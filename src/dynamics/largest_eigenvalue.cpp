@@ -66,6 +66,7 @@ Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
     std::vector<double> space(start);  // orthonormal vectors of `size` numbers
     const double norm = length(space.data(), size);
     for (double& x : space) x /= norm;
+    space.reserve(2 * kFirst * size);
     std::vector<double> columns;  // of the map in that space, one longer each
     std::size_t next = kFirst;
     for (std::size_t count = 1;; ++count) {

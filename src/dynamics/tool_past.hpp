@@ -30,9 +30,8 @@ class ToolPast {
     // A tooth that passed before: how far back, and where the tool stood then.
     struct Passage {
         double back_rad = 0, back_samples = 0;
-        std::size_t back = 0;  // back_samples, rounded up
-        std::size_t even_from =
-            0;  // number of the sample from which on the speed has been the same until now
+        std::size_t back = 0;             // back_samples, rounded up
+        std::size_t even_from = 0;        // number of the sample since which the speed is the same
         std::array<double, 4> weights{};  // of the samples around it then
         std::size_t ahead = 0;            // teeth from this one to that
         std::size_t known_at = 0;         // 1 + number of the sample for which the rest was computed

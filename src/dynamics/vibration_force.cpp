@@ -20,7 +20,7 @@ double at_rotation(const milling::TurnLaw& law, D2 normal) {
 
 // Sine and cosine of a rotation that lags by so much.
 D2 behind(D2 normal, double sine, double cosine) {
-    return both(cosine) * normal + D2{-sine, sine} * D2{normal[1], normal[0]};
+    return both(cosine) * normal + D2{-sine, sine} * swapped(normal);
 }
 
 }  // namespace
