@@ -5,22 +5,9 @@
 
 #include "base/math.hpp"
 #include "milling/engagement/engaged_edges.hpp"
+#include "milling/tool/tooth_phases.hpp"
 
 namespace tribo::dynamics {
-namespace {
-
-std::vector<double> phases(const milling::Cutter& cutter) {
-    std::vector<double> phase_rad;
-    double phase = 0;
-    for (std::size_t tooth = 0; tooth < static_cast<std::size_t>(cutter.flutes); ++tooth) {
-        phase_rad.push_back(phase);
-        phase += cutter.pitch_deg.empty() ? math::kTwoPi / cutter.flutes
-                                          : cutter.pitch_deg[tooth] * math::kRadPerDeg;
-    }
-    return phase_rad;
-}
-
-}  // namespace
 
 double enough_rate_hz(std::span<const Mode> modes, const milling::Cutter& cutter, double spindle_rpm) {
     constexpr double kPerCycle = 20, kPerTooth = 8;
@@ -40,7 +27,7 @@ Vibration::Vibration(std::span<const Mode> modes, const milling::Cutter& cutter,
       rate_hz_(rate_hz),
       straight_(cutter.lag_rad(1) == 0 && cutter.corner_radius_mm() == 0),
       slicer_(cutter),
-      phase_rad_(phases(cutter)),
+      phase_rad_(milling::tooth_phases_rad(cutter)),
       modes_(modes, rate_hz),
       spindle_(rotation_rad),
       past_(cutter, rotation_rad),
