@@ -69,18 +69,19 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, const mil
     const double step_rad = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
     spindle_.set_step(step_rad);
     past_.set_speed(step_rad);
-    in_cut_.engage(slices_.size(), step_rad);
+    in_cut_.engage(slices_.size(), step_rad, straight_);
     straight_teeth_.clear();
 }
 
 void Vibration::gather_straight_teeth() {
     const milling::CuttingCoefficients& k = coefficients_;
     straight_teeth_.clear();
-    double height = 0;
+    double height = 0, height_now = 0;
     const std::span<const EdgeInCut> list = in_cut_.list();
     for (std::size_t n = 0; n < list.size(); ++n) {
         const std::size_t tooth = list[n].tooth;
-        height += slices_[list[n].slice].whole.height_mm;
+        height += list[n].share * slices_[list[n].slice].whole.height_mm;
+        if (list[n].now) height_now += slices_[list[n].slice].whole.height_mm;
         if (n + 1 < list.size() && list[n + 1].tooth == tooth) continue;
         const std::size_t other = tooth + 1 == phase_rad_.size() ? 0 : tooth + 1;
         StraightTooth t;
@@ -99,8 +100,9 @@ void Vibration::gather_straight_teeth() {
         t.edge_n = across(k.kte, k.kre);
         t.axial_per_mm = height * k.kac;
         t.axial_n = height * k.kae;
+        if (height > 0) t.now = height_now / height;
         straight_teeth_.push_back(t);
-        height = 0;
+        height = height_now = 0;
     }
 }
 
@@ -118,8 +120,14 @@ inline LaneVec3 Vibration::straight_force(D2 place_mm) {
             thickness = straight_chip(t.tooth, normal);
             if (!(thickness > 0)) continue;
         }
-        force_n.xy += both(thickness) * t.per_mm(turn) + t.edge_n(turn);
-        force_n.z -= t.axial_per_mm * thickness + t.axial_n;
+        const D2 across = both(thickness) * t.per_mm(turn) + t.edge_n(turn);
+        const double axial = t.axial_per_mm * thickness + t.axial_n;
+        force_n.xy += across;
+        force_n.z -= axial;
+        if (t.now != 1) [[unlikely]] {
+            off_mean_n_.xy += both(t.now - 1) * across;
+            off_mean_n_.z -= (t.now - 1) * axial;
+        }
     }
     return force_n;
 }
@@ -130,11 +138,12 @@ VibrationSample Vibration::step() {
     const ToolPlace& fed = past_.fed();
     place_ = {{fed.tip_mm.xy + foreseen_mm.xy, fed.tip_mm.z + foreseen_mm.z}, fed.turn_rad};
     cut_ = ~TeethThatCut{0};
+    off_mean_n_ = {};
     const LaneVec3 force_n = straight_ && !past_.turns() ? straight_force(place_.tip_mm.xy) : helical_force();
     const LaneVec3 displacement_mm = modes_.step(force_n);
     past_.add(displacement_mm, cut_);
     spindle_.advance();
-    return {displacement_mm.vec3(), force_n.vec3()};
+    return {displacement_mm.vec3(), force_n.vec3() + off_mean_n_.vec3()};
 }
 
 }  // namespace tribo::dynamics

@@ -33,7 +33,8 @@ double enough_rate_hz(std::span<const Mode> modes, const milling::Cutter& cutter
 // and signs as in milling/force/edge_force.hpp: x along the feed, y to its left, z to the shank.
 //
 // A step turns the modes exactly under a constant force: that of the middle of the step, for the displacement
-// which the force before foretells there. Samples stand in the middles of the steps. One thread.
+// which the force before foretells there. A straight edge that enters or leaves within the step counts by its
+// share of it. Samples stand in the middles of the steps. One thread.
 class Vibration {
   public:
     // At rest, with flute 0 at `rotation_rad` from y. `cutter` and `coefficients` must pass their check().
@@ -68,6 +69,7 @@ class Vibration {
         double outward_mm = 0;          // by run-out, than that one
         Turner normal, per_mm, edge_n;  // of the chip; of the force across the axis by mm of it
         double axial_per_mm = 0, axial_n = 0;
+        double now = 1;  // force in the middle of the step over its mean
     };
     // The edge of a tooth at this sample.
     struct Edge {
@@ -112,6 +114,8 @@ class Vibration {
     // At this sample, as foreseen.
     ToolPlace place_;
     TeethThatCut cut_ = 0;
+    // Force in the middle of the step less its mean: where a straight edge enters or leaves.
+    LaneVec3 off_mean_n_;
 };
 
 }  // namespace tribo::dynamics
