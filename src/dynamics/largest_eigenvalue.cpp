@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "dynamics/largest_eigenvalue.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/math.hpp"
+#include "dynamics/hessenberg.hpp"
 #include "dynamics/tool_place.hpp"
 
 namespace tribo::dynamics {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::MatrixXd;
 
 // In four partial sums: one after the other they would wait for each other.
 double dot(const double* a, const double* b, std::size_t size) {
@@ -33,18 +32,24 @@ double length(const double* v, std::size_t size) {
     return std::sqrt(dot(v, v, size));
 }
 
+// Not std::norm and std::abs: they differ between systems.
+double squared(Complex v) {
+    return v.real() * v.real() + v.imag() * v.imag();
+}
+
 // The share of the last basis vector in the eigenvector of a Hessenberg matrix whose lower diagonal has no
 // zero: with 1 as its last number the rows give the others from below (Hyman).
-double last_share(const MatrixXd& h, Complex value) {
-    const Eigen::Index count = h.rows();
-    Eigen::VectorXcd v(count);
+double last_share(const std::vector<double>& h, std::size_t count, Complex value) {
+    std::vector<Complex> v(count);
     v[count - 1] = 1;
-    for (Eigen::Index row = count - 1; row > 0; --row) {
+    double sum_of_squares = 1;
+    for (std::size_t row = count - 1; row > 0; --row) {
         Complex sum = value * v[row];
-        for (Eigen::Index k = row; k < count; ++k) sum -= h(row, k) * v[k];
-        v[row - 1] = sum / h(row, row - 1);
+        for (std::size_t k = row; k < count; ++k) sum -= h[row * count + k] * v[k];
+        v[row - 1] = sum / h[row * count + row - 1];
+        sum_of_squares += squared(v[row - 1]);
     }
-    return 1 / v.norm();
+    return 1 / std::sqrt(sum_of_squares);
 }
 
 }  // namespace
@@ -88,17 +93,17 @@ Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
         constexpr double kNothing = 1e-14;
         const bool whole = left <= kNothing * before || count == size;
         if (whole || count == next) {
-            const auto n = static_cast<Eigen::Index>(count);
-            MatrixXd h = MatrixXd::Zero(n, n);
+            std::vector<double> h(count * count);
             std::size_t at = 0;
-            for (Eigen::Index c = 0; c < n; ++c) {
-                for (Eigen::Index r = 0; r <= c + 1; ++r, ++at)
-                    if (r < n) h(r, c) = columns[at];
+            for (std::size_t c = 0; c < count; ++c) {
+                for (std::size_t r = 0; r <= c + 1; ++r, ++at)
+                    if (r < count) h[r * count + c] = columns[at];
             }
             Complex largest = 0;
-            for (const Complex& value : h.eigenvalues())
-                if (std::abs(value) > std::abs(largest)) largest = value;
-            if (whole || left * last_share(h, largest) <= kResidual * std::abs(largest)) return largest;
+            for (const Complex& value : hessenberg_eigenvalues(h, count))
+                if (squared(value) > squared(largest)) largest = value;
+            if (whole || left * last_share(h, count, largest) <= kResidual * std::sqrt(squared(largest)))
+                return largest;
             next += next / 2;
         }
         for (const double x : image) space.push_back(x / left);

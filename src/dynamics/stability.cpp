@@ -15,6 +15,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Not std::abs: it differs between systems.
+double size(Complex v) {
+    return std::sqrt(v.real() * v.real() + v.imag() * v.imag());
+}
+
 // The line that the modes answer most, of those that a multiplier at this angle has.
 double chatter_line(std::span<const Mode> modes, double angle_rad, double period_s) {
     double fastest = 0;
@@ -26,7 +31,7 @@ double chatter_line(std::span<const Mode> modes, double angle_rad, double period
             const double hz = (sign * angle_rad / math::kTwoPi + n) / period_s;
             if (hz < 0) continue;
             double answer = 0;
-            for (const Mode& mode : modes) answer = std::max(answer, std::abs(receptance(mode, hz)));
+            for (const Mode& mode : modes) answer = std::max(answer, size(receptance(mode, hz)));
             if (answer > most) {
                 most = answer;
                 best = hz;
@@ -43,8 +48,8 @@ Stability stability(std::span<const Mode> modes, const CutFeedback& cut) {
     const Complex largest = largest_eigenvalue(
         step.size(), step.states(), [&](const double* from, double* to) { step.advance(from, to); });
     Stability s;
-    s.multiplier = std::abs(largest);
-    s.angle_rad = std::abs(std::arg(largest));
+    s.multiplier = size(largest);
+    s.angle_rad = std::abs(math::atan2(largest.imag(), largest.real()));
     s.period_s = cut.period_s();
     s.chatter_hz = chatter_line(modes, s.angle_rad, s.period_s);
     constexpr double kTurned = 1e-6;  // rad

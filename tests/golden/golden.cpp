@@ -10,6 +10,7 @@ std::span<const Golden> goldens() {
                                           {"motion", motion},
                                           {"field", field},
                                           {"force", force},
+                                          {"dynamics", dynamics},
                                           {"elastic", elastic},
                                           {"formats", readers},
                                           {"mill_three_axes", mill_three_axes},

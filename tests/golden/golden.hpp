@@ -22,6 +22,7 @@ std::uint64_t noise_hash();
 std::uint64_t motion();
 std::uint64_t field();
 std::uint64_t force();
+std::uint64_t dynamics();
 std::uint64_t elastic();
 std::uint64_t readers();
 std::uint64_t surface();

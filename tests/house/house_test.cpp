@@ -127,7 +127,6 @@ TEST(House, the_version_is_one) {
 TEST(House, the_notice_names_what_is_linked_and_bundled) {
     const std::string notice = read(kRoot / "NOTICE");
     const std::map<std::string, std::string> libraries{
-        {"libeigen3-dev", "Eigen"},
         {"libtbb-dev", "oneTBB"},
         {"libcli11-dev", "CLI11"},
         {"libtomlplusplus-dev", "toml++"},
