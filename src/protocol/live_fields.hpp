@@ -80,6 +80,17 @@ void fields(Wire& wire, FrameOf<Wire, LiveDesigned> designed) {
     wire.mesh(designed.mesh);
 }
 
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveChatter> chatter) {
+    wire.f32("multiplier", chatter.multiplier);
+    wire.f32("chatter_hz", chatter.chatter_hz);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveChatterNow> now) {
+    fields(wire, now.of);
+    wire.f32("axial_depth_mm", now.axial_depth_mm);
+}
+
 template <>
 inline constexpr LiveFrame kKindOf<LiveState> = LiveFrame::state;
 template <class Wire>
@@ -99,6 +110,8 @@ void fields(Wire& wire, FrameOf<Wire, LiveState> state) {
     wire.u32("line", state.line);
     wire.u32("cutter", state.cutter);
     wire.flags(Flag{"cutting", state.cutting}, Flag{"playing", state.playing}, Flag{"rapid", state.rapid});
+    wire.added();
+    wire.last_item("chatter", state.chatter);
 }
 
 template <>
@@ -159,6 +172,25 @@ void fields(Wire& wire, FrameOf<Wire, LiveSoundPiece> piece) {
     wire.list("harmonics", piece.harmonics);
 }
 template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveBand> band) {
+    wire.f32("z0_mm", band.z0_mm);
+    wire.f32("z1_mm", band.z1_mm);
+    wire.f32("entry_rad", band.entry_rad);
+    wire.f32("exit_rad", band.exit_rad);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveTeeth> teeth) {
+    wire.u32("cutter", teeth.cutter);
+    wire.point("feed", teeth.feed);
+    wire.point("head", teeth.head);
+    wire.point("axis", teeth.axis);
+    wire.f32("across_mm", teeth.across_mm);
+    wire.f32("down_mm", teeth.down_mm);
+    wire.f32("turn_x_rad", teeth.turn_x_rad);
+    wire.f32("turn_y_rad", teeth.turn_y_rad);
+    wire.list("bands", teeth.bands);
+}
+template <class Wire>
 void fields(Wire& wire, FrameOf<Wire, LiveSoundPieces> sound) {
     wire.time_of_first(sound.pieces);
     wire.list("pieces", sound.pieces);
@@ -167,6 +199,9 @@ void fields(Wire& wire, FrameOf<Wire, LiveSoundPieces> sound) {
         of.i32("edges", piece.edges);
         of.f32("mean_torque_nmm", piece.mean_torque_nmm);
     });
+    wire.last_each(
+        "teeth", sound.pieces, [](const LiveSoundPiece& piece) { return !piece.teeth.bands.empty(); },
+        [](Wire& of, FrameOf<Wire, LiveSoundPiece> piece) { fields(of, piece.teeth); });
 }
 
 template <>
@@ -247,6 +282,69 @@ void fields(Wire& wire, FrameOf<Wire, LivePathPoint> point) {
 template <class Wire>
 void fields(Wire& wire, FrameOf<Wire, LivePath> path) {
     wire.list("points", path.points);
+}
+
+template <>
+inline constexpr LiveFrame kKindOf<LiveBending> = LiveFrame::bending;
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, dynamics::Mode> mode) {
+    wire.vec3("direction", mode.direction);
+    wire.f64("frequency_hz", mode.frequency_hz);
+    wire.f64("damping_ratio", mode.damping_ratio);
+    wire.f64("stiffness_n_per_mm", mode.stiffness_n_per_mm);
+    wire.u32("on", mode.on);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveBendingCutter> of) {
+    auto& cutter = of.cutter;
+    wire.f64("fastest_rpm", of.fastest_rpm);
+    wire.u32("kind", cutter.kind);
+    wire.u32("flutes", cutter.flutes);
+    wire.f64("diameter_mm", cutter.diameter_mm);
+    wire.f64("corner_mm", cutter.corner_mm);
+    wire.f64("helix_deg", cutter.helix_deg);
+    wire.f64("length_mm", cutter.length_mm);
+    wire.f64("runout_mm", cutter.runout_mm);
+    wire.f64("runout_deg", cutter.runout_deg);
+    wire.numbers("pitch_deg", cutter.pitch_deg);
+    wire.list("modes", of.modes);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveBending> bending) {
+    auto& k = bending.coefficients;
+    wire.f64("ktc_n_per_mm2", k.ktc);
+    wire.f64("krc_n_per_mm2", k.krc);
+    wire.f64("kac_n_per_mm2", k.kac);
+    wire.f64("kte_n_per_mm", k.kte);
+    wire.f64("kre_n_per_mm", k.kre);
+    wire.f64("kae_n_per_mm", k.kae);
+    wire.list("cutters", bending.cutters);
+}
+
+template <>
+inline constexpr LiveFrame kKindOf<LiveMultipliers> = LiveFrame::multipliers;
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveMultipliers> multipliers) {
+    wire.u32("first", multipliers.first);
+    wire.list("rows", multipliers.rows);
+}
+
+template <>
+inline constexpr LiveFrame kKindOf<LiveChart> = LiveFrame::chart;
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LivePocket> pocket) {
+    wire.f32("spindle_rpm", pocket.spindle_rpm);
+    wire.f32("depth_mm", pocket.depth_mm);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveChart> chart) {
+    wire.f32("from_rpm", chart.from_rpm);
+    wire.f32("step_rpm", chart.step_rpm);
+    wire.f32("step_mm", chart.step_mm);
+    wire.u32("depths", chart.depths);
+    wire.numbers("limits_mm", chart.limits_mm);
+    wire.numbers("multipliers", chart.multipliers);
+    wire.list("pockets", chart.pockets);
 }
 
 }  // namespace tribo::protocol

@@ -80,12 +80,34 @@ class Writer {
     void each(const char*, const std::vector<Item>& items, const Visit& visit) {
         for (const Item& item : items) visit(*this, item);
     }
-    // Of no values nothing is written: the frame ends sooner.
-    void last_floats(const char* name, const std::vector<float>& values) {
-        if (values.empty()) return;
+    template <class Number>
+    void numbers(const char* name, const std::vector<Number>& values) {
         u32(name, values.size());
-        out_.reserve(out_.size() + 4 * values.size());
-        for (const float v : values) f32(v);
+        out_.reserve(out_.size() + sizeof(Number) * values.size());
+        for (const Number v : values) {
+            if constexpr (std::is_same_v<Number, float>) {
+                f32(v);
+            } else {
+                f64("", v);
+            }
+        }
+    }
+    // Of no values nothing is written, here and in the next two: the frame ends sooner.
+    void last_floats(const char* name, const std::vector<float>& values) {
+        if (!values.empty()) numbers(name, values);
+    }
+    template <class Item>
+    void last_item(const char* name, const std::optional<Item>& item) {
+        if (!item) return;
+        u32(name, 1);
+        fields(*this, *item);
+    }
+    // If any item has a value.
+    template <class Item, class Has, class Visit>
+    void last_each(const char* name, const std::vector<Item>& items, const Has& has, const Visit& visit) {
+        if (std::none_of(items.begin(), items.end(), has)) return;
+        u32(name, items.size());
+        each(name, items, visit);
     }
     void mesh(const TriangleMesh& mesh) {
         assert(mesh.positions.size() <= 65536);
@@ -184,7 +206,7 @@ class Reader {
     void list(const char*, std::vector<Item>& items) {
         std::uint32_t told = 0;
         u32("", told);
-        read_while(items, [&](std::size_t n) { return n < told && whole_; });
+        read_while(items, [&](std::size_t n) { return n < told && whole_ && (has(1) || !added_); });
     }
     template <class Item>
     void rest(const char*, std::vector<Item>& items, std::size_t item_bytes) {
@@ -194,11 +216,42 @@ class Reader {
     void each(const char*, std::vector<Item>& items, const Visit& visit) {
         for (Item& item : items) visit(*this, item);
     }
-    void last_floats(const char*, std::vector<float>& values) {
+    template <class Number>
+    void numbers(const char*, std::vector<Number>& values) {
         std::uint32_t told = 0;
         u32("", told);
-        values.resize(has(4 * std::uint64_t{told}) ? told : 0);
-        for (float& v : values) v = f32();
+        const bool there = has(sizeof(Number) * std::uint64_t{told});
+        whole_ = whole_ && (there || added_);
+        values.resize(there ? told : 0);
+        for (Number& v : values) {
+            if constexpr (std::is_same_v<Number, float>) {
+                v = f32();
+            } else {
+                f64("", v);
+            }
+        }
+    }
+    void last_floats(const char* name, std::vector<float>& values) { numbers(name, values); }
+    template <class Item>
+    void last_item(const char*, std::optional<Item>& item) {
+        std::uint32_t told = 0;
+        u32("", told);
+        item.reset();
+        if (told != 1) return;
+        Item there;
+        fields(*this, there);
+        if (at_ <= bytes_.size()) item = std::move(there);
+    }
+    // Values that are cut off are none.
+    template <class Item, class Has, class Visit>
+    void last_each(const char*, std::vector<Item>& items, const Has&, const Visit& visit) {
+        std::uint32_t told = 0;
+        u32("", told);
+        const bool told_all = told == items.size();
+        for (Item& item : items) {
+            if (!told_all) at_ = bytes_.size() + 1;
+            visit(*this, item);
+        }
     }
     void mesh(TriangleMesh& mesh) {
         std::uint32_t vertices = 0, triangles = 0;
@@ -299,6 +352,9 @@ TRIBO_FRAME(LiveServo);
 TRIBO_FRAME(LiveTexture);
 TRIBO_FRAME(job::Listening);
 TRIBO_FRAME(LivePath);
+TRIBO_FRAME(LiveBending);
+TRIBO_FRAME(LiveMultipliers);
+TRIBO_FRAME(LiveChart);
 template bool read_frame(std::span<const std::uint8_t>, LiveChunkPlace&);
 #undef TRIBO_FRAME
 

@@ -13,7 +13,10 @@
 #include <vector>
 
 #include "base/mesh.hpp"
+#include "dynamics/mode.hpp"
 #include "job/listening.hpp"
+#include "milling/tool/coefficients.hpp"
+#include "milling/tool/cutter.hpp"
 
 namespace tribo::protocol {
 
@@ -33,6 +36,9 @@ enum class LiveFrame : std::uint8_t {
     listening = 10,
     designed = 11,
     path = 12,
+    bending = 13,
+    multipliers = 14,
+    chart = 15,
 };
 
 // Takes one whole frame; the bytes are valid during the call only.
@@ -75,6 +81,17 @@ struct LiveDesigned {
     TriangleMesh mesh;
 };
 
+// Whether a cut chatters (dynamics/stability.hpp).
+struct LiveChatter {
+    float multiplier = 0;  // 0: not known
+    float chatter_hz = 0;
+};
+// Of the cut at the clock.
+struct LiveChatterNow {
+    LiveChatter of;
+    float axial_depth_mm = 0;
+};
+
 // What the tool does at one moment of the program.
 struct LiveState {
     double t_s = 0;
@@ -87,6 +104,7 @@ struct LiveState {
     double speed = 1;        // seconds of the program per second
     std::uint32_t line = 0, cutter = 0;
     bool cutting = false, playing = false, rapid = false;
+    std::optional<LiveChatterNow> chatter{};  // of a job with modes, while it cuts
 };
 
 // One row of the plots and of the coloured path.
@@ -114,6 +132,16 @@ struct LiveCollision {
 
 // Force along the feed, to its left, to the shank, N.
 using LiveHarmonic = std::array<std::complex<float>, 3>;
+// The cut of a piece as a vibration needs it, from what the teeth cut to the frame of the tool.
+struct LiveBand {
+    float z0_mm = 0, z1_mm = 0, entry_rad = 0, exit_rad = 0;  // as milling::EngagementBand
+};
+struct LiveTeeth {
+    std::uint32_t cutter = 0;                             // of LiveBending
+    Point3f feed{1, 0, 0}, head{1, 0, 0}, axis{0, 0, 1};  // x of the head (session::head_frame())
+    float across_mm = 0, down_mm = 0, turn_x_rad = 0, turn_y_rad = 0;  // as milling::ToolTravel, per tooth
+    std::vector<LiveBand> bands;                                       // of the edges along the cutter
+};
 // A piece of the cut for the ear, in the precision of the frame: a sound made in this process and one made
 // from the frames are the same, bit by bit.
 struct LiveSoundPiece {
@@ -128,9 +156,41 @@ struct LiveSoundPiece {
     std::vector<LiveHarmonic> harmonics;  // the mean first
     int edges = 0;                        // of the cutter
     float mean_torque_nmm = 0;
+    LiveTeeth teeth;  // without bands: nothing vibrates in it
 };
 struct LiveSoundPieces {
     std::vector<LiveSoundPiece> pieces;
+};
+
+// What bends while the pieces of sound that follow are cut. None is sent of a job without modes.
+struct LiveBendingCutter {
+    milling::Cutter cutter;  // without its holder
+    double fastest_rpm = 0;  // at the highest override
+    std::vector<dynamics::Mode> modes;
+};
+struct LiveBending {
+    milling::CuttingCoefficients coefficients;
+    std::vector<LiveBendingCutter> cutters;  // those of the job frame
+};
+
+// Multipliers of rows, by the number of the row since LiveRows::anew or the job. Later ones replace earlier
+// ones.
+struct LiveMultipliers {
+    std::uint32_t first = 0;
+    std::vector<LiveChatter> rows;
+};
+
+// Speeds and depths at which the cut at the clock chatters.
+struct LivePocket {
+    double spindle_rpm = 0, depth_mm = 0;  // as dynamics::SafePocket
+};
+struct LiveChart {
+    double from_rpm = 0, step_rpm = 0;  // speeds: from_rpm + n step_rpm
+    double step_mm = 0;                 // depths: (n + 1) step_mm
+    std::uint32_t depths = 0;
+    std::vector<float> limits_mm;     // one per speed; 0: not computed yet; NaN: stable to the last depth
+    std::vector<float> multipliers;   // speed by speed, all depths of each; 0: not computed yet
+    std::vector<LivePocket> pockets;  // the deepest first; none before all is computed
 };
 
 // The hand's finger, and what it feels.

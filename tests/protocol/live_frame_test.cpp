@@ -4,6 +4,7 @@
 // test with TRIBO_STORE_FRAMES=1, then read what it has stored.
 #include "protocol/live_frame.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -93,9 +94,22 @@ class Teller {
         told["triangles"] = mesh.triangles;
     }
 
-    void last_floats(const char* name, const std::vector<float>& values) {
+    template <class Number>
+    void numbers(const char* name, const std::vector<Number>& values) {
         told[name] = Json::array();
-        for (const float v : values) told[name].push_back(std::isnan(v) ? Json() : Json(v));
+        for (const Number v : values) told[name].push_back(std::isnan(v) ? Json() : Json(v));
+    }
+    void last_floats(const char* name, const std::vector<float>& values) { numbers(name, values); }
+    template <class Item>
+    void last_item(const char* name, const std::optional<Item>& item) {
+        if (!item) return;
+        Teller of;
+        fields(of, *item);
+        told[name] = std::move(of.told);
+    }
+    template <class Item, class Has, class Visit>
+    void last_each(const char* name, const std::vector<Item>& items, const Has& has, const Visit& visit) {
+        if (std::any_of(items.begin(), items.end(), has)) each(name, items, visit);
     }
 
     Json told = Json::object();
@@ -135,6 +149,7 @@ void expect_as_stored(const Frame& frame, const std::string& name) {
     bool grew = std::is_same_v<Frame, LiveJob> || std::is_same_v<Frame, LiveSoundPieces> ||
                 std::is_same_v<Frame, job::Listening>;
     if constexpr (std::is_same_v<Frame, LiveChunk>) grew = !frame.deviations_mm.empty();
+    if constexpr (std::is_same_v<Frame, LiveState>) grew = frame.chatter.has_value();
     const bool rows = std::is_same_v<Frame, LiveRows> && bytes.size() > header_bytes + count_bytes;
     const bool ends_anywhere = std::is_same_v<Frame, LiveTexture> && bytes.size() > header_bytes;
     EXPECT_EQ(whole > 0, grew || rows || ends_anywhere) << whole;
@@ -170,31 +185,29 @@ TEST(LiveFrames, AreTheStoredBytes) {
     const float none = std::numeric_limits<float>::quiet_NaN();
     expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {0.25f, none, -0.5f}}, "compared_chunk");
     expect_as_stored(LiveDesigned{mesh()}, "designed");
-    expect_as_stored(LiveState{1.25,
-                               {1, 2, 3},
-                               {0, 0.5, 0.75},
-                               {4, 5, 6},
-                               100,
-                               2,
-                               6000,
-                               900,
-                               0.5,
-                               7,
-                               1.5,
-                               10,
-                               42,
-                               1,
-                               true,
-                               false,
-                               true},
-                     "state");
+    LiveState state{1.25, {1, 2, 3}, {0, 0.5, 0.75}, {4, 5, 6}, 100, 2, 6000, 900, 0.5, 7, 1.5, 10,
+                    42,   1,         true,           false,     true};
+    expect_as_stored(state, "state");
+    state.chatter = {{1.5f, 907.5f}, 0.75f};
+    expect_as_stored(state, "chattering_state");
     const LiveRow row{2.25, 2.75, {1, 2, 3}, 10, 20, 0.25, 1, 2, 5, 0.125, 9, 0.0625, 2};
     expect_as_stored(LiveRows{true, {row, {2.75, 3, {4, 5, 6}, 1, 2, 3, 4, 5, 6, 7, 8, 0.25, 1}}}, "rows");
     expect_as_stored(LiveRows{}, "no_rows");
     expect_as_stored(LiveCollision{4.5, 2, 17, {1, 2, 3}}, "collision");
-    LiveSoundPiece piece{2.5, 0.5f, {1, 2, 3}, 0.25f, 628, 1.5f, 40, 2, {}, 3, 250};
+    LiveSoundPiece piece{2.5, 0.5f, {1, 2, 3}, 0.25f, 628, 1.5f, 40, 2, {}, 3, 250, {}};
     piece.harmonics = {{1, 2, 3}, {std::complex{4.f, 5.f}, std::complex{6.f, 7.f}, std::complex{8.f, 9.f}}};
-    expect_as_stored(LiveSoundPieces{{piece, {3, 0.25f, {}, 0, 100, 1, 0, 1, {}, 4, 0}}}, "sound");
+    expect_as_stored(LiveSoundPieces{{piece, {3, 0.25f, {}, 0, 100, 1, 0, 1, {}, 4, 0, {}}}}, "sound");
+    LiveSoundPiece vibrates = piece;
+    vibrates.teeth = {1,
+                      {0, 1, 0},
+                      {0.5f, 0, 0.25f},
+                      {0, 0.5f, 0.75f},
+                      0.125f,
+                      0.25f,
+                      0.5f,
+                      -0.5f,
+                      {{0, 1, 0.25f, 2}, {1, 2.5f, 0.5f, 1.5f}}};
+    expect_as_stored(LiveSoundPieces{{vibrates, piece}}, "vibrating_sound");
     expect_as_stored(LiveTouch{1.5, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10, true, false, true, false, true},
                      "finger");
     expect_as_stored(LiveServo{1.5, 1000, 2, 4, 1000, 3, 1.5, {1, 2, 3, 4}, {5, 6, 7, 8}}, "servo");
@@ -213,6 +226,22 @@ TEST(LiveFrames, AreTheStoredBytes) {
     listening.workshop = {1, 2, sound::ChipMaterial::titanium, 1, 2, 3, 4};
     expect_as_stored(listening, "listening");
     expect_as_stored(LivePath{{{0, {1, 2, 3}, true}, {0.5, {4, 5, 6}, false}}}, "path");
+    LiveBending bending;
+    const dynamics::Mode of_tool{{1, 0, 0}, 922.5, 0.0625, 1340, dynamics::ModeOn::tool},
+        of_part{{0, 1, 0.5}, 1400, 0.125, 2000, dynamics::ModeOn::part};
+    bending.coefficients = {600, 200, 100, 4, 3, 2};
+    milling::Cutter bull;
+    bull.kind = milling::CutterKind::bull;
+    bull.corner_mm = 1.5;
+    bull.runout_mm = 0.125;
+    bull.runout_deg = 45;
+    bull.pitch_deg = {175, 185};
+    bending.cutters = {{bull, 24000, {of_tool, of_part}}, {milling::Cutter{}, 9000, {}}};
+    expect_as_stored(bending, "bending");
+    expect_as_stored(LiveMultipliers{7, {{0.5f, 930}, {1.25f, 907.5f}, {}}}, "multipliers");
+    expect_as_stored(
+        LiveChart{4000, 100, 0.25, 2, {0.375f, none, 0}, {0.5f, 1.25f, 0.25f, 0.75f, 0, 0}, {{4100, 0.5}}},
+        "chart");
 }
 
 TEST(LiveFrames, KeepAMeshWithinAStepOfItsBox) {
@@ -242,6 +271,24 @@ TEST(LiveFrames, ThatSayTooMuchAreRefused) {
         LiveSoundPieces read;
         (void)read_frame(damaged, read);
         EXPECT_LE(read.pieces.size(), 4u);
+    }
+    LiveSoundPieces vibrating{std::vector<LiveSoundPiece>(3)};
+    for (LiveSoundPiece& piece : vibrating.pieces) piece.teeth.bands.resize(2);
+    write_frame(vibrating, bytes);
+    for (std::size_t at = 16; at + 4 <= bytes.size(); at += 4) {
+        Bytes damaged = bytes;
+        std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(at), 4, std::uint8_t{0xff});
+        LiveSoundPieces read;
+        (void)read_frame(damaged, read);
+        for (const LiveSoundPiece& piece : read.pieces) EXPECT_LE(piece.teeth.bands.size(), bytes.size());
+    }
+    write_frame(LiveChart{4000, 100, 0.25, 1, {1, 2}, {1, 2}, {}}, bytes);
+    LiveChart damaged_chart;
+    for (std::size_t at = 28; at + 4 <= bytes.size(); at += 4) {
+        Bytes damaged = bytes;
+        std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(at), 4, std::uint8_t{0xff});
+        (void)read_frame(damaged, damaged_chart);
+        EXPECT_LE(damaged_chart.multipliers.size(), bytes.size());
     }
     write_frame(LiveDesigned{mesh()}, bytes);
     std::fill_n(bytes.begin() + 16, 8, std::uint8_t{0xff});

@@ -67,6 +67,8 @@ export interface StateFrame {
   cutting: boolean;
   playing: boolean;
   rapid: boolean;
+  // Of the cut, where something bends.
+  chatter: { multiplier: number; hz: number; depth: number } | undefined;
 }
 
 export type ChipVerdict = "" | "rubbing" | "overload";
@@ -86,6 +88,8 @@ export interface Row {
   // The thickest chip. Earlier engines do not send it: then 0, and no verdict.
   chip: number;
   chipVerdict: ChipVerdict;
+  // Of a MultipliersFrame; 0: none.
+  multiplier: number;
 }
 
 export interface RowsFrame {
@@ -169,6 +173,34 @@ export interface DesignedFrame {
   indices: Uint16Array;
 }
 
+// What bends; only the ear reads it.
+export interface BendingFrame {
+  kind: "bending";
+}
+
+// Multipliers of the rows from the `first` on, by their number since all were sent. 0: none.
+export interface MultipliersFrame {
+  kind: "multipliers";
+  first: number;
+  multipliers: Float32Array;
+}
+
+// Where the cut at the clock chatters.
+export interface ChartFrame {
+  kind: "chart";
+  // Speeds: fromRpm + n stepRpm; depths: (n + 1) stepMm.
+  fromRpm: number;
+  stepRpm: number;
+  stepMm: number;
+  depths: number;
+  // One per speed; 0: not computed yet; NaN: stable to the last depth.
+  limits: Float32Array;
+  // Speed by speed, all depths of each; 0: not computed yet.
+  multipliers: Float32Array;
+  // The deepest first.
+  pockets: { rpm: number; depth: number }[];
+}
+
 // An unknown kind; newer engines may send others.
 export interface OtherFrame {
   kind: "other";
@@ -187,6 +219,9 @@ export type Frame =
   | ListeningFrame
   | DesignedFrame
   | PathFrame
+  | BendingFrame
+  | MultipliersFrame
+  | ChartFrame
   | OtherFrame;
 
 const COLLISIONS = ["rapid through stock", "shank in stock", "holder in stock", "tool in fixture", "holder in fixture"];
@@ -271,6 +306,12 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       return { kind: "designed", ...decodeMesh(r, buffer) };
     case 12:
       return decodePath(r);
+    case 13:
+      return { kind: "bending" };
+    case 14:
+      return decodeMultipliers(r);
+    case 15:
+      return decodeChart(r);
     default:
       return { kind: "other" };
   }
@@ -349,6 +390,24 @@ function decodePiece(r: Reader): Piece {
   return { ...piece, harmonics };
 }
 
+function decodeMultipliers(r: Reader): MultipliersFrame {
+  const first = r.u32();
+  const multipliers = new Float32Array(r.u32());
+  for (let n = 0; n < multipliers.length; ++n) {
+    multipliers[n] = r.f32();
+    r.f32(); // its frequency
+  }
+  return { kind: "multipliers", first, multipliers };
+}
+
+function decodeChart(r: Reader): ChartFrame {
+  const floats = () => Float32Array.from({ length: r.u32() }, () => r.f32());
+  const [fromRpm, stepRpm, stepMm, depths] = [r.f32(), r.f32(), r.f32(), r.u32()];
+  const [limits, multipliers] = [floats(), floats()];
+  const pockets = Array.from({ length: r.u32() }, () => ({ rpm: r.f32(), depth: r.f32() }));
+  return { kind: "chart", fromRpm, stepRpm, stepMm, depths, limits, multipliers, pockets };
+}
+
 function decodeFinger(r: Reader): FingerFrame {
   const finger = { kind: "finger" as const, hand: r.vec3(), proxy: r.vec3(), force: r.vec3(), slip: r.f32() };
   const flags = r.u32();
@@ -392,7 +451,9 @@ function decodeState(r: Reader, time: number): StateFrame {
     cutter: r.u32(),
   };
   const flags = r.u32();
-  return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0 };
+  const bends = r.left() >= 16 && r.u32() === 1;
+  const chatter = bends ? { multiplier: r.f32(), hz: r.f32(), depth: r.f32() } : undefined;
+  return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0, chatter };
 }
 
 function decodeRows(r: Reader): Row[] {
@@ -421,5 +482,6 @@ function decodeRow(r: Reader): Row {
     line: r.u32(),
     chip: 0,
     chipVerdict: "",
+    multiplier: 0,
   };
 }

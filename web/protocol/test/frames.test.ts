@@ -141,6 +141,7 @@ describe("decodeFrame", () => {
           line: 9,
           chip: 0,
           chipVerdict: "",
+          multiplier: 0,
         },
       ],
     });

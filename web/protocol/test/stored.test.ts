@@ -25,6 +25,14 @@ const mesh = (told: Told) => ({
   indices: new Uint16Array(flat(told.triangles)),
 });
 
+const chatter = (told: Told | undefined) =>
+  told && {
+    multiplier: told.multiplier as number,
+    hz: told.chatter_hz as number,
+    depth: told.axial_depth_mm as number,
+  };
+const floats = (told: unknown) => Float32Array.from(told as (number | null)[], (value) => value ?? Number.NaN);
+
 // What the page's frame is, out of the fields that the engine names.
 const MEANING: Record<string, (told: Told) => Frame> = {
   job: (told) => ({
@@ -49,7 +57,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     kind: "chunk",
     chunk: [told.i, told.j, told.k] as never,
     ...mesh(told),
-    deviations: new Float32Array((told.deviations_mm as (number | null)[]).map((off) => off ?? Number.NaN)),
+    deviations: floats(told.deviations_mm),
   }),
   designed: (told) => ({ kind: "designed", ...mesh(told) }),
   state: (told) => ({
@@ -71,6 +79,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     cutting: told.cutting as boolean,
     playing: told.playing as boolean,
     rapid: told.rapid as boolean,
+    chatter: chatter(told.chatter as Told | undefined),
   }),
   rows: (told) => ({
     kind: "rows",
@@ -89,6 +98,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
       line: row.line as number,
       chip: list(told.of_rows)[n]!.chip_mm as number,
       chipVerdict: (["", "rubbing", "overload"] as const)[list(told.of_rows)[n]!.chip_verdict as number]!,
+      multiplier: 0,
     })),
   }),
   collision: (told) => ({
@@ -150,6 +160,25 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     times: new Float32Array(list(told.points).map((point) => point.t_s as number)),
     points: new Float32Array(list(told.points).flatMap((point) => flat(point.tip_mm))),
     rapid: new Uint8Array(list(told.points).map((point) => Number(point.rapid))),
+  }),
+  bending: () => ({ kind: "bending" }),
+  multipliers: (told) => ({
+    kind: "multipliers",
+    first: told.first as number,
+    multipliers: new Float32Array(list(told.rows).map((row) => row.multiplier as number)),
+  }),
+  chart: (told) => ({
+    kind: "chart",
+    fromRpm: told.from_rpm as number,
+    stepRpm: told.step_rpm as number,
+    stepMm: told.step_mm as number,
+    depths: told.depths as number,
+    limits: floats(told.limits_mm),
+    multipliers: floats(told.multipliers),
+    pockets: list(told.pockets).map((pocket) => ({
+      rpm: pocket.spindle_rpm as number,
+      depth: pocket.depth_mm as number,
+    })),
   }),
 };
 
