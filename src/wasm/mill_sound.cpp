@@ -44,17 +44,20 @@ TRIBO_EXPORT(sound_open) std::uint32_t sound_open(double sample_rate_hz) {
     return 1;
 }
 
-// Takes frames of the kinds job, listening and sound. Other and damaged frames are ignored.
+// Takes frames of the kinds job, listening, bending and sound. Other and damaged frames are ignored.
 TRIBO_EXPORT(sound_take) void sound_take(const std::uint8_t* bytes, std::uint32_t length) {
     using tribo::protocol::LiveFrame;
     if (!ear().sound) return;
     const std::span<const std::uint8_t> frame(bytes, length);
     const auto kind = tribo::protocol::frame_kind(frame);
     tribo::job::Listening listening;
+    tribo::protocol::LiveBending bending;
     if (kind == LiveFrame::job) {
         ear().sound->begin_job();
     } else if (kind == LiveFrame::listening && tribo::protocol::read_frame(frame, listening)) {
         ear().sound->take(listening);
+    } else if (kind == LiveFrame::bending && tribo::protocol::read_frame(frame, bending)) {
+        ear().sound->take(bending);
     } else if (kind == LiveFrame::sound && tribo::protocol::read_frame(frame, ear().pieces)) {
         ear().sound->take(ear().pieces);
     }

@@ -30,7 +30,10 @@ SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup, std:
 }
 
 std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup) {
-    const SteadyCut cut = steady_cut_of(row, setup, kRowBands);
+    return stability_of(steady_cut_of(row, setup, kRowBands));
+}
+
+std::optional<dynamics::Stability> stability_of(const SteadyCut& cut) {
     const double depth = cut.axial_depth_mm;
     if (cut.spindle_rpm < cut.least_rpm(depth)) return std::nullopt;
     return cut.at(cut.spindle_rpm, depth);

@@ -16,7 +16,9 @@ inline constexpr std::size_t kRowBands = 4;    // for all rows of a program: eno
 // bottom are left out. The setup is that of the run that made the row.
 SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup, std::size_t most_bands);
 
-// With at most kRowBands bands. Absent where the spindle is slower than SteadyCut::least_rpm().
+// At its own speed and depth. Absent where the spindle is slower than SteadyCut::least_rpm().
+std::optional<dynamics::Stability> stability_of(const SteadyCut& cut);
+// The same with at most kRowBands bands.
 std::optional<dynamics::Stability> stability_of(const milling::CutRow& row, const MillSetup& setup);
 
 // Whether two rows differ by so little (0.001 mm, 0.001 rad) that one multiplier is enough for both.

@@ -26,6 +26,10 @@ void FrameCache::take(const Frame& frame) {
             if (protocol::header_flag(*frame)) rows_.clear();
             rows_.push_back(frame);
             break;
+        case protocol::LiveFrame::multipliers:
+            // They are of the rows before them.
+            rows_.push_back(frame);
+            break;
         case protocol::LiveFrame::designed:
             designed_.push_back(frame);
             break;

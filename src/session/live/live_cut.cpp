@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "session/chatter/row_stability.hpp"
 
 namespace tribo::session {
 namespace {
@@ -36,16 +37,40 @@ protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const cont
     return piece;
 }
 
+Point3f in_frame_precision(Vec3 v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+// Returns the cut of a row as a vibration needs it.
+protocol::LiveTeeth live_teeth(const milling::CutRow& row, const MillSetup& setup, const CutChange& change) {
+    protocol::LiveTeeth teeth;
+    teeth.cutter = static_cast<std::uint32_t>(row.cutter);
+    teeth.feed = in_frame_precision(row.pose.frame.x);
+    teeth.head = in_frame_precision(head_frame(row, setup).x);
+    teeth.axis = in_frame_precision(row.pose.frame.z);
+    const milling::ToolTravel travel = change.chip_factor() * row.feed;
+    teeth.across_mm = static_cast<float>(travel.across_mm);
+    teeth.down_mm = static_cast<float>(travel.down_mm);
+    teeth.turn_x_rad = static_cast<float>(travel.turn_x_rad);
+    teeth.turn_y_rad = static_cast<float>(travel.turn_y_rad);
+    for (const milling::EngagementBand& band : with_fewer_bands(row.engagement.bands, kRowBands))
+        teeth.bands.push_back({static_cast<float>(band.z0_mm), static_cast<float>(band.z1_mm),
+                               static_cast<float>(band.entry_rad), static_cast<float>(band.exit_rad)});
+    return teeth;
+}
+
 }  // namespace
 
-void LiveCut::begin(const MillSetup& setup) {
+void LiveCut::begin(const MillSetup& setup, bool bends) {
     setup_ = &setup;
+    bends_ = bends;
     record_ = {};
     rows_.clear();
     states_.clear();
     sound_.pieces.clear();
     sent_ = fresh_ = heard_ = 0;
     anew_ = outdated_ = passing_ = false;
+    times_anew_ = 0;
 }
 
 void LiveCut::add(const milling::CutRow& row, const milling::RowForce& force) {
@@ -66,11 +91,16 @@ void LiveCut::add(const milling::CutRow& row, const milling::RowForce& force) {
     set_force(fresh_++, force, change_);
 }
 
-// Returns the row of this time, or the last one before it; 0 if there is none.
 std::size_t LiveCut::row_at(double t_s) const {
     const auto after = std::upper_bound(rows_.begin(), rows_.end(), t_s,
                                         [](double t, const protocol::LiveRow& row) { return t < row.t_s; });
     return after == rows_.begin() ? 0 : static_cast<std::size_t>(after - rows_.begin()) - 1;
+}
+
+std::optional<std::size_t> LiveCut::row_cut_at(double t_s) const {
+    if (rows_.empty() || t_s < rows_.front().t_s) return std::nullopt;
+    const std::size_t row = row_at(t_s);
+    return t_s <= rows_[row].end_s ? std::optional(row) : std::nullopt;
 }
 
 void LiveCut::set_change(const CutChange& change, double clock_s) {
@@ -105,6 +135,7 @@ void LiveCut::compute_slice() {
     rest_s_ = kRestS;
     sent_ = 0;
     anew_ = true;
+    ++times_anew_;
 }
 
 void LiveCut::compute(std::size_t first, std::size_t last, const CutChange& change, std::size_t first_heard) {
@@ -127,6 +158,7 @@ void LiveCut::set_force(std::size_t n, const milling::RowForce& force, const Cut
     row.chip_verdict = static_cast<std::uint32_t>(milling::chip_verdict(force.chip_mm, cutter));
     if (force.spectrum.empty()) return;
     sound_.pieces.push_back(live_sound_piece(cut, force.spectrum, cutter.flutes, change));
+    if (bends_) sound_.pieces.back().teeth = live_teeth(cut, *setup_, change);
 }
 
 void LiveCut::describe(protocol::LiveState& s) const {

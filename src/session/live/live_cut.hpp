@@ -4,6 +4,7 @@
 // in slices, so that no picture waits for them. No threads and no clocks of its own.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -17,8 +18,9 @@ class LiveCut {
   public:
     explicit LiveCut(ParallelFor parallel) : parallel_(std::move(parallel)) {}
 
-    // Begins without rows. The change stays. `setup` must outlive the rows.
-    void begin(const MillSetup& setup);
+    // Begins without rows. The change stays. `setup` must outlive the rows. `bends`: pieces of sound have
+    // their teeth.
+    void begin(const MillSetup& setup, bool bends);
     // Adds a row with its force at the programmed feed and speed.
     void add(const milling::CutRow& row, const milling::RowForce& force);
     // Changes the forces of all rows. Rows that end before `clock_s` are not heard again. Cheap: the next two
@@ -33,6 +35,13 @@ class LiveCut {
     void compute_slice();
 
     const CutRecord& record() const { return record_; }
+    // The row of this time, or the last one before it; 0 if there is none.
+    std::size_t row_at(double t_s) const;
+    // The row that is cut at this time.
+    std::optional<std::size_t> row_cut_at(double t_s) const;
+    // Rows that were sent, and how many times all of them were sent anew.
+    std::size_t rows_sent() const { return sent_; }
+    int times_anew() const { return times_anew_; }
     // Sets what the cut is at the time of the state.
     void describe(protocol::LiveState& state) const;
     // Sends rows that are new or changed, some of them at each call.
@@ -43,12 +52,12 @@ class LiveCut {
   private:
     static constexpr double kRestS = 0.25;
 
-    std::size_t row_at(double t_s) const;
     void compute(std::size_t first, std::size_t last, const CutChange& change, std::size_t first_heard);
     void set_force(std::size_t row, const milling::RowForce& force, const CutChange& change);
 
     ParallelFor parallel_;
     const MillSetup* setup_ = nullptr;
+    bool bends_ = false;
     CutChange change_;
     CutRecord record_;
     std::vector<protocol::LiveRow> rows_;  // one per row of the record
@@ -60,6 +69,7 @@ class LiveCut {
     protocol::LiveSoundPieces sound_;  // not taken yet
     std::size_t sent_ = 0;             // rows
     bool anew_ = false;                // the next rows replace all that were sent
+    int times_anew_ = 0;
     // Rows from here on have no force yet, or one of an older change.
     std::size_t fresh_ = 0;
     std::size_t heard_ = 0;  // rows before this one get no sound

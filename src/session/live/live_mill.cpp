@@ -81,13 +81,16 @@ Result<void> LiveMill::begin() {
     input_error_ = input ? std::nullopt : std::optional(input.error());
     if (session_observer_) session_observer_(nullptr);
     picture_.reset();
+    chatter_.reset();
     if (input) take(std::move(input->extras));
     MillSetup setup = input ? std::move(input->setup) : session_->release_setup();
     session_.reset();  // before the next one: two of them need twice the memory
     session_ = std::make_unique<MillSession>(std::move(setup), parallel_);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
-    cut_.begin(session_->setup());
+    const bool bends = !session_->setup().modes_of_cutter.empty();
+    cut_.begin(session_->setup(), bends);
+    if (bends) chatter_.emplace(session_->setup(), change());
     collisions_sent_ = 0;
     shown_s_ = 0;
     ++sessions_;
@@ -115,7 +118,9 @@ void LiveMill::set_session_observer(std::function<void(MillSession*)> observer) 
 }
 
 void LiveMill::set_change(const CutChange& change) {
-    cut_.set_change(change, state().t_s);
+    const double t_s = state().t_s;
+    cut_.set_change(change, t_s);
+    if (chatter_) chatter_->set_change(change, cut_.row_at(t_s));
     last_state_.clear();
 }
 
@@ -164,7 +169,12 @@ void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const pr
     } else if (session_->milled_s() > shown_s_) {
         show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
     }
+    show_bending(frames);
     cut_.show_rows(frames);
+    if (chatter_) {
+        chatter_->compute(cut_, state().t_s, dt_s, has_time);
+        chatter_->show(cut_, frames);
+    }
     show_collisions(frames);
     show_sound(frames);
     show_state(frames);
@@ -182,6 +192,17 @@ void LiveMill::show_job(const protocol::FrameSink& frames) {
     frames(frame_);
     // In the precision of the frame, so that the sound has the same bits as in the page.
     if (sound_listener_ && protocol::read_frame(frame_, listening)) sound_listener_(listening);
+    last_bending_.clear();
+}
+
+void LiveMill::show_bending(const protocol::FrameSink& frames) {
+    if (!chatter_) return;
+    protocol::LiveBending bending = chatter_->bending();
+    protocol::write_frame(bending, frame_);
+    if (frame_ == last_bending_) return;
+    frames(frame_);
+    last_bending_ = frame_;
+    if (sound_listener_ && protocol::read_frame(frame_, bending)) sound_listener_(std::move(bending));
 }
 
 job::Listening LiveMill::listening() const {
@@ -272,6 +293,7 @@ protocol::LiveState LiveMill::state() const {
     s.speed = speed_;
     s.playing = playing_;
     cut_.describe(s);
+    if (chatter_ && s.cutting) s.chatter = chatter_->now(cut_, s.t_s);
     return s;
 }
 

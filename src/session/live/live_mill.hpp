@@ -14,6 +14,7 @@
 #include "base/result.hpp"
 #include "protocol/live_frame.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/live/live_chatter.hpp"
 #include "session/live/live_cut.hpp"
 #include "session/live/live_sound.hpp"
 #include "session/live/part_picture.hpp"
@@ -85,6 +86,7 @@ class LiveMill {
     void show_job(const protocol::FrameSink& frames);
     void show_part(const Box3& box_mm, const protocol::FrameSink& frames);
     void show_collisions(const protocol::FrameSink& frames);
+    void show_bending(const protocol::FrameSink& frames);
     void show_sound(const protocol::FrameSink& frames);
     void show_designed(const protocol::FrameSink& frames);
     job::Listening listening() const;
@@ -99,6 +101,7 @@ class LiveMill {
     std::unique_ptr<PartPicture> picture_;
     protocol::LivePath path_;
     LiveCut cut_;
+    std::optional<LiveChatter> chatter_;  // none: nothing bends
     std::optional<Error> input_error_;
     std::function<void(MillSession*)> session_observer_;
     std::function<void(LiveSoundUpdate)> sound_listener_;
@@ -106,7 +109,7 @@ class LiveMill {
     std::size_t collisions_sent_ = 0;
     double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
     bool playing_ = false, set_back_ = false, begun_anew_ = false;
-    std::vector<std::uint8_t> frame_, last_state_;
+    std::vector<std::uint8_t> frame_, last_state_, last_bending_;
 };
 
 }  // namespace tribo::session

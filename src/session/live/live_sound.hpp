@@ -11,17 +11,20 @@
 #include <vector>
 
 #include "protocol/live_frame.hpp"
+#include "session/live/live_vibration.hpp"
 #include "sound/play/soundtrack.hpp"
 
 namespace tribo::session {
 
 // Sound update inside one process; same contents as the frames of these kinds.
-using LiveSoundUpdate = std::variant<job::Listening, protocol::LiveSoundPieces>;
+using LiveSoundUpdate = std::variant<job::Listening, protocol::LiveBending, protocol::LiveSoundPieces>;
 
-// One thread. take() allocates during the first thousand pieces, render() never. 1 MB.
+// One thread. take() allocates, also later where a tool bends; render() never. 1 MB; for each cutter of a
+// tool that bends a few more, at slow spindles tens.
 //
 // At speed 1 the phase is the spindle angle at the program time. At other speeds the cut at the current
-// program time sounds at its true pitch.
+// program time sounds at its true pitch. A tool that bends vibrates in the time of the sound: then the phase
+// runs freely, and the spindle keeps its speed exactly.
 class LiveSound {
   public:
     // `base`: sample rate, head and seed. take(Listening) sets the rest.
@@ -31,6 +34,8 @@ class LiveSound {
     void begin_job();
     // Sets listener and workshop, and begins a job. Invalid values are ignored.
     void take(const job::Listening& listening);
+    // From here on the tool bends, until the next job. Values out of range: it does not.
+    void take(const protocol::LiveBending& bending);
     // A later piece replaces an earlier piece with the same time.
     void take(const protocol::LiveSoundPieces& sound);
     // Corrects the program clock: the next rendered sample is at t_s. `lead_s` of rendered sound is not
@@ -46,7 +51,11 @@ class LiveSound {
   private:
     static constexpr std::size_t kPieces = 1024, kHarmonics = 65;
     void begin();
-    const protocol::LiveSoundPiece* piece_at(double t_s) const;
+    // Its number from 1; 0: none.
+    std::size_t piece_at(double t_s) const;
+    // The last piece, if it goes on.
+    std::size_t late_piece(double t_s) const;
+    void read_teeth(std::size_t slot);
     void steer();
     void idle();
 
@@ -61,6 +70,12 @@ class LiveSound {
     double idle_rad_per_s_ = 0;
     std::int64_t left_ = 0;  // samples until the next update from the pieces
     contact::ForceSpectrum spectrum_;
+    std::unique_ptr<LiveVibration> vibration_;  // null: no tool bends
+    struct Teeth {
+        LiveVibration::Cut cut;
+        bool vibrates = false;
+    };
+    std::vector<Teeth> teeth_;  // of the pieces; empty: no tool bends
 };
 
 }  // namespace tribo::session

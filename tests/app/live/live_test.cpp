@@ -12,6 +12,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "app/run/benchmark_slot.hpp"
 #include "app/run/live_viewer.hpp"
 #include "app/run/program.hpp"
 #include "net/certificates.hpp"
@@ -56,6 +57,18 @@ TEST_F(Live, says_what_is_missing) {
     run = live({"--port", "0", "--web-root", "."});
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(run.err.find("p.nc:2"), std::string::npos) << run.err;
+}
+
+// Kinds of docs/live-protocol.md: 13 what bends, 14 multipliers, 15 the chart.
+TEST_F(Live, tells_what_bends_the_multipliers_and_the_chart_of_a_job_with_modes) {
+    scratch_.put("job.toml", std::string(kJob) + benchmark_mode("1, 0, 0"));
+    RunningTribo engine({"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", "."},
+                        scratch_.path());
+    Viewer viewer(address_in(engine.out_with("Ctrl-C")).port);
+    EXPECT_FALSE(viewer.frame_of(13).empty());
+    EXPECT_TRUE(viewer.say(R"({"op":"seek","t_s":1.5})"));
+    EXPECT_FALSE(viewer.frame_of(14).empty());
+    EXPECT_FALSE(viewer.frame_of(15).empty());
 }
 
 TEST_F(Live, serves_an_empty_bench_without_a_job) {

@@ -53,6 +53,12 @@ class Viewer {
                     return at_least ? now_s >= t_s : now_s <= t_s;
                 }).empty();
     }
+    // The next frame of a kind; empty if none comes.
+    std::string frame_of(char kind) {
+        return next([&](const net::test::RawClient::Frame& frame) {
+            return frame.opcode == 2 && frame.payload.front() == kind;
+        });
+    }
     bool step_back() {
         return say(R"({"op":"seek","t_s":2})") && state(true, 2) && say(R"({"op":"seek","t_s":0})") &&
                state(false, 0);
