@@ -4,6 +4,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
+import { BENDING_SLOT, SLOT_PROGRAM } from "../../testing/job.js";
 import { ROOT } from "../../tools/places.js";
 import type { MillExports, MillSoundExports } from "../src/exports.js";
 import { bytesAt, floatsAt, lend, lendText, textAt } from "../src/memory.js";
@@ -205,6 +206,53 @@ test("a slot sounds at the frequency of its teeth, and stops where it is paused"
   expect(loud).toBeLessThan(0.3);
   expect(tone(usual.slice(3 * RATE, 4 * RATE), 200)).toBeGreaterThan(1e-3);
   for (const heard of [alone, usual]) expect(Math.max(...heard.slice(-24000).map(Math.abs))).toBe(0);
+});
+
+// The largest amplitude from 500 to 1500 Hz beside the harmonics of the teeth.
+function chatterLine(samples: number[], toothHz: number): number {
+  const smooth = samples.map((v, n) => v * (1 - Math.cos((2 * Math.PI * (n + 0.5)) / samples.length)));
+  let most = 0;
+  for (let hz = 500; hz < 1500; hz += 4) {
+    const off = hz % toothHz;
+    if (Math.min(off, toothHz - off) > 45) most = Math.max(most, tone(smooth, hz));
+  }
+  return most;
+}
+
+test("an override of the spindle is heard within 100 ms where a cut chatters", async () => {
+  const mill = await Mill.open();
+  mill.file("slot.toml", BENDING_SLOT);
+  mill.file("slot.nc", SLOT_PROGRAM);
+  expect(mill.take("slot.toml", 0.5), mill.said()).toBe(true);
+  const ear = await load<MillSoundExports>("mill_sound");
+  expect(ear.sound_open(RATE)).toBe(1);
+  const play = (pictures: number) => {
+    const heard: number[] = [];
+    for (let n = 0; n < pictures; ++n) {
+      let state: DataView | undefined;
+      for (const frame of mill.tick(1 / 60, AS_MANY_AS_NEEDED)) {
+        if ([6, 10, 13].includes(frame[0]!)) lend(ear, frame, (at, length) => ear.sound_take(at, length));
+        if (frame[0] === 3) state = new DataView(frame.buffer);
+      }
+      // Flags come after 100 bytes.
+      if (state)
+        ear.sound_follow(state.getFloat64(8, true), state.getFloat32(80, true), state.getUint32(92, true) & 2, 0);
+      const samples = floatsAt(ear, ear.sound_render(800), 1600);
+      for (let k = 0; k < 800; ++k) heard.push(samples[2 * k]!);
+    }
+    return heard;
+  };
+  mill.command({ op: "seek", t_s: 0.9 });
+  mill.command({ op: "play" });
+  play(36);
+  const howl = play(12);
+  const loud = chatterLine(howl, 800 / 3);
+  expect(loud).toBeGreaterThan(0.5 * tone(howl, 800 / 3));
+  expect(mill.command({ op: "set", key: "spindle_percent", value: 112.5 })).toBe(true);
+  play(6);
+  const hum = play(12);
+  expect(chatterLine(hum, 300)).toBeLessThan(0.1 * loud);
+  expect(tone(hum, 300)).toBeGreaterThan(3 * chatterLine(hum, 300));
 });
 
 test("what is pressed into the part is pushed back", async () => {
