@@ -7,6 +7,7 @@ import { listed, order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import type { ChipMark, Colouring } from "./sight/heat_map.js";
+import { ChatterPanel } from "./panels/chatter.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
 import { showLegend } from "./sight/legend.js";
@@ -44,6 +45,7 @@ const listener: Listener = {
   },
   settings(s: Settings) {
     parameters.show(s);
+    spindlePercent = s.spindle_percent;
     finger.enabled = true;
     element("feel").hidden = false;
     element("force-on").setAttribute("aria-pressed", String(s.force));
@@ -81,6 +83,12 @@ const collisions = new LineList<CollisionFrame>("collisions", ({ tip, time: at }
 const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
 const parameters = new Parameters((command) => source?.send(command));
+// In the limits of the command.
+const chatter = new ChatterPanel((rpm) => {
+  if (!(programmedRpm > 0)) return;
+  const percent = Math.min(Math.max((100 * rpm) / programmedRpm, 10), 300);
+  source?.send({ op: "set", key: "spindle_percent", value: Number(percent.toPrecision(5)) });
+});
 const play = element<HTMLButtonElement>("play");
 const time = element<HTMLInputElement>("time");
 const speed = element<HTMLSelectElement>("speed");
@@ -101,6 +109,10 @@ let forceLimit = 3;
 let colouring: Colouring = "plain";
 let duration = 0;
 let measuring: Vec3[] | undefined;
+let spindlePercent = 100;
+let programmedRpm = 0;
+// A source whose tool bends is shown by its chatter, unless the user has chosen.
+let chatterOffered = false;
 
 function say(text: string): void {
   element("notice-box").hidden = text === "";
@@ -122,6 +134,8 @@ function showPlaying(now: boolean): void {
 function show(state: StateFrame): void {
   scene.show(state);
   sound.state(state);
+  programmedRpm = (100 * state.rpm) / spindlePercent;
+  chatter.show(state, programmedRpm);
   plot.setTime(state.time);
   history.time = state.time;
   plots?.changed();
@@ -150,6 +164,8 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       history.begin(duration);
       plot.begin(duration);
       scene.begin(frame);
+      chatter.begin();
+      element("chatter-colouring").hidden = true;
       element("designed-label").hidden = true;
       if (first) scene.fit();
       first = false;
@@ -176,6 +192,22 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
     case "sound":
       history.addPieces(frame.pieces);
+      break;
+    case "bending":
+      history.bends = true;
+      chatter.open();
+      element("chatter-colouring").hidden = false;
+      if (!chatterOffered && colouring === "plain") {
+        colour.value = "chatter";
+        paint();
+      }
+      chatterOffered = true;
+      break;
+    case "multipliers":
+      scene.showMultipliers(history.addMultipliers(frame.first, frame.multipliers), frame.first);
+      break;
+    case "chart":
+      chatter.take(frame);
       break;
     case "collision":
       collisions.add(frame, frame.what);
@@ -215,6 +247,7 @@ function change(to: () => Source): void {
   showPlaying(false);
   begun = false;
   first = true;
+  chatterOffered = false;
   finger.enabled = false;
   element("feel").hidden = true;
   element("servo").hidden = true;

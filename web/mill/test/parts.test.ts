@@ -2,6 +2,9 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 
 import { liveUrl } from "../src/sources/connection.js";
+import { growthColour } from "../src/sight/chatter_colours.js";
+import { verdict } from "../src/panels/chatter.js";
+import { History } from "../src/panels/history.js";
 import { heat } from "../src/sight/heat.js";
 import { sort, tooLarge } from "../src/sources/drop.js";
 import { diverging, HeatMap } from "../src/sight/heat_map.js";
@@ -20,6 +23,22 @@ describe("heat", () => {
   it("stays on its scale", () => {
     expect(heat(-1)).toEqual(heat(0));
     expect(heat(2)).toEqual(heat(1));
+  });
+});
+
+describe("the colours of multipliers", () => {
+  it("differ in lightness where the verdict differs, and are none where nothing is known", () => {
+    const lightness = ([r, g, b]: Vec3) => 0.2126 * r ** 2.2 + 0.7152 * g ** 2.2 + 0.0722 * b ** 2.2;
+    const all = [0.5, 0.95, 1.1, 2].map((multiplier) => growthColour(multiplier)!);
+    const sorted = all.map(lightness).sort((a, b) => a - b);
+    for (let n = 1; n < sorted.length; ++n) expect(sorted[n]! / sorted[n - 1]!).toBeGreaterThan(1.2);
+    expect(growthColour(1)).toEqual(all[1]);
+    expect(growthColour(0)).toBeUndefined();
+  });
+  it("come with words", () => {
+    expect(verdict(1.14, 897.6)).toBe("chatters at 898 Hz");
+    expect(verdict(0.69, 906)).toBe("stable");
+    expect(verdict(0, 0)).toBe("not known here");
   });
 });
 
@@ -64,6 +83,7 @@ describe("chip load", () => {
     exit: Math.PI,
     chip: 0.1,
     chipVerdict: "" as const,
+    multiplier: 0,
   };
   it("lists each line once for what it does wrong, by its worst chip", () => {
     const map = new HeatMap();
@@ -95,6 +115,17 @@ describe("chip load", () => {
     expect(map.colour("force", [0, 0, 0], Number.NaN)).toEqual(heat(0.5));
     expect(map.colour("force", [0, 5, 0], Number.NaN)).toEqual(heat(1));
     expect(map.colour("force", [0, 0, 40], Number.NaN)).toBeUndefined();
+  });
+  it("colours a point by the multiplier of its cut, also where it comes later", () => {
+    const map = new HeatMap();
+    const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
+    map.begin([ball]);
+    const history = new History();
+    history.addRows([{ ...row }]);
+    map.add(history.rows[0]!, [0, 0, 1], ball);
+    expect(map.colour("chatter", [0, 0, 0], Number.NaN)).toBeUndefined();
+    expect(history.addMultipliers(0, new Float32Array([1.25, 7]))).toHaveLength(1);
+    expect(map.colour("chatter", [0, 0, 0], Number.NaN)).toEqual(growthColour(1.25));
   });
   it("colours a point by how far it is off the designed surface, where that is known", () => {
     const map = new HeatMap();

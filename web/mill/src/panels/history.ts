@@ -8,16 +8,25 @@ const KEPT_PIECES = 4096;
 export class History {
   rows: Row[] = [];
   private pieces: Piece[] = [];
+  // Rows have multipliers.
+  bends = false;
   time = 0;
   duration = 1;
 
   begin(duration: number): void {
     this.rows = [];
     this.pieces = [];
+    this.bends = false;
     this.duration = duration;
   }
   addRows(rows: Row[]): void {
     for (const row of rows) this.rows.push(row);
+  }
+  // Returns the rows from the `first` on.
+  addMultipliers(first: number, multipliers: Float32Array): Row[] {
+    const rows = this.rows.slice(first, first + multipliers.length);
+    rows.forEach((row, n) => (row.multiplier = multipliers[n]!));
+    return rows;
   }
   addPieces(pieces: Piece[]): void {
     for (const piece of pieces) this.pieces.push(piece);

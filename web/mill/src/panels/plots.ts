@@ -98,6 +98,14 @@ const VIEWS: View[] = [
     seek: true,
   },
 ];
+const CHATTER = "Chatter";
+VIEWS.push({
+  name: CHATTER,
+  series: [{ label: "multiplier, above 1: chatter", stroke: "#d0342c" }],
+  axes: ["s", "growth"],
+  data: (h) => overTime(h, (row) => row.multiplier),
+  seek: true,
+});
 const SOUND = "Sound";
 
 export class Plots {
@@ -107,6 +115,7 @@ export class Plots {
   private open = VIEWS[0]!.name;
   private dirty = true;
   private heard: HTMLCanvasElement | undefined;
+  private readonly chatter: HTMLElement;
 
   constructor(
     private readonly box: HTMLElement,
@@ -129,10 +138,12 @@ export class Plots {
       tab.addEventListener("click", () => this.choose(name));
       this.tabs.append(tab);
     }
+    this.chatter = [...this.tabs.children].find((tab) => tab.textContent === CHATTER) as HTMLElement;
+    this.chatter.hidden = true;
     this.tabs.addEventListener("keydown", (event) => {
       const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
       if (step === 0) return;
-      const all = [...this.tabs.children] as HTMLElement[];
+      const all = ([...this.tabs.children] as HTMLElement[]).filter((tab) => !tab.hidden);
       const next = all[(all.findIndex((t) => t.textContent === this.open) + step + all.length) % all.length]!;
       next.click();
       next.focus();
@@ -148,6 +159,7 @@ export class Plots {
   // Called once per picture while the plots are open.
   update(): void {
     if (this.box.hidden) return;
+    this.chatter.hidden = !this.history.bends;
     if (this.open === SOUND) {
       this.drawSound();
     } else if (this.dirty) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Colours a point of the machined surface by the cut that made it (force, chip), or by its distance from the designed
+// Colours a point of the machined surface by the cut that made it (force, chip, chatter), or by its distance from the designed
 // surface.
 
 import type { ChipVerdict, Cutter, Row } from "@tribo/protocol/frames";
+import { growthColour } from "./chatter_colours.js";
 import { heat } from "./heat.js";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 
-export type Colouring = "plain" | "force" | "chip" | "deviation" | "scallop";
+export type Colouring = "plain" | "force" | "chip" | "chatter" | "deviation" | "scallop";
 
 const RUBBING: Vec3 = [0.55, 0.3, 0.75];
+const UNKNOWN: Vec3 = [0.54, 0.58, 0.63];
 const OVERLOAD: Vec3 = [0.85, 0.2, 0.12];
 
 // From blue over white to red; share -1 ... 1.
@@ -73,10 +75,11 @@ export class HeatMap {
     }
     const cut = this.cutAt(p);
     if (!cut) return undefined;
-    return this.ofRow(mode, cut.row);
+    return mode === "chatter" ? growthColour(cut.row.multiplier) : this.ofRow(mode, cut.row);
   }
 
   ofRow(mode: Colouring, row: Row): Vec3 {
+    if (mode === "chatter") return growthColour(row.multiplier) ?? UNKNOWN;
     if (mode !== "chip") return heat(row.peakForce / this.largestForce);
     if (row.chipVerdict) return row.chipVerdict === "rubbing" ? RUBBING : OVERLOAD;
     return heat(row.chip / this.largestChip);

@@ -53,6 +53,12 @@ export class PathLines {
     this.update();
   }
 
+  // Row number `first` and those after it look different now.
+  recolourFrom(first: number): void {
+    this.drawn = Math.min(this.drawn, first);
+    this.update();
+  }
+
   private update(): void {
     const needed = this.rows.length;
     let capacity = this.cut ? this.cut.geometry.getAttribute("position").count / 2 : 0;

@@ -3,6 +3,7 @@
 // (overlays.ts).
 
 import {
+  Box3,
   BoxGeometry,
   BufferAttribute,
   BufferGeometry,
@@ -200,6 +201,22 @@ export class Scene {
     if (!cutter) return;
     for (const row of rows) this.heatMap.add(row, this.axis, cutter);
     this.path.add(rows, (row) => this.heatMap.ofRow(this.colouring, row), this.heatMap.largestForce);
+    this.draw();
+  }
+
+  // Multipliers of rows, from number `first` on, are known now, or others.
+  showMultipliers(rows: Row[], first: number): void {
+    if (this.colouring !== "chatter" || !this.job) return;
+    this.path.recolourFrom(first);
+    const reach = Math.max(...this.job.cutters.map((cutter) => cutter.length));
+    const box = new Box3();
+    for (const row of rows) box.expandByPoint(new Vector3(...row.tip));
+    box.expandByScalar(reach);
+    const touched = [...this.chunks].filter(([, { geometry }]) => {
+      if (!geometry.boundingBox) geometry.computeBoundingBox();
+      return box.intersectsBox(geometry.boundingBox!);
+    });
+    this.colourLater(touched.map(([key]) => key));
     this.draw();
   }
 

@@ -21,6 +21,7 @@ export class Sound {
   // Frames that the worklet needs even if it starts late.
   private job: ArrayBuffer | undefined;
   private listening: ArrayBuffer | undefined;
+  private bending: ArrayBuffer | undefined;
   private sounds: ArrayBuffer[] = [];
   private isMuted = false;
   analyser: AnalyserNode | undefined;
@@ -51,9 +52,12 @@ export class Sound {
   frame(kind: string, bytes: ArrayBuffer): void {
     if (kind === "job") {
       this.job = bytes;
+      this.bending = undefined;
       this.sounds = [];
     } else if (kind === "listening") {
       this.listening = bytes;
+    } else if (kind === "bending") {
+      this.bending = bytes;
     } else if (kind === "sound") {
       this.sounds.push(bytes);
       if (this.sounds.length > KEPT_SOUNDS) this.sounds.shift();
@@ -84,6 +88,7 @@ export class Sound {
     this.node = node;
     if (this.job) this.post({ kind: "frame", bytes: this.job.slice(0, 16) });
     if (this.listening) this.post({ kind: "frame", bytes: this.listening });
+    if (this.bending) this.post({ kind: "frame", bytes: this.bending });
     for (const bytes of this.sounds) this.post({ kind: "frame", bytes });
   }
 }

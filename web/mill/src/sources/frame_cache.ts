@@ -27,6 +27,10 @@ export class FrameCache {
         if (frame.anew) this.rows = [];
         this.rows.push(bytes);
         break;
+      // They are of the rows before them.
+      case "multipliers":
+        this.rows.push(bytes);
+        break;
       case "collision":
       case "designed":
         this.others.push(bytes);
