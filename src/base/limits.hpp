@@ -195,7 +195,7 @@ struct Limits {
     Limit mode_frequency{"natural frequency",
                          "Hz",
                          {1, 1e5},
-                         "`frequency_hz` of a mode",
+                         "`frequency_hz` of a mode, `band_hz`",
                          "A long boring bar has 50, a micro end mill 10,000 Hz."};
     Limit mode_damping{"damping ratio",
                        "",
@@ -213,6 +213,21 @@ struct Limits {
         {0, 9},
         "`frequency_spread`, `damping_spread` and `stiffness_spread` of a mode, `spread` of `[material]`",
         "A factor of ten to both sides; what is known less well is not known."};
+    Limit fitted_modes{"modes to fit",
+                       "",
+                       {1, 12},
+                       "`modes` of a response",
+                       "Each takes its time, and its share of the noise."};
+    Limit response_frequency{"frequency of a response",
+                             "Hz",
+                             {0, 1e6},
+                             "`frequency_hz` of a response; dataset 58",
+                             "Hammers reach 20,000 Hz."};
+    Limit receptance{"receptance",
+                     "mm/N",
+                     {-1e6, 1e6},
+                     "`re_mm_per_n`, `im_mm_per_n`; dataset 58",
+                     "A thin wall at its resonance has 1; an accelerometer's noise at 0.1 Hz has 1,000."};
 
     // The run.
     Limit resolution{"spacing of the grid",
