@@ -10,6 +10,7 @@
 
 #include "base/vec3.hpp"
 #include "dynamics/mode.hpp"
+#include "job/frf.hpp"
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
 #include "motion/curve/keyframe_motion.hpp"
@@ -130,13 +131,15 @@ struct Job {
     JobPath path;
     std::optional<JobEngagement> engagement;
     // Unit directions in stock axes. Those of a tool are where its axis is +z; they turn with it.
+    // Those of `frfs` come last, once they are loaded.
     std::vector<dynamics::Mode> modes;
+    std::vector<JobFrf> frfs;
     std::optional<JobEstimate> estimate;  // beside modes of the part; the tool has no others then
     JobSound sound;
     JobHaptics haptics;
     JobMachine machine;
 
-    bool can_vibrate() const { return estimate || !modes.empty(); }
+    bool can_vibrate() const { return estimate || !modes.empty() || !frfs.empty(); }
     bool has_stock() const { return stock_from || stock.model || !stock.box_mm.empty(); }
 };
 

@@ -10,6 +10,7 @@
 #include "job/completion.hpp"
 #include "job/input_kind.hpp"
 #include "job/program_file.hpp"
+#include "job/response_modes.hpp"
 #include "job/toml/job_toml.hpp"
 #include "job/toml/machine_file.hpp"
 
@@ -90,6 +91,12 @@ FileResult<void> read_path(Reading& reading, Job& job, motion::Program& program)
     if (auto done = complete_job(job, program, program.warnings); !done)
         return std::unexpected(FileFailure(done.error()));
     return {};
+}
+
+// The same for a job whose modes are needed, too.
+FileResult<void> read_path_and_modes(Reading& reading, Job& job, motion::Program& program) {
+    if (auto done = read_path(reading, job, program); !done) return done;
+    return add_fitted_modes(reading.files, job, reading.options.memory_bytes, program.warnings);
 }
 
 // Reads each model of the fixtures once.
@@ -251,7 +258,7 @@ FileResult<void> load_program(Reading& reading, const std::string& name, PathKin
 FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job, const LoadOptions& options) {
     motion::Program program;
     Reading reading{files, options};
-    if (auto done = read_path(reading, job, program); !done) return std::unexpected(done.error());
+    if (auto done = read_path_and_modes(reading, job, program); !done) return std::unexpected(done.error());
     return program;
 }
 
@@ -267,7 +274,7 @@ FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
         auto job = read_job(files, name);
         if (!job) return std::unexpected(job.error());
         loaded->job = *std::move(job);
-        done = read_path(reading, loaded->job, loaded->program);
+        done = read_path_and_modes(reading, loaded->job, loaded->program);
     }
     if (done) done = load_rest(reading, *loaded);
     if (!done) return std::unexpected(done.error());

@@ -52,8 +52,9 @@ inline constexpr std::size_t kLongestChain = 100;
 // Largest number of triangles of all fixtures of a job; a model that several fixtures name is read once.
 inline constexpr std::uint64_t kMostFixtureTriangles = readers::kMaxTriangles;
 
-// Reads the job, its program, its blank or earlier jobs, fixtures and designed surface. Of earlier jobs only
-// the files that decide the stock are read, no designed surfaces, fixtures and sounds. Refuses cycles of
+// Reads the job, its program, its frequency responses, its blank or earlier jobs, fixtures and designed
+// surface. Of earlier jobs only the files that decide the stock are read, no designed surfaces, fixtures,
+// responses and sounds. Refuses cycles of
 // jobs and chains longer than kLongestChain, with the place of `from`.
 //
 // If `name` is a program (by its name or content), reads it with the inputs of the options. What they leave
@@ -62,8 +63,8 @@ inline constexpr std::uint64_t kMostFixtureTriangles = readers::kMaxTriangles;
 FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
                                const LoadOptions& options = {});
 
-// Reads only the program of a job, and completes the job from it with complete_job(). Its warnings are added
-// to those of the program.
+// Reads only the program of a job and its frequency responses, and completes the job with complete_job() and
+// add_fitted_modes(). Their warnings are added to those of the program.
 FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job,
                                               const LoadOptions& options = {});
 

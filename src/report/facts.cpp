@@ -120,6 +120,17 @@ files::Json cutter_json(const milling::Cutter& c) {
     return json;
 }
 
+// Each [[frf]] with what was fitted to it.
+void add_responses(Builder& b, const job::Job& job) {
+    for (const job::JobFrf& frf : job.frfs) {
+        if (!frf.fit) continue;
+        b.json["frf"].push_back(
+            {{"file", frf.file}, {"modes", frf.fit->modes.size()}, {"residual", frf.fit->residual}});
+        b.line("frf", frf.file + ": " + std::to_string(frf.fit->modes.size()) + " modes, residual " +
+                          number(100 * frf.fit->residual) + " %");
+    }
+}
+
 void add_solid(Builder& b, const job::JobSolid& solid, const std::string& name) {
     if (solid.model) {
         b.json[name]["mesh"] = solid.model->path;
@@ -341,6 +352,7 @@ Facts describe(const job::Job& job, const Facts* program, const Facts* part,
         b.json["fixtures"] = job.fixtures.size();
         b.line("fixtures", std::to_string(job.fixtures.size()));
     }
+    add_responses(b, job);
     if (program) add_inner(b, "program", *program);
     if (part) add_inner(b, "part", *part);
     return b.finish();

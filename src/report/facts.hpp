@@ -7,11 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/mode_fit.hpp"
 #include "job/job.hpp"
 #include "material/material.hpp"
 #include "motion/path/program.hpp"
 #include "motion/path/summary.hpp"
 #include "readers/mesh/model.hpp"
+#include "readers/response/frequency_response.hpp"
 
 namespace tribo::report {
 
@@ -35,6 +37,11 @@ Facts describe(const job::Job& job, const Facts* program, const Facts* part,
 // {kind: "material", stiffness_n_per_mm, viscosity_n_s_per_mm, width_mm, image, voices: [{speed_mm_per_s,
 // ...}], ...}
 Facts describe(const material::Material& material);
+
+// {kind: "frequency response", what, points, band_hz, modes: [...], residual, warnings}. `warnings`: of
+// reading and fitting. Without a fit the list of modes is empty, and its error is one of the warnings.
+Facts describe(const readers::FrequencyResponse& response, const Result<dynamics::ModeFit>& fit,
+               const Warnings& warnings);
 
 // Returns the lines as text, with names padded to one width.
 std::string aligned(const std::vector<std::pair<std::string, std::string>>& lines);

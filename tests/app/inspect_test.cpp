@@ -46,6 +46,34 @@ TEST(Inspect, points_at_the_line_that_is_wrong) {
     EXPECT_EQ(run_tribo({"inspect", "empty.stl"}, scratch.path()).code, 2);
 }
 
+TEST(Inspect, fits_the_modes_of_a_frequency_response) {
+    const Scratch scratch;
+    // 100 Hz, damping 5 %, 200 N/mm, from 1 to 200 Hz.
+    std::string csv = "frequency_hz,re_mm_per_n,im_mm_per_n\n", flat = csv;
+    for (int hz = 1; hz <= 200; ++hz) {
+        const double r = hz / 100.0, re = 1 - r * r, im = 0.1 * r, size = 200 * (re * re + im * im);
+        csv += std::to_string(hz) + "," + std::to_string(re / size) + "," + std::to_string(-im / size) + "\n";
+        flat += std::to_string(hz) + ",0.001,0\n";
+    }
+    scratch.put("tap.csv", csv);
+    scratch.put("flat.csv", flat);
+    const Outcome tap = run_tribo({"inspect", "tap.csv", "--json"}, scratch.path());
+    ASSERT_EQ(tap.code, 0) << tap.err;
+    const Json response = Json::parse(tap.out);
+    EXPECT_EQ(response["kind"], "frequency response");
+    EXPECT_EQ(response["points"], 200);
+    ASSERT_EQ(response["modes"].size(), 1u);
+    EXPECT_NEAR(response["modes"][0]["frequency_hz"], 100, 1e-2);
+    EXPECT_NEAR(response["modes"][0]["damping_ratio"], 0.05, 1e-4);
+    EXPECT_NEAR(response["modes"][0]["stiffness_n_per_mm"], 200, 0.2);
+    EXPECT_LT(response["residual"], 1e-3);
+    const Outcome text = run_tribo({"inspect", "tap.csv"}, scratch.path());
+    EXPECT_NE(text.out.find("mode      100 Hz, damping 5 %, 200 N/mm"), std::string::npos) << text.out;
+    const Outcome none = run_tribo({"inspect", "flat.csv"}, scratch.path());
+    EXPECT_EQ(none.code, 0) << none.err;
+    EXPECT_NE(none.out.find("flat.csv:1: warning: no mode stands out"), std::string::npos) << none.out;
+}
+
 TEST(Inspect, shows_all_refusals_at_once) {
     const Scratch scratch;
     scratch.put("p.ngc", "G21\nG0 X0 Y0 Z0\nG12 I5\nG1 X1 F100\nG999\nG1 U5\n");

@@ -2,6 +2,8 @@
 // `tribo stability` from outside: the benchmark of the literature, frames, refusals.
 #include <array>
 #include <cmath>
+#include <complex>
+#include <cstdio>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -375,6 +377,48 @@ TEST_F(StabilityVerb, ends_a_simulation_where_its_equations_end) {
     EXPECT_NE(scratch.get("simulated/summary.json").find("the simulation ends at"), std::string::npos);
 }
 
+// The benchmark's mode as a tap test would show it.
+std::string tapped_benchmark() {
+    std::string csv = "frequency_hz,re_mm_per_n,im_mm_per_n\n";
+    for (int hz = 2; hz <= 3000; hz += 2) {
+        const double r = hz / 922.0;
+        const std::complex<double> h = 1.0 / (1340.0496480507 * std::complex<double>(1 - r * r, 0.022 * r));
+        char line[100];
+        std::snprintf(line, sizeof line, "%d,%.12g,%.12g\n", hz, h.real(), h.imag());
+        csv += line;
+    }
+    return csv;
+}
+
+TEST_F(StabilityVerb, fits_the_modes_of_a_measured_response) {
+    scratch.put("tap.csv", tapped_benchmark());
+    const std::string frf = "[[frf]]\nfile = \"tap.csv\"\ndirection = [2, 0, 0]\n";
+    const auto json = answer(kEngagement + frf, {"--at", "5000:0.5", "--limit", "9000"});
+    EXPECT_NEAR(json["points"][0]["multiplier"], 1.07397559, 2e-7);
+    EXPECT_NEAR(json["limits"][0]["limit_mm"], 3.0090, 3e-3);
+    ASSERT_EQ(json["modes"].size(), 1u);
+    EXPECT_NEAR(json["modes"][0]["frequency_hz"], 922, 1e-5);
+    ASSERT_EQ(json["frf"].size(), 1u);
+    EXPECT_EQ(json["frf"][0]["file"], "tap.csv");
+    EXPECT_EQ(json["frf"][0]["band_hz"], nlohmann::json({2.0, 3000.0}));
+    EXPECT_EQ(json["frf"][0]["modes"], 1);
+    EXPECT_LT(json["frf"][0]["residual"], 1e-6);
+    // The milled cut, for people, and as a file.
+    const Outcome milled =
+        run(frf, {"--line", "3", "--rpm", "8000:9000:500", "--depth", "1:0.5", "--out", "chart"});
+    EXPECT_EQ(milled.code, 0) << milled.err;
+    EXPECT_NE(milled.out.find("frf: tap.csv, 2 to 3000 Hz: 1 mode, residual "), std::string::npos)
+        << milled.out;
+    EXPECT_EQ(nlohmann::json::parse(scratch.get("chart/summary.json"))["frf"], json["frf"]);
+    // It is an input of the run.
+    scratch.put("chart/summary.json", tapped_benchmark());
+    const Outcome over =
+        run("[[frf]]\nfile = \"chart/summary.json\"\ndirection = [1, 0, 0]\n" + std::string(kEngagement),
+            {"--rpm", "8000:9000:500", "--out", "chart"});
+    EXPECT_EQ(over.code, 2);
+    EXPECT_NE(over.err.find("is an input of this run"), std::string::npos) << over.err;
+}
+
 TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
     const std::string good = kEngagement + benchmark_mode("1, 0, 0");
     struct Case {
@@ -383,7 +427,7 @@ TEST_F(StabilityVerb, refuses_what_it_cannot_answer) {
         const char* fragment;
     };
     for (const Case& c : {
-             Case{kEngagement, {}, "has no [[mode]]"},
+             Case{kEngagement, {}, "has no [[mode]] and no [[frf]]"},
              Case{benchmark_mode("1, 0, 0"), {"--line", "1"}, "slot.nc:1: error: this line cuts nothing"},
              Case{benchmark_mode("1, 0, 0"),
                   {"--t", "1000"},

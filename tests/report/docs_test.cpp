@@ -36,7 +36,7 @@ std::vector<std::string> blocks(const std::string& text) {
 
 TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::vector<std::string> shown = blocks(page("job.md"));
-    ASSERT_EQ(shown.size(), 6u);
+    ASSERT_EQ(shown.size(), 7u);
     const auto job = job::parse_job(shown[0], "job.md", job::MemorySource());
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->cutters.size(), 2u);
@@ -56,16 +56,20 @@ TEST(Docs, job_page_shows_a_job_that_is_read) {
     ASSERT_EQ(bends->modes.size(), 1u);
     EXPECT_EQ(bends->modes[0].stiffness_n_per_mm, 1340.05);
     EXPECT_EQ(bends->modes[0].spread.stiffness, 0.1);
+    const auto tapped = job::parse_job(least + shown[3], "job.md", job::MemorySource());
+    ASSERT_TRUE(tapped) << tapped.error().text();
+    ASSERT_EQ(tapped->frfs.size(), 1u);
+    EXPECT_EQ(tapped->frfs[0].unit->name, "g/N");
     std::string sticks_out = least;
     sticks_out.insert(least.find("[path]"), "stickout_mm = 50\n");
-    const auto estimated = job::parse_job(sticks_out + shown[3], "job.md", job::MemorySource());
+    const auto estimated = job::parse_job(sticks_out + shown[4], "job.md", job::MemorySource());
     ASSERT_TRUE(estimated) << estimated.error().text();
     EXPECT_TRUE(estimated->estimate.has_value());
-    const auto felt = job::parse_job(least + shown[4], "job.md", job::MemorySource());
+    const auto felt = job::parse_job(least + shown[5], "job.md", job::MemorySource());
     ASSERT_TRUE(felt) << felt.error().text();
     EXPECT_EQ(felt->haptics.friction_static, 0.3);
     EXPECT_EQ(felt->haptics.friction_kinetic, 0.2);
-    const auto second = job::parse_job(shown[5], "job.md", job::MemorySource());
+    const auto second = job::parse_job(shown[6], "job.md", job::MemorySource());
     ASSERT_TRUE(second) << second.error().text();
     EXPECT_EQ(second->stock_from.value().path, "top.toml");
     EXPECT_EQ(second->setup.value().y, (Vec3{0, -1, 0}));

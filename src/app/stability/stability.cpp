@@ -40,11 +40,12 @@ FileResult<session::SteadyCut> prescribed_cut(const StabilityCall& call, job::Jo
 
 // The cut of a place in the program: the job is milled.
 FileResult<session::SteadyCut> milled_cut(const StabilityCall& call, const ParallelFor& parallel,
-                                          Warnings& warnings) {
+                                          std::vector<job::JobFrf>& frfs, Warnings& warnings) {
     const job::LoadOptions limits = files::machine_limits();
     auto loaded = load_job(call.job, {}, limits);
     if (!loaded) return std::unexpected(loaded.error());
     warnings = loaded->warnings;
+    frfs = loaded->job.frfs;
     session::MillOptions options{call.resolution_mm, {}};
     options.memory_bytes = limits.memory_bytes;
     auto setup = session::prepare_mill(*loaded, options, warnings);
@@ -65,8 +66,9 @@ FileResult<void> load(const StabilityCall& call, const ParallelFor& parallel, St
     if (!job) return std::unexpected(job.error());
     if (auto good = session::check_modes(*job); !good) return std::unexpected(FileFailure(good.error()));
     auto cut = job->engagement ? prescribed_cut(call, *job, answer.warnings)
-                               : milled_cut(call, parallel, answer.warnings);
+                               : milled_cut(call, parallel, answer.frfs, answer.warnings);
     if (!cut) return std::unexpected(cut.error());
+    if (job->engagement) answer.frfs = job->frfs;
     answer.cut = *std::move(cut);
     return {};
 }

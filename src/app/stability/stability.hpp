@@ -45,6 +45,7 @@ struct ComputedChart {
 
 struct StabilityAnswer {
     session::SteadyCut cut;
+    std::vector<job::JobFrf> frfs;  // with their fits
     Warnings warnings;
     std::vector<StabilityPoint> points;
     std::vector<StabilityLimit> limits;

@@ -12,6 +12,7 @@
 #include "app/progress.hpp"
 #include "app/stability/stability_words.hpp"
 #include "base/math.hpp"
+#include "base/text/printable.hpp"
 #include "files/image/png.hpp"
 #include "files/json/json.hpp"
 #include "report/stability_picture.hpp"
@@ -80,6 +81,20 @@ files::Json modes_json(const session::SteadyCut& cut) {
         modes.push_back(std::move(mode));
     }
     return modes;
+}
+
+files::Json frfs_json(const StabilityAnswer& answer) {
+    files::Json frfs = files::Json::array();
+    for (const job::JobFrf& frf : answer.frfs) {
+        frfs.push_back({{"file", frf.file},
+                        {"direction", files::triple(frf.direction)},
+                        {"on", frf.on == dynamics::ModeOn::part ? "part" : "tool"},
+                        {"band_hz", {nine(frf.fit->from_hz), nine(frf.fit->to_hz)}},
+                        {"points", frf.fit->points},
+                        {"modes", frf.fit->modes.size()},
+                        {"residual", nine(frf.fit->residual)}});
+    }
+    return frfs;
 }
 
 files::Json engagement_json(const session::SteadyCut& cut) {
@@ -190,6 +205,7 @@ std::string summary_json(const StabilityCall& call, const StabilityAnswer& answe
     }
     if (answer.simulated) json["simulation"] = simulation_json(*call.simulation, answer);
     json["modes"] = modes_json(cut);
+    if (!answer.frfs.empty()) json["frf"] = frfs_json(answer);
     json["warnings"] = files::Json::array();
     for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
     return files::pretty(json);
@@ -220,6 +236,7 @@ std::string stability_json(const StabilityCall& call, const StabilityAnswer& ans
     if (answer.chart) add_chart(answer.cut, *answer.chart, json);
     if (answer.simulated) json["simulation"] = simulation_json(*call.simulation, answer);
     json["modes"] = modes_json(answer.cut);
+    if (!answer.frfs.empty()) json["frf"] = frfs_json(answer);
     return files::pretty(json);
 }
 
@@ -230,6 +247,12 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
                 cut.exit_rad() * math::kDegPerRad, cut.spindle_rpm);
     if (is_estimated(cut))
         std::printf("modes of the tool: estimated, not measured (see the warning for their band)\n");
+    for (const job::JobFrf& frf : answer.frfs) {
+        const std::size_t count = frf.fit->modes.size();
+        std::printf("frf: %s, %.6g to %.6g Hz: %zu %s, residual %.2g %%\n", printable(frf.file).c_str(),
+                    frf.fit->from_hz, frf.fit->to_hz, count, count == 1 ? "mode" : "modes",
+                    100 * frf.fit->residual);
+    }
     for (const StabilityPoint& p : answer.points) {
         const dynamics::Stability& s = p.stability;
         std::printf("%g rpm, %g mm: ", p.spindle_rpm, p.axial_depth_mm);

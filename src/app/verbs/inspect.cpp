@@ -21,6 +21,7 @@
 #include "job/input_kind.hpp"
 #include "job/loader.hpp"
 #include "job/program_file.hpp"
+#include "job/response_modes.hpp"
 #include "job/toml/job_toml.hpp"
 #include "job/toml/machine_file.hpp"
 #include "material/material_json.hpp"
@@ -121,6 +122,16 @@ FileResult<Found> inspect_model(const std::string& file) {
     return Found{std::move(facts), std::move(model->mesh), {}, std::move(model->colours)};
 }
 
+FileResult<Found> inspect_response(std::string_view bytes, const std::string& file) {
+    const auto response = readers::read_frequency_response(bytes, {.source_name = file});
+    if (!response) return std::unexpected(FileFailure(response.error()));
+    job::JobFrf all;
+    all.file = file;
+    Warnings warnings;
+    const auto fit = job::fit_response(*response, all, warnings);
+    return Found{report::describe(*response, fit, warnings), {}, {}};
+}
+
 FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
     const files::DiskSource disk;
     FileResult<job::Job> job = job::parse_job(bytes, file, disk);
@@ -153,13 +164,14 @@ FileResult<Found> inspect_file(const Call& call, std::vector<Error>& refusals) {
         if (!material) return std::unexpected(FileFailure(material.error()));
         return Found{report::describe(*material), {}, {}};
     }
+    if (readers::looks_like_response(*bytes)) return inspect_response(*bytes, file);
     const std::optional<job::PathKind> program = job::detect_program(*bytes, file);
     if (readers::detect_model_format(*bytes, file) && !program) return inspect_model(file);
     if (program) return inspect_program(*bytes, call, *program, refusals);
     return std::unexpected(FileFailure(
         {file, 0, 0, "is no kind of file that tribo knows: it " + job::likeness(*bytes, file),
          "try G-code (.ngc, .nc), APT (.apt), keyframes (.csv), a model (.stl, .obj, .ply, .wrl), "
-         "a job (.toml) or a material (.json)"}));
+         "a job (.toml), a frequency response (.csv, .uff) or a material (.json)"}));
 }
 
 int inspect(const Call& call) {
@@ -196,9 +208,11 @@ int inspect(const Call& call) {
 
 void add_inspect(CLI::App& program, int& exit_code) {
     const auto call = std::make_shared<Call>();
-    CLI::App* verb =
-        program.add_subcommand("inspect", "Say what a program, a model or a job holds, with warnings");
-    verb->add_option("FILE", call->file, "G-code, APT, keyframes, a model, a job or a material")->required();
+    CLI::App* verb = program.add_subcommand(
+        "inspect", "Say what a program, a model, a job or a frequency response holds, with warnings");
+    verb->add_option("FILE", call->file,
+                     "G-code, APT, keyframes, a model, a job, a frequency response or a material")
+        ->required();
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->add_option("--picture", call->picture, "Draw it into a PNG file")->type_name("F.png");
     verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")

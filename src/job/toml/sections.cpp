@@ -30,7 +30,6 @@ constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
 constexpr std::array kModeKeys{
     "direction"sv, "frequency_hz"sv,     "damping_ratio"sv,  "stiffness_n_per_mm"sv,
     "on"sv,        "frequency_spread"sv, "damping_spread"sv, "stiffness_spread"sv};
-constexpr std::array kModeOn{"tool"sv, "part"sv};
 constexpr std::array kDynamicsKeys{"estimate"sv};
 constexpr std::array kEngagementKeys{"entry_deg"sv, "exit_deg"sv, "axial_depth_mm"sv};
 constexpr std::array kSoundKeys{"listener_mm"sv,
@@ -181,7 +180,7 @@ dynamics::Mode read_mode(TomlFile& file, const toml::table& table) {
     mode.frequency_hz = section.required_number("frequency_hz", kLimits.mode_frequency);
     mode.damping_ratio = section.required_number("damping_ratio", kLimits.mode_damping);
     mode.stiffness_n_per_mm = section.required_number("stiffness_n_per_mm", kLimits.mode_stiffness);
-    if (section.word("on", kModeOn).value_or(0) == 1) mode.on = dynamics::ModeOn::part;
+    if (section.word("on", kModeOnWords).value_or(0) == 1) mode.on = dynamics::ModeOn::part;
     const auto spread = [&](std::string_view key) { return section.number(key, kLimits.spread).value_or(0); };
     mode.spread = {spread("frequency_spread"), spread("damping_spread"), spread("stiffness_spread")};
     return mode;
@@ -190,10 +189,11 @@ dynamics::Mode read_mode(TomlFile& file, const toml::table& table) {
 std::optional<JobEstimate> read_dynamics(TomlSection& root, const toml::table& table, const Job& job) {
     TomlSection section(root.file(), table, "[dynamics]", kDynamicsKeys);
     if (!section.flag("estimate").value_or(false)) return std::nullopt;
-    if (std::ranges::any_of(job.modes,
-                            [](const dynamics::Mode& m) { return m.on == dynamics::ModeOn::tool; }))
-        section.fail("estimate", "the job has modes of the tool, and asks to estimate them",
-                     "remove 'estimate' or the [[mode]] of the tool; modes on = \"part\" may stay");
+    const auto on_tool = [](const auto& m) { return m.on == dynamics::ModeOn::tool; };
+    if (std::ranges::any_of(job.modes, on_tool) || std::ranges::any_of(job.frfs, on_tool))
+        section.fail(
+            "estimate", "the job has modes of the tool, and asks to estimate them",
+            "remove 'estimate' or each [[mode]] and [[frf]] of the tool; those on = \"part\" may stay");
     const std::vector<const toml::table*> cutters = root.tables("cutter");
     for (std::size_t n = 0; n < std::min(cutters.size(), job.cutters.size()); ++n) {
         if (job.cutters[n].stickout_mm > 0) continue;

@@ -16,6 +16,9 @@ namespace tribo::job {
 // The keys of [path] that name a program, in the order of PathKind.
 inline constexpr std::array<std::string_view, 3> kPathKindWords{"keyframes", "gcode", "apt"};
 
+// The words of dynamics::ModeOn.
+inline constexpr std::array<std::string_view, 2> kModeOnWords{"tool", "part"};
+
 // Millimetres per unit of a model or of keyframes, where the section says it.
 std::optional<double> read_unit_mm(TomlSection& section);
 // A direction of any length, as a unit vector.
@@ -34,7 +37,9 @@ JobPath read_path(TomlFile& file, const toml::table& table);
 JobEngagement read_engagement(TomlFile& file, const toml::table& table);
 // One [[mode]].
 dynamics::Mode read_mode(TomlFile& file, const toml::table& table);
-// [dynamics]. `job` has its modes and cutters; `root` is its table.
+// One [[frf]].
+JobFrf read_frf(TomlFile& file, const toml::table& table);
+// [dynamics]. `job` has its modes, responses and cutters; `root` is its table.
 std::optional<JobEstimate> read_dynamics(TomlSection& root, const toml::table& table, const Job& job);
 JobSound read_sound(TomlFile& file, const toml::table& table);
 JobHaptics read_haptics(TomlFile& file, const toml::table& table);

@@ -59,9 +59,11 @@ std::vector<dynamics::Mode> modes_in(const milling::ToolFrame& frame, const mill
 
 Result<void> check_modes(const job::Job& job) {
     if (job.can_vibrate()) return {};
-    return fail_at(job.file, 0, 0, "the job has no [[mode]]: nothing in it can vibrate",
-                   "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
-                   "stiffness_n_per_mm; or stickout_mm of the cutter, and [dynamics] with estimate = true");
+    return fail_at(
+        job.file, 0, 0, "the job has no [[mode]] and no [[frf]]: nothing in it can vibrate",
+        "write one for each mode of tool or part, with direction, frequency_hz, damping_ratio and "
+        "stiffness_n_per_mm; or name a measured response as file in [[frf]]; or stickout_mm of the "
+        "cutter, and [dynamics] with estimate = true");
 }
 
 Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program, Warnings& warnings) {

@@ -167,6 +167,15 @@ Doors job_doors() {
         door(l.spread, more, known_mode + "frequency_spread = "),
         door(l.spread, more, known_mode + "damping_spread = "),
         door(l.spread, more, known_mode + "stiffness_spread = "),
+        {&l.mode_frequency, "band_hz",
+         [](double value) {
+             JobText job;
+             const bool is_low = value < 10;
+             job.more = "[[frf]]\nfile = \"a.csv\"\ndirection = [1, 0, 0]\nband_hz = [" +
+                        written(is_low ? value : 10) + ", " + written(is_low ? 10 : value) + "]\n";
+             return error_of(job);
+         }},
+        door(l.fitted_modes, more, "[[frf]]\nfile = \"a.csv\"\ndirection = [1, 0, 0]\nmodes = "),
         door(l.axial_depth, more, "[engagement]\nentry_deg = 0\nexit_deg = 90\naxial_depth_mm = "),
         door(l.force_scale, more, "[haptics]\nforce_scale = "),
         door(l.friction, more, "[haptics]\nfriction_static = "),

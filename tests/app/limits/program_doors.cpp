@@ -7,6 +7,7 @@
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"
+#include "readers/response/frequency_response.hpp"
 #include "readers/tables/keyframes_csv.hpp"
 #include "readers/tables/stroke_csv.hpp"
 #include "readers/tables/tool_table.hpp"
@@ -100,6 +101,11 @@ Door finger_stroke(const Limit& limit, const std::string& before, const std::str
     return door(limit, "stroke", "t_s,x_mm,y_mm,force_n\n0,0,0,0\n" + before, after, read);
 }
 
+Door response(const Limit& limit, const std::string& before, const std::string& after) {
+    const auto read = [](const std::string& text) { return readers::read_frequency_response(text); };
+    return door(limit, "response", "frequency_hz,re_mm_per_n,im_mm_per_n\n1,0,0\n" + before, after, read);
+}
+
 Door tools(const Limit& limit, const std::string& before, const std::string& after) {
     const auto read = [](const std::string& text) { return readers::read_tool_table(text); };
     return door(limit, "tool table", before, after, read);
@@ -189,6 +195,15 @@ Doors table_doors() {
              return error_of(
                  readers::read_probe_stroke("t_s,x_mm,y_mm,z_mm\n" + first + ",0,0,0\n" + last + ",0,0,0\n"));
          }},
+        {&l.response_frequency, "frequency_hz",
+         [](double value) {
+             const bool is_low = value < 1;
+             return error_of(readers::read_frequency_response("frequency_hz,re_mm_per_n,im_mm_per_n\n" +
+                                                              written(is_low ? value : 1) + ",0,0\n" +
+                                                              written(is_low ? 1 : value) + ",0,0\n"));
+         }},
+        response(l.receptance, "2,", ",0\n"),
+        response(l.receptance, "2,0,", "\n"),
         tools(l.tool_number, "T", " D6\n"),
         tools(l.tool_number, "number,diameter_mm\n", ",6\n"),
         tools(l.cutter_diameter, "T1 D", "\n"),
