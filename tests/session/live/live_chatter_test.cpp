@@ -271,7 +271,9 @@ TEST(LiveChatter, DrawsTheChartOfTheCutAtTheClock) {
             ++checked;
         }
         const double limit = static_cast<double>(chart.limits_mm[n]);
-        if (!std::isnan(limit)) EXPECT_NEAR(multiplier(rpm, limit), 1, 0.02) << rpm;
+        if (!std::isnan(limit)) {
+            EXPECT_NEAR(multiplier(rpm, limit), 1, 0.02) << rpm;
+        }
     }
     EXPECT_GT(checked, 50u);
     // The demo that everyone understands: at 9000 rpm there is a pocket.
