@@ -35,3 +35,48 @@ write('wall.nc', [
   'G1 X68 F1500',
   'G0 Z5',
 ]);
+
+// A step test: the same side cut, deeper from pass to pass.
+const steps = [2, 3, 5];
+write('steps.nc', [
+  '(steps: 90 x 40 x 12, top at Z0; 3 mm of the side, 2, 3 and 5 mm deep, climbing)',
+  '(T1 D=10 CR=0 flat end mill, 4 flutes)',
+  'G21 G90 G17 G94 G40 G49 G80',
+  'T1 M6',
+  'S6200 M3',
+  ...steps.flatMap((depth, n) => [
+    `(${depth} mm deep)`,
+    `G0 X96 Y${3 * n - 2} Z5`,
+    `G0 Z${-depth}`,
+    'G1 X-6 F1984',
+    'G0 Z5',
+  ]),
+]);
+
+// Two taps with a hammer at the tip, as a measuring program would save them: modes, residual compliance, 1 %
+// of noise.
+const modes = {
+  x: [[780, 0.035, 9000], [1640, 0.03, 26000]],
+  y: [[820, 0.03, 11000], [1710, 0.03, 30000]],
+};
+let seed = 20261124;
+const noise = () => {
+  // A sum of twelve even numbers is nearly Gaussian (Park and Miller 1988 for the numbers).
+  let sum = -6;
+  for (let n = 0; n < 12; n++) sum += (seed = (seed * 48271) % 2147483647) / 2147483647;
+  return sum;
+};
+for (const [axis, of] of Object.entries(modes)) {
+  const lines = ['frequency_hz,re_mm_per_n,im_mm_per_n'];
+  const peak = Math.max(...of.map(([, zeta, k]) => 1 / (2 * zeta * k)));
+  for (let hz = 200; hz <= 2600; hz += 4) {
+    let re = 1 / 120000, im = 0;
+    for (const [f, zeta, k] of of) {
+      const r = hz / f, a = 1 - r * r, b = 2 * zeta * r, size = k * (a * a + b * b);
+      re += a / size;
+      im -= b / size;
+    }
+    lines.push([hz, ...[re, im].map(v => (v + 0.01 * peak * noise()).toExponential(5))].join(','));
+  }
+  writeFileSync(new URL(`tap_${axis}.csv`, import.meta.url), lines.join('\n') + '\n');
+}
