@@ -71,6 +71,16 @@ struct Limits {
                         "`spindle_rpm`, `recording_rpm`, `idle_recording_rpm`, `--spindle-rpm`, `--at`, "
                         "`--limit`, `--rpm`, `--simulate`; S, TOOL CALL S, SPINDL",
                         "The fastest air spindles reach about 500,000 rpm. S0 is read: the spindle stands."};
+    Limit spindle_variation{"variation of the spindle speed",
+                            "1",
+                            {0, 0.5},
+                            "`spindle_variation`",
+                            "Machines that vary their speed do so by some tenths."};
+    Limit spindle_variation_rate{"rate of the variation",
+                                 "Hz",
+                                 {0.01, 100},
+                                 "`spindle_variation_hz`",
+                                 "Spindles follow a few per second."};
     Limit dwell{"dwell", "s", {0, 86400}, "G4, CYCL DEF 9, dwells of cycles", "A day at most."};
     Limit rapid{"rapid rate",
                 "mm/min",

@@ -66,6 +66,10 @@ void Vibration::engage(std::span<const milling::EngagementBand> bands, const mil
     const D2 turn{cosine * feed.turn_x_rad - sine * feed.turn_y_rad,
                   sine * feed.turn_x_rad + cosine * feed.turn_y_rad};
     past_.set_feed({{across, -feed.down_mm}, turn}, feed.turns());
+    turn_at(spindle_rpm);
+}
+
+void Vibration::turn_at(double spindle_rpm) {
     const double step_rad = spindle_rpm * math::kTwoPi / 60 / rate_hz_;
     spindle_.set_step(step_rad);
     past_.set_speed(step_rad);

@@ -49,6 +49,8 @@ class Vibration {
     // stays. Allocates for more bands or a lower speed than before.
     void engage(std::span<const milling::EngagementBand> bands, const milling::ToolTravel& per_tooth,
                 double spindle_rpm, double feed_rad = 0);
+    // Another speed from the next sample on. Allocates for a lower one than before.
+    void turn_at(double spindle_rpm);
     // Other directions of the modes, as many as there are: the frame of the vibration turned against them.
     void turn_modes(std::span<const Mode> modes);
 

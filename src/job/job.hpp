@@ -66,6 +66,8 @@ struct JobPath {
 struct JobProcess {
     double spindle_rpm = 0;
     double feed_mm_per_min = 0;
+    // The spindle swings about its speed by this share, so many times a second; 0: it does not.
+    double spindle_variation = 0, spindle_variation_hz = 0;
 };
 
 // Engagement prescribed instead of measured (as in the paper): clockwise from the left of the feed,

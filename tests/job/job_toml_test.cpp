@@ -340,6 +340,10 @@ INSTANTIATE_TEST_SUITE_P(
                "[[mode]]\ndirection = [1,0,0]\nfrequency_hz = 900\ndamping_ratio = "
                "0.02\nstiffness_n_per_mm = 1000\n[dynamics]\nestimate = true",
                28, "has modes of the tool, and asks to estimate them"},
+        BadJob{"feed_mm_per_min = 900", "feed_mm_per_min = 900\nspindle_variation = 0.2", 16,
+               "'spindle_variation' stands without 'spindle_variation_hz'"},
+        BadJob{"feed_mm_per_min = 900", "feed_mm_per_min = 900\nspindle_variation_hz = 2", 16,
+               "'spindle_variation_hz' stands without 'spindle_variation'"},
         BadJob{"name = \"al7075-t6\"", "name = \"al7075-t6\"\nspread = 0.2", 13,
                "a named material has its band"},
         // Missing.

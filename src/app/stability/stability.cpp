@@ -70,6 +70,7 @@ FileResult<void> load(const StabilityCall& call, const ParallelFor& parallel, St
     if (!cut) return std::unexpected(cut.error());
     if (job->engagement) answer.frfs = job->frfs;
     answer.cut = *std::move(cut);
+    if (answer.cut.variation.is_there()) answer.warnings.push_back({call.job, 0, session::kVariationWarning});
     return {};
 }
 

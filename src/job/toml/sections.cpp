@@ -23,7 +23,8 @@ constexpr std::array kCoefficientLimits{kLimits.ktc, kLimits.krc, kLimits.krc,
                                         kLimits.kte, kLimits.kre, kLimits.kre};
 constexpr std::array kMaterialKeys{"name"sv,         "ktc_n_per_mm2"sv, "krc_n_per_mm2"sv, "kac_n_per_mm2"sv,
                                    "kte_n_per_mm"sv, "kre_n_per_mm"sv,  "kae_n_per_mm"sv,  "spread"sv};
-constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv};
+constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv, "spindle_variation"sv,
+                                  "spindle_variation_hz"sv};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
@@ -100,8 +101,20 @@ JobMaterial read_material(TomlFile& file, const toml::table& table) {
 
 JobProcess read_process(TomlFile& file, const toml::table& table) {
     TomlSection section(file, table, "[process]", kProcessKeys);
-    return {section.number("spindle_rpm", kLimits.spindle_speed).value_or(0),
-            section.number("feed_mm_per_min", kLimits.feed).value_or(0)};
+    JobProcess process;
+    process.spindle_rpm = section.number("spindle_rpm", kLimits.spindle_speed).value_or(0);
+    process.feed_mm_per_min = section.number("feed_mm_per_min", kLimits.feed).value_or(0);
+    process.spindle_variation = section.number("spindle_variation", kLimits.spindle_variation).value_or(0);
+    process.spindle_variation_hz =
+        section.number("spindle_variation_hz", kLimits.spindle_variation_rate).value_or(0);
+    for (const auto& [given, missing] : {std::pair{"spindle_variation", "spindle_variation_hz"},
+                                         std::pair{"spindle_variation_hz", "spindle_variation"}}) {
+        if (section.has(given) && !section.has(missing))
+            section.fail(
+                given, "'" + std::string(given) + "' stands without '" + missing + "'",
+                "give both: by which share of its speed the spindle swings, and how often per second");
+    }
+    return process;
 }
 
 JobPath read_path(TomlFile& file, const toml::table& table) {

@@ -36,6 +36,11 @@ void BendingTool::engage(std::span<const dynamics::Mode> modes,
     feed_now_ = feed;
 }
 
+void BendingTool::turn_at(double spindle_rpm) {
+    vibration_.turn_at(spindle_rpm);
+    if (rigid_) rigid_->turn_at(spindle_rpm);
+}
+
 void BendingTool::next() {
     Vec3 added{};
     for (int step = 0; step < steps_; ++step) {

@@ -25,6 +25,8 @@ class BendingTool {
     // As dynamics::Vibration::engage(), with the modes turned. Allocates when that does.
     void engage(std::span<const dynamics::Mode> modes, std::span<const milling::EngagementBand> bands,
                 const milling::ToolTravel& per_tooth, double spindle_rpm, std::complex<double> feed);
+    // Another speed of the spindle, as dynamics::Vibration::turn_at().
+    void turn_at(double spindle_rpm);
     // The modes come to rest.
     void calm() { vibration_.scale_modes(0); }
 

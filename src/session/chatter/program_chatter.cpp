@@ -23,6 +23,7 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
         if (rows.count > 0)
             warnings.push_back({file, rows.line, std::to_string(rows.count) + " rows " + cause});
     };
+    if (totals.speed_varies) warnings.push_back({file, 0, kVariationWarning});
     warn(totals.on_bottom, "have no multiplier: only the flat bottom of the tool cuts in them");
     warn(totals.slow,
          "have no multiplier: the spindle is too slow for it, the modes vibrate too often in a turn");
@@ -59,6 +60,7 @@ void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& fo
 
 void ProgramChatter::finish() {
     compute();
+    totals_.speed_varies = setup_.variation.is_there();
     if (recorder_) totals_.surface_full_at_line = recorder_->full_at_line();
 }
 

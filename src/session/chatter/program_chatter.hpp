@@ -35,10 +35,11 @@ struct ChatterTotals {
         std::size_t count = 0;
         int line = 0;  // of the first one
     };
-    Rows on_bottom;                           // only the flat bottom cuts: no multiplier
-    Rows slow;                                // slower than SteadyCut::least_rpm(): no multiplier
-    Rows not_simulated;                       // slower than RowSimulation follows: no vibration
-    Rows held;                                // the tool moved farther than kLargestDisplacement
+    Rows on_bottom;      // only the flat bottom cuts: no multiplier
+    Rows slow;           // slower than SteadyCut::least_rpm(): no multiplier
+    Rows not_simulated;  // slower than RowSimulation follows: no vibration
+    Rows held;           // the tool moved farther than kLargestDisplacement
+    bool speed_varies = false;
     std::optional<int> surface_full_at_line;  // SurfaceRecorder::full_at_line()
 };
 

@@ -30,10 +30,11 @@ RowSimulation::RowSimulation(const MillSetup& setup, bool traces, SurfaceRecorde
             ring_s_ = std::max(
                 ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
     steps_.assign(setup.cutters.size(), 1);
+    const double fastest = 1 + setup.variation.share;
     for (std::size_t n = 0; n < setup.moves.size(); ++n) {
         const std::size_t cutter = setup.cutter_of_move[n];
         steps_[cutter] = std::max(steps_[cutter], steps_per_sample(setup.modes(cutter), setup.cutters[cutter],
-                                                                   setup.rpm_of_move[n]));
+                                                                   fastest * setup.rpm_of_move[n]));
     }
 }
 
@@ -89,12 +90,18 @@ std::complex<double> RowSimulation::feed_direction(const milling::CutRow& row) c
 }
 
 void RowSimulation::engage(const milling::CutRow& row, std::span<const milling::EngagementBand> bands) {
-    tool_->engage(modes_in(frame_, frame_, modes_), bands, row.feed, row.spindle_rpm, feed_direction(row));
+    rpm_ = row.spindle_rpm;
+    tool_->engage(modes_in(frame_, frame_, modes_), bands, row.feed, rpm_now(), feed_direction(row));
+}
+
+double RowSimulation::rpm_now() const {
+    return setup_.variation.rpm_at(rpm_, static_cast<double>(next_) / kVibrationHz);
 }
 
 double RowSimulation::run_to(double end_s, std::vector<std::array<float, 2>>* trace) {
     tool_->reset_largest();
     for (const std::int64_t end = sample_at(end_s); next_ < end; ++next_) {
+        if (setup_.variation.is_there() && next_ % kVariationSamples == 0) tool_->turn_at(rpm_now());
         tool_->next();
         if (recorder_ != nullptr) recorder_->add(tool_->displaced_at_rad(), tool_->displaced_mm());
         if (trace != nullptr && static_cast<double>(trace->size()) < kLongestTraceS * kVibrationHz)

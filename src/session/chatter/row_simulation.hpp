@@ -45,6 +45,7 @@ class RowSimulation {
     void engage(const milling::CutRow& row, std::span<const milling::EngagementBand> bands);
     // Returns the largest displacement, mm.
     double run_to(double end_s, std::vector<std::array<float, 2>>* trace);
+    double rpm_now() const;
     std::complex<double> feed_direction(const milling::CutRow& row) const;  // x of the row in frame_
 
     const MillSetup& setup_;
@@ -54,6 +55,7 @@ class RowSimulation {
     bool traces_;
     SurfaceRecorder* recorder_;
     std::optional<BendingTool> tool_;
+    double rpm_ = 0;            // of the row
     milling::ToolFrame frame_;  // of the vibration
     std::size_t cutter_ = 0;
     std::int64_t first_ = 0, next_ = 0;  // samples

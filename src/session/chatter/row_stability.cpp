@@ -24,6 +24,7 @@ SteadyCut steady_cut_of(const milling::CutRow& row, const MillSetup& setup, std:
     cut.axial_depth_mm = milling::hull({row.engagement.bands, {}}).axial_depth_mm;
     cut.spindle_rpm = row.spindle_rpm;
     cut.feed_per_tooth_mm = row.feed.across_mm;
+    cut.variation = setup.variation;
     cut.line = row.line;
     cut.t_s = row.start_s;
     return cut;

@@ -84,6 +84,7 @@ Result<SteadyCut> steady_cut(const job::Job& job, const motion::Program& program
     cut.force_high_factor = setup->force_high_factor;
     cut.spindle_rpm = setup->rpm_of_move[n];
     cut.feed_per_tooth_mm = move.feed_mm_per_min / (cut.spindle_rpm * cut.cutter.flutes);
+    cut.variation = setup->variation;
     cut.line = move.line;
     const PrescribedEngagement& engagement = *setup->engagement;
     cut.axial_depth_mm = engagement.axial_depth_mm;

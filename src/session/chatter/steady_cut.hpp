@@ -22,6 +22,7 @@ struct SteadyCut {
     std::vector<dynamics::Mode> modes;  // directions in the frame of the feed: x along it, z to the shank
     std::vector<milling::EngagementBand> bands;  // at the job's depth, sorted by z0; never empty
     double axial_depth_mm = 0, spindle_rpm = 0, feed_per_tooth_mm = 0;  // as the job has them
+    SpindleVariation variation;                                         // the vibration in time follows it
     int line = 0;                                                       // of the move in the program
     std::optional<double> t_s;  // of the row in the program; absent: [engagement]
     std::size_t rows = 0;       // of which this one is the most critical; 0: [engagement]

@@ -20,6 +20,7 @@
 #include "milling/tool/cutter.hpp"
 #include "motion/path/program.hpp"
 #include "motion/path/timing.hpp"
+#include "session/chatter/spindle_variation.hpp"
 #include "session/cut/earlier_cuts.hpp"
 #include "session/cut/mill_totals.hpp"
 
@@ -34,6 +35,7 @@ struct MillSetup {
     std::vector<motion::Move> moves;
     std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
     std::vector<double> rpm_of_move;          // one per move; > 0 for every feed move
+    SpindleVariation variation;               // about all speeds; only vibrations in time follow it
     bool on_machine = false;                  // a machine moves tool and part by its joints
     std::vector<milling::Cutter> cutters;
     milling::CuttingCoefficients coefficients;

@@ -162,6 +162,7 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
     setup.force_low_factor = material->spread_low;
     setup.force_high_factor = material->spread_high;
     setup.until_s = options.until_s;
+    setup.variation = {job.process.spindle_variation, job.process.spindle_variation_hz};
     setup.on_machine = !program.machine.empty();
     setup.timing.rapid_mm_per_min = job.machine.rapid_mm_per_min;
     setup.timing.acceleration_mm_per_s2 = job.machine.acceleration_mm_per_s2;

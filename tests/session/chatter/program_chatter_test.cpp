@@ -178,6 +178,32 @@ TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
     EXPECT_LT(*found[1].peak_displacement_mm, 0.2 * *found[0].peak_displacement_mm);
 }
 
+// A cut beyond its limit, at a low speed: the spindle that swings calms it down. How the cut comes in rows
+// does not matter.
+TEST(RowSimulation, follows_a_spindle_whose_speed_varies) {
+    constexpr double kSlowRpm = 1500, kDepthMm = 0.45, kAllS = 1.5;
+    MillSetup setup = setup_of({soft({1, 0, 0})}, 0);
+    setup.rpm_of_move = {kSlowRpm};
+    const auto largest_late = [&](int rows) {
+        RowSimulation simulation(setup);
+        double largest = 0;
+        for (int n = 0; n < rows; ++n) {
+            milling::CutRow row = row_of(kAllS * n / rows, kAllS * (n + 1) / rows, kDepthMm);
+            row.spindle_rpm = kSlowRpm;
+            const double peak = simulation.run(row).value();
+            if (2 * n >= rows) largest = std::max(largest, peak);
+        }
+        return largest;
+    };
+    const double steady = largest_late(60);
+    setup.variation = {0.2, 4};
+    const double swinging = largest_late(60);
+    EXPECT_LT(swinging, 0.5 * steady);
+    EXPECT_NEAR(largest_late(77), swinging, 0.02 * swinging);
+    setup.variation = {0, 4};
+    EXPECT_EQ(largest_late(60), steady);
+}
+
 // Rows of all kinds come out in order, with what is missing counted.
 TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
     const std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
