@@ -222,7 +222,8 @@ stiffness_n_per_mm = 1000
 
     // Pressed 0.2 mm into the right wall, then into the left one.
     job.put("stroke.csv",
-            "t_s,x_mm,y_mm,z_mm\n0,20,20,-0.2\n0.5,20,14.8,-0.2\n1,20,14.8,-0.2\n2,20,25.2,-0.2\n2.5,20,25.2,-0.2\n");
+            "t_s,x_mm,y_mm,z_mm\n0,20,20,-0.2\n0.5,20,14.8,-0.2\n1,20,14.8,-0.2\n2,20,25.2,-0.2\n2.5,20,25.2,"
+            "-0.2\n");
     const Outcome felt = run_tribo(
         {"feel", "job.toml", "--stroke", "stroke.csv", "--device", "playback", "--out", "out/trace.csv"},
         job.path());
