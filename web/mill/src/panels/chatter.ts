@@ -13,6 +13,7 @@ const CELLS: [most: number, colour: [number, number, number]][] = [
   [2, [212, 115, 74]],
   [Infinity, [140, 64, 66]],
 ];
+const NOTHING_CUT = "nothing is cut";
 type Pocket = ChartFrame["pockets"][number];
 
 const LEFT = 34;
@@ -66,6 +67,7 @@ export class ChatterPanel {
   }
   open(): void {
     this.box.hidden = false;
+    if (!this.state) element("chatter-verdict").textContent = NOTHING_CUT;
     this.draw();
   }
 
@@ -85,7 +87,7 @@ export class ChatterPanel {
       this.recommend();
     }
     const { chatter } = state;
-    const words = !chatter ? "nothing is cut" : verdict(chatter.multiplier, chatter.hz);
+    const words = !chatter ? NOTHING_CUT : verdict(chatter.multiplier, chatter.hz);
     const number = chatter && chatter.multiplier > 0 ? chatter.multiplier.toFixed(2) : "";
     for (const [id, text] of [
       ["chatter-verdict", words],
