@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/math.hpp"
-#include "dynamics/largest_eigenvalue.hpp"
-#include "dynamics/period_step.hpp"
+#include "dynamics/eigenvalue/largest_eigenvalue.hpp"
+#include "dynamics/eigenvalue/period_step.hpp"
 
 namespace tribo::dynamics {
 namespace {

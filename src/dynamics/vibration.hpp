@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "dynamics/edge_slices.hpp"
-#include "dynamics/edges_in_cut.hpp"
-#include "dynamics/modal_steps.hpp"
 #include "dynamics/mode.hpp"
-#include "dynamics/spindle_turn.hpp"
-#include "dynamics/tool_past.hpp"
+#include "dynamics/step/edge_slices.hpp"
+#include "dynamics/step/edges_in_cut.hpp"
+#include "dynamics/step/modal_steps.hpp"
+#include "dynamics/step/spindle_turn.hpp"
+#include "dynamics/step/tool_past.hpp"
 #include "milling/engagement/engagement.hpp"
 #include "milling/force/edge_force.hpp"
 #include "milling/tool/cutter.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Against the eigenvalues that Eigen computes.
-#include "dynamics/hessenberg.hpp"
+#include "dynamics/eigenvalue/hessenberg.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/largest_eigenvalue.hpp"
+#include "dynamics/eigenvalue/largest_eigenvalue.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

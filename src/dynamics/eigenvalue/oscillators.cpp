@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/oscillators.hpp"
+#include "dynamics/eigenvalue/oscillators.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/hessenberg.hpp"
+#include "dynamics/eigenvalue/hessenberg.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/collocation.hpp"
 #include "dynamics/cut_feedback.hpp"
+#include "dynamics/eigenvalue/collocation.hpp"
 #include "dynamics/mode.hpp"
 
 namespace tribo::dynamics {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/collocation.hpp"
 #include "dynamics/cut_feedback.hpp"
-#include "dynamics/oscillators.hpp"
+#include "dynamics/eigenvalue/collocation.hpp"
+#include "dynamics/eigenvalue/oscillators.hpp"
 
 namespace tribo::dynamics {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/largest_eigenvalue.hpp"
+#include "dynamics/eigenvalue/largest_eigenvalue.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/math.hpp"
-#include "dynamics/hessenberg.hpp"
-#include "dynamics/tool_place.hpp"
+#include "dynamics/eigenvalue/hessenberg.hpp"
+#include "dynamics/step/tool_place.hpp"
 
 namespace tribo::dynamics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/modal_steps.hpp"
+#include "dynamics/step/modal_steps.hpp"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/edge_slices.hpp"
+#include "dynamics/step/edge_slices.hpp"
 
 namespace tribo::dynamics {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/collocation.hpp"
+#include "dynamics/eigenvalue/collocation.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "base/math.hpp"
-#include "dynamics/tool_place.hpp"
+#include "dynamics/step/tool_place.hpp"
 
 namespace tribo::dynamics {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/tool_place.hpp"
+#include "dynamics/step/tool_place.hpp"
 #include "milling/tool/cutter.hpp"
 
 namespace tribo::dynamics {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/edge_slices.hpp"
+#include "dynamics/step/edge_slices.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.hpp"
-#include "dynamics/spindle_turn.hpp"
+#include "dynamics/step/spindle_turn.hpp"
 
 namespace tribo::dynamics {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/mode.hpp"
-#include "dynamics/tool_place.hpp"
+#include "dynamics/step/tool_place.hpp"
 
 namespace tribo::dynamics {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/period_step.hpp"
+#include "dynamics/eigenvalue/period_step.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/tool_past.hpp"
+#include "dynamics/step/tool_past.hpp"
 
 #include <algorithm>
 #include <bit>

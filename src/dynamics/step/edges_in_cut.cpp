@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "dynamics/edges_in_cut.hpp"
+#include "dynamics/step/edges_in_cut.hpp"
 
 #include <algorithm>
 #include <limits>
