@@ -6,18 +6,13 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "dynamics/step/cubic_weights.hpp"
 
 namespace tribo::dynamics {
 namespace {
 
 // Samples that are kept at most, unless one passage needs more.
 constexpr double kMostKept = 262'144;
-
-// Weights of four values at -1, 0, 1, 2 for the cubic through them at t.
-std::array<double, 4> cubic(double t) {
-    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
-            (t + 1) * t * (t - 1) / 6};
-}
 
 template <class T>
 void lengthen(std::vector<T>& ring, std::size_t samples, std::size_t known) {
@@ -59,7 +54,7 @@ void ToolPast::set_speed(double step_rad) {
         p.back_samples = p.back_rad / step_rad;
         p.back = static_cast<std::size_t>(std::ceil(p.back_samples));
         p.even_from = even_from_;
-        p.weights = cubic(static_cast<double>(p.back) - p.back_samples);
+        p.weights = cubic_weights(static_cast<double>(p.back) - p.back_samples);
         if (n % kMostPassages < passages_) longest = std::max(longest, p.back_samples);
     }
     keep(std::bit_ceil(static_cast<std::size_t>(std::ceil(longest)) + 8));
@@ -97,7 +92,7 @@ void ToolPast::look_back_anywhere(Passage& p) const {
         while (n > 0 && rotation_of(n) > at_rad) --n;
         while (n + 3 < samples_ && rotation_of(n + 1) <= at_rad) ++n;
         const double from = rotation_of(n), to = rotation_of(n + 1);
-        weights = cubic((at_rad - from) / (to - from));
+        weights = cubic_weights((at_rad - from) / (to - from));
     }
     if (n > 0) return see(p, n, weights);
     // The sample before the first one stood a step of the feed before it.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "dynamics/step/cubic_weights.hpp"
 #include "milling/force/edge_force.hpp"
 #include "milling/tool/cutter_profile.hpp"
 #include "milling/tool/tooth_phases.hpp"
@@ -153,8 +154,7 @@ void SurfaceRecorder::add(double rotation_rad, Vec3 displacement_mm) {
 // The displacement by a cubic through the samples.
 void SurfaceRecorder::mark(Watch& w) {
     const double t = (w.next_rad - last_[1].rotation_rad) / (last_[2].rotation_rad - last_[1].rotation_rad);
-    const std::array<double, 4> weights{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-                                        -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+    const std::array<double, 4> weights = dynamics::cubic_weights(t);
     Vec3 displacement{};
     for (std::size_t k = 0; k < 4; ++k) displacement += weights[k] * last_[k].displacement_mm;
     double displaced = -dot(displacement, w.normal);

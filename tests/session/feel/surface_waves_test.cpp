@@ -5,15 +5,10 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "surface/straight_wall.hpp"
+
 namespace tribo::session {
 namespace {
-
-// The material ends at y = 0 and lies beyond.
-class Plane final : public contact::DistanceField {
-  public:
-    double distance_mm(Vec3 p) const override { return -p.y; }
-    Vec3 normal(Vec3) const override { return {0, -1, 0}; }
-};
 
 // Along x, 20 mm long, with a mark each 0.1 mm.
 template <class Value>
@@ -37,7 +32,7 @@ surface::FormError error_of(Value&& left_mm) {
         if (row > 0) t.before = static_cast<std::uint32_t>(row - 1);
         all.traces.push_back(t);
     }
-    return surface::FormError(std::move(all), Plane());
+    return surface::FormError(std::move(all), test::StraightWall());
 }
 
 haptics::ProbeContact contact_at(double x, double penetration_mm, double mm_per_s = 0) {
