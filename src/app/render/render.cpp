@@ -108,7 +108,8 @@ int render(const RenderCall& call) {
     options.memory_bytes = static_cast<std::uint64_t>(call.memory_mb.value_or(0) * kMegabyte);
     auto loaded = prepare_job(call.job, call.program, options, sound_rate_hz);
     if (!loaded) return report(loaded.error());
-    const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound")};
+    const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound"),
+                          loaded->job.can_vibrate()};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
         return report(fits.error());
     auto folder = files::OutputFolder::open(call.out, RenderOutputs::writes);

@@ -40,6 +40,18 @@ SurfaceRecorder::SurfaceRecorder(const MillSetup& setup) : setup_(setup), schedu
         phases_rad_.push_back(milling::tooth_phases_rad(cutter));
 }
 
+double SurfaceRecorder::estimated_bytes(const MillSetup& setup) {
+    constexpr double kMarkBytes = 60, kMarksPerTooth = 4;
+    double teeth = 0;
+    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
+        if (setup.moves[n].kind != motion::MoveKind::feed) continue;
+        const motion::MoveTiming& timing = setup.schedule->moves[n];
+        teeth += (timing.end_s - timing.start_s) * setup.rpm_of_move[n] / 60 *
+                 setup.cutters[setup.cutter_of_move[n]].flutes;
+    }
+    return kMarkBytes * std::min(kMarksPerTooth * teeth, static_cast<double>(kMostMarks));
+}
+
 SurfaceRecorder::Place SurfaceRecorder::place(const milling::CutRow& row, double t_s) const {
     const double step_s = kDirectionShare * row.duration_s();
     const auto pose = [&](double at_s) { return motion::pose_at_time(setup_.moves, *schedule_, at_s); };

@@ -35,8 +35,10 @@ class SurfaceRecorder {
     // What comes next does not continue what was before.
     void interrupt();
 
-    // About 60 bytes each, with their traces.
     static constexpr std::size_t kMostMarks = 4'000'000;
+    // Of a run of that setup, whose schedule is there: about 60 bytes a mark, with its trace, and four marks
+    // for each tooth that passes in a feed move.
+    static double estimated_bytes(const MillSetup& setup);
     // The line of the program from which on nothing is recorded: there are kMostMarks.
     std::optional<int> full_at_line() const { return full_at_line_; }
 
