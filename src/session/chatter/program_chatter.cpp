@@ -38,10 +38,9 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
     return warnings;
 }
 
-ProgramChatter::ProgramChatter(const MillSetup& setup, Options options, const ParallelFor& parallel,
-                               Sink sink)
+ProgramChatter::ProgramChatter(const MillSetup& setup, Options options, ParallelFor parallel, Sink sink)
     : setup_(setup),
-      parallel_(parallel),
+      parallel_(std::move(parallel)),
       sink_(std::move(sink)),
       options_(options),
       recorder_(options.surface ? std::optional<SurfaceRecorder>(std::in_place, setup) : std::nullopt),

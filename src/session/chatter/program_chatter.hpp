@@ -56,8 +56,8 @@ class ProgramChatter {
         bool traces = false;   // rows have their vibration, valid during the call of the sink
         bool surface = false;  // what the teeth leave is recorded
     };
-    // Setup, with modes of each cutter, and parallel must outlive this object.
-    ProgramChatter(const MillSetup& setup, Options options, const ParallelFor& parallel, Sink sink);
+    // The setup, with modes of each cutter, must outlive this object.
+    ProgramChatter(const MillSetup& setup, Options options, ParallelFor parallel, Sink sink);
 
     void add(const milling::CutRow& row, const milling::RowForce& force);
     // Gives on the last rows.
@@ -82,7 +82,7 @@ class ProgramChatter {
     void count(const Row& row);
 
     const MillSetup& setup_;
-    const ParallelFor& parallel_;
+    ParallelFor parallel_;
     Sink sink_;
     Options options_;
     std::optional<SurfaceRecorder> recorder_;  // with options_.surface
