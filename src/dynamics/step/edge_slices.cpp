@@ -10,8 +10,6 @@
 namespace tribo::dynamics {
 namespace {
 
-// Lag of an edge, and angle of its profile, over a slice: which tooth left the surface is asked once in it.
-constexpr double kSliceRad = 0.25, kProfileRad = 0.4;
 // Points and weights of Gauss and Legendre on [-1, 1].
 constexpr std::array<double, 4> kPoints{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
                                         0.86113631159405258};

@@ -13,6 +13,9 @@
 
 namespace tribo::dynamics {
 
+// Lag of an edge, and angle of its profile, over a slice: which tooth left the surface is asked once in it.
+inline constexpr double kSliceRad = 0.25, kProfileRad = 0.4;
+
 // Sine and cosine of the angle by which a point lags behind the tip of its edge.
 struct Lag {
     double sine = 0, cosine = 1;

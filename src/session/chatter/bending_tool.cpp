@@ -10,8 +10,18 @@ namespace {
 
 // Of what is left of a turn of the feed, in a sample: it takes 4 ms.
 constexpr double kFollow = 0.01;
+// Smaller vibrations, of what they were, have died out.
+constexpr double kDiedOut = 1e-4;
 
 }  // namespace
+
+double ring_s(std::span<const dynamics::Mode> modes) {
+    double longest = 0;
+    for (const dynamics::Mode& mode : modes)
+        longest =
+            std::max(longest, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
+    return longest;
+}
 
 BendingTool::BendingTool(std::span<const dynamics::Mode> modes, const milling::Cutter& cutter,
                          const milling::CuttingCoefficients& coefficients, double rate_hz, int steps,

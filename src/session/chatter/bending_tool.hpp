@@ -11,6 +11,9 @@
 
 namespace tribo::session {
 
+// Time in which a free vibration falls to a ten-thousandth: it has died out. 0 without modes.
+double ring_s(std::span<const dynamics::Mode> modes);
+
 // Both stand on the same teeth. Where the tool moves farther than kLargestDisplacement (simulated_cut.hpp)
 // times the diameter, the modes are held there. One thread.
 class BendingTool {

@@ -10,8 +10,6 @@
 namespace tribo::session {
 namespace {
 
-// Smaller vibrations, of what they were, have died out.
-constexpr double kDiedOut = 1e-4;
 // Rows with a smaller gap are one cut.
 constexpr double kSameCutS = 1e-6;
 // A frame that turns by more about the axis, from a row to the next, is another one: the axis points down.
@@ -25,10 +23,7 @@ std::int64_t sample_at(double t_s) {
 
 RowSimulation::RowSimulation(const MillSetup& setup, bool traces, SurfaceRecorder* recorder)
     : setup_(setup), traces_(traces), recorder_(recorder) {
-    for (const auto& modes : setup.modes_of_cutter)
-        for (const dynamics::Mode& mode : modes)
-            ring_s_ = std::max(
-                ring_s_, -math::log(kDiedOut) / (mode.damping_ratio * math::kTwoPi * mode.frequency_hz));
+    for (const auto& modes : setup.modes_of_cutter) ring_s_ = std::max(ring_s_, ring_s(modes));
     steps_.assign(setup.cutters.size(), 1);
     const double fastest = 1 + setup.variation.share;
     for (std::size_t n = 0; n < setup.moves.size(); ++n) {

@@ -8,6 +8,7 @@
 
 #include "base/math.hpp"
 #include "dynamics/step/cubic_weights.hpp"
+#include "dynamics/step/spindle_turn.hpp"
 #include "milling/force/edge_force.hpp"
 #include "milling/tool/cutter_profile.hpp"
 #include "milling/tool/tooth_phases.hpp"
@@ -25,10 +26,6 @@ constexpr double kAtEndRad = 1e-3;
 constexpr double kJoinMm = 0.1;
 // Of a row, to each side: the feed's direction at a place.
 constexpr double kDirectionShare = 0.02;
-
-double in_turn(double angle_rad) {
-    return angle_rad - math::kTwoPi * std::floor(angle_rad / math::kTwoPi);
-}
 
 }  // namespace
 
@@ -137,7 +134,7 @@ void SurfaceRecorder::find_next(Watch& w, double after_rad) const {
     double least = std::numeric_limits<double>::max();
     const std::vector<double>& phases = phases_rad_[cutter_];
     for (std::size_t tooth = 0; tooth < phases.size(); ++tooth) {
-        const double ahead = in_turn(w.angle_rad - phases[tooth] - after_rad);
+        const double ahead = dynamics::in_turn(w.angle_rad - phases[tooth] - after_rad);
         if (ahead >= least) continue;
         least = ahead;
         w.next_tooth = tooth;

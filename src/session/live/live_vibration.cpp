@@ -6,14 +6,13 @@
 
 #include "base/limits.hpp"
 #include "base/math.hpp"
+#include "dynamics/step/edge_slices.hpp"
 #include "session/chatter/row_stability.hpp"
 #include "session/chatter/simulated_cut.hpp"
 
 namespace tribo::session {
 namespace {
 
-// Smaller vibrations, of what they were, have died out.
-constexpr double kDiedOut = 1e-4;
 // Angles and heights may be beyond their limits by this share: they come in single precision.
 constexpr double kRounding = 1e-6;
 // Steps in a sample, at most: for modes up to 19 kHz.
@@ -21,9 +20,8 @@ constexpr int kMostSteps = 8;
 // Pieces of edge (dynamics::Vibration) times steps in a sample, at most: a third of a second for each second
 // of sound.
 constexpr double kMostWork = 96;
-// Lag of an edge and angle of its profile over such a piece, and how many on the cylinder one on the rounded
-// part costs.
-constexpr double kPieceRad = 0.25, kProfileRad = 0.4, kRoundCost = 3;
+// How many pieces on the cylinder one on the rounded part costs.
+constexpr double kRoundCost = 3;
 
 bool is_good(const dynamics::Mode& mode) {
     return is_finite(mode.direction) && length(mode.direction) > 0 &&
@@ -70,14 +68,9 @@ std::unique_ptr<LiveVibration> LiveVibration::make(const protocol::LiveBending& 
 LiveVibration::LiveVibration(const protocol::LiveBending& bending, int sample_rate_hz)
     : rate_hz_(sample_rate_hz) {
     for (const protocol::LiveBendingCutter& of : bending.cutters) {
-        double ring_samples = 0;
-        for (const dynamics::Mode& mode : of.modes) {
-            const double decay_per_s = mode.damping_ratio * math::kTwoPi * mode.frequency_hz;
-            ring_samples = std::max(ring_samples, -math::log(kDiedOut) / decay_per_s * rate_hz_);
-        }
         const int steps = steps_of(of, rate_hz_);
         tools_.push_back(
-            {of.cutter, of.modes, ring_samples, steps,
+            {of.cutter, of.modes, ring_s(of.modes) * rate_hz_, steps,
              BendingTool(of.modes, of.cutter, bending.coefficients, rate_hz_, steps, 0, 1, true)});
         last_.modes.reserve(of.modes.size());
     }
@@ -103,10 +96,11 @@ double LiveVibration::work(std::size_t cutter, std::span<const milling::Engageme
     double pieces = 0;
     for (const milling::EngagementBand& band : bands) {
         const double middle = std::clamp(corner, band.z0_mm, band.z1_mm);
-        pieces += std::ceil(lag * (band.z1_mm - middle) / kPieceRad);
+        pieces += std::ceil(lag * (band.z1_mm - middle) / dynamics::kSliceRad);
         if (middle > band.z0_mm)
-            pieces += kRoundCost * std::ceil(std::max(lag * (middle - band.z0_mm) / kPieceRad,
-                                                      (kappa(middle) - kappa(band.z0_mm)) / kProfileRad));
+            pieces +=
+                kRoundCost * std::ceil(std::max(lag * (middle - band.z0_mm) / dynamics::kSliceRad,
+                                                (kappa(middle) - kappa(band.z0_mm)) / dynamics::kProfileRad));
     }
     return pieces * tool.cutter.flutes * tool.steps;
 }
