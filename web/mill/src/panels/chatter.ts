@@ -64,10 +64,11 @@ export class ChatterPanel {
     this.box.hidden = true;
     this.chart = this.cells = this.state = this.pocket = undefined;
     this.canvas.hidden = this.best.hidden = true;
+    element("chatter-verdict").textContent = NOTHING_CUT;
+    element("chatter-number").textContent = this.box.dataset.growth = "";
   }
   open(): void {
     this.box.hidden = false;
-    if (!this.state) element("chatter-verdict").textContent = NOTHING_CUT;
     this.draw();
   }
 
