@@ -234,5 +234,13 @@ stiffness_n_per_mm = 1000
     EXPECT_EQ(trace.at("fy_n")[1500], 0);
 }
 
+TEST_F(RenderChatter, refuses_a_surface_of_what_does_not_bend) {
+    job.put("slot.nc", slot(9000));
+    job.put("job.toml", kBenchmarkSlot);
+    const Outcome run = job.render({"--only", "surface"});
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("nothing in it can vibrate"), std::string::npos) << run.err;
+}
+
 }  // namespace
 }  // namespace tribo::test

@@ -32,7 +32,9 @@
 #include "readers/tables/feel_trace_csv.hpp"
 #include "readers/tables/stroke_csv.hpp"
 #include "report/feel_stats_json.hpp"
+#include "session/chatter/surface_recorder.hpp"
 #include "session/feel/feel_session.hpp"
+#include "session/feel/vibration_track.hpp"
 #include "session/live/live_mill.hpp"
 
 namespace tribo::app {
@@ -238,7 +240,13 @@ FileResult<void> read_job(const FeelCall& call, Part& part) {
     options.memory_bytes = limits.memory_bytes;
     auto setup = session::prepare_mill(*loaded, options, part.warnings);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
-    if (auto fits = check_memory(call.job, *setup, loaded->part, {}); !fits)
+    RunOutputs made;
+    if (loaded->job.can_vibrate()) {
+        made.chatter_bytes = call.mode == "cut"
+                                 ? session::VibrationTrack::bytes(call.rate_hz, setup->schedule->duration_s)
+                                 : session::SurfaceRecorder::estimated_bytes(*setup);
+    }
+    if (auto fits = check_memory(call.job, *setup, loaded->part, made); !fits)
         return std::unexpected(FileFailure(fits.error()));
     part.bounds_mm = setup->blank->bounds_mm();
     part.setup = std::move(*setup);

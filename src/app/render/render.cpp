@@ -14,6 +14,8 @@
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
+#include "session/chatter/steady_cut.hpp"
+#include "session/chatter/surface_recorder.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/mill_warnings.hpp"
 #include "tribo/threads.hpp"
@@ -108,8 +110,12 @@ int render(const RenderCall& call) {
     options.memory_bytes = static_cast<std::uint64_t>(call.memory_mb.value_or(0) * kMegabyte);
     auto loaded = prepare_job(call.job, call.program, options, sound_rate_hz);
     if (!loaded) return report(loaded.error());
-    const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound"),
-                          loaded->job.can_vibrate()};
+    if (call.only.contains("surface")) {
+        if (auto bends = session::check_modes(loaded->job); !bends) return report(bends.error());
+    }
+    const RunOutputs made{
+        call.wants("mesh"), call.wants("report"), call.wants("sound"),
+        loaded->job.can_vibrate() ? session::SurfaceRecorder::estimated_bytes(loaded->setup) : 0};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
         return report(fits.error());
     auto folder = files::OutputFolder::open(call.out, RenderOutputs::writes);

@@ -8,7 +8,6 @@
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
 #include "files/memory.hpp"
-#include "session/chatter/surface_recorder.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "surface/deviation.hpp"
 #include "tribo/job_hearing.hpp"
@@ -44,7 +43,7 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
     }
     if (outputs.report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
     const double sound = outputs.sound ? kSoundBytes : 0;
-    return kProgramBytes + sound + estimate.session_bytes(cell) +
+    return kProgramBytes + sound + outputs.chatter_bytes + estimate.session_bytes(cell) +
            std::max({mesh, kept + comparison, kept + after});
 }
 
@@ -101,10 +100,9 @@ Result<void> check_memory(const std::string& file, const session::MillSetup& set
     const double budget =
         memory_mb ? *memory_mb * kMegabyte : static_cast<double>(files::default_memory_budget_bytes());
     if (budget <= 0) return {};
-    const double marks = outputs.surface_marks ? session::SurfaceRecorder::estimated_bytes(setup) : 0;
     const auto shortage =
         session::memory_shortage(setup, budget, [&](const session::MemoryEstimate& estimate, double cell) {
-            return marks + bytes_at(outputs, part, estimate, cell);
+            return bytes_at(outputs, part, estimate, cell);
         });
     if (!shortage) return {};
     char cause[160], remedy[160];

@@ -45,7 +45,7 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags&
 // Outputs of a run besides the milled part.
 struct RunOutputs {
     bool mesh = false, report = false, sound = false;
-    bool surface_marks = false;  // of a job in which tool or part bends
+    double chatter_bytes = 0;  // of what a vibration leaves on the part, or adds to the force
 };
 
 // Refuses a run that does not fit into memory. The error names the finest grid spacing that fits. Absent

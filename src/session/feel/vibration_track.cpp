@@ -41,7 +41,7 @@ void VibrationTrack::add(const contact::ForceTrace& trace, const milling::ToolFr
         const double to = std::min(std::floor(centre + kHalfWidth), last);
         for (double k = from; k <= to; ++k) {
             const double share = per_sample * weight(k - centre);
-            std::array<float, 3>& sum = force_n_[static_cast<std::size_t>(k)];
+            Sample& sum = force_n_[static_cast<std::size_t>(k)];
             for (int i = 0; i < 3; ++i)
                 sum[static_cast<std::size_t>(i)] += static_cast<float>(share * force[i]);
         }
@@ -52,9 +52,7 @@ Vec3 VibrationTrack::force_n(double at_s) const noexcept {
     const double at = at_s * rate_hz_;
     if (!(at >= 0) || !(at < static_cast<double>(force_n_.size() - 1))) return {};
     const auto n = static_cast<std::size_t>(at);
-    const auto vec = [](const std::array<float, 3>& f) {
-        return Vec3{double{f[0]}, double{f[1]}, double{f[2]}};
-    };
+    const auto vec = [](const Sample& f) { return Vec3{double{f[0]}, double{f[1]}, double{f[2]}}; };
     return lerp(vec(force_n_[n]), vec(force_n_[n + 1]), at - static_cast<double>(n));
 }
 

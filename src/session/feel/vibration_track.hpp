@@ -16,9 +16,12 @@ namespace tribo::session {
 // Full up to a quarter of the rate, nothing from 0.4 of it on, as haptics::groove_gain has it. 12 bytes per
 // sample.
 class VibrationTrack {
+    using Sample = std::array<float, 3>;
+
   public:
     // For a program of this duration.
     VibrationTrack(double rate_hz, double duration_s);
+    static double bytes(double rate_hz, double duration_s) { return sizeof(Sample) * rate_hz * duration_s; }
 
     // Adds the trace of a row; `frame` is that of its tool. The rate of traces is above that of the servo.
     void add(const contact::ForceTrace& trace, const milling::ToolFrame& frame);
@@ -30,7 +33,7 @@ class VibrationTrack {
     double weight(double from_centre) const;
 
     double rate_hz_;
-    std::vector<std::array<float, 3>> force_n_;
+    std::vector<Sample> force_n_;
     std::vector<double> kernel_;  // half of it, kSteps per sample of the servo
 };
 
