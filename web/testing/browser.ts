@@ -29,6 +29,11 @@ export function launchWithoutGraphics(): Promise<Browser> {
   return chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...QUIET, "--disable-3d-apis"] });
 }
 
+/** A text file, as an input of files takes it. */
+export function file(name: string, text: string) {
+  return { name, mimeType: "text/plain", buffer: Buffer.from(text) };
+}
+
 /** A slow phone's line and processor: 1.6 Mbit/s, 150 ms, four times slower. */
 export async function slowDown(page: Page): Promise<void> {
   const cdp = await page.context().newCDPSession(page);

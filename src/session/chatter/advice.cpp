@@ -46,10 +46,16 @@ void add_default_depths(const SteadyCut& cut, dynamics::ChartRange& range) {
         while (depth < cut.cutter.length_mm && cut.at(rpm, depth).multiplier <= 1) depth *= 2;
         first.push_back(depth);
     }
-    std::nth_element(first.begin(), first.begin() + kAsked / 2, first.end());
-    const double most = std::max(4 * first[kAsked / 2], 2 * cut.axial_depth_mm);
-    range.step_mm = round_below(std::min(most, std::max(cut.cutter.length_mm, cut.axial_depth_mm)) / kDepths);
+    const double most = chart_depth_mm(cut, std::move(first));
+    range.step_mm = round_below(most / kDepths);
     range.most_mm = range.step_mm * std::ceil(std::min(most, cut.cutter.length_mm) / range.step_mm);
+}
+
+double chart_depth_mm(const SteadyCut& cut, std::vector<double> first) {
+    const auto middle = first.begin() + static_cast<std::ptrdiff_t>(first.size() / 2);
+    std::nth_element(first.begin(), middle, first.end());
+    return std::min(std::max(4 * *middle, 2 * cut.axial_depth_mm),
+                    std::max(cut.cutter.length_mm, cut.axial_depth_mm));
 }
 
 Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel) {

@@ -13,9 +13,12 @@ namespace tribo::session {
 // Half to twice the job's speed, but hardly beyond the speed at which a tooth comes with each vibration of
 // the fastest mode. 200 speeds or more.
 dynamics::ChartRange default_speeds(const SteadyCut& cut);
-// Down to twice the job's depth and to four times the depth at which half of the speeds chatter, at most the
-// whole edge. 100 depths or more.
+// Down to chart_depth_mm(). 100 depths or more.
 void add_default_depths(const SteadyCut& cut, dynamics::ChartRange& range);
+
+// How deep a chart reaches, from the first unstable depths at some of its speeds: to twice the job's depth
+// and to four times the middle one of these, at most the whole edge.
+double chart_depth_mm(const SteadyCut& cut, std::vector<double> first_unstable_mm);
 
 struct Advice {
     dynamics::Stability here;    // at the job's speed and depth

@@ -78,7 +78,6 @@ void ChartOfCut::begin(const milling::CutRow& row, const CutChange& change) {
     stage_ = Stage::depths;
 }
 
-// The depths reach as far as those of add_default_depths().
 void ChartOfCut::probe_depth(const std::function<bool(std::size_t work)>& may_go_on) {
     const double whole = cut_.cutter.length_mm;
     while (first_mm_.size() < kProbed) {
@@ -94,9 +93,7 @@ void ChartOfCut::probe_depth(const std::function<bool(std::size_t work)>& may_go
 }
 
 void ChartOfCut::lay_out() {
-    std::sort(first_mm_.begin(), first_mm_.end());
-    const double most = std::min(std::max(4 * first_mm_[kProbed / 2], 2 * cut_.axial_depth_mm),
-                                 std::max(cut_.cutter.length_mm, cut_.axial_depth_mm));
+    const double most = chart_depth_mm(cut_, first_mm_);
     chart_ = {};
     for (std::size_t n = 0; n < kMostSpeeds; ++n)
         chart_.speeds_rpm.push_back(from_rpm_ +

@@ -6,16 +6,12 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { violations } from "../../testing/axe.js";
-import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { file, hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
 import { BENDING_SLOT, jobText, SLOT_PROGRAM } from "../../testing/job.js";
 import { serveFolder, type Server } from "../../testing/server.js";
 import { SITE } from "../../tools/places.js";
 
 const PICTURES = process.env.TRIBO_PICTURES;
-
-function file(name: string, text: string) {
-  return { name, mimeType: "text/plain", buffer: Buffer.from(text) };
-}
 
 describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("a cut that chatters in the page", () => {
   let server: Server;

@@ -7,7 +7,7 @@ import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { violations } from "../../testing/axe.js";
-import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { file, hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
 import { serveFolder, type Server } from "../../testing/server.js";
 import { SITE } from "../../tools/places.js";
@@ -18,10 +18,6 @@ const JOB = jobText("[[0, 0, -6], [30, 16, 0]]");
 // A slot, then a rapid through what is left beside it.
 const PROGRAM = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X35\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X35\nG0 Y14 X20\n";
 const SURFACE = "v 0 0 -2\nv 30 0 -2\nv 30 16 -2\nv 0 16 -2\nf 1 2 3\nf 1 3 4\n";
-
-function file(name: string, text: string) {
-  return { name, mimeType: "text/plain", buffer: Buffer.from(text) };
-}
 
 describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the page without an engine", () => {
   let server: Server;
