@@ -16,6 +16,7 @@ std::optional<std::vector<double>> steps(double from, double to, double step, st
     const double count = std::floor((to - from) / step + kRoundoff) + 1;
     if (count > static_cast<double>(most)) return std::nullopt;
     std::vector<double> values;
+    values.reserve(static_cast<std::size_t>(count));
     for (int n = 0; n < static_cast<int>(count); ++n) values.push_back(from + n * step);
     return values;
 }
@@ -72,6 +73,7 @@ std::vector<SafePocket> safe_pockets(const StabilityChart& chart, std::size_t mo
     constexpr double kOff = 0.01, kAboveMedian = 1.5, kShallower = 0.8;
     const std::size_t count = chart.speeds_rpm.size();
     std::vector<double> limits;
+    limits.reserve(count);
     for (std::size_t n = 0; n < count; ++n) limits.push_back(chart.safe_mm(n));
     // The least limit within 1 % of each speed, but at least of its neighbours.
     std::vector<double> safe = limits;
@@ -111,6 +113,7 @@ std::vector<SafePocket> safe_pockets(const StabilityChart& chart, std::size_t mo
         if (apart && chosen.size() < most) chosen.push_back(peak);
     }
     std::vector<SafePocket> pockets;
+    pockets.reserve(chosen.size());
     for (const std::size_t n : chosen)
         pockets.push_back({chart.speeds_rpm[n], safe[n], safe[n] == chart.depths_mm.back()});
     return pockets;

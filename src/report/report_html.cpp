@@ -142,7 +142,7 @@ std::string audio(const ReportSound& sound) {
 
 // The picture, with the elements that the script shows over it.
 std::string picture(const ReportData& data) {
-    const std::string still =
+    std::string still =
         "<img alt=\"The part as milled\" src=\"data:image/png;base64," + base64(data.picture_png) + "\">\n";
     if (!data.part) return still;
     return "<figure id=\"part-view\">\n" + still +

@@ -135,7 +135,7 @@ void PeriodStep::add_link(std::size_t point, double t_s, const std::array<double
         nearest = &piece;
         least = apart;
     }
-    if (least > kSame * cut_.period_s()) return;
+    if (nearest == nullptr || least > kSame * cut_.period_s()) return;
     Link link{point, last_period, nearest->first, std::vector<double>(nearest->points->x.size()), stiffness};
     nearest->points->shares((t - nearest->from_s) / nearest->lasts_s, link.share.data());
     links_.push_back(std::move(link));

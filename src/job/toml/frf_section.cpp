@@ -30,6 +30,7 @@ JobFrf read_frf(TomlFile& file, const toml::table& table) {
     }
     frf.modes = section.integer("modes", kLimits.fitted_modes);
     std::vector<std::string_view> units;
+    units.reserve(readers::kResponseUnits.size());
     for (const readers::ResponseUnit& unit : readers::kResponseUnits) units.push_back(unit.name);
     if (const auto unit = section.word("unit", units)) frf.unit = &readers::kResponseUnits[*unit];
     return frf;

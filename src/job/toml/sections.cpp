@@ -27,6 +27,8 @@ constexpr std::array kProcessKeys{"spindle_rpm"sv, "feed_mm_per_min"sv, "spindle
                                   "spindle_variation_hz"sv};
 constexpr std::array kPathKeys{"keyframes"sv, "gcode"sv,   "apt"sv,     "interpolation"sv,
                                "machine"sv,   "unit_mm"sv, "dialect"sv, "tools"sv};
+// In the order of kPathKindWords.
+constexpr std::array kPathKinds{PathKind::keyframes, PathKind::gcode, PathKind::apt};
 constexpr std::array kInterpolationWords{"spline"sv, "linear"sv, "fit"sv};
 constexpr std::array kModeKeys{
     "direction"sv, "frequency_hz"sv,     "damping_ratio"sv,  "stiffness_n_per_mm"sv,
@@ -130,7 +132,7 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
             return path;
         }
         kind = key;
-        path.kind = static_cast<PathKind>(n);
+        path.kind = kPathKinds[n];
         path.file = section.required_path(kind);
     }
     if (kind.empty()) {

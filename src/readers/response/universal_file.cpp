@@ -179,7 +179,7 @@ class FileReader {
             }
         }
         function.data_line = number() + 1;
-        if (!binary.empty()) return take_binary(binary, std::move(function));
+        if (!binary.empty()) return take_binary(binary, function);
         const std::string_view rest = lines_.rest();
         std::size_t left = rest.size();
         while (const auto line = lines_.next()) {
@@ -190,7 +190,7 @@ class FileReader {
             break;
         }
         function.data = rest.substr(0, rest.size() - left);
-        functions_.push_back(std::move(function));
+        functions_.push_back(function);
         return {};
     }
 
@@ -227,7 +227,7 @@ class FileReader {
         function.data = rest.substr(0, bytes);
         passed_ = number();
         lines_ = TextLines(rest.substr(bytes));
-        functions_.push_back(std::move(function));
+        functions_.push_back(function);
         pass_over();
         return {};
     }

@@ -67,6 +67,7 @@ Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const
     if (!cases.empty()) {
         advice.probability = probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
         std::vector<std::size_t> stable;
+        stable.reserve(cases.size());
         for (const SteadyCut& c : cases) stable.push_back(stable_depths(c, cut.spindle_rpm, chart.depths_mm));
         const auto rare = stable.begin() + static_cast<std::ptrdiff_t>(dynamics::kRarely * kCases);
         std::nth_element(stable.begin(), rare, stable.end());

@@ -95,8 +95,8 @@ void SurfaceRecorder::watch(const milling::CutRow& row, const milling::Engagemen
     if (band.z0_mm < corner) heights = std::max(heights, size / (corner * kKappaStepRad));
     const int count = std::clamp(static_cast<int>(std::ceil(heights)), 1, kMostHeights);
     for (int n = 0; n < 2 * count; ++n) {
-        const int side = n % 2;
-        const milling::ProfilePoint at = profile.at(from + size * (n / 2 + 0.5) / count);
+        const int side = n % 2, height = n / 2;
+        const milling::ProfilePoint at = profile.at(from + size * (height + 0.5) / count);
         const milling::TurnWindow cut = milling::window_above(milling::normal_travel(row.feed, at), 0);
         if (cut.empty()) continue;
         // The end of a window may lie in the second turn, as the band is in the first.

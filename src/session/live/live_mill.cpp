@@ -142,7 +142,8 @@ void LiveMill::set_clock(double t_s) {
 
 void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
     // With a session this cannot fail: it mills again what it milled before.
-    if (set_back_) (void)begin();
+    if (set_back_) [[maybe_unused]]
+        const auto begun = begin();
     cut_.pass(dt_s);
     // The clock continues from the milled part.
     const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
