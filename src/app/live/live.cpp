@@ -6,6 +6,7 @@
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
+#include "app/live/input_reader.hpp"
 #include "app/live/live_server.hpp"
 #include "app/live/live_view.hpp"
 #include "app/render/render_job.hpp"
@@ -31,7 +32,8 @@ FileResult<PreparedJob> read_job(const LiveCall& call, std::optional<int> sound_
     const session::MillOptions options{call.resolution_mm, {}, session::LiveMill::kPieceMm};
     auto read = prepare_job(call.job, call.program, options, sound_rate_hz, files::Pipes::refuse);
     if (!read) return read;
-    const RunOutputs made{.mesh = true, .report = false, .sound = sound_rate_hz.has_value()};
+    // The part is milled for the picture, and ahead of it for the hand.
+    const RunOutputs made{.mesh = true, .sound = sound_rate_hz.has_value(), .sessions = 2};
     if (auto fits = check_memory(call.job, read->setup, read->part, made, call.memory_mb); !fits)
         return std::unexpected(FileFailure(fits.error()));
     return read;
@@ -123,9 +125,9 @@ int live(const LiveCall& call) {
         return std::move(input->setup);
     };
     std::optional<session::LiveInput> ready = live_input(*std::move(first));
-    const auto make_input = [&]() -> Result<session::LiveInput> {
-        if (ready) return *std::exchange(ready, std::nullopt);
-        return load_again();
+    const auto make_input = [&ready, reader = std::make_shared<InputReader>(load_again)] {
+        return ready ? std::optional(Result<session::LiveInput>(*std::exchange(ready, std::nullopt)))
+                     : reader->poll();
     };
     auto mill = session::LiveMill::create(
         make_input, parallel_for_over(call.threads > 0 ? call.threads : available_threads()));

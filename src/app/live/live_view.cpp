@@ -15,8 +15,8 @@ namespace tribo::app {
 namespace {
 
 constexpr auto kFrameTime = std::chrono::microseconds(16'667);
-// Largest part of the frame time for milling; the rest is for the picture.
-constexpr auto kMillingTime = std::chrono::microseconds(9'000);
+// Largest part of the frame time for milling and drawing; the rest is for sending.
+constexpr auto kMillingTime = std::chrono::microseconds(13'000);
 // If the clock stood still for longer (a sleeping laptop), it advances by this only.
 constexpr double kLongestStepS = 0.1;
 // Least time between two replays to one client.
@@ -147,6 +147,7 @@ void LiveView::follow_files() {
     built_of_ = key;
     controller_.set_force({});
     finger_.force_source().set_textures({});
+    builder_.reset();  // before the next one: two of them need twice the memory
     builder_ = std::make_unique<ForceBuilder>(options_.make_setup);
     request_forces();
 }

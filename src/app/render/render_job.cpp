@@ -43,7 +43,7 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
     }
     if (outputs.report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
     const double sound = outputs.sound ? kSoundBytes : 0;
-    return kProgramBytes + sound + outputs.chatter_bytes + estimate.session_bytes(cell) +
+    return kProgramBytes + sound + outputs.chatter_bytes + outputs.sessions * estimate.session_bytes(cell) +
            std::max({mesh, kept + comparison, kept + after});
 }
 

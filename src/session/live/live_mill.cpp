@@ -2,6 +2,7 @@
 #include "session/live/live_mill.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -71,12 +72,22 @@ LiveMill::LiveMill(MakeInput make_input, ParallelFor parallel)
 
 Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeInput make_input, ParallelFor parallel) {
     std::unique_ptr<LiveMill> live(new LiveMill(std::move(make_input), std::move(parallel)));
-    if (auto begun = live->begin(); !begun) return std::unexpected(begun.error());
+    auto input = live->make_input_();
+    assert(input);
+    if (auto begun = live->begin(*std::move(input)); !begun) return std::unexpected(begun.error());
     return live;
 }
 
-Result<void> LiveMill::begin() {
+// Begins a new session once the files are read.
+void LiveMill::begin_again() {
     auto input = make_input_();
+    if (!input) return;
+    // With a session this cannot fail: it mills again what it milled before.
+    [[maybe_unused]] const auto begun = begin(*std::move(input));
+    clock_s_ = std::min(clock_s_, duration_s());
+}
+
+Result<void> LiveMill::begin(Result<LiveInput> input) {
     if (!input && !session_) return std::unexpected(input.error());
     input_error_ = input ? std::nullopt : std::optional(input.error());
     if (session_observer_) session_observer_(nullptr);
@@ -92,7 +103,9 @@ Result<void> LiveMill::begin() {
     cut_.begin(session_->setup(), bends);
     if (bends) chatter_.emplace(session_->setup(), change());
     collisions_sent_ = 0;
-    shown_s_ = 0;
+    picture_->mark(picture_->all());
+    marked_s_ = 0;
+    designed_waits_ = extras_.designed != nullptr;
     ++sessions_;
     begun_anew_ = true;
     set_back_ = false;
@@ -135,41 +148,34 @@ void LiveMill::set_speed(double seconds_per_second) {
 
 void LiveMill::set_clock(double t_s) {
     if (std::isnan(t_s)) return;
-    clock_s_ = std::clamp(t_s, 0.0, duration_s());
+    // The files that are being read may make a longer program.
+    clock_s_ = std::max(set_back_ ? t_s : std::min(t_s, duration_s()), 0.0);
     // Removed material does not come back: milling starts again.
-    set_back_ = clock_s_ < session_->milled_s();
+    set_back_ = set_back_ || clock_s_ < session_->milled_s();
 }
 
 void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
-    // With a session this cannot fail: it mills again what it milled before.
-    if (set_back_) [[maybe_unused]]
-        const auto begun = begin();
+    if (set_back_) begin_again();
     cut_.pass(dt_s);
-    // The clock continues from the milled part.
-    const double target = std::min(clock_s_ + pace() * dt_s, duration_s());
-    MillSinks sinks;
-    sinks.row = [this](const milling::CutRow& row, const milling::RowForce& force) { cut_.add(row, force); };
-    sinks.progress = [&](double) {
-        cut_.compute_new();
-        return has_time();
-    };
-    session_->run_to(target, sinks);
+    // The clock continues from the milled part. It waits for the files of a part that begins again.
+    const double target = set_back_ ? clock_s_ : std::min(clock_s_ + pace() * dt_s, duration_s());
+    const bool begins = std::exchange(begun_anew_, false);
+    if (begins) show_job(frames);
+    const bool waits = playing_ && picture_->is_behind();
+    if (waits) show_part(has_time, frames);
+    if (!set_back_ && !(waits && picture_->is_behind())) mill(target, has_time);
     cut_.compute_new();
     cut_.compute_slice();
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
-    if (clock_s_ >= duration_s()) playing_ = false;
-    if (begun_anew_) {
-        begun_anew_ = false;
-        show_job(frames);
-        show_part(picture_->all(), frames);
-        // After the part, so that the first picture is not delayed on a slow connection.
-        if (extras_.designed) show_designed(frames);
+    if (!set_back_ && clock_s_ >= duration_s()) playing_ = false;
+    show_part(has_time, frames);
+    if (begins) {
         protocol::write_frame(path_, frame_);
         frames(frame_);
         last_state_.clear();
-    } else if (session_->milled_s() > shown_s_) {
-        show_part(swept_box(*session_, shown_s_, session_->milled_s()), frames);
     }
+    // After the part, so that the first picture is not delayed on a slow connection.
+    if (!picture_->is_behind() && std::exchange(designed_waits_, false)) show_designed(frames);
     show_bending(frames);
     cut_.show_rows(frames);
     if (chatter_) {
@@ -179,6 +185,19 @@ void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const pr
     show_collisions(frames);
     show_sound(frames);
     show_state(frames);
+}
+
+void LiveMill::mill(double target_s, const std::function<bool()>& has_time) {
+    MillSinks sinks;
+    sinks.row = [this](const milling::CutRow& row, const milling::RowForce& force) { cut_.add(row, force); };
+    sinks.progress = [&](double) {
+        cut_.compute_new();
+        return has_time();
+    };
+    session_->run_to(target_s, sinks);
+    if (session_->milled_s() <= marked_s_) return;
+    picture_->mark(swept_box(*session_, marked_s_, session_->milled_s()));
+    marked_s_ = session_->milled_s();
 }
 
 void LiveMill::show_job(const protocol::FrameSink& frames) {
@@ -248,15 +267,14 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
     }
 }
 
-void LiveMill::show_part(const Box3& box_mm, const protocol::FrameSink& frames) {
-    picture_->update(box_mm, [&](ChunkCoord c, TriangleMesh mesh, std::vector<float> deviations_mm) {
+void LiveMill::show_part(const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
+    picture_->update(has_time, [&](ChunkCoord c, TriangleMesh mesh, std::vector<float> deviations_mm) {
         protocol::write_frame(
             protocol::LiveChunk{
                 session_->milled_s(), {c.i, c.j, c.k}, std::move(mesh), std::move(deviations_mm)},
             frame_);
         frames(frame_);
     });
-    shown_s_ = session_->milled_s();
 }
 
 void LiveMill::show_collisions(const protocol::FrameSink& frames) {

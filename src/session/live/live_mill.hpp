@@ -38,10 +38,11 @@ struct LiveInput {
 
 class LiveMill {
   public:
-    // Reads the files. Called again when the clock is set back; if it then fails, the input before is milled
-    // again (input_error()). Moves should be short (MillOptions::longest_piece_mm): the part is shown only
-    // between moves.
-    using MakeInput = std::function<Result<LiveInput>()>;
+    // Reads the files. Called again, with each tick until it gives a value, when the clock is set back; the
+    // part stands still meanwhile. If it then fails, the input before is milled again (input_error()). The
+    // first call must give a value. Moves should be short (MillOptions::longest_piece_mm): the part is shown
+    // only between moves.
+    using MakeInput = std::function<std::optional<Result<LiveInput>>()>;
     static constexpr double kPieceMm = 2;
     static constexpr double kFastest = kLimits.play_speed.range.max;  // program seconds per second
 
@@ -75,16 +76,19 @@ class LiveMill {
     // Receiver of sound updates in this process, called together with the frames.
     void set_sound_listener(std::function<void(LiveSoundUpdate)> ear) { sound_listener_ = std::move(ear); }
 
-    // Advances the time by dt_s >= 0. Mills towards the clock while `has_time` is true (checked every few
-    // moves), then sends frames for all changes (FrameCache keeps them). The clock waits for the part.
+    // Advances the time by dt_s >= 0. Mills towards the clock and draws what has changed, while `has_time` is
+    // true (checked every few moves or chunks), and sends frames for all changes (FrameCache keeps them). The
+    // clock waits for the part. While it plays, the part also waits for its picture.
     void tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
     LiveMill(MakeInput make_input, ParallelFor parallel);
-    Result<void> begin();
+    Result<void> begin(Result<LiveInput> input);
+    void begin_again();
     void take(LiveExtras extras);
+    void mill(double target_s, const std::function<bool()>& has_time);
     void show_job(const protocol::FrameSink& frames);
-    void show_part(const Box3& box_mm, const protocol::FrameSink& frames);
+    void show_part(const std::function<bool()>& has_time, const protocol::FrameSink& frames);
     void show_collisions(const protocol::FrameSink& frames);
     void show_bending(const protocol::FrameSink& frames);
     void show_sound(const protocol::FrameSink& frames);
@@ -107,8 +111,9 @@ class LiveMill {
     std::function<void(LiveSoundUpdate)> sound_listener_;
     int sessions_ = 0;
     std::size_t collisions_sent_ = 0;
-    double clock_s_ = 0, speed_ = 1, shown_s_ = 0;
-    bool playing_ = false, set_back_ = false, begun_anew_ = false;
+    double clock_s_ = 0, speed_ = 1;
+    double marked_s_ = 0;  // the picture knows of the cut up to this time
+    bool playing_ = false, set_back_ = false, begun_anew_ = false, designed_waits_ = false;
     std::vector<std::uint8_t> frame_, last_state_, last_bending_;
 };
 

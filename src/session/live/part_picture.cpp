@@ -15,6 +15,8 @@ using field::BrickCoord;
 
 // State of a chunk that was not examined yet.
 constexpr std::uint64_t kUnseen = 0;
+// Chunks between two checks of the time: a few milliseconds each where deviations are searched.
+constexpr std::size_t kChunksAtOnce = 8;
 
 ChunkCoord chunk_of(BrickCoord b) {
     return {b.i / kChunkBricks, b.j / kChunkBricks, b.k / kChunkBricks};
@@ -35,6 +37,7 @@ PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel,
     shown_.assign(static_cast<std::size_t>(size_.i) * static_cast<std::size_t>(size_.j) *
                       static_cast<std::size_t>(size_.k),
                   kUnseen);
+    is_marked_.assign(shown_.size(), false);
 }
 
 Box3 PartPicture::all() const {
@@ -66,7 +69,7 @@ std::uint64_t PartPicture::state(ChunkCoord chunk) const {
     return hash.value() | 1;
 }
 
-void PartPicture::update(const Box3& box_mm, const Show& show) {
+void PartPicture::mark(const Box3& box_mm) {
     if (box_mm.empty()) return;
     const BrickCoord n = field_.size();
     const auto inside = [&](BrickCoord b) {
@@ -81,15 +84,31 @@ void PartPicture::update(const Box3& box_mm, const Show& show) {
     for (int k = first.k; k <= last.k; ++k) {
         for (int j = first.j; j <= last.j; ++j) {
             for (int i = first.i; i <= last.i; ++i) {
-                const ChunkCoord chunk{i, j, k};
-                const std::uint64_t now = state(chunk);
-                std::uint64_t& shown = shown_[number(chunk)];
-                if (now == shown) continue;
-                changes_.push_back({chunk, shown != kUnseen, {}, {}});
-                shown = now;
+                if (is_marked_[number({i, j, k})]) continue;
+                is_marked_[number({i, j, k})] = true;
+                marked_.push_back({i, j, k});
             }
         }
     }
+}
+
+void PartPicture::update(const std::function<bool()>& has_time, const Show& show) {
+    do {
+        while (!marked_.empty() && changes_.size() < kChunksAtOnce) {
+            const ChunkCoord chunk = marked_.front();
+            marked_.pop_front();
+            is_marked_[number(chunk)] = false;
+            const std::uint64_t now = state(chunk);
+            std::uint64_t& shown = shown_[number(chunk)];
+            if (now == shown) continue;
+            changes_.push_back({chunk, shown != kUnseen, {}, {}});
+            shown = now;
+        }
+        show_changes(show);
+    } while (!marked_.empty() && has_time());
+}
+
+void PartPicture::show_changes(const Show& show) {
     parallel_(changes_.size(), [&](std::size_t n) {
         Change& change = changes_[n];
         const BrickCoord from = first_brick(change.chunk);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -36,14 +37,19 @@ class PartPicture {
     explicit PartPicture(const field::CarvedField& field, ParallelFor parallel = serial_for,
                          std::shared_ptr<const surface::DesignedSurface> designed = {});
 
-    // Calls show for each chunk within `box_mm` whose surface has changed since it was last shown. An empty
-    // mesh means that the surface is gone. Cost: a check of the chunks in the box, and a contour of the
-    // changed ones.
-    void update(const Box3& box_mm, const Show& show);
+    // The surface within this box may have changed. Cheap: update() does the work.
+    void mark(const Box3& box_mm);
     // The box of the whole field.
     Box3 all() const;
+    // Calls show for each marked chunk whose surface has changed since it was last shown, in the order of the
+    // marks, while `has_time` is true (checked after every few chunks). An empty mesh means that the surface
+    // is gone. Cost: a check of each marked chunk, and a contour of the changed ones.
+    void update(const std::function<bool()>& has_time, const Show& show);
+    // Chunks are marked that update() has not reached yet.
+    bool is_behind() const { return !marked_.empty(); }
 
   private:
+    void show_changes(const Show& show);
     // Returns a hash of the bricks that the chunk is drawn from.
     std::uint64_t state(ChunkCoord chunk) const;
     std::size_t number(ChunkCoord chunk) const;
@@ -53,6 +59,8 @@ class PartPicture {
     std::shared_ptr<const surface::DesignedSurface> designed_;
     ChunkCoord size_;
     std::vector<std::uint64_t> shown_;
+    std::deque<ChunkCoord> marked_;
+    std::vector<bool> is_marked_;
     struct Change {
         ChunkCoord chunk;
         bool was_seen = false;

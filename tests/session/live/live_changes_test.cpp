@@ -128,5 +128,47 @@ TEST(LiveChanges, MillsTheOldSetupAgainWhileTheNewOneIsWrong) {
     EXPECT_NEAR(viewer.duration_s, 0.5 * 5 * 50.0 / 20, 1e-9);
 }
 
+TEST(LiveChanges, WaitsForFilesThatAreReadElsewhere) {
+    int ticks_to_read = 0, calls = 0;
+    const auto from_files = [&]() -> std::optional<Result<LiveInput>> {
+        ++calls;
+        if (ticks_to_read-- > 0) return std::nullopt;
+        return slot();
+    };
+    auto live = *LiveMill::create(from_files, serial_for);
+    Viewer viewer;
+    live->set_clock(live->duration_s());
+    live->tick(0, always, viewer.sink());
+    const double volume_mm3 = viewer.part_volume_mm3();
+
+    ticks_to_read = 3;
+    live->set_clock(0.5);
+    live->play(true);
+    for (int n = 0; n < 3; ++n) {
+        live->tick(0.1, always, viewer.sink());
+        EXPECT_EQ(live->sessions(), 1);
+        EXPECT_EQ(live->clock_s(), 0.5);
+        EXPECT_EQ(viewer.part_volume_mm3(), volume_mm3);
+    }
+    live->tick(0.1, always, viewer.sink());
+    EXPECT_EQ(live->sessions(), 2);
+    EXPECT_NEAR(live->clock_s(), 0.6, 1e-9);
+    EXPECT_GT(viewer.part_volume_mm3(), 1.01 * volume_mm3);
+
+    // A later time is that of the new program.
+    live->set_clock(live->duration_s());
+    live->tick(0, always, viewer.sink());
+    ticks_to_read = 2;
+    calls = 0;
+    live->set_clock(0.5);
+    live->tick(0, always, viewer.sink());
+    live->set_clock(2 * live->duration_s());
+    for (int n = 0; n < 5; ++n) live->tick(0, always, viewer.sink());
+    EXPECT_EQ(calls, 3);
+    EXPECT_EQ(live->sessions(), 3);
+    EXPECT_EQ(live->clock_s(), live->duration_s());
+    EXPECT_NEAR(viewer.part_volume_mm3() / volume_mm3, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace tribo::session
