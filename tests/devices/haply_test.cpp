@@ -10,9 +10,11 @@
 #include <chrono>
 #include <functional>
 #include <gtest/gtest.h>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>  // before Beast: 1.74 leaves it out
+#include <vector>
 
 namespace tribo::devices {
 namespace {
@@ -83,6 +85,18 @@ std::string state_at(double x, double y, double z) {
     return json.dump();
 }
 
+// The first message of version 3.5 (page "WebSocket Protocol" of Haply's documentation), shortened.
+std::string inventory_at(double x, double y, double z, bool calibrated = true) {
+    nlohmann::json json = nlohmann::json::parse(state_at(x, y, z));
+    json["session_id"] = 7;
+    json["inverse3"][0]["config"] = {{"type", "inverse3x"},
+                                     {"handedness", "right"},
+                                     {"preset", "defaults"},
+                                     {"basis", {{"permutation", "XYZ"}}}};
+    json["inverse3"][0]["status"] = {{"calibrated", calibrated}};
+    return json.dump();
+}
+
 HaplyOptions at(const Service& service) {
     HaplyOptions options;
     options.port = service.port();
@@ -98,6 +112,81 @@ bool comes(haptics::Device& device, haptics::HandReading& reading, DeviceState s
     return false;
 }
 
+// As tutorials 01, 04 and 06 of Inverse SDK 3.5 have it: the first message registers the session and sets the
+// preset, with a force of zero; all others are a force. The zero of the arm is that of the preset.
+TEST(Haply, speaks_as_the_vendors_tutorials_do) {
+    std::mutex mutex;
+    std::vector<std::string> got;
+    Service service(inventory_at(0, -0.12, 0.15), [&](const std::string& text) {
+        const std::lock_guard lock(mutex);
+        if (got.empty() || got.back() != text) got.push_back(text);
+        return state_at(0.01, 0.02, 0.03);
+    });
+    auto device = open_haply(at(service));
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    EXPECT_EQ((*device)->limits().name, "inverse3x");
+    EXPECT_EQ((*device)->limits().max_force_n, 2);
+    EXPECT_EQ((*device)->trouble(), "");
+    haptics::HandReading reading;
+    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    EXPECT_NEAR(distance(reading.position_mm, {10, 20, 30}), 0, 1e-9);
+    const nlohmann::json force = nlohmann::json::parse(R"({"inverse3": [{"device_id": "0A",
+        "commands": {"set_cursor_force": {"vector": {"x": 0.5, "y": 0, "z": 1.25}}}}]})");
+    const nlohmann::json none = nlohmann::json::parse(R"({"inverse3": [{"device_id": "0A",
+        "commands": {"set_cursor_force": {"vector": {"x": 0, "y": 0, "z": 0}}}}]})");
+    const auto last_is = [&](const nlohmann::json& message) {
+        const std::lock_guard lock(mutex);
+        return nlohmann::json::parse(got.back()) == message;
+    };
+    for (int n = 0; n < 4000 && !last_is(force); ++n) {
+        (*device)->write({0.5, 0, 1.25});
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    EXPECT_TRUE(last_is(force));
+    device->reset();
+    for (int n = 0; n < 4000 && !last_is(none); ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(nlohmann::json::parse(got.front()), nlohmann::json::parse(R"({
+        "session": {"configure": {"profile": {"name": "tribo"}}},
+        "inverse3": [{"device_id": "0A", "configure": {"preset": {"preset": "arm_front_centered"}},
+                      "commands": {"set_cursor_force": {"vector": {"x": 0, "y": 0, "z": 0}}}}]})"));
+    std::size_t forces = 0;
+    for (std::size_t n = 1; n < got.size(); ++n) {
+        const nlohmann::json message = nlohmann::json::parse(got[n]);
+        EXPECT_TRUE(message == force || message == none) << got[n];
+        forces += message == force ? 1 : 0;
+    }
+    EXPECT_GE(forces, 1U);
+    EXPECT_EQ(nlohmann::json::parse(got.back()), none);  // of the closing
+}
+
+// Tutorial 06: the grip points along +y of its own frame; x is right, y away from the user, z up.
+TEST(Haply, has_the_hand_behind_the_grip) {
+    const auto stylus_of = [](double w, double x, double y, double z) {
+        nlohmann::json json = nlohmann::json::parse(state_at(0, 0, 0));
+        json["wireless_verse_grip"][0]["state"]["orientation"] = {{"w", w}, {"x", x}, {"y", y}, {"z", z}};
+        HaplyState state;
+        EXPECT_TRUE(read_haply_state(json.dump(), state));
+        return state.stylus;
+    };
+    const double half = 0.7071067811865476;
+    EXPECT_NEAR(distance(stylus_of(1, 0, 0, 0), {0, -1, 0}), 0, 1e-12);
+    // A quarter of a turn about x: it points up; about -x: down; about z: to the left.
+    EXPECT_NEAR(distance(stylus_of(half, half, 0, 0), {0, 0, -1}), 0, 1e-12);
+    EXPECT_NEAR(distance(stylus_of(half, -half, 0, 0), {0, 0, 1}), 0, 1e-12);
+    EXPECT_NEAR(distance(stylus_of(half, 0, 0, half), {1, 0, 0}), 0, 1e-12);
+}
+
+TEST(Haply, refuses_an_arm_that_is_not_calibrated) {
+    Service service(inventory_at(0, 0, 0, false), [](const std::string&) { return std::string(); });
+    const auto device = open_haply(at(service));
+    ASSERT_FALSE(device.has_value());
+    EXPECT_NE(device.error().cause.find("not calibrated"), std::string::npos);
+    EXPECT_NE(device.error().remedy.find("inkwell"), std::string::npos);
+}
+
+// Services before 3.5 know no presets and name the vector "values".
 TEST(Haply, takes_states_and_answers_each_with_the_newest_force) {
     std::atomic<double> seen_z{0};
     std::atomic<bool> well_formed{true};
@@ -120,6 +209,7 @@ TEST(Haply, takes_states_and_answers_each_with_the_newest_force) {
         std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
     EXPECT_EQ(seen_z, 1.25);
+    EXPECT_NE((*device)->trouble().find("older than 3.5"), std::string::npos);
     EXPECT_NEAR(distance(reading.position_mm, {10, 20, 40}), 0, 1e-9);
     EXPECT_NEAR(reading.velocity_mm_per_s.z, 50, 1e-9);
     EXPECT_EQ(reading.buttons, 5U);

@@ -36,7 +36,8 @@ bool read_triple(const Json& parent, const char* key, Vec3& out) {
     return true;
 }
 
-// Returns the z axis of the frame of a unit quaternion.
+// The grip points along +y of its own frame, in the axes of the application (tutorial 06 of the SDK). The
+// hand is at the other end.
 void read_grip(const Json& grip, HaplyState& state) {
     const auto inner = grip.find("state");
     if (inner == grip.end() || !inner->is_object()) return;
@@ -44,7 +45,7 @@ void read_grip(const Json& grip, HaplyState& state) {
     if (q != inner->end() && q->is_object()) {
         const double w = q->value("w", 1.0), x = q->value("x", 0.0), y = q->value("y", 0.0),
                      z = q->value("z", 0.0);
-        state.stylus = normalized({2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)});
+        state.stylus = -normalized({2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)});
     }
     const auto buttons = inner->find("buttons");
     if (buttons != inner->end() && buttons->is_object()) {
@@ -74,6 +75,12 @@ bool read_state(const Json& json, HaplyState& state) {
             !read_triple(*inner, "cursor_position", state.position_m))
             return false;
         read_triple(*inner, "cursor_velocity", state.velocity_m_per_s);
+        if (const auto status = arm.find("status"); status != arm.end() && status->is_object())
+            state.calibrated = status->value("calibrated", state.calibrated);
+        if (const auto config = arm.find("config"); config != arm.end() && config->is_object()) {
+            state.model = config->value("type", state.model);
+            state.has_presets = config->contains("preset");
+        }
         state.id = id;
         return true;
     }
@@ -88,14 +95,20 @@ struct Command {
 class Haply final : public haptics::Device {
   public:
     Haply(std::unique_ptr<net::WebSocketClient> client, HaplyState first, const HaplyOptions& options)
-        : client_(std::move(client)), state_(std::move(first)), mounting_(options.mounting) {
+        : client_(std::move(client)),
+          state_(std::move(first)),
+          mounting_(options.mounting),
+          has_presets_(state_.has_presets),
+          model_(state_.model.empty() ? "Inverse3" : state_.model),
+          limits_(haptics::limits_of(model_)) {
+        limits_.name = model_;
         publish();
         thread_ = std::thread([this] { loop(); });
     }
     ~Haply() override {
         closing_.store(true, std::memory_order_relaxed);
         thread_.join();
-        client_->send(haply_force_command(state_.id, {}));
+        client_->send(haply_force_command(state_, {}));
     }
 
     const haptics::DeviceLimits& limits() const override { return limits_; }
@@ -112,9 +125,14 @@ class Haply final : public haptics::Device {
         return DeviceState::ready;
     }
     std::string trouble() const override {
-        return gone_.load(std::memory_order_acquire)
-                   ? "the service has closed the connection or fallen silent"
-                   : "";
+        if (gone_.load(std::memory_order_acquire))
+            return "the service has closed the connection or fallen silent";
+        if (!has_presets_) {
+            return "Haply's Inverse Service is older than 3.5: the zero of the arm is at its base, not in "
+                   "the "
+                   "middle of its reach";
+        }
+        return {};
     }
 
   private:
@@ -136,7 +154,7 @@ class Haply final : public haptics::Device {
             if (answered) {
                 const Command& c = commands_.read();
                 const bool fresh = wall_ns() - c.sent_ns < kServoSilentNs;
-                if (!client_->send(haply_force_command(state_.id, fresh ? c.force : Vec3{}))) break;
+                if (!client_->send(haply_force_command(state_, fresh ? c.force : Vec3{}))) break;
             }
             const auto got = client_->receive(text);
             if (got == net::WebSocketClient::Got::closed) break;
@@ -150,13 +168,25 @@ class Haply final : public haptics::Device {
     std::unique_ptr<net::WebSocketClient> client_;
     HaplyState state_;
     Mounting mounting_;
-    haptics::DeviceLimits limits_ = haptics::limits_of("Inverse3");
+    bool has_presets_;
+    std::string model_;
+    haptics::DeviceLimits limits_;
     std::uint64_t sequence_ = 0;
     Snapshot<haptics::HandReading> readings_;
     Snapshot<Command> commands_;
     std::atomic<bool> closing_{false}, gone_{false};
     std::thread thread_;
 };
+
+// Services before 3.5 call the vector "values".
+Json force_message(const HaplyState& state, Vec3 f) {
+    Json arm{{"device_id", state.id}};
+    arm["commands"]["set_cursor_force"][state.has_presets ? "vector" : "values"] = {
+        {"x", f.x}, {"y", f.y}, {"z", f.z}};
+    Json message;
+    message["inverse3"] = Json::array({std::move(arm)});
+    return message;
+}
 
 }  // namespace
 
@@ -170,12 +200,17 @@ bool read_haply_state(std::string_view text, HaplyState& state) {
     }
 }
 
-std::string haply_force_command(const std::string& id, Vec3 f) {
-    Json command;
-    command["inverse3"] = Json::array(
-        {{{"device_id", id},
-          {"commands", {{"set_cursor_force", {{"values", {{"x", f.x}, {"y", f.y}, {"z", f.z}}}}}}}}});
-    return command.dump();
+std::string haply_hello(const HaplyState& state) {
+    Json message = force_message(state, {});
+    if (state.has_presets) {
+        message["session"]["configure"]["profile"]["name"] = "tribo";
+        message["inverse3"][0]["configure"]["preset"]["preset"] = "arm_front_centered";
+    }
+    return message.dump();
+}
+
+std::string haply_force_command(const HaplyState& state, Vec3 force_n) {
+    return force_message(state, force_n).dump();
 }
 
 Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options) {
@@ -189,14 +224,23 @@ Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options)
     const std::uint64_t end = wall_ns() + static_cast<std::uint64_t>(options.timeout_ms) * 1'000'000;
     std::string text;
     HaplyState state;
-    bool spoke = false;
+    bool spoke = false, greeted = false;
     while (wall_ns() < end) {
         const auto got = (*client)->receive(text);
         if (got == net::WebSocketClient::Got::closed) break;
         if (got == net::WebSocketClient::Got::late) continue;
         spoke = true;
-        if (read_haply_state(text, state))
-            return std::make_unique<Haply>(std::move(*client), std::move(state), options);
+        if (read_haply_state(text, state)) {
+            if (!state.calibrated) {
+                return fail("the Inverse3 is not calibrated",
+                            "put its grip on the inkwell until the light is steady, or follow Haply Hub");
+            }
+            // The positions of the first message have the zero that was set before.
+            if (greeted) return std::make_unique<Haply>(std::move(*client), std::move(state), options);
+            if (!(*client)->send(haply_hello(state))) break;
+            greeted = true;
+            continue;
+        }
         if (text.find("inverse3") == std::string::npos) {
             return fail("the service does not speak of an inverse3: it is another version",
                         "install Haply's Inverse Service 3.5 or later");
