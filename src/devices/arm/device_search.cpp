@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <unistd.h>
 
+#include "devices/arm/falcon/falcon.hpp"
 #include "devices/arm/force_dimension.hpp"
 #include "devices/arm/haply.hpp"
 #include "devices/arm/openhaptics.hpp"
@@ -18,7 +19,13 @@ namespace fs = std::filesystem;
 constexpr const char* kOpenHaptics = "openhaptics";
 constexpr const char* kForceDimension = "forcedimension";
 constexpr const char* kHaply = "haply";
+constexpr const char* kFalcon = "falcon";
 constexpr const char* kSerial = "serial";
+
+// Time for the service of an Inverse3, and for a person who homes a Falcon.
+struct Patience {
+    int haply_ms = HaplyOptions{}.timeout_ms, homing_ms = FalconOptions{}.homing_ms;
+};
 constexpr int kHaplySearchMs = 1000;
 
 // A Touch is a serial port or, in newer versions, a raw HID device.
@@ -39,29 +46,43 @@ std::vector<std::string> touch_ports() {
 const char* makes(const std::string& name) {
     if (name == kOpenHaptics) return "3D Systems Touch, Touch X, Phantom";
     if (name == kForceDimension) return "Force Dimension omega, delta, sigma, lambda; Novint Falcon";
+    if (name == kFalcon) return "Novint Falcon";
     if (name == kSerial) return "HapKit and others with a firmware like examples/serial_arm";
     return "Haply Inverse3";
+}
+
+// What stands behind the first colon of a name; empty if there is none.
+std::string detail_of(const std::string& name) {
+    const std::size_t colon = name.find(':');
+    return colon == std::string::npos ? std::string() : name.substr(colon + 1);
 }
 
 // serial:/dev/ttyACM0@115200
 SerialArmOptions serial_options(const std::string& name, const Mounting& mounting) {
     SerialArmOptions options;
     options.mounting = mounting;
-    const std::size_t colon = name.find(':'), at = name.rfind('@');
-    if (colon == std::string::npos) return options;
-    options.port = name.substr(colon + 1, at == std::string::npos ? at : at - colon - 1);
-    if (at != std::string::npos) options.baud = std::atoi(name.c_str() + at + 1);
+    options.port = detail_of(name);
+    if (const std::size_t at = options.port.rfind('@'); at != std::string::npos) {
+        options.baud = std::atoi(options.port.c_str() + at + 1);
+        options.port.resize(at);
+    }
     return options;
 }
 
 Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const Mounting& mounting,
-                                                  int haply_ms) {
+                                                  const Patience& patience) {
     if (name.starts_with(kOpenHaptics)) {
         OpenHapticsOptions options;
         options.mounting = mounting;
-        if (const std::size_t colon = name.find(':'); colon != std::string::npos)
-            options.device = name.substr(colon + 1);
+        options.device = detail_of(name);
         return open_openhaptics(options);
+    }
+    if (name.starts_with(kFalcon)) {
+        FalconOptions options;
+        options.mounting = mounting;
+        options.firmware = detail_of(name);
+        options.homing_ms = patience.homing_ms;
+        return open_falcon(options);
     }
     if (name == kForceDimension) {
         ForceDimensionOptions options;
@@ -71,14 +92,14 @@ Result<std::unique_ptr<haptics::Device>> open_one(const std::string& name, const
     if (name.starts_with(kSerial)) return open_serial_arm(serial_options(name, mounting));
     HaplyOptions options;
     options.mounting = mounting;
-    options.timeout_ms = haply_ms;
+    options.timeout_ms = patience.haply_ms;
     return open_haply(options);
 }
 
 }  // namespace
 
 const std::vector<std::string>& arm_names() {
-    static const std::vector<std::string> names{kOpenHaptics, kForceDimension, kHaply, kSerial};
+    static const std::vector<std::string> names{kOpenHaptics, kForceDimension, kHaply, kFalcon, kSerial};
     return names;
 }
 
@@ -87,17 +108,18 @@ Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const
         for (const std::string& each : arm_names()) {
             // Other devices on serial ports are not opened.
             if (each == kSerial) continue;
-            if (auto device = open_one(each, mounting, kHaplySearchMs)) return device;
+            if (auto device = open_one(each, mounting, {.haply_ms = kHaplySearchMs})) return device;
         }
         return fail("no haptic arm was found", "run 'tribo devices' to see why, or use --device simulated");
     }
     for (const std::string& each : arm_names()) {
-        const bool may_be_named = each == kOpenHaptics || each == kSerial;
+        const bool may_be_named = each == kOpenHaptics || each == kFalcon || each == kSerial;
         if (each == name || (may_be_named && name.starts_with(each + ":")))
-            return open_one(name, mounting, HaplyOptions{}.timeout_ms);
+            return open_one(name, mounting, {});
     }
-    return fail("there is no device '" + name + "'",
-                "try simulated, playback, openhaptics, forcedimension, haply, serial:PORT or auto");
+    return fail(
+        "there is no device '" + name + "'",
+        "try simulated, playback, openhaptics, forcedimension, haply, falcon:FIRMWARE, serial:PORT or auto");
 }
 
 std::vector<ArmReport> search_arms() {
@@ -106,7 +128,7 @@ std::vector<ArmReport> search_arms() {
         ArmReport report;
         report.name = name;
         report.makes = makes(name);
-        if (auto device = open_one(name, {}, kHaplySearchMs)) {
+        if (auto device = open_one(name, {}, {kHaplySearchMs, 0})) {
             report.available = true;
             report.limits = (*device)->limits();
             report.model = std::string(report.limits.name);

@@ -12,12 +12,13 @@
 
 namespace tribo::devices {
 
-// openhaptics, forcedimension, haply, serial: the words that open_arm() takes.
+// openhaptics, forcedimension, haply, falcon, serial: the words that open_arm() takes.
 const std::vector<std::string>& arm_names();
 
 // Opens an arm by its name in arm_names(). OpenHaptics also accepts the device name of the vendor's set-up
-// ("openhaptics:Left Device"). A serial arm needs its port ("serial:/dev/ttyACM0@115200"). "auto" opens the
-// first available arm. The error of an unknown name lists the known names.
+// ("openhaptics:Left Device"). A Falcon takes a firmware file ("falcon:novint.bin"). A serial arm needs its
+// port ("serial:/dev/ttyACM0@115200"). "auto" opens the first available arm. The error of an unknown name
+// lists the known names.
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting);
 
 struct ArmReport {

@@ -17,6 +17,7 @@ constexpr std::array kDevices{
     DeviceLimits{"delta.3", 20, 5, 0.03, 0.01},
     DeviceLimits{"omega", 12, 5, 0.03, 0.01},
     DeviceLimits{"sigma.7", 12, 4, 0.03, 0.0015},
+    DeviceLimits{"Falcon", 8, 3, 0.02, 0.06},
     DeviceLimits{"Inverse3", 2, 0.4, 0.002, 0.01},
     DeviceLimits{"Pantograph", 5, 0.3, 0.002, 0.01},
     kSimulatedLimits,
