@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.default_feed_mm_per_min = skip ? 100 : 0;
         if (!skip) options.refusals = &refusals;
         const auto program = readers::read_gcode({reinterpret_cast<const char*>(data), size}, options);
-        if (refusals.size() > readers::GcodeOptions::kMostRefusals) std::abort();
+        if (refusals.size() > readers::kMostRefusals) std::abort();
         for (const Error& refusal : refusals) {
             if (refusal.cause.empty() || refusal.remedy.empty()) std::abort();
         }

@@ -105,6 +105,7 @@ Result<motion::Program> parse_apt(std::string_view bytes, const std::string& pat
     apt.source_name = path;
     apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
     apt.max_moves = options.max_moves;
+    apt.refusals = options.refusals;
     return readers::read_apt(bytes, apt);
 }
 

@@ -31,7 +31,7 @@ struct ProgramFileOptions {
     const motion::Machine* machine = nullptr;     // for the rotary words of G-code; motion::check accepts it
     std::size_t max_moves = readers::kMostMoves;  // more are refused
     std::function<double()> clock_s{};            // ends endless loops; see GcodeOptions
-    std::vector<Error>* refusals = nullptr;       // receives all refusals of G-code; see GcodeOptions
+    std::vector<Error>* refusals = nullptr;       // receives all refusals of a program; see GcodeOptions
 };
 
 // Detects the format by extension (.ngc .nc .gcode .tap ..., .apt .cls .cldata ..., .csv), else by content.

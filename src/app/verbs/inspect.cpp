@@ -180,7 +180,7 @@ int inspect(const Call& call) {
     if (!found) {
         const int code = report(found.error());
         for (std::size_t i = 1; i < refusals.size(); ++i) report(refusals[i]);
-        if (refusals.size() == readers::GcodeOptions::kMostRefusals) {
+        if (refusals.size() == readers::kMostRefusals) {
             std::fprintf(stderr, "there may be more: only %zu refusals are shown\n", refusals.size());
         }
         return code;

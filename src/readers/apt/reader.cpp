@@ -13,6 +13,7 @@
 #include "readers/apt/path.hpp"
 #include "readers/apt/report.hpp"
 #include "readers/apt/words.hpp"
+#include "readers/control/refusals.hpp"
 
 namespace tribo::readers {
 namespace apt {
@@ -31,29 +32,16 @@ class AptReader {
 
     Result<motion::Program> read() {
         Statement statement;
-        bool any = false, ended = false;
-        while (!ended) {
+        bool any = false;
+        while (!ended_) {
             const auto found = lexer_.next(statement);
-            if (!found) return std::unexpected(found.error());
-            if (!*found) break;
+            if (found && !*found) break;
             any = true;
-            if (statement.is_text) {
-                note_inserted_text(statement);
-                continue;
-            }
-            if (statement.is_header) {
-                if (auto done = header(statement); !done) return std::unexpected(done.error());
-                continue;
-            }
-            const Meaning meaning = meaning_of(statement.word.text);
-            ended = meaning.action == Action::end;
-            if (meaning.action != Action::go_to) {
-                if (auto ok = arcs_.leave(); !ok) return std::unexpected(ok.error());
-            }
-            if (auto done = run(statement, meaning); !done) return std::unexpected(done.error());
-            any_known_ = any_known_ || meaning.action != Action::unknown;
+            const auto done = found ? run(statement) : std::unexpected(found.error());
+            if (!done && !goes_on_after(done.error())) return std::unexpected(done.error());
         }
-        if (auto ok = arcs_.leave(); !ok) return std::unexpected(ok.error());
+        if (auto ok = arcs_.leave(); !ok && !goes_on_after(ok.error())) return std::unexpected(ok.error());
+        if (const Error* first = first_refusal(options_.refusals)) return std::unexpected(*first);
         if (!any_known_) {
             if (auto ok = passed_.refuse_first(report_); !ok) return std::unexpected(ok.error());
         }
@@ -63,13 +51,39 @@ class AptReader {
         }
         arcs_.finish();
         passed_.warn(report_);
-        if (ended && lexer_.rest().find_first_not_of(" \t\v\f\r\n\x1a") != std::string_view::npos) {
+        if (ended_ && lexer_.rest().find_first_not_of(" \t\v\f\r\n\x1a") != std::string_view::npos) {
             report_.warn(statement.word.line, "what follows FINI is not read");
         }
         return path_.finish();
     }
 
   private:
+    // Keeps a refusal where the caller wants them all. The reading goes on without the statement, from the
+    // next point on.
+    bool goes_on_after(const Error& error) {
+        if (!keep_refusal(options_.refusals, error)) return false;
+        arcs_.drop();
+        path_.next_is_rapid = false;
+        path_.set_place({});
+        return true;
+    }
+
+    Result<void> run(const Statement& statement) {
+        if (statement.is_text) {
+            note_inserted_text(statement);
+            return {};
+        }
+        if (statement.is_header) return header(statement);
+        const Meaning meaning = meaning_of(statement.word.text);
+        ended_ = meaning.action == Action::end;
+        if (meaning.action != Action::go_to) {
+            if (auto ok = arcs_.leave(); !ok) return ok;
+        }
+        if (auto done = run(statement, meaning); !done) return done;
+        any_known_ = any_known_ || meaning.action != Action::unknown;
+        return {};
+    }
+
     Result<void> run(const Statement& statement, const Meaning& meaning) {
         const double unit_mm = path_.settings.unit_mm;
         switch (meaning.action) {
@@ -385,6 +399,7 @@ class AptReader {
     std::optional<Cycle> cycle_, last_cycle_;
     bool on_contour_ = false;  // the header of Creo says so
     bool any_known_ = false;
+    bool ended_ = false;  // by FINI
     PassedWords passed_;
 };
 

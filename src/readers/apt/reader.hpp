@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.hpp"
 #include "motion/path/program.hpp"
@@ -21,6 +22,8 @@ struct AptOptions {
     LengthUnit default_unit = LengthUnit::millimetre;  // without a UNITS statement, with a warning
     double default_feed_mm_per_min = 0;                // for feed moves before the first FEDRAT; 0: refused
     std::size_t max_moves = kMostMoves;                // more are refused
+    // Receives all refusals of the program (control/refusals.hpp). Null: reading ends at the first.
+    std::vector<Error>* refusals = nullptr;
 };
 
 // Returns the moves of a program in the frame of its points; with several MSYS, in the frame of the first

@@ -52,8 +52,7 @@ class ProgramReader {
         }
         auto program = finish(block.line);
         if (!program) goes_on_after(program.error());
-        const std::vector<Error>* refusals = output_.options.refusals;
-        if (refusals != nullptr && !refusals->empty()) return std::unexpected(refusals->front());
+        if (const Error* first = first_refusal(output_.options.refusals)) return std::unexpected(*first);
         return program;
     }
 
@@ -74,12 +73,7 @@ class ProgramReader {
     // Keeps a refusal where the caller wants them all. The reading goes on without the block; where the tool
     // is, nobody knows then.
     bool goes_on_after(const Error& error) {
-        std::vector<Error>* refusals = output_.options.refusals;
-        if (refusals == nullptr) return false;
-        const bool is_new = std::none_of(refusals->begin(), refusals->end(),
-                                         [&](const Error& other) { return other.cause == error.cause; });
-        if (is_new) refusals->push_back(error);
-        if (refusals->size() >= GcodeOptions::kMostRefusals || is_over_) return false;
+        if (!keep_refusal(output_.options.refusals, error) || is_over_) return false;
         state_.known = {Known::lost, Known::lost, Known::lost};
         state_.lost_line = error.line;
         state_.compensation = {};

@@ -17,6 +17,7 @@
 #include "base/result.hpp"
 #include "motion/machine/machine.hpp"
 #include "motion/path/program.hpp"
+#include "readers/control/refusals.hpp"
 #include "readers/text/length_unit.hpp"
 #include "readers/text/move_limit.hpp"
 
@@ -49,7 +50,6 @@ struct GcodeOptions {
     // Receives all refusals of the program, each cause once, up to kMostRefusals: refused blocks are left out
     // then, and the first refusal is the result. Null: reading ends at the first.
     std::vector<Error>* refusals = nullptr;
-    static constexpr std::size_t kMostRefusals = 20;
     std::size_t max_moves = kMostMoves;  // more are refused
     // Loops and calls that run longer count as endless (control/run_limit.hpp).
     std::size_t max_steps = 20'000'000;  // blocks

@@ -81,7 +81,9 @@ Result<void> Interpreter::circle(LineReader& in) {
     if (!words) return std::unexpected(words.error());
     if (!pole_) return in.refuse(words->first_column, "a circle without a centre", "write CC before it");
     if (words->direction == 0) return in.refuse(words->first_column, "a circle without DR+ or DR-", "add it");
-    if (auto done = require_start(); !done) return done;
+    const auto has = has_start(*words, false);
+    if (!has) return std::unexpected(has.error());
+    if (!*has) return {};
     const auto to = target(*words);
     if (!to) return std::unexpected(to.error());
     // A start in the pole: the circle stands on the plane, about the last coordinate of the pole along its
@@ -120,7 +122,9 @@ Result<void> Interpreter::circle_of_radius(LineReader& in) {
     if (!words) return std::unexpected(words.error());
     if (!words->radius) return in.refuse(words->first_column, "CR without a radius R", "add it");
     if (words->direction == 0) return in.refuse(words->first_column, "CR without DR+ or DR-", "add it");
-    if (auto done = require_start(); !done) return done;
+    const auto has = has_start(*words, false);
+    if (!has) return std::unexpected(has.error());
+    if (!*has) return {};
     const auto to = target(*words);
     if (!to) return std::unexpected(to.error());
     if (auto done = refuse_uneven_scale(words->first_column); !done) return done;
@@ -137,7 +141,9 @@ Result<void> Interpreter::circle_of_radius(LineReader& in) {
 Result<void> Interpreter::tangent_circle(LineReader& in, bool polar) {
     const auto words = read_words(in, polar ? "CTP" : "CT");
     if (!words) return std::unexpected(words.error());
-    if (auto done = require_start(); !done) return done;
+    const auto has = has_start(*words, polar);
+    if (!has) return std::unexpected(has.error());
+    if (!*has) return {};
     const Vec3 from = here(), along{tangent_.x, tangent_.y, 0};
     if (!(length(along) > 1e-9)) {
         return in.refuse(words->first_column, "CT with nothing before it to be tangent to",
@@ -173,7 +179,9 @@ Result<void> Interpreter::polar_circle(LineReader& in) {
     if (!words->polar_angle && !words->polar_turn) {
         return in.refuse(words->first_column, "CP without an angle PA or IPA", "add it");
     }
-    if (auto done = require_start(); !done) return done;
+    const auto has = has_start(*words, true);
+    if (!has) return std::unexpected(has.error());
+    if (!*has) return {};
     const auto to = polar_target(*words);
     if (!to) return std::unexpected(to.error());
     if (auto done = refuse_uneven_scale(words->first_column); !done) return done;

@@ -146,7 +146,9 @@ Result<void> Interpreter::approach(LineReader& in) {
     if (!words) return std::unexpected(words.error());
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
-    if (auto done = require_start(); !done) return done;
+    const auto has = has_start(*words, polar);
+    if (!has) return std::unexpected(has.error());
+    if (!*has) return {};
     shape.way = contour_words(last_was_rapid_);
     if (auto done = apply_feed(*words); !done) return done;
     if (auto done = contour_end_sizes(*words, column, shape); !done) return done;

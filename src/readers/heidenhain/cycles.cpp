@@ -256,7 +256,11 @@ Result<void> Interpreter::run_cycle(Place where) {
     if (cycle_.number == 12) return leave_out_program(called_program_);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
-    if (auto done = require_start(); !done) return done;
+    if (is_lost()) {
+        leave_out();
+        return {};
+    }
+    assume_start();
     if (scale_.z != 1) {
         return path_.refuse(where, "a cycle in a frame with a scale", "end the scale before it");
     }

@@ -37,19 +37,40 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
 
 Result<motion::Program> Interpreter::run() {
     for (; at_ < lines_.size() && !ended_; ++at_) {
-        if (auto taken = take_line(); !taken) return std::unexpected(taken.error());
-        if (line_.text.empty()) {
-            declare_commented_tool(lines_[at_]);
-            continue;
-        }
-        if (line_.text[0] == '/' && path_.options.skip_deletable_blocks) {
-            if (path_.first(kSkipped)) path_.warn(line_.number, "blocks that begin with '/' are skipped");
-            continue;
-        }
-        LineReader in(line_, source_name_, parameters_);
-        if (auto done = execute(in); !done) return std::unexpected(done.error());
+        if (auto done = run_line(); !done && !goes_on_after(done.error()))
+            return std::unexpected(done.error());
     }
-    return finish();
+    auto program = finish();
+    if (!program) goes_on_after(program.error());
+    if (const Error* first = first_refusal(path_.options.refusals)) return std::unexpected(*first);
+    return program;
+}
+
+Result<void> Interpreter::run_line() {
+    if (auto taken = take_line(); !taken) return taken;
+    if (line_.text.empty()) {
+        declare_commented_tool(lines_[at_]);
+        return {};
+    }
+    if (line_.text[0] == '/' && path_.options.skip_deletable_blocks) {
+        if (path_.first(kSkipped)) path_.warn(line_.number, "blocks that begin with '/' are skipped");
+        return {};
+    }
+    LineReader in(line_, source_name_, parameters_);
+    return execute(in);
+}
+
+// Keeps a refusal where the caller wants them all. The reading goes on without the block; where the tool is,
+// nobody knows then.
+bool Interpreter::goes_on_after(const Error& error) {
+    if (!keep_refusal(path_.options.refusals, error) || is_over_) return false;
+    while (line_.goes_on && at_ + 1 < lines_.size()) {
+        ++at_;
+        line_ = line_of(lines_[at_], static_cast<int>(at_) + 1);
+    }
+    contour_ = {};
+    path_.lose(error.line);
+    return true;
 }
 
 // Makes the line at at_ the running line, and counts it.
@@ -63,6 +84,7 @@ Result<void> Interpreter::take_line() {
     line_ = line_of(text, number);
     auto cause = limit_.count(text.size());
     if (!cause) return {};
+    is_over_ = true;
     return path_.refuse(place(1), *std::move(cause), RunLimit::kRemedy);
 }
 
@@ -212,6 +234,12 @@ Result<motion::Program> Interpreter::finish() {
         for (Warning& found : path_.machine->findings(program.source)) {
             program.warnings.push_back(std::move(found));
         }
+    }
+    if (left_out_ > 0) {
+        path_.warn(left_out_line_, "moves that begin at a place that only the machine knows since line " +
+                                       std::to_string(left_out_since_) + " are left out (" +
+                                       std::to_string(left_out_) +
+                                       " in all): write X, Y and Z with FMAX before them");
     }
     if (path_.moves == 0) path_.warn(0, "the program moves no tool");
     return std::move(program);

@@ -69,6 +69,8 @@ class Interpreter {
 
   private:
     // Blocks (interpreter.cpp)
+    Result<void> run_line();
+    bool goes_on_after(const Error& error);
     Result<void> take_line();
     Result<bool> goes_on();
     Result<void> all_items(LineReader& in, std::vector<Item>& items);
@@ -136,7 +138,10 @@ class Interpreter {
     Result<void> choose_side(const Words& words);
     Result<void> check_start(bool rapid);
     Result<void> go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
-    Result<void> require_start();
+    bool is_lost() const;
+    void leave_out();
+    void assume_start();
+    Result<bool> has_start(const Words& words, bool polar);
     // The programmed position in the frame: with radius compensation that of the contour.
     Vec3 here() const { return contour_.programmed().value_or(path_.tip()); }
     ContourWords contour_words(bool rapid) const;
@@ -188,6 +193,9 @@ class Interpreter {
     std::size_t at_ = 0;                         // index of the running line
     Line line_;
     bool ended_ = false, begun_ = false;
+    bool is_over_ = false;                        // its loops do not end
+    std::size_t left_out_ = 0;                    // moves that begin where only the machine knows
+    int left_out_line_ = 0, left_out_since_ = 0;  // of the first
     RunLimit limit_;
     std::set<std::string> passed_over_;       // words without effect that were warned of
     std::map<std::string, int> named_tools_;  // their numbers

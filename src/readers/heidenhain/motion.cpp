@@ -23,6 +23,7 @@ Result<Vec3> Interpreter::target(const Words& words) {
             to[k] = *words.axis[i];
             known[i] = Known::yes;
         } else if (words.increment[i]) {
+            if (known[i] == Known::lost) continue;
             if (known[i] != Known::yes) {
                 return path_.refuse(place(words.first_column),
                                     std::string("an increment along ") + kAxes[i] + " from an unknown place",
@@ -100,17 +101,21 @@ Result<Vec3> Interpreter::rotary_target(const Words& words) {
     return to;
 }
 
-Result<void> Interpreter::require_start() {
-    if (path_.knows_tip()) return {};
-    for (int k = 0; k < 3; ++k) {
-        if (path_.known(k) != Known::lost) continue;
-        return path_.refuse(place(line_.column),
-                            std::string("the feed move starts at an unknown ") +
-                                kAxes[static_cast<std::size_t>(k)] + ", which line " +
-                                std::to_string(path_.lost_line()) +
-                                " moved to a place that only the machine knows",
-                            "add a block with FMAX and X, Y and Z before it");
-    }
+// Only the machine knows where the tool is.
+bool Interpreter::is_lost() const {
+    return path_.known(0) == Known::lost || path_.known(1) == Known::lost || path_.known(2) == Known::lost;
+}
+
+// A move is left out, because it begins where only the machine knows.
+void Interpreter::leave_out() {
+    if (left_out_++ != 0) return;
+    left_out_line_ = line_.number;
+    left_out_since_ = path_.lost_line();
+}
+
+// Takes coordinates that nothing has stated as 0.
+void Interpreter::assume_start() {
+    if (path_.knows_tip()) return;
     if (path_.first(kUnstatedAxes)) {
         path_.warn(line_.number, "feed move before all of X, Y and Z are stated: the others are taken as 0");
     }
@@ -119,7 +124,25 @@ Result<void> Interpreter::require_start() {
         if (path_.known(k) != Known::yes) from[k] = 0;
     }
     path_.put(from, {Known::yes, Known::yes, Known::yes}, line_.number);
-    return {};
+}
+
+// Returns false if the tool is where only the machine knows: the move of the words is left out then, and the
+// tool is at its end.
+Result<bool> Interpreter::has_start(const Words& words, bool polar) {
+    if (!is_lost()) {
+        assume_start();
+        return true;
+    }
+    leave_out();
+    const auto to_rad = rotary_target(words);
+    if (!to_rad) return std::unexpected(to_rad.error());
+    path_.set_rotary(*to_rad);
+    const auto to = polar ? polar_target(words) : target(words);
+    if (!to) return std::unexpected(to.error());
+    if (auto done = apply_feed(words); !done) return std::unexpected(done.error());
+    if (auto done = choose_side(words); !done) return std::unexpected(done.error());
+    if (auto done = miscellaneous(words); !done) return std::unexpected(done.error());
+    return false;
 }
 
 // Before a feed move: its feed, and the spindle.
@@ -214,7 +237,9 @@ Result<void> Interpreter::line(LineReader& in, bool polar) {
     }
     const bool known = path_.knows_tip();
     if (!known && !words->fast && moves) {
-        if (auto done = require_start(); !done) return done;
+        const auto has = has_start(*words, polar);
+        if (!has) return std::unexpected(has.error());
+        if (!*has) return {};
     }
     const auto to_rad = rotary_target(*words);
     if (!to_rad) return std::unexpected(to_rad.error());
@@ -228,7 +253,9 @@ Result<void> Interpreter::line_with_vectors(LineReader& in) {
     const auto words = read_words(in, "LN");
     if (!words) return std::unexpected(words.error());
     if (!words->fast) {
-        if (auto done = require_start(); !done) return done;
+        const auto has = has_start(*words, false);
+        if (!has) return std::unexpected(has.error());
+        if (!*has) return {};
     }
     if (auto done = close_contour(); !done) return done;
     const auto to = target(*words);

@@ -160,8 +160,12 @@ Result<void> Interpreter::run_at(const std::vector<Vec3>& points, Place where) {
     }
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
-    if (auto done = require_start(); !done) return done;
     const double surface = cycle_.at(203);
+    if (is_lost() && !points.empty()) {  // the tool comes from above the first point
+        const double above = surface + points[0].z + std::max(cycle_.at(200), cycle_.at(204));
+        path_.put({points[0].x, points[0].y, above}, {Known::yes, Known::yes, Known::yes}, line_.number);
+    }
+    assume_start();
     for (const Vec3 point : points) {
         cycle_.q[203] = surface + point.z;
         const double above = surface + point.z + std::max(cycle_.at(200), cycle_.at(204));

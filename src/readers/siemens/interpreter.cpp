@@ -39,16 +39,13 @@ Result<motion::Program> Interpreter::run() {
     auto done = run_lines(unit_->begin, unit_->end);
     if (done) {
         auto program = finish();
-        if (program) {
-            const std::vector<Error>* refusals = path_.options.refusals;
-            if (refusals != nullptr && !refusals->empty()) return std::unexpected(refusals->front());
-            return program;
+        if (program && first_refusal(path_.options.refusals) == nullptr) return program;
+        if (!program) {
+            goes_on_after(program.error());
+            done = std::unexpected(program.error());
         }
-        goes_on_after(program.error());
-        done = std::unexpected(program.error());
     }
-    const std::vector<Error>* refusals = path_.options.refusals;
-    if (refusals != nullptr && !refusals->empty()) return std::unexpected(refusals->front());
+    if (const Error* first = first_refusal(path_.options.refusals)) return std::unexpected(*first);
     return std::unexpected(done.error());
 }
 
@@ -66,12 +63,7 @@ Result<void> Interpreter::run_lines(std::size_t begin, std::size_t end) {
 // Keeps a refusal where the caller wants them all. The reading goes on without the block; where the tool is,
 // nobody knows then.
 bool Interpreter::goes_on_after(const Error& error) {
-    std::vector<Error>* refusals = path_.options.refusals;
-    if (refusals == nullptr) return false;
-    const bool is_new = std::none_of(refusals->begin(), refusals->end(),
-                                     [&](const Error& other) { return other.cause == error.cause; });
-    if (is_new) refusals->push_back(error);
-    if (refusals->size() >= GcodeOptions::kMostRefusals || is_over_) return false;
+    if (!keep_refusal(path_.options.refusals, error) || is_over_) return false;
     path_.lose(error.line);
     contour_ = {};
     spline_.reset();

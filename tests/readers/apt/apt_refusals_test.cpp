@@ -118,5 +118,27 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
     expect_refused_apt(refusals);
 }
 
+TEST(AptReader, gives_all_refusals_at_once) {
+    std::vector<Error> refusals;
+    AptOptions options;
+    options.source_name = "part.apt";
+    options.refusals = &refusals;
+    const auto program = read_apt(
+        "UNITS/MM\nFEDRAT/100\nGOTO/0,0\nCIRCLE/0,0\nGOTO/1,2,3\nGOLFT/L1\nGOTO/1,2,x\nROTABL/30\nGOLFT/L2\n"
+        "GOTO/1,2,3\nGOTO/1,2,4\nFINI\n",
+        options);
+    ASSERT_FALSE(program.has_value());
+    EXPECT_EQ(program.error().text(), refusals.at(0).text());
+    const int lines[] = {3, 4, 6, 7, 8};
+    ASSERT_EQ(refusals.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(refusals[i].line, lines[i]) << refusals[i].text();
+        EXPECT_FALSE(refusals[i].remedy.empty());
+    }
+    refusals.clear();
+    EXPECT_TRUE(read_apt("UNITS/MM\nFEDRAT/100\nGOTO/0,0,0\nGOTO/1,2,3\nFINI\n", options).has_value());
+    EXPECT_TRUE(refusals.empty());
+}
+
 }  // namespace
 }  // namespace tribo::readers

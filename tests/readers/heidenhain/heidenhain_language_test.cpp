@@ -269,5 +269,35 @@ TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
     expect_refused_conversational(refusals);
 }
 
+TEST(Heidenhain, gives_all_refusals_at_once) {
+    std::vector<Error> refusals;
+    GcodeOptions options;
+    options.source_name = "p.h";
+    options.refusals = &refusals;
+    const auto program = read_heidenhain(
+        after_start(
+            "3 HELLO\n4 L X+5 F100\n5 PLANE AXIAL B+45\n6 CYCL DEF 270 DATA ~\n  Q390=+1 ~\n  Q391=+2\n"
+            "7 HELLO\n8 L X+1 Y+1 Z+1 FMAX\n9 L X+Q5 F100\n10 L X+2 F100\n"),
+        options);
+    ASSERT_FALSE(program.has_value());
+    ASSERT_EQ(refusals.size(), 3U);
+    EXPECT_EQ(program.error().text(), refusals[0].text());
+    const int lines[] = {4, 6, 7};
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(refusals[i].line, lines[i]) << refusals[i].text();
+        EXPECT_FALSE(refusals[i].remedy.empty());
+    }
+    refusals.clear();
+    EXPECT_TRUE(read_heidenhain(after_start("3 L X+5 F100\n"), options).has_value());
+    EXPECT_TRUE(refusals.empty());
+}
+
+TEST(Heidenhain, leaves_out_moves_that_begin_where_only_the_machine_knows) {
+    const motion::Program program = conversational(
+        after_start("3 L Z-5 M91\n4 L X+5 Y+0 F100\n5 L Z+3\n6 L X+15\n7 CC X+15 Y+5\n8 C X+15 Y+10 DR+\n"));
+    EXPECT_TRUE(warns_of(program, 5, "that only the machine knows since line 4 are left out (2 in all)"));
+    EXPECT_NEAR(feed_mm(program), 10 + 5 * kPi, 1e-9);
+}
+
 }  // namespace
 }  // namespace tribo::readers

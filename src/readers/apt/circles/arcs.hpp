@@ -23,6 +23,13 @@ class Arcs {
     // a full turn.
     Result<void> leave();
     void finish();  // warns of a circle without an end
+    // Forgets the circle in force and what leads into the next one.
+    void drop() {
+        circle_.reset();
+        forward_.reset();
+        surface_.reset();
+        used_ = held_ = false;
+    }
 
     // ARCSLP/h: the rise of the helix that follows, which its points give too.
     Result<void> set_slope(const Statement& statement);
