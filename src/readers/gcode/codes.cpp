@@ -122,6 +122,8 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 630:
         case 640:
             return GGroup::path_control;
+        case 720:
+            return GGroup::hole_pattern;
         case 970:
             return GGroup::spindle_mode;
         case 150:
@@ -134,9 +136,16 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 511:
             return GGroup::mirror;
         case 680:
+        case 682:
+        case 683:
         case 690:
         case 691:
+        case 2680:
+        case 2690:
             return GGroup::rotation;
+        case 531:
+        case 536:
+            return GGroup::tool_to_plane;
         case 80:   // look-ahead, with P
         case 90:   // exact stop of one block
         case 110:  // end of data input
@@ -150,12 +159,14 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 301:
         case 401:   // normal direction control off
         case 502:   // polygon turning off
+        case 1500:  // normal direction control off, without words
+        case 1510:  // normal direction control: turns the tool about its own axis
+        case 1520:
         case 670:   // modal macro off
         case 1030:  // limit of look-ahead (Haas)
         case 1130:  // polar interpolation off
         case 1870:  // smoothness (Haas)
         case 2550:  // dynamic work offset off (Haas)
-        case 2690:  // tilted plane off (Haas)
             return GGroup::idle;
         default:
             if (tenths >= 1100 && tenths <= 1290 && tenths % 10 == 0) return GGroup::work_offset;
@@ -245,15 +256,9 @@ Unread unread_g(int tenths) {
         case 660:
         case 661:
             return {"modal macro calls", "let the control or the CAM system write the macro out"};
-        case 720:
-        case 1500:
-            return {"patterns and pockets of the control", kPlainMoves};
         case 161:
             return {"polar coordinates in space", kPlainMoves};
-        case 531:
         case 681:
-        case 682:
-        case 683:
         case 684:
             return {"tilted or turned planes", kApt};
         case 960:

@@ -74,16 +74,24 @@ Result<void> Command::add_g(const Word& word) {
 }
 
 // Refuses codes whose meaning depends on the words beside them.
-Result<void> Command::settle() const {
+Result<void> Command::settle() {
     if (const auto units = g(GGroup::units); units && units->tenths >= 700 && has_any("DIJKLPQRUW")) {
-        return fail_at(
-            {}, line_, units->column,
-            code_text('G', units->tenths) + " (a pattern of holes, or a cycle of a lathe) is not read yet",
-            "let the CAM system write it as plain G0 to G3 moves");
+        if (!has('I') || !has('L')) {
+            return fail_at({}, line_, units->column,
+                           code_text('G', units->tenths) + " (a cycle of a lathe) is not read yet",
+                           "let the CAM system write it as plain G0 to G3 moves");
+        }
+        g_[static_cast<std::size_t>(GGroup::hole_pattern)] = units;
+        g_[static_cast<std::size_t>(GGroup::units)].reset();
     }
     if (has_g(GGroup::idle, 80) && !has('P')) {
         return fail_at({}, line_, g(GGroup::idle)->column, "G8 (lathe diameters) is not read yet",
                        "give a milling program");
+    }
+    if (has_g(GGroup::idle, 1500) && has_any("PIJKQ")) {
+        return fail_at({}, line_, g(GGroup::idle)->column,
+                       "G150 (a pocket that the control mills by itself) is not read yet",
+                       "let the CAM system write it as plain G0 to G3 moves");
     }
     const auto cycle = g(GGroup::motion);
     if (g(GGroup::cycle_end) && cycle && cycle->tenths >= 730) {

@@ -61,7 +61,7 @@ class Command {
         return bits;
     }
     Result<void> add_g(const Word& word);
-    Result<void> settle() const;
+    Result<void> settle();
     Result<void> add_m(const Word& word);
 
     int line_ = 0;

@@ -155,6 +155,11 @@ Result<void> set_work_system(Command& command, State& state, Output& output) {
     if (!code) return {};
     const auto index = work_index(command, *code, output);
     if (!index) return std::unexpected(index.error());
+    if (state.tilt && *index != state.active_work) {
+        return output.refuse(command.line(), code->column,
+                             code_text('G', code->tenths) + " chooses another work system in a tilted plane",
+                             "end the plane by G69 before it");
+    }
     const double before_deg = state.active().turn_deg;
     state.active_work = *index;
     state.reframe(before_deg);

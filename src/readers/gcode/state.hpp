@@ -13,6 +13,7 @@
 #include "base/result.hpp"
 #include "base/vec3.hpp"
 #include "motion/curve/bezier_motion.hpp"
+#include "motion/machine/work_frame.hpp"
 #include "readers/control/machine_run.hpp"
 #include "readers/gcode/motion/contour.hpp"
 #include "readers/gcode/motion/program_frame.hpp"
@@ -112,6 +113,13 @@ struct RotaryState {
     }
 };
 
+// A plane turned in space whose coordinates the program writes (motion/tilted_plane.hpp).
+struct TiltedPlane {
+    motion::WorkFrame frame;  // in the stock
+    Vec3 preset_before_mm;    // of G92 and G52, until the plane ends
+    bool about_axis = false;  // of G68
+};
+
 struct State {
     int line = 0;  // of the running block
     double unit_mm = 1;
@@ -151,10 +159,11 @@ struct State {
     int active_work = 0;
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
+    std::optional<TiltedPlane> tilt;
 
-    // In the frame of the axes of the program: the frame of the stock, turned about z by the work system
-    // (mostly by 0). 0 where not known. On a machine without tool tip control: X Y Z of the machine, relative
-    // to the zero of the stock.
+    // In a tilted plane: in its frame. Else in the frame of the axes of the program: the frame of the stock,
+    // turned about z by the work system (mostly by 0). 0 where not known. On a machine without tool tip
+    // control: X Y Z of the machine, relative to the zero of the stock.
     Vec3 tip_mm;
     std::array<Known, 3> known{Known::unstated, Known::unstated, Known::unstated};
     int lost_line = 0;  // of the last block that lost an axis
@@ -163,13 +172,13 @@ struct State {
     const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
     // Zero of the program, in the frame of its axes.
     Vec3 origin_mm() const {
-        const Vec3 origin = turned(active().origin_mm, -active().turn_deg);
+        const Vec3 origin = tilt ? Vec3{} : turned(active().origin_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
     // Converts the tip to the axes of the work system in force; the axes before were turned by `before_deg`.
     void reframe(double before_deg) {
         const double after_deg = active().turn_deg;
-        if (before_deg != after_deg) tip_mm = turned(turned(tip_mm, before_deg), -after_deg);
+        if (before_deg != after_deg && !tilt) tip_mm = turned(turned(tip_mm, before_deg), -after_deg);
     }
     bool knows_tip() const {
         return known[0] == Known::yes && known[1] == Known::yes && known[2] == Known::yes;
@@ -230,6 +239,7 @@ enum class Note {
     preset_as_origin,
     deletable_blocks,
     rotary_home,
+    roll_pitch_yaw,
 };
 
 // Receives the moves, warnings and errors of the blocks.

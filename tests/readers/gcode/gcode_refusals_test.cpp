@@ -99,16 +99,22 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"M1.55\n", 1, 1, "M code is not known"},
         {"M-1\n", 1, 1, "M code is not known"},
         {"M72\n", 1, 1, "M72 (restoring the modes that M70 has saved) is not read yet"},
-        {"G68.2 X0\n", 1, 1, "planes) is not read yet"},
+        {"G68.2 X0 P2\n", 1, 10, "Euler's angles and with P1"},
+        {"G68.2 P1 Q122 X0\n", 1, 10, "Q is no order of the axes"},
+        {"G51 X0 Y0 P2\nG68.2 X0 I10\n", 2, 1, "a tilted plane in coordinates that are turned"},
+        {"G68.2 X0 I10\nG55\n", 2, 1, "another work system in a tilted plane"},
         {"G12 I5\n", 1, 1, "G12 (circular pockets) is not read yet"},
         {"G7.1 C10\n", 1, 1, "G7.1 (cylindrical interpolation) is not read yet"},
         {"G66 P9 X1\n", 1, 1, "G66 (modal macro calls) is not read yet"},
-        {"G70 I5 L8\n", 1, 1, "G70 (a pattern of holes, or a cycle of a lathe) is not read yet"},
+        {"G70 I5 L8\n", 1, 1, "G70 (a pattern of holes) without a cycle"},
+        {"G81 Z-1 R1 F9 L0\nG72 J5 L8\n", 2, 1, "G72 without its size I"},
+        {"G71 U1 R2\n", 1, 1, "G71 (a cycle of a lathe) is not read yet"},
+        {"G150 P1 X1 Q2\n", 1, 1, "G150 (a pocket that the control mills by itself)"},
         {"G8\n", 1, 1, "G8 (lathe diameters) is not read yet"},
         {"G96 S100\n", 1, 1, "G96 (constant surface speed) is not read yet"},
         {"G33 Z1 K1\n", 1, 1, "G33 (moves synchronised with the spindle) is not read yet"},
         {"G68 X0 Y0\n", 1, 1, "G68 without an angle R"},
-        {"G68 X0 Y0 R30 K1\n", 1, 1, "G68 about an axis in space"},
+        {"G68 X0 Y0 K1\n", 1, 1, "G68 in space without"},
         {"G51 X0\n", 1, 1, "G51 without its scale"},
         {"G51 P0\n", 1, 5, "the scale is smaller"},
         {"G51.1\n", 1, 1, "without the place of its mirror"},
@@ -344,7 +350,7 @@ TEST(GcodeReader, GivesAllRefusalsAtOnce) {
     std::string many = "G21\n";
     for (int i = 0; i < 50; ++i) many += "G" + std::to_string(600 + i) + "\n";
     EXPECT_FALSE(read_gcode(many, options).has_value());
-    EXPECT_EQ(refusals.size(), GcodeOptions::kMostRefusals);
+    EXPECT_EQ(refusals.size(), kMostRefusals);
     refusals.clear();
     EXPECT_TRUE(read_gcode("G21 G0 X0 Y0 Z0\n", options).has_value());
     EXPECT_TRUE(refusals.empty());

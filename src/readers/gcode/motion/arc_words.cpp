@@ -50,6 +50,14 @@ class ArcReader {
             if (word == nullptr) continue;
             if (auto good = check_length(*word); !good) return std::unexpected(good.error());
         }
+        if (is_line()) {
+            if (output_.first(Note::centres, 'L')) {
+                output_.warn(command_.line(),
+                             "an arc without centre or radius is a straight line on Fanuc controls, unless "
+                             "their parameter 3403 says that it is an alarm");
+            }
+            return std::nullopt;
+        }
         if (is_point()) {
             if (output_.first(Note::centres, 'P')) {
                 output_.warn(command_.line(), "an arc that is no larger than a point moves nothing");
@@ -73,6 +81,11 @@ class ArcReader {
     }
 
   private:
+    bool is_line() const {
+        return output_.options.dialect == GcodeDialect::fanuc && words_[0] == nullptr &&
+               words_[1] == nullptr && !command_.has('R') && !(ends_.start_mm == ends_.end_mm);
+    }
+
     // Start, end and centre are one point: what is left of an arc too small for the decimals.
     bool is_point() const {
         if (words_[0] == nullptr || words_[1] == nullptr || command_.has('R')) return false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.hpp"
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/motion.hpp"
 #include "readers/gcode/motion/moves.hpp"
@@ -25,11 +26,79 @@ class Run {
         : command_(command), state_(state), output_(output), axis_(axes_of(state.plane)[2]) {}
 
     Result<void> run() {
-        if (auto done = read_words(); !done) return done;
-        if (repeats_ == 0) return {};
+        const auto ready = prepare();
+        if (!ready) return std::unexpected(ready.error());
+        if (!*ready) return {};
+        const auto target = target_of(command_, state_, output_);
+        if (!target) return std::unexpected(target.error());
+        Vec3 place = target->tip_mm;
+        const Vec3 step = state_.incremental ? place - state_.tip_mm : Vec3{};
+        if (state_.tip_mm[axis_] < retract_) {
+            if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
+        }
+        for (int i = 0; i < repeats_; ++i) {
+            if (i > 0 && state_.frame.is_polar && state_.incremental) {
+                const auto next = target_of(command_, state_, output_);
+                if (!next) return std::unexpected(next.error());
+                place = next->tip_mm;
+            } else if (i > 0) {
+                for (const int in_plane : {axes_of(state_.plane)[0], axes_of(state_.plane)[1]}) {
+                    place[in_plane] += step[in_plane];
+                }
+            }
+            if (auto done = hole(place); !done) return done;
+        }
+        return {};
+    }
+
+    // G70: holes on a circle about the centre, from the angle J on. G71: on an arc, at steps of K degrees.
+    // G72: on a line through it, at steps of I. The centre is X Y, or where the tool stands (Haas).
+    Result<void> run_pattern(Code code) {
+        const Word* size = command_.use('I');
+        const Word* first = command_.use('J');
+        const Word* step_word = command_.use('K');
+        const Word* count = command_.use('L');
+        command_.hide('L');
+        const double size_mm = size == nullptr ? 0 : size->value * state_.unit_mm;
+        if (size == nullptr || !kLimits.coordinate.range.contains(size_mm) || count == nullptr ||
+            !(count->value >= 1 && count->value <= kMostRepeats) ||
+            count->value != std::floor(count->value)) {
+            return output_.refuse(
+                command_.line(), code.column,
+                code_text('G', code.tenths) + " without its size I and its number of holes L", "write both");
+        }
+        for (const Word* angle : {first, step_word}) {
+            if (angle == nullptr) continue;
+            if (auto good = in_range(kLimits.rotary_angle, angle->value, command_, *angle, output_); !good)
+                return good;
+        }
+        const auto ready = prepare();
+        if (!ready) return std::unexpected(ready.error());
+        if (!*ready) return {};
+        const auto target = target_of(command_, state_, output_);
+        if (!target) return std::unexpected(target.error());
+        const auto axes = axes_of(state_.plane);
+        const double begin = first == nullptr ? 0 : first->value;
+        const bool is_circle = code.tenths == 700, is_line = code.tenths == 720;
+        const double step = is_circle ? 360 / count->value : step_word == nullptr ? 0 : step_word->value;
+        for (double i = 0; i < count->value; ++i) {
+            double sine = 0, cosine = 0;
+            math::sincos((begin + (is_line ? 0 : i * step)) * math::kRadPerDeg, sine, cosine);
+            Vec3 offset;
+            offset[axes[0]] = (is_line ? i : 1) * size_mm * cosine;
+            offset[axes[1]] = (is_line ? i : 1) * size_mm * sine;
+            if (auto done = hole(target->tip_mm + state_.frame.placed_offset(offset)); !done) return done;
+        }
+        return {};
+    }
+
+  private:
+    // Reads the words of the cycle and finds its levels. False: there is nothing to drill.
+    Result<bool> prepare() {
+        if (auto done = read_words(); !done) return std::unexpected(done.error());
+        if (repeats_ == 0) return false;
         const auto starts = find_start();
-        if (!starts) return std::unexpected(starts.error());
-        if (!*starts) return {};
+        if (!starts || !*starts) return starts;
         Cycle& cycle = state_.cycle;
         if (!cycle.initial_mm) cycle.initial_mm = state_.tip_mm[axis_];
         const double origin = state_.origin_mm()[axis_];
@@ -52,38 +121,22 @@ class Run {
         retract_ = retract;
         depth_ = depth;
         clear_ = state_.retract_to_r ? retract : std::max(retract, *cycle.initial_mm);
-        if (auto counted = check_pecks(); !counted) return counted;
+        if (auto counted = check_pecks(); !counted) return std::unexpected(counted.error());
         note_return_level();
-
-        const auto target = target_of(command_, state_, output_);
-        if (!target) return std::unexpected(target.error());
-        Vec3 place = target->tip_mm;
-        const Vec3 step = state_.incremental ? place - state_.tip_mm : Vec3{};
-        if (state_.tip_mm[axis_] < retract_) {
-            if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
-        }
-        for (int i = 0; i < repeats_; ++i) {
-            place[axis_] = state_.tip_mm[axis_];
-            if (i > 0 && state_.frame.is_polar && state_.incremental) {
-                const auto next = target_of(command_, state_, output_);
-                if (!next) return std::unexpected(next.error());
-                place = next->tip_mm;
-            } else if (i > 0) {
-                for (const int in_plane : {axes_of(state_.plane)[0], axes_of(state_.plane)[1]}) {
-                    place[in_plane] += step[in_plane];
-                }
-            }
-            if (auto moved = append_straight(MoveKind::rapid, place, command_, state_, output_); !moved) {
-                return moved;
-            }
-            if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
-            if (auto done = bottom_and_back(); !done) return done;
-            if (auto moved = go(MoveKind::rapid, clear_); !moved) return moved;
-        }
-        return {};
+        return true;
     }
 
-  private:
+    // Moves to the place at the height of the tip, drills there and returns.
+    Result<void> hole(Vec3 place) {
+        place[axis_] = state_.tip_mm[axis_];
+        if (auto moved = append_straight(MoveKind::rapid, place, command_, state_, output_); !moved) {
+            return moved;
+        }
+        if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
+        if (auto done = bottom_and_back(); !done) return done;
+        return go(MoveKind::rapid, clear_);
+    }
+
     // Finds where the tool stands. After a move to a place that only the machine knows the cycle begins above
     // its hole, at R; false where even the hole is not known: then it is left out.
     Result<bool> find_start() {
@@ -279,6 +332,7 @@ void note_cycle(const Command& command, const State& state, Output& output) {
 }  // namespace
 
 bool repeats_cycle(const Command& command, const State& state) {
+    if (command.g(GGroup::hole_pattern)) return true;
     if (state.motion != MotionMode::cycle) return false;
     return command.has_any("XYZ") || command.g(GGroup::motion).has_value();
 }
@@ -290,8 +344,13 @@ void begin_cycle(Code code, State& state) {
 }
 
 Result<void> run_cycle(Command& command, State& state, Output& output) {
-    const auto code = command.g(GGroup::motion);
+    const auto code = command.g(GGroup::motion), pattern = command.g(GGroup::hole_pattern);
     const int column = code ? code->column : 1;
+    if (pattern && state.motion != MotionMode::cycle) {
+        return output.refuse(command.line(), pattern->column,
+                             code_text('G', pattern->tenths) + " (a pattern of holes) without a cycle",
+                             "write G81 or its like before it, with L0 where it is not to drill there");
+    }
     if (is_thread(command, output)) {
         return output.refuse(command.line(), column, "G76 is a thread on a lathe in the LinuxCNC dialect",
                              "state the Fanuc dialect if it is fine boring, or give a milling program");
@@ -301,7 +360,8 @@ Result<void> run_cycle(Command& command, State& state, Output& output) {
                              "write G94 and F before it");
     }
     note_cycle(command, state, output);
-    return Run(command, state, output).run();
+    Run run(command, state, output);
+    return pattern ? run.run_pattern(*pattern) : run.run();
 }
 
 }  // namespace tribo::readers::gcode

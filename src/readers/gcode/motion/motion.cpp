@@ -13,6 +13,8 @@ namespace tribo::readers::gcode {
 namespace {
 
 constexpr char kAxisLetters[] = "XYZ";
+// An arc whose ends are closer is a point, mm.
+constexpr double kPointMm = 1e-6;
 
 // A feed move from a place that only the machine knows: the tool is at its end afterwards.
 Result<void> leave_out(Command& command, State& state, Output& output) {
@@ -46,7 +48,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     if (state.motion != MotionMode::line) {
         auto arc = arc_of(command, state, target->tip_mm, output);
         if (!arc) return std::unexpected(arc.error());
-        if (!*arc) return {};
+        if (!*arc && distance(move.start.tip_mm, move.end.tip_mm) <= kPointMm) return {};
         move.arc = *arc;
     }
     if (auto fed = set_feed(move, command, state, output); !fed) return fed;
@@ -70,8 +72,9 @@ Result<void> move_to_machine_position(Command& command, State& state, Output& ou
         return output.refuse(command.line(), column, "G53 (machine coordinates) does not go with G91",
                              "write G90 before it");
     }
+    const bool is_oblique = state.tilt && state.tilt->frame.is_tilted();
     for (int axis = 0; axis < 3; ++axis) {
-        if (command.use(kAxisLetters[axis]) == nullptr) continue;
+        if (command.use(kAxisLetters[axis]) == nullptr && !is_oblique) continue;
         state.known[static_cast<std::size_t>(axis)] = Known::lost;
         state.lost_line = command.line();
     }

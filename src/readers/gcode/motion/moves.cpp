@@ -7,6 +7,7 @@
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/rotary.hpp"
+#include "readers/gcode/motion/tilted_plane.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {
@@ -49,11 +50,18 @@ Result<void> append(const motion::Move& move, State& state, Output& output) {
 
 Result<void> hand_out(const motion::Move& move, State& state, Output& output) {
     if (output.machine) return append_on_machine(move, state, output);
-    const double turn_deg = state.active().turn_deg;
-    if (state.rotary.vectors || state.rotary.now_axis != Vec3{0, 0, 1}) {
-        return output.append(turned(with_vectors(move, state), turn_deg));
+    const bool leans = state.rotary.vectors || state.rotary.now_axis != Vec3{0, 0, 1};
+    const motion::Move placed = in_stock(leans ? with_vectors(move, state) : move, state);
+    if (state.tilt) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (kLimits.coordinate.range.contains(placed.end.tip_mm[axis])) continue;
+            return output.refuse(
+                move.line, 1,
+                "in the tilted plane, " + out_of_range(kLimits.coordinate, placed.end.tip_mm[axis]),
+                range_remedy(kLimits.coordinate));
+        }
     }
-    return turn_deg == 0 ? output.append(move) : output.append(turned(move, turn_deg));
+    return output.append(placed);
 }
 
 Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command, State& state,

@@ -213,7 +213,8 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
 Result<void> go_home(Command& command, State& state, Output& output, int tenths) {
     // U V W are increments of X Y Z; alone they name no point on the way.
     std::array<bool, 3> goes{command.has_any("XU"), command.has_any("YV"), command.has_any("ZW")};
-    if (!command.has_any("XYZABCUVW")) goes = {true, true, true};
+    const bool is_oblique = state.tilt && state.tilt->frame.is_tilted();
+    if (!command.has_any("XYZABCUVW") || is_oblique) goes = {true, true, true};
     // An increment from an unknown position gives an unknown position.
     for (std::size_t axis = 0; axis < 3 && state.incremental; ++axis) {
         if (state.known[axis] == Known::unstated) state.known[axis] = Known::lost;

@@ -8,6 +8,7 @@
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/moves.hpp"
+#include "readers/gcode/motion/tilted_plane.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
@@ -41,10 +42,6 @@ Result<Vec3> read_centre(Command& command, State& state, Output& output) {
 }
 
 Result<void> begin_turn(Command& command, State& state, Output& output, Code code) {
-    if (command.has_any("ABCIJK")) {
-        return output.refuse(command.line(), code.column, "G68 about an axis in space is not read yet",
-                             "let the CAM system write the path in the coordinates of the work");
-    }
     const Word* angle = command.use('R');
     if (angle == nullptr) {
         return output.refuse(command.line(), code.column, "G68 without an angle R in degrees", "write R");
@@ -167,9 +164,12 @@ Result<void> set_program_frame(Command& command, State& state, Output& output) {
     ProgramFrame& frame = state.frame;
     const auto polar = command.g(GGroup::polar), scaling = command.g(GGroup::scaling);
     const auto mirror = command.g(GGroup::mirror), rotation = command.g(GGroup::rotation);
+    const auto to_plane = command.g(GGroup::tool_to_plane);
+    const bool ends =
+        rotation && (rotation->tenths == 690 || rotation->tenths == 691 || rotation->tenths == 2690);
     const bool changes = (polar && (polar->tenths == 160 || frame.is_polar)) ||
                          (scaling && (scaling->tenths == 510 || frame.scale != Vec3{1, 1, 1})) || mirror ||
-                         (rotation && (rotation->tenths == 680 || frame.turn_deg != 0));
+                         (rotation && (!ends || frame.turn_deg != 0 || state.tilt)) || to_plane;
     if (!changes) return {};
     if (state.compensation.is_on && state.compensation.left_mm != 0) {
         return output.refuse(command.line(), 1,
@@ -188,9 +188,15 @@ Result<void> set_program_frame(Command& command, State& state, Output& output) {
     if (scaling && scaling->tenths == 510) {
         if (auto done = begin_scale(command, state, output, *scaling); !done) return done;
     }
-    if (rotation && rotation->tenths != 680) frame.turn_deg = 0;
-    if (rotation && rotation->tenths == 680) return begin_turn(command, state, output, *rotation);
-    return {};
+    if (ends) {
+        frame.turn_deg = 0;
+        end_tilted_plane(state, output, command.line());
+    } else if (rotation && begins_tilted_plane(command, *rotation)) {
+        if (auto done = begin_tilted_plane(command, state, output, *rotation); !done) return done;
+    } else if (rotation) {
+        if (auto done = begin_turn(command, state, output, *rotation); !done) return done;
+    }
+    return to_plane ? turn_tool_to_plane(command, state, output, *to_plane) : Result<void>{};
 }
 
 Result<void> write_target(Command& command, State& state, Output& output, Vec3& written,

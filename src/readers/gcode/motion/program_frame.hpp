@@ -44,7 +44,7 @@ struct ProgramFrame {
     std::optional<double> scale_in(Plane plane) const;
 };
 
-// G15 G16, G50 G51, G50.1 G51.1, G68 G69 of the block, with their words.
+// G15 G16, G50 G51, G50.1 G51.1, G68 G69 and tilted planes of the block, with their words.
 Result<void> set_program_frame(Command& command, State& state, Output& output);
 
 // Takes the coordinate words of the block in this frame: changes `written`, the point where the tip is, to

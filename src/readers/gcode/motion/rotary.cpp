@@ -6,6 +6,7 @@
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
 #include "readers/gcode/motion/moves.hpp"
+#include "readers/gcode/motion/tilted_plane.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {
@@ -162,6 +163,7 @@ Result<void> switch_tip_control(const Command& command, State& state, Output& ou
     rotary.vectors = to->vectors;
     if (rotary.tip_control == to->on) return {};
     rotary.tip_control = to->on;
+    if (state.tilt) return {};  // coordinates are those of the tip already
     const motion::Kinematics& kinematics = output.machine->kinematics();
     if (!to->on && output.machine->needs_tool_length(rotary.now_rad)) {
         // The positions of the joints depend on the tool length, which is not known: the tip is lost.
@@ -234,7 +236,7 @@ void set_turning_time(motion::Move& move, const State& state) {
     if (!state.rotary.turns() || move.kind != motion::MoveKind::feed || move.duration_s > 0) return;
     const double length = motion::path_length_mm(move);
     // With tool tip control the feed is that of the tip, unless the tip stands still.
-    if ((state.rotary.tip_control || state.rotary.vectors) && length > 0) return;
+    if ((state.rotary.tip_control || state.rotary.vectors || state.tilt) && length > 0) return;
     const RotaryState& rotary = state.rotary;
     const double turn_deg = (tribo::length(rotary.target_rad - rotary.now_rad) +
                              motion::angle_rad(rotary.now_axis, rotary.target_axis)) *
@@ -244,16 +246,17 @@ void set_turning_time(motion::Move& move, const State& state) {
 
 Result<void> append_on_machine(const motion::Move& move, State& state, Output& output) {
     RotaryState& rotary = state.rotary;
-    if (!rotary.tip_control && (output.machine->needs_tool_length(rotary.now_rad) ||
-                                output.machine->needs_tool_length(rotary.target_rad))) {
+    const bool is_tip = rotary.tip_control || state.tilt;  // coordinates are those of the tip
+    if (!is_tip && (output.machine->needs_tool_length(rotary.now_rad) ||
+                    output.machine->needs_tool_length(rotary.target_rad))) {
         return output.refuse(move.line, 1,
                              "where the tilted head of the machine " + output.machine->machine().name +
                                  " brings the tip depends on the tool's length",
                              "add tool_length_mm, from the spindle nose to the tip, to the machine");
     }
-    const motion::Move program = turned(move, state.active().turn_deg);
+    const motion::Move program = in_stock(move, state);
     motion::MachineBlock block;
-    block.tip_control = rotary.tip_control;
+    block.tip_control = is_tip;
     block.start_mm = program.start.tip_mm;
     block.end_mm = program.end.tip_mm;
     block.arc = program.arc;
