@@ -28,25 +28,6 @@ Point moved(Point p, Point direction, double by) {
 Point left_of(Point a) {
     return {-a.v, a.u};
 }
-Point direction_between(Point from, Point to) {
-    const double apart = gcode::distance(from, to);
-    return {(to.u - from.u) / apart, (to.v - from.v) / apart};
-}
-
-// The point of an element below a point of its offset.
-Point foot_on(const Element& element, Point of_offset, double left_mm) {
-    if (!element.is_arc()) return moved(of_offset, left_of(element.start_direction()), -left_mm);
-    const double radius = gcode::distance(element.centre, element.end);
-    return moved(element.centre, direction_between(element.centre, of_offset), radius);
-}
-
-// The arc about a centre from a point to another, to the left for side > 0.
-Element arc_about(Point centre, Point from, Point to, int side) {
-    double turn =
-        gcode::turn_between({from.u - centre.u, from.v - centre.v}, {to.u - centre.u, to.v - centre.v});
-    if (side * turn < 0) turn += side * math::kTwoPi;
-    return {from, to, centre, turn};
-}
 
 Point turned_about(Point centre, Point p, double rad) {
     const double c = math::cos(rad), s = math::sin(rad), u = p.u - centre.u, v = p.v - centre.v;
@@ -128,39 +109,22 @@ Result<Contour::Pieces> Contour::with_corners(const Path& path) const {
         const double turn =
             gcode::turn_between(before.element.end_direction(), next.element.start_direction());
         corner.from_z = corner.to_z = before.to_z;
-        Point leave{}, enter{};
-        bool fits = true;
         if (std::abs(turn) < kStraightRad) {
             done.push_back(next);
             continue;
         }
         if (corner.is_own_length) corner.size_mm /= 2 * math::cos(turn / 2);
-        if (corner.is_chamfer) {
-            fits = !before.element.is_arc() && !next.element.is_arc() &&
-                   corner.size_mm < before.element.length() && corner.size_mm < next.element.length();
-            leave = moved(before.element.end, before.element.end_direction(), -corner.size_mm);
-            enter = moved(next.element.start, next.element.start_direction(), corner.size_mm);
-            corner.element = {leave, enter, {}, 0};
-        } else {
-            const double left = turn > 0 ? corner.size_mm : -corner.size_mm;
-            const auto inner = gcode::offset(before.element, left), outer = gcode::offset(next.element, left);
-            const auto centre = inner && outer ? gcode::meeting(*inner, *outer) : std::nullopt;
-            fits = centre.has_value();
-            if (fits) {
-                leave = foot_on(before.element, *centre, left);
-                enter = foot_on(next.element, *centre, left);
-                corner.element = arc_about(*centre, leave, enter, turn > 0 ? 1 : -1);
-            }
-        }
-        if (!fits) {
+        const auto between = corner.is_chamfer
+                                 ? gcode::chamfered(before.element, next.element, corner.size_mm)
+                                 : gcode::rounded(before.element, next.element, corner.size_mm);
+        if (!between) {
             return path.refuse(
                 corner.words.place,
                 std::string(name) + " of " + mm_text(corner.size_mm) +
                     " does not fit between the elements beside it",
                 corner.is_chamfer ? "write it between two lines that are longer" : "take a smaller radius");
         }
-        before.element.set_end(leave);
-        next.element.set_start(enter);
+        corner.element = *between;
         done.push_back(corner);
         done.push_back(next);
     }
@@ -291,7 +255,7 @@ Result<Contour::Pieces> Contour::approached(const Path& path, Pieces pieces) con
     Piece last;
     last.words = approach_words_;
     last.from_z = last.to_z = approach_->point.z;
-    last.element = is_arc ? arc_about(centre, begin, a, turns) : Element{begin, a, {}, 0};
+    last.element = is_arc ? gcode::arc_about(centre, begin, a, turns) : Element{begin, a, {}, 0};
     if (shape.shape == ContourEnd::circle) last.element.turn_rad = turns * shape.turn_rad;
     done.push_back(last);
     done.insert(done.end(), pieces.begin(), pieces.end());
@@ -331,7 +295,7 @@ Result<void> Contour::append_departure(const Path& path, Pieces& pieces) const {
                                "end farther away or take a smaller R");
         }
         const double rad = math::atan2(to.v - centre.v, to.u - centre.u) - turns * math::acos(radius / apart);
-        way.element = arc_about(
+        way.element = gcode::arc_about(
             centre, e, {centre.u + radius * math::cos(rad), centre.v + radius * math::sin(rad)}, turns);
         pieces.push_back(way);
         way.element = {way.element.end, to, {}, 0};

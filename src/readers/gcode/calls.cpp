@@ -59,13 +59,15 @@ Result<bool> call_or_return(Command& command, Flow& flow, Output& output) {
 
 const Word* macro_call_in(const Block& block) {
     for (const Word& word : block.words) {
-        if (word.letter == 'G' && word.value == 65) return &word;
+        if (word.letter == 'G' && (word.value == 65 || word.value == 66)) return &word;
     }
     return nullptr;
 }
 
-Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const Output& output) {
-    Flow::Arguments arguments;
+Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Output& output) {
+    const std::string name = code_text('G', static_cast<int>(code.value) * 10);
+    MacroCall call;
+    Flow::Arguments& arguments = call.arguments;
     arguments.fill(std::numeric_limits<double>::quiet_NaN());
     const Word* number = nullptr;
     const Word* times_word = nullptr;
@@ -73,7 +75,7 @@ Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const 
     for (const Word& word : block.words) {
         if (&word == &code) continue;
         if (&word < &code) {
-            return output.refuse(block.line, word.column, "G65 is not the first word of its block",
+            return output.refuse(block.line, word.column, name + " is not the first word of its block",
                                  "move what is before it to the line above");
         }
         if (word.letter == 'P') {
@@ -86,7 +88,7 @@ Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const 
             last = letter;
             const int variable = kFirstCentre + 3 * set + letter;
             if (variable > kLastCentre) {
-                return output.refuse(block.line, word.column, "G65 has more than ten sets of I J K",
+                return output.refuse(block.line, word.column, name + " has more than ten sets of I J K",
                                      "pass the rest in common variables");
             }
             arguments[static_cast<std::size_t>(variable - 1)] = word.value;
@@ -95,18 +97,25 @@ Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const 
             arguments[static_cast<std::size_t>(variable - 1)] = word.value;
         } else {
             return output.refuse(block.line, word.column,
-                                 std::string(1, word.letter) + " is no argument of G65",
+                                 std::string(1, word.letter) + " is no argument of " + name,
                                  "use another letter");
         }
     }
     if (number == nullptr || !is_whole(*number, 1)) {
         return output.refuse(block.line, number == nullptr ? code.column : number->column,
-                             "G65 needs the number of a program as P", "write G65 P1000 for O1000");
+                             name + " needs the number of a program as P",
+                             "write " + name + " P1000 for O1000");
     }
-    const auto times = times_of(times_word, block.line, "G65", output);
+    const auto times = times_of(times_word, block.line, name.c_str(), output);
     if (!times) return std::unexpected(times.error());
-    if (*times == 0) return {};
-    return flow.call_program(*number, *times, block.line, &arguments);
+    call.number = *number;
+    call.times = *times;
+    return call;
+}
+
+Result<void> call_macro(const MacroCall& call, Flow& flow, int line) {
+    if (call.times == 0) return {};
+    return flow.call_program(call.number, call.times, line, &call.arguments);
 }
 
 }  // namespace tribo::readers::gcode

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The words of calls: M97 P L, M98 P L, M99 P, and G65 P L with its arguments.
+// The words of calls: M97 P L, M98 P L, M99 P, and G65 P L and G66 P L with their arguments.
 #pragma once
+
+#include <cstdint>
 
 #include "readers/gcode/command.hpp"
 #include "readers/gcode/flow.hpp"
@@ -11,9 +13,17 @@ namespace tribo::readers::gcode {
 // Runs the M97, M98 or M99 of the block. Returns false at the end of the program.
 Result<bool> call_or_return(Command& command, Flow& flow, Output& output);
 
-// Returns the G65 of the block; null if it has none.
+// A call with variables of its own.
+struct MacroCall {
+    Word number;  // of the program
+    std::int64_t times = 1;
+    Flow::Arguments arguments{};
+};
+
+// Returns the G65 or G66 of the block; null if it has none.
 const Word* macro_call_in(const Block& block);
-// Runs the block of a G65: words behind it are arguments.
-Result<void> call_macro(const Block& block, const Word& code, Flow& flow, const Output& output);
+// Reads the block of a G65 or G66: words behind it are arguments.
+Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Output& output);
+Result<void> call_macro(const MacroCall& call, Flow& flow, int line);
 
 }  // namespace tribo::readers::gcode

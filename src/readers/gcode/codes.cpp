@@ -24,6 +24,7 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 923:
             return GGroup::non_modal;
         case 650:
+        case 660:
             return GGroup::macro_call;
         case 310:
         case 382:
@@ -143,6 +144,15 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 2680:
         case 2690:
             return GGroup::rotation;
+        case 360:
+        case 390:
+            return GGroup::corner;
+        case 71:
+        case 1070:
+            return GGroup::cylinder;
+        case 120:
+        case 130:
+            return GGroup::round_pocket;
         case 531:
         case 536:
             return GGroup::tool_to_plane;
@@ -232,15 +242,10 @@ Unread unread_g(int tenths) {
             return {"splines of this kind", kPlainMoves};
         case 70:
             return {"lathe diameters", "give a milling program"};
-        case 120:
-        case 130:
-            return {"circular pockets", kPlainMoves};
         case 171:
         case 181:
         case 191:
             return {"planes of the axes U V W", kPlainMoves};
-        case 71:
-            return {"cylindrical interpolation", kPlainMoves};
         case 121:
         case 1120:
             return {"polar interpolation", kPlainMoves};
@@ -253,9 +258,8 @@ Unread unread_g(int tenths) {
         case 470:
         case 480:
             return {"moves longer or shorter by an offset", kPlainMoves};
-        case 660:
         case 661:
-            return {"modal macro calls", "let the control or the CAM system write the macro out"};
+            return {"macro calls at every block", "let the control or the CAM system write the macro out"};
         case 161:
             return {"polar coordinates in space", kPlainMoves};
         case 681:

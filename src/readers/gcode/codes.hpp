@@ -11,7 +11,7 @@ namespace tribo::readers::gcode {
 // A block may have at most one code of a group.
 enum class GGroup {
     non_modal,      // G4 G10 G28 G30 G52 G53 G92 G92.1 G92.2 G92.3
-    macro_call,     // G65; the other words of its block are arguments
+    macro_call,     // G65 G66; the other words of its block are arguments
     probing,        // G31 G38.2 to G38.5: nobody knows here where they stop
     motion,         // G0 G1 G2 G3 G5 to G5.3 G6.2 G73 G74 G76 G81 to G89
     cycle_end,      // G80; it may stand beside a motion
@@ -32,6 +32,9 @@ enum class GGroup {
     mirror,         // G50.1 G51.1
     rotation,       // G68 G69, and tilted planes G68.2 G68.3 G268 G269
     tool_to_plane,  // G53.1 G53.6
+    corner,         // G36 G39 with R (Fagor)
+    cylinder,       // G7.1 G107
+    round_pocket,   // G12 G13
     idle,           // codes that move nothing; a block may have several
     count
 };

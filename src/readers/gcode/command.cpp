@@ -75,6 +75,10 @@ Result<void> Command::add_g(const Word& word) {
 
 // Refuses codes whose meaning depends on the words beside them.
 Result<void> Command::settle() {
+    if (next_tool_ != nullptr && !m(MGroup::tool)) {
+        return refuse(line_, *next_tool_, "T stands twice in the block",
+                      "delete one of the two or start a new line between them");
+    }
     if (const auto units = g(GGroup::units); units && units->tenths >= 700 && has_any("DIJKLPQRUW")) {
         if (!has('I') || !has('L')) {
             return fail_at({}, line_, units->column,
@@ -132,6 +136,8 @@ Result<Command> Command::of(const Block& block) {
             added = command.add_m(word);
         } else if (const Word*& place = command.words_[index(word.letter)]; place == nullptr) {
             place = &word;
+        } else if (word.letter == 'T' && command.next_tool_ == nullptr) {
+            command.next_tool_ = &word;  // T1 T2 M6: the second is the tool after this one
         } else {
             added = refuse(block.line, word, std::string(1, word.letter) + " stands twice in the block",
                            "delete one of the two or start a new line between them");

@@ -29,6 +29,7 @@ class Command {
     static Result<Command> of(const Block& block);
 
     int line() const { return line_; }
+    const Block& block() const { return *block_; }
     std::optional<Code> g(GGroup group) const { return g_[static_cast<std::size_t>(group)]; }
     std::optional<Code> m(MGroup group) const { return m_[static_cast<std::size_t>(group)]; }
     bool has_g(GGroup group, int tenths) const { return g(group) && g(group)->tenths == tenths; }
@@ -36,6 +37,7 @@ class Command {
     // M codes without a group, in order: the machine has them, the path does not.
     const std::vector<Code>& unknown_m() const { return unknown_m_; }
 
+    bool names_next_tool() const { return next_tool_ != nullptr; }
     // True when the block has the word; does not count as use of the word.
     bool has(char letter) const { return words_[index(letter)] != nullptr; }
     bool has_any(std::string_view letters) const;
@@ -67,7 +69,8 @@ class Command {
     int line_ = 0;
     const Block* block_ = nullptr;
     std::array<const Word*, 26> words_{};
-    std::uint32_t used_ = 0;  // bit per letter
+    const Word* next_tool_ = nullptr;  // a second T
+    std::uint32_t used_ = 0;           // bit per letter
     std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g_;
     std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m_;
     std::vector<Code> unknown_m_;

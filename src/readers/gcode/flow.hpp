@@ -41,7 +41,8 @@ class Flow {
     Result<bool> return_from_program(int line, int column, const Word* to);
     // At the end of the text. Refuses an open subroutine or loop.
     Result<void> end_text(int line) const;
-    bool is_outermost() const { return calls_.empty(); }
+    // Calls without their return so far.
+    std::size_t depth() const { return calls_.size(); }
 
     // Counts the block that the lexer has just read. Refuses a program that seems to run forever.
     Result<void> count_step(int line);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "readers/gcode/frames/cylinder.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/cycles.hpp"
 #include "readers/gcode/motion/moves.hpp"
@@ -95,6 +96,10 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
                         "offset (Fagor): tool " +
                             std::to_string(state.selected_tool));
         }
+    }
+    if (command.names_next_tool() && output.first(Note::second_tool)) {
+        output.warn(command.line(),
+                    "T stands twice beside M6: the second is taken as the tool after this one");
     }
     if (command.m(MGroup::tool)) {
         state.loaded_tool = state.selected_tool;
@@ -272,6 +277,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     pass_idle_codes(command, state, output);
     if (auto done = set_program_frame(command, state, output); !done) return done;
     if (auto done = begin_compensation(command, state, output); !done) return done;
+    if (auto done = switch_cylinder(command, state, output); !done) return done;
     if (command.m(MGroup::outputs) || command.m(MGroup::overrides) || command.m(MGroup::orientation)) {
         for (const char letter : {'P', 'Q', 'E'}) command.use(letter);
         if (command.m(MGroup::orientation) && !command.g(GGroup::motion)) command.use('R');

@@ -64,6 +64,13 @@ void pass_unknown_codes(Command& command, Output& output) {
 }
 
 Result<void> pass_unused_words(Command& command, State& state, Output& output) {
+    const std::optional<Word>& corner = command.block().corner;
+    const bool is_at_feed = state.motion == MotionMode::line || state.motion == MotionMode::arc_clockwise ||
+                            state.motion == MotionMode::arc_counter_clockwise;
+    if (corner && !(is_at_feed && command.has_any("XYZ"))) {
+        return output.refuse(command.line(), corner->column, "a corner (,R or ,C) without a feed move",
+                             "write it beside X and Y at feed, or delete it");
+    }
     while (const Word* word = command.first_unused()) {
         // Surface normals of compensation in space, which the programmed path does not need.
         const bool is_normal = state.compensation.is_on && state.compensation.code % 10 > 1 &&

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "readers/gcode/flow.hpp"
 #include "readers/gcode/modes.hpp"
 #include "readers/gcode/motion/compensation.hpp"
+#include "readers/gcode/motion/corners.hpp"
 #include "readers/gcode/motion/motion.hpp"
 #include "readers/gcode/motion/offsets.hpp"
 #include "readers/gcode/motion/rotary.hpp"
@@ -79,6 +81,7 @@ class ProgramReader {
         state_.compensation = {};
         state_.left_at_mm.reset();
         state_.nurbs = {};
+        state_.corner.reset();
         state_.rotary.arrive();
         return true;
     }
@@ -116,7 +119,14 @@ class ProgramReader {
         if (block.words.empty()) return true;
         has_words_ = true;
         if (const Word* call = macro_call_in(block)) {
-            if (auto done = call_macro(block, *call, flow_, output_); !done) {
+            const auto macro = read_macro_call(block, *call, output_);
+            if (!macro) return std::unexpected(macro.error());
+            if (call->value == 66) {  // runs after each move, from the next block on
+                modal_macro_ = *macro;
+                modal_depth_ = flow_.depth();
+                return true;
+            }
+            if (auto done = call_macro(*macro, flow_, block.line); !done) {
                 return std::unexpected(done.error());
             }
             return true;
@@ -191,7 +201,26 @@ class ProgramReader {
         return true;
     }
 
+    // The block goes somewhere: what calls the macro of G66.
+    static bool moves(const Block& block) {
+        return std::ranges::any_of(block.words,
+                                   [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
+    }
+
+    // Nothing but moves, feeds and modes of numbers may stand between a corner and the move behind it.
+    Result<void> check_corner(const Command& command) const {
+        constexpr GGroup groups[] = {GGroup::non_modal,   GGroup::plane,    GGroup::cutter_side,
+                                     GGroup::work_offset, GGroup::polar,    GGroup::scaling,
+                                     GGroup::mirror,      GGroup::rotation, GGroup::tool_to_plane,
+                                     GGroup::cylinder,    GGroup::probing};
+        const bool ends =
+            command.m(MGroup::tool) || command.m(MGroup::stop) ||
+            std::ranges::any_of(groups, [&](GGroup group) { return command.g(group).has_value(); });
+        return ends ? check_no_corner_waits(state_, output_, command.line()) : Result<void>{};
+    }
+
     Result<bool> execute(Command& command) {
+        if (auto done = check_corner(command); !done) return std::unexpected(done.error());
         if (auto done = close_nurbs_before(command, state_, output_); !done) {
             return std::unexpected(done.error());
         }
@@ -218,6 +247,12 @@ class ProgramReader {
         pass_unknown_codes(command, output_);
         if (auto done = pass_unused_words(command, state_, output_); !done)
             return std::unexpected(done.error());
+        if (command.has_g(GGroup::idle, 670)) modal_macro_.reset();
+        if (modal_macro_ && flow_.depth() == modal_depth_ && moves(command.block())) {
+            if (auto done = call_macro(*modal_macro_, flow_, command.line()); !done) {
+                return std::unexpected(done.error());
+            }
+        }
         if (calls) return call_or_return(command, flow_, output_);
         const auto stop = command.m(MGroup::stop);
         return !(stop && (stop->tenths == 20 || stop->tenths == 300));
@@ -231,6 +266,8 @@ class ProgramReader {
                                   "write G5.3 after its last point");
         }
         if (auto done = finish_nurbs(state_, output_); !done) return std::unexpected(done.error());
+        if (auto done = check_no_corner_waits(state_, output_, last_line); !done)
+            return std::unexpected(done.error());
         if (auto done = end_compensation(state_, output_); !done) return std::unexpected(done.error());
         if (!has_words_) {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
@@ -262,6 +299,8 @@ class ProgramReader {
     Flow flow_;
     std::vector<motion::DeclaredTool> declared_;  // in units of the program until the end
     std::set<int> tool_lines_;
+    std::optional<MacroCall> modal_macro_;  // of G66
+    std::size_t modal_depth_ = 0;           // of calls at its G66
     bool has_percent_ = false, has_number_ = false, has_words_ = false;
     bool is_over_ = false;  // its loops do not end
 };

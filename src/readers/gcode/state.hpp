@@ -15,8 +15,8 @@
 #include "motion/curve/bezier_motion.hpp"
 #include "motion/machine/work_frame.hpp"
 #include "readers/control/machine_run.hpp"
+#include "readers/gcode/frames/program_frame.hpp"
 #include "readers/gcode/motion/contour.hpp"
-#include "readers/gcode/motion/program_frame.hpp"
 #include "readers/gcode/reader.hpp"
 
 namespace tribo::readers::gcode {
@@ -113,7 +113,25 @@ struct RotaryState {
     }
 };
 
-// A plane turned in space whose coordinates the program writes (motion/tilted_plane.hpp).
+// A corner that a block asks for at its end, and the move that waits for the next one (motion/corners.hpp).
+struct CornerSize {
+    double mm = 0;  // radius, or what a chamfer takes from each line
+    bool is_chamfer = false;
+};
+struct WaitingCorner {
+    motion::Move move;
+    CornerSize size;
+    Plane plane = Plane::xy;
+};
+
+// Cylindrical interpolation (frames/cylinder.hpp).
+struct Cylinder {
+    int rotary = 0;  // the axis A B C that turns
+    int linear = 0;  // the axis X Y Z about which it turns
+    double radius_mm = 0;
+};
+
+// A plane turned in space whose coordinates the program writes (frames/tilted_plane.hpp).
 struct TiltedPlane {
     motion::WorkFrame frame;  // in the stock
     Vec3 preset_before_mm;    // of G92 and G52, until the plane ends
@@ -160,6 +178,8 @@ struct State {
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
+    std::optional<WaitingCorner> corner;
+    std::optional<Cylinder> cylinder;
 
     // In a tilted plane: in its frame. Else in the frame of the axes of the program: the frame of the stock,
     // turned about z by the work system (mostly by 0). 0 where not known. On a machine without tool tip
@@ -240,6 +260,8 @@ enum class Note {
     deletable_blocks,
     rotary_home,
     roll_pitch_yaw,
+    round_pocket,
+    second_tool,
 };
 
 // Receives the moves, warnings and errors of the blocks.

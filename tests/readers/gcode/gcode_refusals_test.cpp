@@ -103,12 +103,23 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G68.2 P1 Q122 X0\n", 1, 10, "Q is no order of the axes"},
         {"G51 X0 Y0 P2\nG68.2 X0 I10\n", 2, 1, "a tilted plane in coordinates that are turned"},
         {"G68.2 X0 I10\nG55\n", 2, 1, "another work system in a tilted plane"},
-        {"G12 I5\n", 1, 1, "G12 (circular pockets) is not read yet"},
-        {"G7.1 C10\n", 1, 1, "G7.1 (cylindrical interpolation) is not read yet"},
-        {"G66 P9 X1\n", 1, 1, "G66 (modal macro calls) is not read yet"},
         {"G70 I5 L8\n", 1, 1, "G70 (a pattern of holes) without a cycle"},
         {"G81 Z-1 R1 F9 L0\nG72 J5 L8\n", 2, 1, "G72 without its size I"},
         {"G71 U1 R2\n", 1, 1, "G71 (a cycle of a lathe) is not read yet"},
+        {"G66.1 P9 X1\n", 1, 1, "G66.1 (macro calls at every block) is not read yet"},
+        {"G66 X1\n", 1, 1, "G66 needs the number of a program"},
+        {"G7.1 X10\n", 1, 1, "G7.1 without the radius of its cylinder"},
+        {"G12 K5\n", 1, 1, "G12 without a radius I"},
+        {ready + "G12 I5 X9\n", 3, 1, "G12 begins at another place"},
+        {ready + "G1 X9 ,R2\nZ3\n", 4, 1, "the corner of line 3 is not followed by a feed move in its plane"},
+        {ready + "G1 X9 ,R2\nG0 Y9\n", 4, 1, "the corner of line 3 is not followed"},
+        {ready + "G1 X9 ,R2\n", 3, 1, "the corner of line 3 is not followed"},
+        {ready + "G1 X9 Z9 ,R2\nY9\n", 3, 1, "a corner at the end of a move that leaves the plane"},
+        {ready + "G1 X9 ,R99\nY9\n", 3, 1, "the corner of 99 mm does not fit"},
+        {ready + "G0 X9 ,R2\n", 3, 8, "a corner (,R or ,C) without a feed move"},
+        {ready + "G1 X9 ,X2\n", 3, 8, "a comma without R or C behind it"},
+        {ready + "G1 X9 G36\nY9\n", 3, 7, "G36 without the size R"},
+        {"T1 T2\n", 1, 4, "T stands twice in the block"},
         {"G150 P1 X1 Q2\n", 1, 1, "G150 (a pocket that the control mills by itself)"},
         {"G8\n", 1, 1, "G8 (lathe diameters) is not read yet"},
         {"G96 S100\n", 1, 1, "G96 (constant surface speed) is not read yet"},
@@ -120,7 +131,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G51.1\n", 1, 1, "without the place of its mirror"},
         {ready + "G51 I2 J3\nG2 X20 Y0 I5\n", 4, 4, "scaled differently along the axes"},
         {ready + "G81 G80 Z-1 R1\n", 3, 5, "G80 contradicts G81"},
-        {ready + "G1 X1 ,R5\n", 3, 7, "',' cannot start a word"},
+        {ready + "G1 X1 , 5\n", 3, 8, "a comma without R or C"},
         {"G21 M3\nG0 X0 Y0 Z0\nG1 X1\n", 3, 4, "before any F"},
         {"G21 M3\nG0 X0 Y0 Z0\nG1 X1 F0\n", 3, 7, "feed rate 0"},
         {"G21\nG1 X1 F-5\n", 2, 7, "feed of -5 mm/min is out of range"},
@@ -328,7 +339,7 @@ TEST(GcodeReader, GivesAllRefusalsAtOnce) {
     options.source_name = "part.nc";
     options.refusals = &refusals;
     const auto program = read_gcode(
-        "G21 M3 F100\nG0 X0 Y0 Z5\nG12 I5\nG1 Z-1\nX5 U2\nG12 I6\nG999\nG0 X1 $ Y2\nX9\n", options);
+        "G21 M3 F100\nG0 X0 Y0 Z5\nG112 I5\nG1 Z-1\nX5 U2\nG112 I6\nG999\nG0 X1 $ Y2\nX9\n", options);
     ASSERT_FALSE(program.has_value());
     ASSERT_EQ(refusals.size(), 4U);
     EXPECT_EQ(program.error().text(), refusals[0].text());
@@ -341,7 +352,7 @@ TEST(GcodeReader, GivesAllRefusalsAtOnce) {
 
     // A text that ends inside a subprogram ends the reading too.
     refusals.clear();
-    EXPECT_FALSE(read_gcode("G21\nM98 P7\nM30\nO7\nG12 I5\n", options).has_value());
+    EXPECT_FALSE(read_gcode("G21\nM98 P7\nM30\nO7\nG112 I5\n", options).has_value());
     ASSERT_EQ(refusals.size(), 2U);
     EXPECT_NE(refusals[1].text().find("the text ends before M99"), std::string::npos) << refusals[1].text();
 

@@ -201,4 +201,37 @@ std::optional<Element> arc_into(Point start, const Element& arc) {
     return into;
 }
 
+Element arc_about(Point centre, Point from, Point to, int side) {
+    double turn = turn_between(from - centre, to - centre);
+    if (side * turn < 0) turn += side * math::kTwoPi;
+    return {from, to, centre, turn};
+}
+
+std::optional<Element> rounded(Element& before, Element& next, double radius_mm) {
+    const int side = turn_between(before.end_direction(), next.start_direction()) > 0 ? 1 : -1;
+    const auto inner = offset(before, side * radius_mm), outer = offset(next, side * radius_mm);
+    const auto centre = inner && outer ? meeting(*inner, *outer) : std::nullopt;
+    if (!centre) return std::nullopt;
+    // The point of an element below the centre.
+    const auto foot_on = [&](const Element& element) {
+        if (!element.is_arc()) return *centre - side * radius_mm * left_of(element.start_direction());
+        return element.centre + distance(element.centre, element.end) * unit(*centre - element.centre);
+    };
+    const Point leave = foot_on(before), enter = foot_on(next);
+    before.set_end(leave);
+    next.set_start(enter);
+    return arc_about(*centre, leave, enter, side);
+}
+
+std::optional<Element> chamfered(Element& before, Element& next, double leg_mm) {
+    const bool fits =
+        !before.is_arc() && !next.is_arc() && leg_mm < before.length() && leg_mm < next.length();
+    if (!fits) return std::nullopt;
+    const Point leave = before.end - leg_mm * before.end_direction();
+    const Point enter = next.start + leg_mm * next.start_direction();
+    before.set_end(leave);
+    next.set_start(enter);
+    return Element{leave, enter, {}, 0};
+}
+
 }  // namespace tribo::readers::gcode

@@ -45,6 +45,14 @@ double turn_between(Point a, Point b);
 // shortens them least; none if they have no common point.
 std::optional<Point> meeting(const Element& first, const Element& second);
 
+// Returns the arc about a centre from a point to another, to the left for side > 0.
+Element arc_about(Point centre, Point from, Point to, int side);
+
+// Puts an arc of that radius, or a chamfer that takes `leg_mm` from each line, between two elements: shortens
+// both and returns what lies between; none if it does not fit. They do not run straight on.
+std::optional<Element> rounded(Element& before, Element& next, double radius_mm);
+std::optional<Element> chamfered(Element& before, Element& next, double leg_mm);
+
 // Returns the arc from `start` to the end of `arc`, with the direction of `arc` at the end; none if it would
 // be a line.
 std::optional<Element> arc_into(Point start, const Element& arc);

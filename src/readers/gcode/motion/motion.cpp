@@ -3,7 +3,10 @@
 
 #include <cmath>
 
+#include "readers/gcode/frames/cylinder.hpp"
 #include "readers/gcode/motion/arc_words.hpp"
+#include "readers/gcode/motion/circular_pocket.hpp"
+#include "readers/gcode/motion/corners.hpp"
 #include "readers/gcode/motion/cycles.hpp"
 #include "readers/gcode/motion/moves.hpp"
 #include "readers/gcode/motion/rotary.hpp"
@@ -43,6 +46,9 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     const auto target = target_of(command, state, output);
     if (!target) return std::unexpected(target.error());
 
+    if (state.cylinder) return feed_on_cylinder(command, state, target->tip_mm, output);
+    const auto corner = corner_of(command, state, output);
+    if (!corner) return std::unexpected(corner.error());
     motion::Move move = new_move(motion::MoveKind::feed, command, state);
     move.end.tip_mm = target->tip_mm;
     if (state.motion != MotionMode::line) {
@@ -57,7 +63,11 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
     const bool stays =
         !move.arc && move.start.tip_mm == move.end.tip_mm && !state.rotary.turns() && !state.left_at_mm;
     state.tip_mm = target->tip_mm;
-    return stays ? Result<void>{} : append(move, state, output);
+    if (stays) return {};
+    if (!*corner) return append(move, state, output);
+    // A move that begins behind a corner is known only when it is output.
+    if (state.corner) return join_at_corner(move, state, output, *corner);
+    return wait_for_corner(move, **corner, state, output);
 }
 
 // G53: coordinates relative to the zero of the machine, which is unknown to the program.
@@ -140,6 +150,9 @@ Result<void> apply_motion(Command& command, State& state, Output& output) {
     }
     if (moves && (state.motion == MotionMode::cubic_spline || state.motion == MotionMode::quadratic_spline)) {
         return run_bezier(command, state, output);
+    }
+    if (const auto pocket = command.g(GGroup::round_pocket)) {
+        return mill_round_pocket(command, state, output, *pocket);
     }
     if (repeats_cycle(command, state)) return run_cycle(command, state, output);
     if (!moves) return {};

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "base/text/limit_text.hpp"
+#include "readers/gcode/frames/tilted_plane.hpp"
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
+#include "readers/gcode/motion/corners.hpp"
 #include "readers/gcode/motion/rotary.hpp"
-#include "readers/gcode/motion/tilted_plane.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {
@@ -44,6 +45,7 @@ motion::Move new_move(motion::MoveKind kind, const Command& command, const State
 }
 
 Result<void> append(const motion::Move& move, State& state, Output& output) {
+    if (state.corner) return join_at_corner(move, state, output);
     if (state.compensation.is_on) return compensate(move, state, output);
     return state.left_at_mm ? leave_compensation(move, state, output) : hand_out(move, state, output);
 }

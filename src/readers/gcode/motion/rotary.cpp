@@ -5,8 +5,8 @@
 
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
+#include "readers/gcode/frames/tilted_plane.hpp"
 #include "readers/gcode/motion/moves.hpp"
-#include "readers/gcode/motion/tilted_plane.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::gcode {

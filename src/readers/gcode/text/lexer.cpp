@@ -80,6 +80,7 @@ Result<bool> Lexer::next(Block& block) {
     block.deletable = block.has_nested_comment = block.has_open_comment = block.has_deleted_rest =
         block.has_print = false;
     block.setting = {};
+    block.corner.reset();
     block.words.clear();
     block.assignments.clear();
     block.comments.clear();
@@ -129,6 +130,18 @@ Result<bool> Lexer::next(Block& block) {
             if (!ends) return std::unexpected(ends.error());
             if (*ends) return true;
             if (cursor_.at != start) continue;  // THEN: its statement follows
+        }
+        if (c == ',' && !is_first) {
+            ++cursor_.at;
+            if (auto read = read_corner(block); !read) return std::unexpected(read.error());
+            continue;
+        }
+        const bool is_spindle = c == '$' && !is_first && cursor_.at + 1 < cursor_.line.size() &&
+                                is_digit(cursor_.line[cursor_.at + 1]);
+        if (is_spindle) {  // $0: the number of a spindle (LinuxCNC)
+            ++cursor_.at;
+            while (is_digit(cursor_.peek())) ++cursor_.at;
+            continue;
         }
         const Result<void> read = c == '('   ? read_comment(block)
                                   : c == '#' ? read_assignment(block)
@@ -216,6 +229,20 @@ Result<void> Lexer::read_assignment(Block& block) {
     if (!value) return std::unexpected(value.error());
     assignment.value = *value;
     block.assignments.push_back(std::move(assignment));
+    return {};
+}
+
+// The cursor is behind the comma.
+Result<void> Lexer::read_corner(Block& block) {
+    const std::size_t start = cursor_.at;
+    const char letter = to_upper(cursor_.peek_after_blanks());
+    if ((letter != 'R' && letter != 'C') || block.corner) {
+        return cursor_.refuse(start, "a comma without R or C behind it", "write ,R5 or ,C5, or delete it");
+    }
+    const std::size_t word = cursor_.at++;
+    const auto value = read_number(letter, word);
+    if (!value) return std::unexpected(value.error());
+    if (*value) block.corner = Word{letter, **value, static_cast<int>(word) + 1};
     return {};
 }
 

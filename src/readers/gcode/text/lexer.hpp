@@ -4,6 +4,7 @@
 // not know the meaning of words.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,7 @@ struct Block {
     std::string_view setting;       // a line that begins with '$'
     std::string_view label;         // what follows a '%'
     MacroStatement macro;           // of a macro block
+    std::optional<Word> corner;     // ,R or ,C: a corner at the end of the block
     std::vector<Word> words;        // in order, line numbers (N) left out
     std::vector<Assignment> assignments;
     std::vector<std::string_view> comments;
@@ -80,6 +82,7 @@ class Lexer {
     Result<bool> read_macro(Block& block);
     Result<bool> read_setting(Block& block);
     Result<void> read_word(Block& block);
+    Result<void> read_corner(Block& block);
     Result<void> read_comment(Block& block);
     Result<void> read_assignment(Block& block);
     // None: a vacant variable.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "readers/gcode/motion/program_frame.hpp"
+#include "readers/gcode/frames/program_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.hpp"
+#include "readers/gcode/frames/tilted_plane.hpp"
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/moves.hpp"
-#include "readers/gcode/motion/tilted_plane.hpp"
 
 namespace tribo::readers::gcode {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/gcode/motion/tilted_plane.hpp"
+#include "readers/gcode/frames/tilted_plane.hpp"
 
 #include <array>
 #include <cmath>

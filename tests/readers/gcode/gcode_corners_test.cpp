@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Corners of blocks, round pockets, cylinders and modal macros: lengths and places in closed form.
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "readers/gcode/gcode_text.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers {
+namespace {
+
+motion::Program fanuc(const std::string& text, GcodeOptions options = {}) {
+    options.dialect = GcodeDialect::fanuc;
+    return program_of("G21 G90 G54 M3 S1000 F100\nG0 X0 Y0 Z0\n" + text, options);
+}
+
+TEST(GcodeCorners, round_and_cut_the_end_of_a_block) {
+    // Each arc of 5 mm takes 5 mm from both sides; each chamfer 2 mm.
+    const motion::Program round = fanuc("G1 X40 ,R5\nY40 ,C2\nX0\n");
+    EXPECT_NEAR(feed_mm(round), 35 + 5 * kPi / 2 + 33 + 2 * std::sqrt(2.0) + 38, 1e-9);
+    ASSERT_EQ(round.moves.size(), 5U);
+    EXPECT_LT(distance(round.moves[1].arc->centre_mm, {35, 5, 0}), 1e-9);
+    EXPECT_EQ(round.moves[1].line, 3);
+    EXPECT_LT(distance(round.moves[3].end.tip_mm, {38, 40, 0}), 1e-9);
+    // Fagor writes the same as G36 and G39.
+    EXPECT_NEAR(feed_mm(fanuc("G1 G36 R5 X40\nG39 R2 Y40\nX0\n")), feed_mm(round), 1e-9);
+    // Straight on there is no corner.
+    EXPECT_NEAR(feed_mm(fanuc("G1 X40 ,R5\nX60\n")), 60, 1e-9);
+}
+
+TEST(GcodeCorners, are_offset_by_the_cutter_too) {
+    GcodeOptions options;
+    options.tools = {{1, 6}};
+    // Inside, the arc of 5 mm becomes one of 2 mm.
+    const motion::Program program = fanuc("T1 M6\nG41 D1 G1 X10\nX50 ,R5\nY40\nG40 Y60\n", options);
+    const auto arc = std::find_if(program.moves.begin(), program.moves.end(),
+                                  [](const motion::Move& move) { return move.arc.has_value(); });
+    ASSERT_NE(arc, program.moves.end());
+    EXPECT_NEAR(distance(arc->arc->centre_mm, arc->start.tip_mm), 2, 1e-9);
+    EXPECT_LT(distance(arc->arc->centre_mm, {45, 5, 0}), 1e-9);
+}
+
+RC_GTEST_PROP(GcodeCorners, an_arc_between_lines_touches_both, ()) {
+    const double degrees = *rc::gen::inRange(20, 161) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
+    const double radius = *rc::gen::inRange(1, 100) / 10.0;
+    const double x = 200 + 200 * std::cos(degrees * kPi / 180), y = 200 * std::sin(degrees * kPi / 180);
+    const motion::Program program = fanuc("G1 X200 ,R" + short_decimal(radius) + "\nX" + short_decimal(x, 9) +
+                                          " Y" + short_decimal(y, 9) + "\n");
+    // Each side loses r tan(turn / 2), and the arc turns as the sides do.
+    const double turn = std::abs(degrees) * kPi / 180;
+    RC_ASSERT(std::abs(feed_mm(program) - (400 - 2 * radius * std::tan(turn / 2) + radius * turn)) < 1e-6);
+}
+
+TEST(GcodeRoundPocket, goes_out_by_half_circles_and_back_to_the_middle) {
+    GcodeOptions options;
+    options.tools = {{1, 4}};
+    // Circles of radius 3, 5 and 6 of the tool's centre.
+    const motion::Program program = fanuc("T1 M6\nG13 D1 I5 K8 Q2 Z-2\n", options);
+    EXPECT_NEAR(feed_mm(program),
+                2 + kPi * 1.5 + 2 * kPi * 3 + kPi * 3.5 + kPi * 4.5 + 2 * kPi * 5 + kPi * 5.25 + kPi * 5.75 +
+                    2 * kPi * 6 + kPi * 3,
+                1e-9);
+    EXPECT_LT(distance(program.moves.back().end.tip_mm, {0, 0, -2}), 1e-9);
+    EXPECT_NEAR(program.moves[1].arc->normal.z, 1, 1e-12);
+    // D0: the circles of the tool's centre. L repeats the depth of G91.
+    const motion::Program deep = fanuc("T1 M6\nG91 G12 D0 I5 Z-2 L3\n", options);
+    EXPECT_NEAR(feed_mm(deep), 3 * (2 + kPi * 5 + 2 * kPi * 5), 1e-9);
+    EXPECT_LT(distance(deep.moves.back().end.tip_mm, {0, 0, -6}), 1e-9);
+    EXPECT_NEAR(deep.moves[1].arc->normal.z, -1, 1e-12);
+}
+
+TEST(GcodeCylinder, rolls_lines_and_arcs_about_its_axis) {
+    const motion::Machine machine = *motion::named_machine("xyza");
+    GcodeOptions options;
+    options.machine = &machine;
+    // A quarter turn of a cylinder of 20 mm, 10 mm along it.
+    const motion::Program line = fanuc("G1 Z20\nG7.1 A20\nX10 A90\nG7.1 A0\n", options);
+    const double whole = std::hypot(10, 10 * kPi);
+    EXPECT_NEAR(feed_mm(line), 20 + whole, 1e-3);
+    double time_s = 0;
+    for (const motion::Move& move : line.moves) {
+        if (move.line == 5) time_s += move.duration_s;
+    }
+    EXPECT_NEAR(time_s, 60 * whole / 100, 1e-6);
+    for (const motion::Move& move : line.moves) {
+        if (move.line != 5) continue;
+        EXPECT_NEAR(std::hypot(move.end.tip_mm.y, move.end.tip_mm.z), 20, 1e-3);
+    }
+    // A half circle of 5 mm on the unrolled surface ends 10 mm further on.
+    const motion::Program arc = fanuc("G1 Z20\nG7.1 A20\nG2 X10 A0 R5\n", options);
+    EXPECT_NEAR(feed_mm(arc), 20 + 5 * kPi, 1e-2);
+    const motion::Program alone = fanuc("G1 Z20\nG7.1 A20\nX10 A90\n");
+    EXPECT_TRUE(alone.has_rotary_words);
+    EXPECT_TRUE(warns_of(alone, 4, "the program needs a machine to be understood"));
+}
+
+TEST(GcodeMacro, g66_calls_after_each_move_until_g67) {
+    const motion::Program program =
+        fanuc("G66 P9 Z-3 R1\nG0 X10\nX20 Y5\nG67\nX30\nM30\nO9\nG1 Z#26\nG0 Z#18\nM99\n");
+    std::vector<Vec3> bottoms;
+    for (const motion::Move& move : program.moves) {
+        if (move.kind == motion::MoveKind::feed) bottoms.push_back(move.end.tip_mm);
+    }
+    ASSERT_EQ(bottoms.size(), 2U);
+    EXPECT_LT(distance(bottoms[0], {10, 0, -3}), 1e-12);
+    EXPECT_LT(distance(bottoms[1], {20, 5, -3}), 1e-12);
+}
+
+TEST(GcodeLenient, passes_over_a_second_tool_and_the_number_of_a_spindle) {
+    const motion::Program program = fanuc("T3 T4 M6\nG1 X5\nS500 $0\n");
+    EXPECT_EQ(program.moves.at(0).tool, 3);
+    EXPECT_TRUE(warns_of(program, 3, "the tool after this one"));
+}
+
+}  // namespace
+}  // namespace tribo::readers
