@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text/file_names.hpp"
+#include "job/program/called_programs.hpp"
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"
@@ -123,10 +124,8 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
     }
-    std::optional<readers::Dialect> told = options.dialect ? options.dialect : readers::detect_dialect(bytes);
-    const std::string extension = lower(extension_of(path));
-    if (!told && (extension == ".mpf" || extension == ".spf")) told = readers::Dialect::siemens;
-    const readers::Dialect dialect = told.value_or(readers::Dialect::linuxcnc);
+    gcode.missing_programs = options.missing_programs;
+    const readers::Dialect dialect = dialect_of_program(bytes, path, options);
     if (dialect == readers::Dialect::heidenhain) {
         return sink != nullptr ? readers::read_heidenhain(bytes, gcode, *sink)
                                : readers::read_heidenhain(bytes, gcode);
@@ -150,6 +149,24 @@ std::optional<PathKind> detect_program(std::string_view bytes, const std::string
         if (extension == known.text) return known.kind;
     }
     return detect_by_content(bytes);
+}
+
+readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
+                                    const ProgramFileOptions& options) {
+    if (options.dialect) return *options.dialect;
+    if (const auto told = readers::detect_dialect(bytes)) return *told;
+    const std::string extension = lower(extension_of(path));
+    const bool is_siemens = extension == ".mpf" || extension == ".spf";
+    return is_siemens ? readers::Dialect::siemens : readers::Dialect::linuxcnc;
+}
+
+bool may_call_programs(std::string_view bytes) {
+    // A bare name calls a program on a Siemens control: only its files are short enough to look everywhere.
+    constexpr std::size_t short_text = 1 << 20;
+    if (bytes.size() <= short_text) return true;
+    constexpr std::string_view words[] = {"M98", "G65", "G66", "CALL", "call", "Call"};
+    return std::ranges::any_of(
+        words, [&](std::string_view word) { return bytes.find(word) != std::string_view::npos; });
 }
 
 Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
@@ -177,7 +194,7 @@ Result<motion::Program> parse_program(std::string_view bytes, const std::string&
 
 FileResult<motion::Program> read_program(const FileSource& files, const Job& job, std::size_t max_moves,
                                          const std::function<double()>& clock_s) {
-    const FileResult<std::string> bytes = files.read(job.path.file, kLargestProgramBytes);
+    FileResult<std::string> bytes = files.read(job.path.file, kLargestProgramBytes);
     if (!bytes) return std::unexpected(bytes.error());
     ProgramFileOptions options;
     options.max_moves = max_moves;
@@ -207,8 +224,14 @@ FileResult<motion::Program> read_program(const FileSource& files, const Job& job
         options.tools.push_back(tool);
     }
     options.tools.insert(options.tools.end(), table.tools.begin(), table.tools.end());
-    auto program = parse_program(*bytes, job.path.file, job.path.kind, options);
+    Warnings called;
+    std::string whole = *std::move(bytes);
+    if (job.path.kind == PathKind::gcode) {
+        whole = with_called_programs(files, std::move(whole), job.path.file, options, called);
+    }
+    auto program = parse_program(whole, job.path.file, job.path.kind, options);
     if (!program) return std::unexpected(FileFailure(program.error()));
+    program->warnings.insert(program->warnings.end(), called.begin(), called.end());
     program->tools.insert(program->tools.begin(), table.tools.begin(), table.tools.end());
     program->warnings.insert(program->warnings.end(), table.warnings.begin(), table.warnings.end());
     return *std::move(program);

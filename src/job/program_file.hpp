@@ -31,12 +31,20 @@ struct ProgramFileOptions {
     const motion::Machine* machine = nullptr;     // for the rotary words of G-code; motion::check accepts it
     std::size_t max_moves = readers::kMostMoves;  // more are refused
     std::function<double()> clock_s{};            // ends endless loops; see GcodeOptions
-    std::vector<Error>* refusals = nullptr;       // receives all refusals of a program; see GcodeOptions
+    std::vector<std::string>* missing_programs = nullptr;  // see GcodeOptions
+    std::vector<Error>* refusals = nullptr;  // receives all refusals of a program; see GcodeOptions
 };
 
 // Detects the format by extension (.ngc .nc .gcode .tap ..., .apt .cls .cldata ..., .csv), else by content.
 // Empty if the file is no program.
 std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path);
+
+// The control of G-code: by the options, the text, the file's name; else LinuxCNC.
+readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
+                                    const ProgramFileOptions& options);
+
+// False if the text of G-code has no word that calls a program.
+bool may_call_programs(std::string_view bytes);
 
 Result<motion::Program> parse_program(std::string_view bytes, const std::string& path, PathKind kind,
                                       const ProgramFileOptions& options = {});

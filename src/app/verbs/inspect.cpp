@@ -18,6 +18,7 @@
 #include "files/gzip.hpp"
 #include "files/machine_limits.hpp"
 #include "files/model/model_file.hpp"
+#include "job/program/called_programs.hpp"
 #include "job/input_kind.hpp"
 #include "job/loader.hpp"
 #include "job/program_file.hpp"
@@ -103,15 +104,24 @@ FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job:
     options.dialect = readers::dialect_of(call.dialect);
     const bool draws = !call.picture.empty();
     PathWatcher path(draws);
-    const Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
+    Warnings called;
+    std::string whole;
+    if (kind == job::PathKind::gcode && job::may_call_programs(bytes)) {
+        whole =
+            job::with_called_programs(files::DiskSource(), std::string(bytes), call.file, options, called);
+        bytes = whole;
+    }
+    Result<motion::Program> program = job::parse_program(bytes, call.file, kind, options, path);
+    if (program) program->warnings.insert(program->warnings.end(), called.begin(), called.end());
     if (program) return found_program(*program, path, kind, machine.rapid_mm_per_min);
     // Maybe only the feed is missing, which a job would give. Read again with a feed; the reader then adds a
     // warning.
     options.default_feed_mm_per_min = kAssumedFeedMmPerMin;
     options.refusals = &refusals;
     PathWatcher again(draws);
-    const Result<motion::Program> with_feed = job::parse_program(bytes, call.file, kind, options, again);
+    Result<motion::Program> with_feed = job::parse_program(bytes, call.file, kind, options, again);
     if (!with_feed) return std::unexpected(FileFailure(with_feed.error()));
+    with_feed->warnings.insert(with_feed->warnings.end(), called.begin(), called.end());
     return found_program(*with_feed, again, kind, machine.rapid_mm_per_min);
 }
 

@@ -250,11 +250,17 @@ Result<void> Flow::call(const OWord& word, Block& block) {
     }
     if (auto end = lexer_.read_end(block); !end) return end;
     const int sub = labels_->find_sub(word.label);
+    if (sub < 0 && options_.missing_programs != nullptr) {
+        const bool is_name = word.label.starts_with('<') && word.label.ends_with('>');
+        options_.missing_programs->push_back(is_name ? word.label.substr(1, word.label.size() - 2)
+                                                     : word.label);
+        return {};
+    }
     if (sub < 0) {
         return refuse(block.line, block.column,
                       called_label(word.label) + " is called, but this file has no " +
                           called_label(word.label) + " sub",
-                      "copy the subroutine into this file: no other files are opened");
+                      "lay its file beside this one, or copy the subroutine into this file");
     }
     if ((*labels_)[sub].closer < 0) return refuse_unclosed(sub);
     Call call;
@@ -276,6 +282,7 @@ Result<void> Flow::push(Call call, int line, int column) {
     call.repeats = repeats_.size();
     call.macro_loops = macro_loops_.size();
     lexer_.go_to(call.entry);
+    has_called_ = true;
     calls_.push_back(std::move(call));
     return {};
 }
@@ -312,11 +319,16 @@ Result<void> Flow::call_program(const Word& number, std::int64_t times, int line
             times *= value / kFourDigits;
         }
     }
+    if (program < 0 && options_.missing_programs != nullptr) {
+        options_.missing_programs->push_back(label);
+        return {};
+    }
     if (program < 0) {
         return refuse(line, number.column,
                       std::string(arguments == nullptr ? "M98" : "G65") + " calls O" + label +
                           ", which this file does not have",
-                      "copy the subprogram behind the main program, from O" + label + " to M99");
+                      "lay its file beside this one, or copy the subprogram behind the main program, from O" +
+                          label + " to M99");
     }
     Call call;
     call.entry = (*labels_)[program].after;

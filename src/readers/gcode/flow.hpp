@@ -42,6 +42,7 @@ class Flow {
     // At the end of the text. Refuses an open subroutine or loop.
     Result<void> end_text(int line) const;
     // Calls without their return so far.
+    bool has_called() const { return has_called_; }
     std::size_t depth() const { return calls_.size(); }
 
     // Counts the block that the lexer has just read. Refuses a program that seems to run forever.
@@ -100,6 +101,7 @@ class Flow {
     std::optional<Labels> labels_;       // of the whole text, made at the first use
     std::optional<MacroPlaces> places_;  // the same
     std::vector<Call> calls_;
+    bool has_called_ = false;
     std::vector<Repeat> repeats_;
     std::vector<MacroLoop> macro_loops_;
     RunLimit limit_;

@@ -273,7 +273,8 @@ class ProgramReader {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
         }
         const std::string_view rest = lexer_.place().rest();
-        if (rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
+        // Behind the end stand the programs that were called.
+        if (!flow_.has_called() && rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
             output_.warn(last_line, "what follows the end of the program is not read");
         }
         if (output_.machine) {

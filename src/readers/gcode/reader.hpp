@@ -50,6 +50,8 @@ struct GcodeOptions {
     // Receives all refusals of the program, each cause once, up to kMostRefusals: refused blocks are left out
     // then, and the first refusal is the result. Null: reading ends at the first.
     std::vector<Error>* refusals = nullptr;
+    // Receives the names of the programs that are called and not in the text. They are left out then.
+    std::vector<std::string>* missing_programs = nullptr;
     std::size_t max_moves = kMostMoves;  // more are refused
     // Loops and calls that run longer count as endless (control/run_limit.hpp).
     std::size_t max_steps = 20'000'000;  // blocks

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kRapid = std::numeric_limits<double>::infinity();  // value of a feed for FMAX
 
-constexpr std::array kLengths{200, 201, 202, 203, 204, 205, 212, 216, 217, 225, 226, 237, 238,
-                              239, 244, 256, 257, 258, 259, 334, 335, 342, 344, 357, 379};
+constexpr std::array kLengths{200, 201, 202, 203, 204, 205, 212, 216, 217, 218, 219, 220,
+                              222, 223, 225, 226, 237, 238, 239, 244, 256, 257, 258, 259,
+                              334, 335, 342, 344, 357, 368, 369, 379, 424, 425};
 constexpr std::array kFeeds{206, 207, 208, 253};
 
 // The parameters without which a cycle has no path.
@@ -29,7 +30,9 @@ constexpr std::array kCycles{
     Needs{207, {200, 201, 239, 203}},           Needs{208, {200, 201, 206, 203, 334, 335}},
     Needs{209, {200, 201, 239, 203}},           Needs{220, {216, 217, 244, 245, 247, 241}},
     Needs{221, {225, 226, 237, 238, 242, 243}}, Needs{240, {200, 206, 203}},
-    Needs{241, {200, 201, 206, 203}},
+    Needs{241, {200, 201, 206, 203}},           Needs{251, {200, 201, 206, 203, 218, 219}},
+    Needs{252, {200, 201, 206, 203, 223}},      Needs{253, {200, 201, 206, 203, 218, 219}},
+    Needs{256, {200, 201, 206, 203, 218, 219}}, Needs{257, {200, 201, 206, 203, 223}},
 };
 
 // Cycles without a path of their own: orientation, tolerance, the contours and data of contour cycles, load.
@@ -93,6 +96,8 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
     switch (number) {
         case 1:
         case 2:
+        case 4:
+        case 5:
         case 17:
             return define_old_cycle(in, number, part);
         case 7:
@@ -220,6 +225,7 @@ Result<void> Interpreter::define_old_cycle(LineReader& in, int number, int part)
         cycle_at_every_position_ = false;
         return {};
     }
+    if (cycle_.number == number && is_pocket(number)) return define_old_pocket(in, part);
     const auto value = in.last_number();
     if (!value) return std::unexpected(value.error());
     if (cycle_.number != number || !*value) {
@@ -253,7 +259,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     if (cycle_.number == 0) {
         return path_.refuse(where, "a cycle is called, but none is defined", "write CYCL DEF before it");
     }
-    if (cycle_.number == 12) return leave_out_program(called_program_);
+    if (cycle_.number == 12) return call_program(called_program_);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     if (is_lost()) {
@@ -264,6 +270,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     if (scale_.z != 1) {
         return path_.refuse(where, "a cycle in a frame with a scale", "end the scale before it");
     }
+    if (is_pocket(cycle_.number)) return mill_pocket_cycle();
     switch (cycle_.number) {
         case 1:
         case 2:

@@ -15,6 +15,19 @@ constexpr std::size_t kDeepestCalls = 100;
 constexpr double kEqual = 1e-9;  // FN 9: numbers closer than this are equal
 constexpr long kMostRepeats = 65534;
 
+// The name of a program without its folder and ending, in upper case.
+std::string bare_name(std::string_view name) {
+    name = trimmed(name);
+    if (name.starts_with('"')) name.remove_prefix(1);
+    if (name.ends_with('"')) name.remove_suffix(1);
+    if (const std::size_t slash = name.find_last_of("\\/:"); slash != std::string_view::npos)
+        name.remove_prefix(slash + 1);
+    if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) name = name.substr(0, dot);
+    std::string bare(name);
+    std::transform(bare.begin(), bare.end(), bare.begin(), to_upper);
+    return bare;
+}
+
 }  // namespace
 
 Result<void> Interpreter::assign(LineReader& in) {
@@ -104,7 +117,7 @@ Result<void> Interpreter::jump_if(LineReader& in, int operation) {
 }
 
 Result<void> Interpreter::go_to(const std::string& label, int column) {
-    const auto found = labels_.find(label);
+    const auto found = labels_.find(label_key(label, at_));
     if (found == labels_.end()) {
         return path_.refuse(place(column), "there is no LBL " + (label[0] == '"' ? label + "\"" : label),
                             "correct the label's name");
@@ -152,8 +165,44 @@ Result<void> Interpreter::read_system(LineReader& in) {
     return {};
 }
 
+// CALL PGM: a program of the text runs from its BEGIN PGM to its END PGM.
+Result<void> Interpreter::call_program(std::string name) {
+    const std::string bare = bare_name(name);
+    const auto unit = std::find_if(programs_.begin(), programs_.end(),
+                                   [&](const Unit& known) { return known.name == bare; });
+    if (unit == programs_.end()) return leave_out_program(std::move(name));
+    if (calls_.size() >= kDeepestCalls) {
+        return path_.refuse(place(line_.column), "programs are nested too deeply", "correct the calls");
+    }
+    calls_.push_back({at_, true, unit_mm_});
+    // run() goes on after this line, with BEGIN PGM.
+    at_ = unit->begin - 1;
+    return {};
+}
+
+// END PGM, M2, M30: back to the program that called this one.
+void Interpreter::end_program() {
+    while (!calls_.empty() && !calls_.back().of_program) calls_.pop_back();
+    if (calls_.empty()) {
+        ended_ = true;
+        return;
+    }
+    at_ = calls_.back().line;
+    unit_mm_ = calls_.back().unit_mm;
+    calls_.pop_back();
+}
+
+// Each program has labels of its own.
+std::string Interpreter::label_key(const std::string& label, std::size_t line) const {
+    const auto next = std::upper_bound(programs_.begin(), programs_.end(), line,
+                                       [](std::size_t at, const Unit& unit) { return at < unit.begin; });
+    const auto unit = std::max<std::ptrdiff_t>(next - programs_.begin() - 1, 0);
+    return std::to_string(unit) + " " + label;
+}
+
 // A program that is not at hand: its moves are left out.
 Result<void> Interpreter::leave_out_program(std::string name) {
+    if (path_.options.missing_programs != nullptr) path_.options.missing_programs->push_back(bare_name(name));
     for (char& c : name) {
         if (c < ' ' || c > '~') c = '?';
     }
@@ -164,7 +213,7 @@ Result<void> Interpreter::leave_out_program(std::string name) {
         path_.warn(line_.number,
                    "the program " + name +
                        " is not at hand: its moves are left out, and the tool's place is unknown "
-                       "after it; copy it into this file, behind a label");
+                       "after it; lay its file beside this one");
     }
     return {};
 }
@@ -174,7 +223,7 @@ Result<void> Interpreter::call(LineReader& in) {
     const int column = in.column();
     if (in.take("PGM") || in.take("SELECTED")) {
         const std::string name(line_.text.substr(static_cast<std::size_t>(in.column() - line_.column)));
-        return leave_out_program(name);
+        return call_program(name);
     }
     if (!in.take("LBL")) {
         return in.refuse(column, "only CALL LBL and CALL PGM are read", "write CALL LBL with a label");
@@ -200,13 +249,13 @@ Result<void> Interpreter::call(LineReader& in) {
     }
     const std::size_t back = at_;
     if (auto done = go_to(*label, column); !done) return done;
-    calls_.push_back(back);
+    calls_.push_back({back, false, unit_mm_});
     return {};
 }
 
 Result<void> Interpreter::end_label() {
-    if (calls_.empty()) return {};
-    at_ = calls_.back();
+    if (calls_.empty() || calls_.back().of_program) return {};
+    at_ = calls_.back().line;
     calls_.pop_back();
     return {};
 }

@@ -16,6 +16,14 @@ namespace {
 constexpr std::string_view kSilentBlocks[] = {"OPEN",       "CLOSE", "SEL", "CONTOUR",
                                               "MONITORING", "COUNT", "AFC"};
 
+// BEGIN PGM NAME MM, in upper case.
+std::string name_of_program(std::string_view text) {
+    text = trimmed(text.substr(std::min<std::size_t>(text.find_first_of("mM") + 1, text.size())));
+    std::string name(text.substr(0, text.find_first_of(" \t")));
+    std::transform(name.begin(), name.end(), name.begin(), to_upper);
+    return name;
+}
+
 }  // namespace
 
 Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, MoveSink* sink)
@@ -27,10 +35,15 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
     while (const auto line = text.next()) lines_.push_back(*line);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         const Line line = line_of(lines_[i], static_cast<int>(i) + 1);
-        if (line.text.size() < 4 || to_upper(line.text[0]) != 'L') continue;
+        if (line.text.size() < 4) continue;
         LineReader in(line, source_name_, parameters_);
+        if (in.take("BEGIN") && in.take("PGM")) {
+            programs_.push_back({name_of_program(line.text), i});
+            continue;
+        }
         if (!in.take("LBL")) continue;
-        if (const auto label = in.label(); label && *label != "0") labels_.try_emplace(*label, i + 1);
+        if (const auto label = in.label(); label && *label != "0")
+            labels_.try_emplace(label_key(*label, i), i + 1);
     }
     number_tools();
 }
@@ -130,7 +143,7 @@ Result<void> Interpreter::execute(LineReader& in) {
     if (to_upper(first) == 'Q') return assign(in);
     if (in.take("BEGIN")) return begin();
     if (in.take("END")) {
-        ended_ = true;
+        end_program();
         return {};
     }
     if (!std::exchange(begun_, true) && path_.first(kNoUnit)) {

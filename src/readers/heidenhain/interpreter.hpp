@@ -11,6 +11,7 @@
 
 #include "readers/control/contour.hpp"
 #include "readers/control/path.hpp"
+#include "readers/control/pocket.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/state.hpp"
 #include "readers/heidenhain/line.hpp"
@@ -47,7 +48,11 @@ enum Note {
     kSpotAngle,
     kCirclePlane,
     kPoleOfBefore,
+    kPocketWay,
 };
+
+// Keys of Cycle::q beside the Q numbers: the feed of a line .n of the cycles 4 and 5, and their direction.
+inline constexpr int kFeedOfPart = 10'000, kTurn = 20'000;
 
 // The cycle in force: its number, and its parameters by Q number. The old cycles 1, 2 and 17 keep their
 // words .1 to .5 under 1 to 5.
@@ -88,8 +93,11 @@ class Interpreter {
     Result<void> jump_if(LineReader& in, int operation);
     Result<void> read_system(LineReader& in);
     Result<void> call(LineReader& in);
+    Result<void> call_program(std::string name);
     Result<void> leave_out_program(std::string name);
     Result<void> end_label();
+    void end_program();
+    std::string label_key(const std::string& label, std::size_t line) const;
     Result<void> go_to(const std::string& label, int column);
 
     // Stock and tools (tools.cpp)
@@ -157,7 +165,7 @@ class Interpreter {
     Result<void> machine_function(LineReader& in);
     void set_frame();
 
-    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp)
+    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp)
     Result<void> define_cycle(LineReader& in);
     Result<void> define_q_cycle(LineReader& in, int number);
     Result<void> define_old_cycle(LineReader& in, int number, int part);
@@ -173,6 +181,11 @@ class Interpreter {
     Result<void> tap();
     Result<void> mill_bore();
     Result<void> drill_as_of_old();
+    static bool is_pocket(int number);
+    Result<void> define_old_pocket(LineReader& in, int part);
+    Result<control::Pocket> pocket_of_cycle();
+    Vec3 middle_of(const control::Pocket& pocket) const;
+    Result<void> mill_pocket_cycle();
     Result<void> return_from(double surface, double feed_mm_per_min);
     Result<double> cutter_radius(Place place);
     Result<void> define_pattern(LineReader& in);
@@ -187,10 +200,22 @@ class Interpreter {
     Path path_;
     Contour contour_;
     std::vector<std::string_view> lines_;
-    std::map<std::string, std::size_t> labels_;  // line after the LBL
+    // A program of the text, with the line of its BEGIN PGM.
+    struct Unit {
+        std::string name;
+        std::size_t begin = 0;
+    };
+    // A call without its return so far.
+    struct Return {
+        std::size_t line = 0;
+        bool of_program = false;
+        double unit_mm = 1;  // of the caller
+    };
+    std::vector<Unit> programs_;
+    std::map<std::string, std::size_t> labels_;  // line after the LBL, by label_key()
     std::map<std::size_t, long> repeats_;        // runs left, by the line of CALL LBL REP
-    std::vector<std::size_t> calls_;             // lines to return to
-    std::size_t at_ = 0;                         // index of the running line
+    std::vector<Return> calls_;
+    std::size_t at_ = 0;  // index of the running line
     Line line_;
     bool ended_ = false, begun_ = false;
     bool is_over_ = false;                        // its loops do not end

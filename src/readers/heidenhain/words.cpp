@@ -178,7 +178,7 @@ Result<void> Interpreter::miscellaneous(const Words& words) {
                 break;
             case 2:
             case 30:
-                ended_ = true;
+                end_program();
                 break;
             case 89:
                 cycle_at_every_position_ = true;

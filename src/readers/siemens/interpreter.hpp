@@ -11,6 +11,7 @@
 
 #include "readers/control/contour.hpp"
 #include "readers/control/path.hpp"
+#include "readers/control/pocket.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/cursor.hpp"
 #include "readers/gcode/motion/arc.hpp"
@@ -186,25 +187,14 @@ class Interpreter : private SystemValues {
     Result<void> run_at(const std::vector<Vec3>& points, const Call& call);
     Result<void> run_pattern(const Call& call);
     Result<void> drill(const Call& call);
-    struct Depths {  // in the frame, along the tool: RTP, RFP, RFP + SDIS, DP
-        double back = 0, top = 0, near = 0, bottom = 0;
-    };
-    struct Pocket {
-        Depths depths;
-        Vec3 centre;  // in the plane
-        double half_length = 0, half_width = 0, corner = 0, angle_rad = 0;
-        double radius = 0;                           // of the tool
-        double infeed = 0, step = 0, allowance = 0;  // MID, MIDA, FAL
-        double feed = 0, plunge = 0;                 // FFP1, FFD, mm/min
-        bool clockwise = false, along_edge = false;  // along its edge only
-    };
+    using Depths = control::PocketDepths;  // RTP, RFP, RFP + SDIS, DP
+    using Pocket = control::Pocket;        // MID, MIDA, FAL; FFP1, FFD
     static bool is_milling_cycle(const std::string& name);
     Result<Depths> depths_of(const Call& call, std::size_t increment, std::size_t mode) const;
     double ring_step(const Call& call, std::size_t at, std::size_t mode) const;
     Result<double> cycle_feed(const Call& call, std::size_t at) const;
     Result<void> run_milling_cycle(const Call& call);
     Result<void> mill_pocket(const Pocket& pocket, Place where);
-    Result<void> mill_ring(const Pocket& pocket, double a, double b, double corner, double z);
     Result<void> mill_face(const Call& call);
     Result<void> mill_thread(const Call& call);
     Result<void> mill_to(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc);

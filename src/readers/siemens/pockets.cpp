@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Milling cycles: POCKET1 to POCKET4, SLOT1, LONGHOLE, CYCLE61, CYCLE71 and CYCLE90. Where the manual leaves
-// the way of the tool to the control, rings and lines are taken, with a warning.
+// Milling cycles: POCKET1 to POCKET4, SLOT1, LONGHOLE, CYCLE61, CYCLE71, CYCLE76, CYCLE77 and CYCLE90. Where
+// the manual leaves the way of the tool to the control, rings and lines are taken, with a warning.
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +30,9 @@ constexpr Layout kLayouts[] = {
     {"SLOT1", 4, 5, 6, 7, kNone, 8, 9, 10, 11, 12, 15, 17, kNone, 14, 13, 16, 18, kNone, kNone},
     {"LONGHOLE", 4,  5,     6,     kNone, kNone, 7,     8,     9,     10,
      11,         14, kNone, kNone, 13,    12,    kNone, kNone, kNone, kNone},
+    // Studs; the sizes of the blank follow VARI.
+    {"CYCLE76", 4, kNone, 5, 6, 7, 8, 9, kNone, 10, kNone, 11, 12, 13, 14, 15, 16, 17, kNone, kNone},
+    {"CYCLE77", 4, kNone, kNone, kNone, 5, 6, 7, kNone, kNone, kNone, 8, 9, 10, 11, 12, 13, 14, kNone, kNone},
 };
 
 }  // namespace
@@ -163,11 +166,23 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     pocket.radius = radius.value_or(pocket.half_width / 2);
     pocket.corner = at.width == kNone || at.radius == kNone ? pocket.half_width
                                                             : std::min(size(at.radius), pocket.half_width);
+    const bool is_stud = call.name == "CYCLE76" || call.name == "CYCLE77";
+    if (is_stud) {
+        if (call.name == "CYCLE77") {  // PRAD is a diameter
+            pocket.half_length = pocket.half_width = pocket.corner = size(at.radius) / 2;
+        }
+        const std::size_t blank = at.kind + 1;
+        pocket.blank_half_length = std::max(size(blank) / 2, pocket.half_length);
+        pocket.blank_half_width = call.name == "CYCLE76" ? std::max(size(blank + 1) / 2, pocket.half_width)
+                                                         : pocket.blank_half_length;
+        pocket.clockwise = direction == 2 || direction == 0;
+    }
     if (pocket.half_length < pocket.half_width && at.radius == kNone) {
         return path_.refuse(where, call.name + ": the slot is shorter than wide", "correct LENG or WID");
     }
     const double most = pocket.half_width - pocket.radius - pocket.allowance;
-    if (!(std::min(pocket.half_length - pocket.radius, most) >= -kSameMm) || !(pocket.half_length > 0)) {
+    const bool fits = is_stud || std::min(pocket.half_length - pocket.radius, most) >= -kSameMm;
+    if (!fits || !(pocket.half_length > 0) || !(pocket.half_width > 0)) {
         return path_.refuse(where, call.name + ": the tool does not fit into it", "take a smaller tool");
     }
     Vec3 centre = path_.tip();
@@ -191,68 +206,16 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     return {};
 }
 
-// Rings from the inside outwards at each depth; a slot as wide as the tool is a line there and back.
 Result<void> Interpreter::mill_pocket(const Pocket& pocket, Place where) {
-    const Depths& depths = pocket.depths;
-    const double c = math::cos(pocket.angle_rad), s = math::sin(pocket.angle_rad);
-    const auto at = [&](double x, double y, double z) {
-        return Vec3{pocket.centre.x + c * x - s * y, pocket.centre.y + s * x + c * y, z};
-    };
-    const double height = depths.top - depths.bottom;
-    const double passes = pocket.infeed > 0 ? std::max(1.0, std::ceil(height / pocket.infeed - 1e-9)) : 1;
-    const double outer = pocket.radius + pocket.allowance;
-    const double width = pocket.half_width - outer, length = pocket.half_length - outer;
-    const double step = pocket.step > 0 ? pocket.step : kUsualStep * 2 * pocket.radius;
-    const double rings =
-        pocket.along_edge || !(step > 0) ? 1 : std::floor(std::min(width, length) / step + 1e-9) + 1;
-    if (passes * rings > kMostPasses) {
+    const bool is_stud = pocket.blank_half_length > 0;
+    if ((is_stud ? control::stud_ring_count(pocket) : control::ring_count(pocket)) > kMostPasses) {
         return path_.refuse(where, "the pocket needs more than 10000 rings", "take a larger infeed");
     }
-    const double start = std::max(0.0, length - std::max(width, 0.0));  // of the line within a slot
-    if (auto done = mill_to({to_plane(path_.tip()).x, to_plane(path_.tip()).y, depths.back}, {}, {}); !done)
-        return done;
-    if (auto done = mill_to(at(-start, 0, depths.back), {}, {}); !done) return done;
-    if (auto done = mill_to(at(-start, 0, depths.near), {}, {}); !done) return done;
-    for (double pass = 1; pass <= passes; ++pass) {
-        const double z = depths.top - height * pass / passes;
-        if (auto done = mill_to(at(-start, 0, z), pocket.plunge, {}); !done) return done;
-        for (double ring = rings - 1; ring >= 0; --ring) {
-            const double a = std::max(length - ring * step, 0.0), b = std::max(width - ring * step, 0.0);
-            if (b < kSameMm) {
-                if (auto done = mill_to(at(a, 0, z), pocket.feed, {}); !done) return done;
-                if (auto done = mill_to(at(-a, 0, z), pocket.feed, {}); !done) return done;
-                continue;
-            }
-            const double corner = std::clamp(pocket.corner - outer - ring * step, 0.0, std::min(a, b));
-            if (auto done = mill_ring(pocket, a, b, corner, z); !done) return done;
-        }
-        if (auto done = mill_to(at(-start, 0, z), pocket.feed, {}); !done) return done;
-    }
-    return mill_to(at(-start, 0, depths.back), {}, {});
-}
-
-// A rectangle of half sides a and b with round corners, from the middle of its lower side.
-Result<void> Interpreter::mill_ring(const Pocket& pocket, double a, double b, double corner, double z) {
-    const double c = math::cos(pocket.angle_rad), s = math::sin(pocket.angle_rad);
-    const double way = pocket.clockwise ? -1 : 1;
-    const auto at = [&](double x, double y) {
-        x *= way;  // clockwise: the same ring, seen in a mirror
-        return Vec3{pocket.centre.x + c * x - s * y, pocket.centre.y + s * x + c * y, z};
+    const auto go_to = [&](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
+        return mill_to(to, feed, arc);
     };
-    struct Corner {
-        double x, y;    // of the corner
-        double dx, dy;  // of the side that leads to it
-    };
-    const Corner corners[] = {{a, -b, 1, 0}, {a, b, 0, 1}, {-a, b, -1, 0}, {-a, -b, 0, -1}};
-    if (auto done = mill_to(at(0, -b), pocket.feed, {}); !done) return done;
-    for (const Corner& to : corners) {
-        if (auto done = mill_to(at(to.x - corner * to.dx, to.y - corner * to.dy), pocket.feed, {}); !done)
-            return done;
-        if (!(corner > kSameMm)) continue;
-        const Vec3 centre = at(to.x - corner * (to.dx + to.dy), to.y - corner * (to.dy - to.dx));
-        if (auto done = mill_round(centre, way * math::kHalfPi, z, pocket.feed); !done) return done;
-    }
-    return mill_to(at(0, -b), pocket.feed, {});
+    const Vec3 from = to_plane(path_.tip());
+    return is_stud ? control::mill_stud(pocket, from, go_to) : control::mill_pocket(pocket, from, go_to);
 }
 
 // CYCLE71(RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1) and

@@ -325,13 +325,16 @@ Result<void> Interpreter::leave_out_program(const Call& call) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     path_.lose(line_number());
+    if (path_.options.missing_programs != nullptr) path_.options.missing_programs->push_back(call.name);
     std::string name;
     for (const char c : call.name.substr(0, 31)) name += c < ' ' || c > '~' ? '?' : c;
     if (passed_over_.insert(name).second) {
-        path_.warn(line_number(), "the program " + name +
-                                      " is not at hand: its moves are left out, and the tool's place is "
-                                      "unknown after it; copy it into this file, behind PROC " +
-                                      name);
+        path_.warn(line_number(),
+                   "the program " + name +
+                       " is not at hand: its moves are left out, and the tool's place is "
+                       "unknown after it; lay its file beside this one, or copy it into this one "
+                       "behind PROC " +
+                       name);
     }
     return {};
 }

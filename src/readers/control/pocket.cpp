@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/pocket.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.hpp"
+
+namespace tribo::readers::control {
+namespace {
+
+constexpr double kSameMm = 1e-6;
+constexpr double kUsualStep = 0.8;  // of the tool's diameter, from ring to ring
+
+double pass_count(const Pocket& pocket) {
+    const double height = pocket.depths.top - pocket.depths.bottom;
+    return pocket.infeed > 0 ? std::max(1.0, std::ceil(height / pocket.infeed - 1e-9)) : 1;
+}
+
+double step_of(const Pocket& pocket) {
+    return pocket.step > 0 ? pocket.step : kUsualStep * 2 * pocket.radius;
+}
+
+double rings_of_pass(const Pocket& pocket) {
+    const double outer = pocket.radius + pocket.allowance, step = step_of(pocket);
+    if (pocket.along_edge || !(step > 0)) return 1;
+    return std::floor(std::min(pocket.half_width - outer, pocket.half_length - outer) / step + 1e-9) + 1;
+}
+
+double rings_of_stud_pass(const Pocket& stud) {
+    const double step = step_of(stud);
+    const double left =
+        std::max(stud.blank_half_length - stud.half_length, stud.blank_half_width - stud.half_width) -
+        stud.allowance;
+    if (stud.along_edge || !(step > 0) || !(left > 0)) return 1;
+    return std::max(1.0, std::ceil(left / step - 1e-9));
+}
+
+class Mill {
+  public:
+    Mill(const Pocket& shape, Vec3 from, const PocketMove& go)
+        : shape_(shape),
+          go_(go),
+          now_(from),
+          cosine_(math::cos(shape.angle_rad)),
+          sine_(math::sin(shape.angle_rad)) {}
+
+    Vec3 at(double x, double y, double z) const {
+        return {shape_.centre.x + cosine_ * x - sine_ * y, shape_.centre.y + sine_ * x + cosine_ * y, z};
+    }
+    Vec3 now() const { return now_; }
+
+    Result<void> to(Vec3 place, std::optional<double> feed, const std::optional<motion::Arc>& arc = {}) {
+        now_ = place;
+        return go_(place, feed, arc);
+    }
+
+    // A rectangle of half sides a and b with round corners, from the middle of its lower side.
+    Result<void> ring(double a, double b, double corner, double z) {
+        const double way = shape_.clockwise ? -1 : 1;
+        // Clockwise: the same ring, seen in a mirror.
+        const auto on_ring = [&](double x, double y) { return at(way * x, y, z); };
+        struct Corner {
+            double x, y;    // of the corner
+            double dx, dy;  // of the side that leads to it
+        };
+        const Corner corners[] = {{a, -b, 1, 0}, {a, b, 0, 1}, {-a, b, -1, 0}, {-a, -b, 0, -1}};
+        if (auto done = to(on_ring(0, -b), shape_.feed); !done) return done;
+        for (const Corner& c : corners) {
+            if (auto done = to(on_ring(c.x - corner * c.dx, c.y - corner * c.dy), shape_.feed); !done)
+                return done;
+            if (!(corner > kSameMm)) continue;
+            const Vec3 centre = on_ring(c.x - corner * (c.dx + c.dy), c.y - corner * (c.dy - c.dx));
+            if (auto done = turn(centre, way * math::kHalfPi, z); !done) return done;
+        }
+        return to(on_ring(0, -b), shape_.feed);
+    }
+
+  private:
+    Result<void> turn(Vec3 centre, double turn_rad, double z) {
+        const double c = math::cos(turn_rad), s = math::sin(turn_rad);
+        const double u = now_.x - centre.x, v = now_.y - centre.y;
+        motion::Arc arc;
+        arc.centre_mm = {centre.x, centre.y, now_.z};
+        arc.normal = {0, 0, turn_rad < 0 ? -1.0 : 1.0};
+        arc.turn_rad = std::abs(turn_rad);
+        return to({centre.x + c * u - s * v, centre.y + s * u + c * v, z}, shape_.feed, arc);
+    }
+
+    const Pocket& shape_;
+    const PocketMove& go_;
+    Vec3 now_;
+    double cosine_, sine_;
+};
+
+}  // namespace
+
+double ring_count(const Pocket& pocket) {
+    return pass_count(pocket) * rings_of_pass(pocket);
+}
+
+double stud_ring_count(const Pocket& stud) {
+    return pass_count(stud) * rings_of_stud_pass(stud);
+}
+
+// A slot as wide as the tool is a line there and back.
+Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go) {
+    const PocketDepths& depths = pocket.depths;
+    const double passes = pass_count(pocket), rings = rings_of_pass(pocket), step = step_of(pocket);
+    const double outer = pocket.radius + pocket.allowance;
+    const double width = pocket.half_width - outer, length = pocket.half_length - outer;
+    const double start = std::max(0.0, length - std::max(width, 0.0));  // of the line within a slot
+    Mill mill(pocket, from, go);
+    if (auto done = mill.to({from.x, from.y, depths.back}, {}); !done) return done;
+    if (auto done = mill.to(mill.at(-start, 0, depths.back), {}); !done) return done;
+    if (auto done = mill.to(mill.at(-start, 0, depths.near), {}); !done) return done;
+    for (double pass = 1; pass <= passes; ++pass) {
+        const double z = depths.top - (depths.top - depths.bottom) * pass / passes;
+        if (auto done = mill.to(mill.at(-start, 0, z), pocket.plunge); !done) return done;
+        for (double ring = rings - 1; ring >= 0; --ring) {
+            const double a = std::max(length - ring * step, 0.0), b = std::max(width - ring * step, 0.0);
+            if (b < kSameMm) {
+                if (auto done = mill.to(mill.at(a, 0, z), pocket.feed); !done) return done;
+                if (auto done = mill.to(mill.at(-a, 0, z), pocket.feed); !done) return done;
+                continue;
+            }
+            const double corner = std::clamp(pocket.corner - outer - ring * step, 0.0, std::min(a, b));
+            if (auto done = mill.ring(a, b, corner, z); !done) return done;
+        }
+        if (auto done = mill.to(mill.at(-start, 0, z), pocket.feed); !done) return done;
+    }
+    return mill.to(mill.at(-start, 0, depths.back), {});
+}
+
+// The tool goes down beside the blank, below its lower side.
+Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go) {
+    const PocketDepths& depths = stud.depths;
+    const double passes = pass_count(stud), rings = rings_of_stud_pass(stud), step = step_of(stud);
+    const double inner = stud.radius + stud.allowance;
+    const double beside = std::max(stud.blank_half_width, stud.half_width) + 2 * stud.radius;
+    Mill mill(stud, from, go);
+    if (auto done = mill.to({from.x, from.y, depths.back}, {}); !done) return done;
+    for (double pass = 1; pass <= passes; ++pass) {
+        const double z = depths.top - (depths.top - depths.bottom) * pass / passes;
+        if (auto done = mill.to(mill.at(0, -beside, mill.now().z), {}); !done) return done;
+        if (auto done = mill.to(mill.at(0, -beside, z), stud.plunge); !done) return done;
+        for (double ring = rings - 1; ring >= 0; --ring) {
+            const double out = inner + ring * step;
+            const double a = stud.half_length + out, b = stud.half_width + out;
+            if (auto done = mill.ring(a, b, std::min({stud.corner + out, a, b}), z); !done) return done;
+        }
+        if (auto done = mill.to(mill.at(0, -beside, z), stud.feed); !done) return done;
+        if (auto done = mill.to(mill.at(0, -beside, depths.back), {}); !done) return done;
+    }
+    return {};
+}
+
+}  // namespace tribo::readers::control

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The ways of a tool in pockets and about studs, where a cycle leaves them to its control: rings from the
+// inside outwards in a pocket, from the outside inwards about a stud, depth by depth. Pure geometry, mm.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "base/result.hpp"
+#include "motion/path/program.hpp"
+
+namespace tribo::readers::control {
+
+// Heights along the tool: above all, the work's surface, just above it, the bottom.
+struct PocketDepths {
+    double back = 0, top = 0, near = 0, bottom = 0;
+};
+
+// A rectangle with round corners; a circle has half_length = half_width = corner.
+struct Pocket {
+    PocketDepths depths;
+    Vec3 centre;  // in the plane
+    double half_length = 0, half_width = 0, corner = 0, angle_rad = 0;
+    double radius = 0;                                   // of the tool
+    double infeed = 0, step = 0, allowance = 0;          // step: from ring to ring
+    double feed = 0, plunge = 0;                         // mm/min
+    bool clockwise = false, along_edge = false;          // along its edge only
+    double blank_half_length = 0, blank_half_width = 0;  // of a stud
+};
+
+// Moves the tool; no feed: a rapid. Coordinates are those of the plane, z along the tool.
+using PocketMove =
+    std::function<Result<void>(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc)>;
+
+// Number of rings at all depths.
+double ring_count(const Pocket& pocket);
+double stud_ring_count(const Pocket& stud);
+
+// `from`: where the tool is.
+Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go);
+Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go);
+
+}  // namespace tribo::readers::control
