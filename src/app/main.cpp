@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
     add_press(program, exit_code);
     add_site(program, exit_code);
     add_stability(program, exit_code);
+    add_audit(program, exit_code);
     add_devices(program, exit_code);
     try {
         program.parse(argc, argv);

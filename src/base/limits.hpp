@@ -239,6 +239,42 @@ struct Limits {
                      "`re_mm_per_n`, `im_mm_per_n`; dataset 58",
                      "A thin wall at its resonance has 1; an accelerometer's noise at 0.1 Hz has 1,000."};
 
+    // What tool, spindle and part stand.
+    Limit most_force{"force limit",
+                     "N",
+                     {1e-3, 1e6},
+                     "`force_n` of `[limits]`, `--force-n`",
+                     "A heavy roughing cutter of steel has 20,000."};
+    Limit most_torque{"torque limit",
+                      "N m",
+                      {1e-6, 1e5},
+                      "`torque_nm` and `spindle` of `[limits]`",
+                      "Geared spindles of large mills give 2,000."};
+    Limit most_power{"power limit",
+                     "W",
+                     {1e-3, 1e6},
+                     "`power_w` and `spindle` of `[limits]`, `--power-w`",
+                     "A dentist's spindle has 20, a large mill 100,000."};
+    Limit most_stress{"stress limit",
+                      "N/mm2",
+                      {1, 1e4},
+                      "`stress_n_per_mm2`, `--stress`",
+                      "The strongest carbide breaks at 5,000."};
+    Limit most_deflection{"deflection limit",
+                          "mm",
+                          {1e-6, 10},
+                          "`deflection_mm`, `--deflection-mm`",
+                          "From a nanometre to far beyond any cut."};
+    Limit chip_limit{"chip limit",
+                     "mm",
+                     {1e-6, 10},
+                     "`chip_min_mm`, `chip_max_mm`, `--chip-mm`",
+                     "From a nanometre to the chips of the largest face mills."};
+    Limit most_multiplier{
+        "multiplier limit", "", {0.01, 10}, "`multiplier` of `[limits]`", "1 is the border of chatter."};
+    Limit tolerance{"tolerance", "mm", {1e-6, 100}, "`tolerance_mm`", "From a nanometre to a rough casting."};
+    Limit fail_ratio{"ratio to a limit", "", {1e-3, 1e3}, "`--fail-over`", "1 is the limit itself."};
+
     // The run.
     Limit resolution{"spacing of the grid",
                      "mm",

@@ -5,14 +5,11 @@
 #include <cassert>
 #include <utility>
 
-#include "dynamics/beam.hpp"
+#include "dynamics/tool_beam.hpp"
 
 namespace tribo::dynamics {
 namespace {
 
-constexpr BeamMaterial kCarbide{600e3, 0.22, 14.5e-9}, kHighSpeedSteel{210e3, 0.3, 8.1e-9};
-constexpr BeamMaterial kSteel{210e3, 0.3, 7.85e-9};
-constexpr double kFluted = 0.8;  // of the diameter
 constexpr double kDamping = 0.02;
 constexpr std::size_t kAsked = 6;    // modes of which the most flexible ones are kept
 constexpr double kSmallShare = 0.3;  // of the flexibility of the first: the second is left out
@@ -26,18 +23,9 @@ BeamJoint in_series(const BeamJoint& a, const BeamJoint& b) {
 }
 
 std::vector<BeamPart> parts_of(const milling::Cutter& cutter) {
-    const BeamMaterial& body = cutter.body == milling::CutterBody::carbide ? kCarbide : kHighSpeedSteel;
-    BeamPart tool{{{kFluted * cutter.diameter_mm, cutter.length_mm, body}}, kInHolder};
-    for (const milling::HolderStep& step : cutter.shank_steps())
-        tool.sections.push_back({step.diameter_mm, step.length_mm, body});
-    if (cutter.holder.empty()) {
-        tool.joint = in_series(kInHolder, kInSpindle);
-        return {tool};
-    }
-    BeamPart holder{{}, kInSpindle};
-    for (const milling::HolderStep& step : cutter.holder)
-        holder.sections.push_back({step.diameter_mm, step.length_mm, kSteel});
-    return {tool, holder};
+    ToolBeam beam = tool_beam(cutter);
+    if (beam.holder.empty()) return {{std::move(beam.body), in_series(kInHolder, kInSpindle)}};
+    return {{std::move(beam.body), kInHolder}, {std::move(beam.holder), kInSpindle}};
 }
 
 }  // namespace

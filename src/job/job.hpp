@@ -111,6 +111,21 @@ struct JobHaptics {
     std::optional<double> stiffness_n_per_mm;  // > 0
 };
 
+// What the spindle gives at a speed.
+struct SpindlePoint {
+    double rpm = 0, power_w = 0, torque_nm = 0;  // > 0
+};
+
+// What tool, spindle and part stand, as far as the job states it.
+struct JobLimits {
+    std::optional<double> force_n{}, torque_nm{}, power_w{};
+    std::vector<SpindlePoint> spindle{};  // speeds ascending; not beside torque or power
+    std::optional<double> stress_n_per_mm2{}, deflection_mm{};
+    std::optional<double> chip_min_mm{}, chip_max_mm{};
+    std::optional<double> multiplier{};  // of a cut that may chatter
+    std::optional<double> tolerance_mm{};
+};
+
 struct JobMachine {
     double rapid_mm_per_min = 10000;    // > 0
     double acceleration_mm_per_s2 = 0;  // >= 0; 0: feeds are reached at once
@@ -140,6 +155,7 @@ struct Job {
     JobSound sound;
     JobHaptics haptics;
     JobMachine machine;
+    JobLimits limits;
 
     bool can_vibrate() const { return estimate || !modes.empty() || !frfs.empty(); }
     bool has_stock() const { return stock_from || stock.model || !stock.box_mm.empty(); }

@@ -6,15 +6,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/render/part_deviation.hpp"
 #include "app/render/report_chatter.hpp"
 #include "field/contour/contour.hpp"
-#include "field/shape/surface_points.hpp"
 #include "files/model/gltf.hpp"
 #include "job/listening.hpp"
 #include "readers/mesh/stl.hpp"
 #include "report/picture.hpp"
 #include "report/surface_csv.hpp"
-#include "surface/deviation.hpp"
 
 namespace tribo::app {
 namespace {
@@ -170,21 +169,7 @@ FileResult<void> RenderOutputs::compare(const session::MillSession& session, rep
         error.file = loaded_.job.part->path;
         return std::unexpected(FileFailure(error));
     }
-    surface::DeviationOptions options;
-    options.pass_width_mm = 0;
-    for (const milling::Cutter& c : session.setup().cutters) {
-        options.pass_width_mm = std::max(options.pass_width_mm, c.diameter_mm);
-    }
-    options.blank = &session.stock().blank();
-    // The positions of cusps are refined from the samples, so a spacing of one cell is enough.
-    options.spacing_mm = std::max(
-        session.setup().cell_mm, std::sqrt(designed->area_mm2() / static_cast<double>(surface::kMaxSamples)));
-    const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel_);
-    options.machined_mm = points;
-    const surface::SurfaceWithFormError bent(session.stock(), form_error_);
-    const contact::DistanceField& machined =
-        form_error_.empty() ? session.stock() : static_cast<const contact::DistanceField&>(bent);
-    const surface::DeviationReport d = surface::compare(machined, *designed, options, parallel_);
+    const surface::DeviationReport d = part_deviation(session, *designed, form_error_, parallel_);
     designed_.emplace(*std::move(designed));
     summary.gouge_max_mm = d.gouge.mm;
     summary.rest_max_mm = d.rest.mm;

@@ -19,6 +19,7 @@ void add_feel(CLI::App& program, int& exit_code);
 void add_press(CLI::App& program, int& exit_code);
 void add_site(CLI::App& program, int& exit_code);
 void add_stability(CLI::App& program, int& exit_code);
+void add_audit(CLI::App& program, int& exit_code);
 void add_devices(CLI::App& program, int& exit_code);
 
 }  // namespace tribo::app

@@ -6,8 +6,11 @@
 #include <bit>
 #include <cassert>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "base/math.hpp"
 
 namespace tribo {
 namespace {
@@ -254,6 +257,12 @@ void append_decimal(std::string& text, double value) {
 }
 void append_decimal(std::string& text, float value) {
     append_shortest(text, value);
+}
+std::string format_digits(double value, int digits) {
+    if (value == 0 || !std::isfinite(value)) return format_decimal(value);
+    const double digit = math::pow(10, std::floor(math::log10(std::abs(value))) - (digits - 1));
+    // As a float: the shortest text hides the rounding of the product.
+    return format_decimal(static_cast<float>(std::round(value / digit) * digit));
 }
 std::string format_decimal(double value) {
     std::string text;

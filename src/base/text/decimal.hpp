@@ -24,6 +24,8 @@ std::size_t parse_decimal(std::string_view text, double& value,
 // float, to the same float.
 std::string format_decimal(double value);
 std::string format_decimal(float value);
+// Rounded to so many significant digits: "0.12", "1300".
+std::string format_digits(double value, int digits);
 void append_decimal(std::string& text, double value);
 void append_decimal(std::string& text, float value);
 

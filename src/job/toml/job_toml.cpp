@@ -14,7 +14,7 @@ using namespace std::string_view_literals;
 
 constexpr std::array kJobKeys{"part"sv,    "stock"sv, "setup"sv,      "cutter"sv, "holder"sv,  "material"sv,
                               "process"sv, "path"sv,  "engagement"sv, "sound"sv,  "haptics"sv, "fixture"sv,
-                              "machine"sv, "mode"sv,  "dynamics"sv,   "frf"sv};
+                              "machine"sv, "mode"sv,  "dynamics"sv,   "frf"sv,    "limits"sv};
 
 void read_all(TomlSection& root, Job& job) {
     if (const auto* table = root.only_table("part")) job.part = read_part(root.file(), *table);
@@ -55,6 +55,7 @@ void read_all(TomlSection& root, Job& job) {
     for (const toml::table* table : root.tables("frf")) job.frfs.push_back(read_frf(root.file(), *table));
     if (const auto* table = root.only_table("dynamics")) job.estimate = read_dynamics(root, *table, job);
     if (const auto* table = root.only_table("sound")) job.sound = read_sound(root.file(), *table);
+    if (const auto* table = root.only_table("limits")) job.limits = read_limits(root.file(), *table);
     if (const auto* table = root.only_table("haptics")) job.haptics = read_haptics(root.file(), *table);
 }
 

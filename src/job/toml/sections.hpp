@@ -42,6 +42,7 @@ JobFrf read_frf(TomlFile& file, const toml::table& table);
 // [dynamics]. `job` has its modes, responses and cutters; `root` is its table.
 std::optional<JobEstimate> read_dynamics(TomlSection& root, const toml::table& table, const Job& job);
 JobSound read_sound(TomlFile& file, const toml::table& table);
+JobLimits read_limits(TomlFile& file, const toml::table& table);
 JobHaptics read_haptics(TomlFile& file, const toml::table& table);
 // Whether [path] names a file that describes a machine, or a machine.
 inline bool is_machine_file(std::string_view machine) {

@@ -220,6 +220,32 @@ std::optional<std::vector<double>> TomlSection::numbers(std::string_view key, co
     return {};
 }
 
+std::optional<std::vector<std::array<double, 3>>> TomlSection::triples(std::string_view key,
+                                                                       const std::array<Limit, 3>& limits,
+                                                                       const char* wanted) {
+    const toml::node* node = table_.get(key);
+    if (!node) return {};
+    const auto refuse = [&](const toml::node& where) {
+        file_.fail(where.source(), in_quotes(key) + " must be " + wanted,
+                   "write them in brackets, with commas");
+        return std::nullopt;
+    };
+    const toml::array* rows = node->as_array();
+    if (!rows || rows->empty() || rows->size() > kMostTables) return refuse(*node);
+    std::vector<std::array<double, 3>> all;
+    for (const toml::node& row : *rows) {
+        const toml::array* numbers = row.as_array();
+        if (!numbers || numbers->size() != 3) return refuse(row);
+        std::array<double, 3>& triple = all.emplace_back();
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::optional<double> value = number_of(key, *numbers->get(n), limits[n]);
+            if (!value) return {};
+            triple[n] = *value;
+        }
+    }
+    return all;
+}
+
 double TomlSection::required_number(std::string_view key, const Limit& limit) {
     if (!has(key)) missing(key);
     return number(key, limit).value_or(0);

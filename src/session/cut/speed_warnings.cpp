@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "session/cut/speed_warnings.hpp"
 
-#include <cmath>
-
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
 #include "motion/path/path.hpp"
@@ -35,10 +33,8 @@ struct Worst {
     }
 };
 
-// Three digits.
 std::string rounded(double value) {
-    const double digit = math::pow(10, std::floor(math::log10(value)) - 2);
-    return format_decimal(static_cast<float>(std::round(value / digit) * digit));
+    return format_digits(value, 3);
 }
 
 double feed_mm_per_min(const motion::Move& move) {

@@ -102,7 +102,7 @@ Doors flag_doors() {
         learn{"learn", "--recording", "100:none.wav", "--out", "m.json"},
         press{"press", "none.json", "--stroke", "none.csv", "--out", "out"},
         rub{"rub", "none.json", "--stroke", "none.csv", "--out", "out.wav"},
-        stability{"stability", "none.toml"},
+        stability{"stability", "none.toml"}, audit{"audit", "none.toml"},
         simulated{"stability", "none.toml", "--out", "out", "--simulate", "1000000:1"};
     const auto with = [](const Limit& limit, std::vector<std::string> call, const std::string& name) {
         call.push_back(name + "={}");
@@ -144,6 +144,8 @@ Doors flag_doors() {
         of_two(l.axial_depth, simulated, "--simulate", "8000:{}"),
         with(l.turns, simulated, "--turns"),
         with(l.memory, render, "--memory"),
+        with(l.resolution, audit, "--resolution"),
+        with(l.fail_ratio, audit, "--fail-over"),
         with(l.spindle_speed, program, "--spindle-rpm"),
         with(l.feed, program, "--feed-mm-per-min"),
         worded(l.tool_number, "--tool", "T{} flat 6"),

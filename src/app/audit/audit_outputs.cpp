@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "app/audit/audit_outputs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/text/decimal.hpp"
+#include "base/text/printable.hpp"
+#include "files/json/json.hpp"
+#include "job/words/tool_words.hpp"
+#include "report/audit/audit_page.hpp"
+
+namespace tribo::app {
+namespace {
+
+constexpr std::size_t kShownLines = 10;
+
+std::string digits(double value, int count = 4) {
+    return format_digits(value, count);
+}
+
+std::string tool_name(const milling::Cutter& cutter) {
+    return cutter.number > 0 ? "T" + std::to_string(cutter.number) : "tool";
+}
+
+files::Json band_json(const session::RatioBand& band) {
+    return files::Json::array({band.low, band.value, band.high});
+}
+
+files::Json limit_json(const session::CutLimit& limit) {
+    files::Json json;
+    // The limits of a spindle follow its speed.
+    if (limit.value > 0) {
+        json["value"] = limit.value;
+        if (limit.low != limit.high) json["band"] = {limit.low, limit.high};
+    }
+    json["from"] = limit.source;
+    if (limit.rule_of_thumb) json["rule_of_thumb"] = true;
+    return json;
+}
+
+files::Json tally_json(const session::LoadTally& tally, const session::LoadModel& model,
+                       const session::MillSetup& setup) {
+    files::Json json;
+    if (tally.line > 0) json["line"] = tally.line;
+    json["tool"] = setup.cutters[tally.cutter].number;
+    json["t_s"] = tally.start_s;
+    json["feed_mm"] = tally.feed_mm;
+    json["feed_s"] = tally.feed_s;
+    json["cutting_s"] = tally.cutting_s;
+    json["removed_mm3"] = tally.removed_mm3;
+    for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
+        const session::PeakLoad& peak = tally.peaks[n];
+        if (!(peak.value > 0)) continue;
+        files::Json load{{"value", peak.value}};
+        if (peak.ratio > 0)
+            load["ratio"] =
+                band_json(model.band(tally.cutter, static_cast<session::LoadKind>(n), peak.ratio));
+        if (tally.line == 0) load["line"] = peak.line;
+        json[std::string(session::kLoadWords[n].key)] = std::move(load);
+    }
+    json["rubbing_s"] = tally.thin.below_value_s;
+    json["plunge_deg"] = tally.plunge_deg;
+    json["jump_n"] = tally.jump_n;
+    json["entries"] = tally.entries;
+    json["collisions"] = tally.collisions;
+    return json;
+}
+
+files::Json limits_json(const session::ToolLimits& limits) {
+    files::Json json;
+    for (std::size_t n = 0; n < session::kLoadKinds; ++n)
+        if (limits.most[n]) json[std::string(session::kLoadWords[n].key)] = limit_json(*limits.most[n]);
+    json["least_chip_mm"] = limit_json(limits.least_chip);
+    return json;
+}
+
+// The text of lines of a program file, where it can be read again.
+class ProgramText {
+  public:
+    explicit ProgramText(const std::string& file) {
+        if (auto text = files::read_file(file, files::kLargestInputBytes, files::Pipes::refuse))
+            text_ = *std::move(text);
+        for (std::size_t at = 0; at < text_.size(); at = std::min(text_.find('\n', at), text_.size() - 1) + 1)
+            begins_.push_back(at);
+    }
+    std::string line(int number) const {
+        if (number < 1 || static_cast<std::size_t>(number) > begins_.size()) return "";
+        const std::size_t from = begins_[static_cast<std::size_t>(number) - 1];
+        return printable(
+            text_.substr(from, std::min(text_.find_first_of("\r\n", from), text_.size()) - from));
+    }
+
+  private:
+    std::string text_;
+    std::vector<std::size_t> begins_;
+};
+
+std::string ratio_text(const session::LoadTally& tally, session::LoadKind kind,
+                       const session::LoadModel& model) {
+    const session::PeakLoad& peak = tally.of(kind);
+    return peak.ratio > 0 ? in_words(model.band(tally.cutter, kind, peak.ratio)) : "";
+}
+
+std::string loads_text(const session::LoadTally& tally, session::LoadKind kind) {
+    const double value = tally.of(kind).value;
+    const std::string unit(session::words_of(kind).unit);
+    return value > 0 ? digits(value, 3) + (unit.empty() ? "" : " " + unit) : "";
+}
+
+}  // namespace
+
+bool is_audit_file(const std::string& name) {
+    static constexpr std::array<std::string_view, 3> names{"audit.csv", "audit.json", "audit.html"};
+    return std::ranges::find(names, name) != names.end();
+}
+
+FileResult<AuditCsv> AuditCsv::create(const std::string& path) {
+    auto file = files::FileWriter::create(path);
+    if (!file) return std::unexpected(file.error());
+    std::string header = "line,t_s,tool,spindle_rpm,duration_s,feed_mm,feed_s,cutting_s,removed_mm3";
+    for (const session::LoadWords& words : session::kLoadWords) header += "," + std::string(words.key);
+    file->write(header +
+                ",rubbing_s,plunge_deg,jump_n,entries,collisions,worst,ratio_low,ratio,ratio_high\n");
+    return AuditCsv(std::move(*file));
+}
+
+void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& model,
+                   const session::MillSetup& setup) {
+    std::array<char, 400> text{};
+    int n =
+        std::snprintf(text.data(), text.size(), "%d,%.6f,%d,%.6g,%.6f,%.4f,%.6f,%.6f,%.4f", line.line,
+                      line.start_s, setup.cutters[line.cutter].number, line.spindle_rpm,
+                      line.end_s - line.start_s, line.feed_mm, line.feed_s, line.cutting_s, line.removed_mm3);
+    std::string row(text.data(), static_cast<std::size_t>(n));
+    for (const session::PeakLoad& peak : line.peaks) {
+        n = std::snprintf(text.data(), text.size(), ",%.6g", peak.value);
+        row.append(text.data(), static_cast<std::size_t>(n));
+    }
+    const auto worst = line.worst();
+    const session::RatioBand band =
+        worst ? model.band(line.cutter, *worst, line.of(*worst).ratio) : session::RatioBand{};
+    const std::string_view key = worst ? session::words_of(*worst).key : "";
+    n = std::snprintf(text.data(), text.size(), ",%.6f,%.2f,%.3f,%d,%d,%.*s,%.4g,%.4g,%.4g\n",
+                      line.thin.below_value_s, line.plunge_deg, line.jump_n, line.entries, line.collisions,
+                      static_cast<int>(key.size()), key.data(), band.low, band.value, band.high);
+    file_.write(row.append(text.data(), static_cast<std::size_t>(n)));
+}
+
+void LoadCurve::add(double from_s, double to_s, double value) {
+    if (!(duration_s_ > 0)) return;
+    const auto step_at = [&](double t_s) {
+        const double step = std::floor(t_s / duration_s_ * static_cast<double>(kSteps));
+        return static_cast<std::size_t>(std::clamp(step, 0.0, static_cast<double>(kSteps - 1)));
+    };
+    for (std::size_t n = step_at(from_s); n <= step_at(to_s); ++n) values_[n] = std::max(values_[n], value);
+}
+
+std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const PreparedJob& loaded,
+                       const session::LoadModel& model, const session::MillSession& session) {
+    const session::Audit& audit = answer.audit;
+    const session::MillSetup& setup = session.setup();
+    files::Json json;
+    json["schema"] = "tribo.audit/1";
+    json["version"] = TRIBO_VERSION;
+    json["job"] = call.job;
+    json["verdict"] = {{"outcome", name_of(answer.verdict.outcome)}, {"sentence", answer.verdict.sentence}};
+    files::Json& findings = json["verdict"]["findings"] = files::Json::array();
+    for (const session::Finding& f : answer.verdict.findings) {
+        files::Json finding{{"outcome", name_of(f.outcome)}, {"text", f.text}};
+        if (f.line > 0) finding["line"] = f.line;
+        if (f.ratio) finding["ratio"] = band_json(*f.ratio);
+        findings.push_back(std::move(finding));
+    }
+    files::set(json, "chatter_probability", answer.facts.chatter_probability);
+    json["material"] = loaded.material.name;
+    json["force_band"] = {model.force_low_factor(), model.force_high_factor()};
+    json["duration_s"] = audit.duration_s;
+    json["feed_s"] = audit.feed_s;
+    json["cutting_s"] = audit.cutting_s;
+    json["air_share"] = audit.air_share();
+    json["lines"] = audit.line_count;
+    files::set(json, "tolerance_mm", model.limits().tolerance_mm);
+    files::set(json, "gouge_max_mm", answer.facts.gouge_mm);
+    files::set(json, "rest_max_mm", answer.rest_mm);
+    files::set(json, "scallop_max_mm", answer.scallop_mm);
+    files::set(json, "bending_leaves_mm", answer.facts.left_mm);
+    files::set(json, "bending_overcuts_mm", answer.facts.overcut_mm);
+    for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
+        const session::LineCounts& lines = audit.lines[n];
+        if (lines.over + lines.undecided == 0) continue;
+        json["lines_over"][std::string(session::kLoadWords[n].key)] = {{"over", lines.over},
+                                                                       {"undecided", lines.undecided}};
+    }
+    json["tools"] = files::Json::array();
+    for (const session::LoadTally& tool : audit.tools) {
+        files::Json of_tool = tally_json(tool, model, setup);
+        of_tool["cutter"] = job::tool_words(setup.cutters[tool.cutter]);
+        of_tool["limits"] = limits_json(model.limits().of_cutter[tool.cutter]);
+        json["tools"].push_back(std::move(of_tool));
+    }
+    json["worst"] = files::Json::array();
+    for (const session::LoadTally& line : audit.worst)
+        json["worst"].push_back(tally_json(line, model, setup));
+    json["collisions"] = files::Json::array();
+    for (const session::MillCollision& c : session.totals().collisions)
+        json["collisions"].push_back({{"line", c.line},
+                                      {"t_s", c.t_s},
+                                      {"kind", milling::name(c.kind)},
+                                      {"tip_mm", files::triple(c.tip_mm)}});
+    json["warnings"] = files::Json::array();
+    for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
+    return files::pretty(json);
+}
+
+std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const PreparedJob& loaded,
+                       const session::LoadModel& model, const session::MillSession& session) {
+    using session::LoadKind;
+    const session::MillSetup& setup = session.setup();
+    const session::Audit& audit = answer.audit;
+    report::AuditPage page;
+    page.title = call.job;
+    page.subtitle = loaded.material.name + ", " + digits(audit.duration_s, 3) + " s, " +
+                    std::to_string(audit.line_count) + " lines that move";
+    page.verdict = answer.verdict.sentence;
+    page.version = TRIBO_VERSION;
+    page.is_bad = answer.verdict.outcome == session::Outcome::over;
+    for (const session::Finding& f : answer.verdict.findings)
+        page.findings.push_back(std::string(name_of(f.outcome)) + ": " + f.text);
+    for (const Warning& w : answer.warnings) page.warnings.push_back(w.message());
+    page.curves.push_back({"Largest force, N", answer.force_n.duration_s(), answer.force_n.values(), 0});
+    page.curves.push_back(
+        {"Load over the limit that is nearest", answer.ratio.duration_s(), answer.ratio.values(), 1});
+
+    report::AuditTable tools{"Tools",
+                             "Ratios are loads over their limits, with the band of forces and limits.",
+                             {"Tool", "Cutter", "Cutting, s", "Feed, mm"},
+                             {}};
+    report::AuditTable limits{"Limits", "Where each limit is from.", {"Tool", "Load", "Limit", "From"}, {}};
+    for (const session::LoadWords& words : session::kLoadWords) tools.header.emplace_back(words.name);
+    for (const session::LoadTally& tool : audit.tools) {
+        const milling::Cutter& cutter = setup.cutters[tool.cutter];
+        std::vector<std::string> row{tool_name(cutter), job::tool_words(cutter), digits(tool.cutting_s),
+                                     digits(tool.feed_mm)};
+        for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
+            const auto kind = static_cast<LoadKind>(n);
+            const std::string ratio = ratio_text(tool, kind, model);
+            row.push_back(loads_text(tool, kind) + (ratio.empty() ? "" : " (" + ratio + ")"));
+            const auto& limit = model.limits().of_cutter[tool.cutter].most[n];
+            if (!limit) continue;
+            const std::string unit(session::kLoadWords[n].unit);
+            std::string value = limit->value > 0 ? digits(limit->value) + " " + unit : "by speed";
+            if (limit->low != limit->high)
+                value += " (" + digits(limit->low) + " to " + digits(limit->high) + ")";
+            limits.rows.push_back(
+                {tool_name(cutter), std::string(session::kLoadWords[n].name), value, limit->source});
+        }
+        tools.rows.push_back(std::move(row));
+        const session::CutLimit& least = model.limits().of_cutter[tool.cutter].least_chip;
+        limits.rows.push_back({tool_name(cutter), "least chip", digits(least.value) + " mm", least.source});
+    }
+    report::AuditTable worst{
+        "Worst lines",
+        "Those whose load is nearest to, or farthest over, its limit.",
+        {"Line", "Text", "Tool", "Load", "Value", "Of its limit", "Plunge, deg", "Jump, N"},
+        {}};
+    const ProgramText text(loaded.job.path.file);
+    for (std::size_t n = 0; n < std::min(kShownLines, audit.worst.size()); ++n) {
+        const session::LoadTally& line = audit.worst[n];
+        const LoadKind kind = *line.worst();
+        worst.rows.push_back(
+            {std::to_string(line.line), text.line(line.line), tool_name(setup.cutters[line.cutter]),
+             std::string(session::words_of(kind).name), loads_text(line, kind), ratio_text(line, kind, model),
+             digits(line.plunge_deg, 3), digits(line.jump_n, 3)});
+    }
+    page.tables = {std::move(tools), std::move(worst), std::move(limits)};
+    const Box3 blank = session.stock().blank().bounds_mm();
+    const Vec3 size = blank.size();
+    page.facts = {
+        {"Program", loaded.job.path.file},
+        {"Stock", digits(size.x) + " x " + digits(size.y) + " x " + digits(size.z) + " mm, from " +
+                      digits(blank.min.x) + ", " + digits(blank.min.y) + ", " + digits(blank.min.z)},
+        {"Material", loaded.material.name + ": " + loaded.material.what},
+        {"Forces", digits(model.force_low_factor(), 2) + " to " + digits(model.force_high_factor(), 2) +
+                       " times what stands here; " + loaded.material.source},
+        {"Feed without a chip", digits(100 * audit.air_share(), 2) + " % of the time of feed moves"},
+        {"Resolution", digits(setup.cell_mm) + " mm"}};
+    if (answer.facts.gouge_mm)
+        page.facts.emplace_back("Deviation", "gouge " + digits(*answer.facts.gouge_mm, 3) + " mm, rest " +
+                                                 digits(answer.rest_mm.value_or(0), 3) + " mm, scallop " +
+                                                 digits(answer.scallop_mm.value_or(0), 3) + " mm");
+    return report::audit_page(page);
+}
+
+void print(const AuditAnswer& answer, const session::LoadModel& model, const session::MillSession& session) {
+    const session::Audit& audit = answer.audit;
+    std::printf("%s\n", printable(answer.verdict.sentence).c_str());
+    for (std::size_t n = 1; n < answer.verdict.findings.size(); ++n)
+        std::printf("  %s: %s\n", std::string(name_of(answer.verdict.findings[n].outcome)).c_str(),
+                    printable(answer.verdict.findings[n].text).c_str());
+    std::printf("%-16s %.1f s; feed moves %.1f s, of which %.3g %% cut nothing\n", "time", audit.duration_s,
+                audit.feed_s, 100 * audit.air_share());
+    std::printf("%-16s %.2g to %.2g times the computed ones\n", "true forces", model.force_low_factor(),
+                model.force_high_factor());
+    for (const session::LoadTally& tool : audit.tools) {
+        const milling::Cutter& cutter = session.setup().cutters[tool.cutter];
+        std::printf("%-16s %s, cutting %.1f s\n", tool_name(cutter).c_str(), job::tool_words(cutter).c_str(),
+                    tool.cutting_s);
+        for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
+            const auto kind = static_cast<session::LoadKind>(n);
+            if (!(tool.peaks[n].value > 0)) continue;
+            const std::string ratio = ratio_text(tool, kind, model);
+            std::printf("  %-14s %s%s, line %d\n", std::string(session::kLoadWords[n].name).c_str(),
+                        loads_text(tool, kind).c_str(),
+                        ratio.empty() ? "" : (", " + ratio + " of its limit").c_str(), tool.peaks[n].line);
+        }
+        std::printf("  %-14s %d entries into material, largest jump %.3g N, steepest plunge %.3g deg\n",
+                    "way in", tool.entries, tool.jump_n, tool.plunge_deg);
+    }
+    std::printf("%-16s %zu collisions, %zu warnings\n", "findings", session.totals().collisions.size(),
+                answer.warnings.size());
+}
+
+}  // namespace tribo::app

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What `tribo audit` writes and prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/audit/audit.hpp"
+#include "app/render/render_job.hpp"
+#include "files/files.hpp"
+#include "session/audit/verdict.hpp"
+
+namespace tribo::app {
+
+// True for the names of all files that an audit may write.
+bool is_audit_file(const std::string& name);
+
+// audit.csv: a line for each line of the program, while it is milled.
+class AuditCsv {
+  public:
+    static FileResult<AuditCsv> create(const std::string& path);
+    void add(const session::LoadTally& line, const session::LoadModel& model,
+             const session::MillSetup& setup);
+    FileResult<void> finish() { return file_.finish(); }
+
+  private:
+    explicit AuditCsv(files::FileWriter file) : file_(std::move(file)) {}
+
+    files::FileWriter file_;
+};
+
+// The largest value in each of many equal stretches of the program.
+class LoadCurve {
+  public:
+    explicit LoadCurve(double duration_s) : duration_s_(duration_s), values_(kSteps) {}
+    void add(double from_s, double to_s, double value);
+    double duration_s() const { return duration_s_; }
+    const std::vector<double>& values() const { return values_; }
+
+  private:
+    static constexpr std::size_t kSteps = 1000;
+
+    double duration_s_;
+    std::vector<double> values_;
+};
+
+struct AuditAnswer {
+    explicit AuditAnswer(double duration_s) : force_n(duration_s), ratio(duration_s) {}
+
+    session::Audit audit;
+    session::Verdict verdict;
+    session::AuditFacts facts;
+    std::optional<double> scallop_mm, rest_mm;
+    Warnings warnings;
+    LoadCurve force_n, ratio;  // ratio: to the limit that is nearest
+};
+
+std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const PreparedJob& loaded,
+                       const session::LoadModel& model, const session::MillSession& session);
+std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const PreparedJob& loaded,
+                       const session::LoadModel& model, const session::MillSession& session);
+// For people.
+void print(const AuditAnswer& answer, const session::LoadModel& model, const session::MillSession& session);
+
+}  // namespace tribo::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "session/audit/load_tally.hpp"
+
+#include <algorithm>
+
+namespace tribo::session {
+namespace {
+
+void raise(PeakLoad& peak, const PeakLoad& other) {
+    const bool further = other.ratio > peak.ratio || (peak.ratio == 0 && other.value > peak.value);
+    if (further) {
+        peak.line = other.line;
+        peak.t_s = other.t_s;
+    }
+    peak.value = std::max(peak.value, other.value);
+    peak.ratio = std::max(peak.ratio, other.ratio);
+}
+
+}  // namespace
+
+std::optional<LoadKind> LoadTally::worst() const {
+    const auto most = std::ranges::max_element(peaks, {}, &PeakLoad::ratio);
+    if (!(most->ratio > 0)) return std::nullopt;
+    return static_cast<LoadKind>(most - peaks.begin());
+}
+
+void LoadTally::add_peaks(const RowLoads& loads, int at_line, double t_s) {
+    for (std::size_t n = 0; n < kLoadKinds; ++n)
+        raise(peaks[n], {loads.value[n], loads.ratio[n], at_line, t_s});
+}
+
+void LoadTally::add(const LoadTally& other) {
+    end_s = other.end_s;
+    feed_mm += other.feed_mm;
+    feed_s += other.feed_s;
+    cutting_s += other.cutting_s;
+    removed_mm3 += other.removed_mm3;
+    for (std::size_t n = 0; n < kLoadKinds; ++n) raise(peaks[n], other.peaks[n]);
+    thin.below_low_s += other.thin.below_low_s;
+    thin.below_value_s += other.thin.below_value_s;
+    thin.below_high_s += other.thin.below_high_s;
+    plunge_deg = std::max(plunge_deg, other.plunge_deg);
+    jump_n = std::max(jump_n, other.jump_n);
+    entries += other.entries;
+    collisions += other.collisions;
+}
+
+}  // namespace tribo::session
