@@ -25,9 +25,33 @@ Result<std::int64_t> times_of(const Word* word, int line, const char* code, cons
                          "write a whole number");
 }
 
+// Programs of the builder of the machine: probing, tool changes.
+constexpr double kFirstOfMachine = 8000, kLastOfMachine = 9999;
+
+// Leaves out a program of the machine that the text lacks. Returns false for another one.
+Result<bool> leave_out(const Word& number, int line, State& state, Flow& flow, Output& output) {
+    const bool is_of_machine = number.value >= kFirstOfMachine && number.value <= kLastOfMachine;
+    if (!is_of_machine || output.options.missing_programs != nullptr) return false;
+    const auto has = flow.has_program(number);
+    if (!has) return std::unexpected(has.error());
+    if (*has) return false;
+    for (Known& known : state.known) {
+        if (known == Known::yes) known = Known::lost;
+    }
+    state.lost_line = line;
+    const int name = static_cast<int>(number.value);
+    if (output.first(Note::program_of_machine, name)) {
+        output.warn(line,
+                    "O" + std::to_string(name) +
+                        " is a program of the machine's own (O8000 to O9999) and not at hand: its moves are "
+                        "left out, and the tool's place is unknown after it");
+    }
+    return true;
+}
+
 }  // namespace
 
-Result<bool> call_or_return(Command& command, Flow& flow, Output& output) {
+Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& output) {
     const Code code = *command.m(MGroup::subprogram);
     const Word* number = command.use('P');
     const int line = command.line();
@@ -51,6 +75,10 @@ Result<bool> call_or_return(Command& command, Flow& flow, Output& output) {
     const auto times = times_of(command.use('L'), line, is_local ? "M97" : "M98", output);
     if (!times) return std::unexpected(times.error());
     if (*times == 0) return true;
+    if (!is_local) {
+        const auto left_out = leave_out(*number, line, state, flow, output);
+        if (!left_out || *left_out) return left_out;
+    }
     const auto called =
         is_local ? flow.call_lines(*number, *times, line) : flow.call_program(*number, *times, line);
     if (!called) return std::unexpected(called.error());
@@ -113,8 +141,11 @@ Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Ou
     return call;
 }
 
-Result<void> call_macro(const MacroCall& call, Flow& flow, int line) {
+Result<void> call_macro(const MacroCall& call, int line, State& state, Flow& flow, Output& output) {
     if (call.times == 0) return {};
+    const auto left_out = leave_out(call.number, line, state, flow, output);
+    if (!left_out) return std::unexpected(left_out.error());
+    if (*left_out) return {};
     return flow.call_program(call.number, call.times, line, &call.arguments);
 }
 

@@ -11,7 +11,7 @@
 namespace tribo::readers::gcode {
 
 // Runs the M97, M98 or M99 of the block. Returns false at the end of the program.
-Result<bool> call_or_return(Command& command, Flow& flow, Output& output);
+Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& output);
 
 // A call with variables of its own.
 struct MacroCall {
@@ -24,6 +24,6 @@ struct MacroCall {
 const Word* macro_call_in(const Block& block);
 // Reads the block of a G65 or G66: words behind it are arguments.
 Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Output& output);
-Result<void> call_macro(const MacroCall& call, Flow& flow, int line);
+Result<void> call_macro(const MacroCall& call, int line, State& state, Flow& flow, Output& output);
 
 }  // namespace tribo::readers::gcode

@@ -153,6 +153,8 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 120:
         case 130:
             return GGroup::round_pocket;
+        case 331:
+            return GGroup::rigid_tap;
         case 531:
         case 536:
             return GGroup::tool_to_plane;
@@ -213,6 +215,10 @@ std::optional<MGroup> group_of_m(int tenths) {
             return MGroup::overrides;
         case 190:
             return MGroup::orientation;
+        case 700:
+        case 710:
+        case 720:
+            return MGroup::saved_modes;
         case 620:
         case 630:
         case 640:
@@ -251,7 +257,6 @@ Unread unread_g(int tenths) {
             return {"polar interpolation", kPlainMoves};
         case 320:
         case 330:
-        case 331:
             return {"moves synchronised with the spindle", kPlainMoves};
         case 450:
         case 460:
@@ -274,7 +279,6 @@ Unread unread_g(int tenths) {
 
 Unread unread_m(int tenths) {
     switch (tenths) {
-        case 720:
         case 730:
             return {"restoring the modes that M70 has saved", "write the modes out"};
         default:

@@ -35,6 +35,7 @@ enum class GGroup {
     corner,         // G36 G39 with R (Fagor)
     cylinder,       // G7.1 G107
     round_pocket,   // G12 G13
+    rigid_tap,      // G33.1
     idle,           // codes that move nothing; a block may have several
     count
 };
@@ -46,6 +47,7 @@ enum class MGroup {
     coolant,      // M7 M8 M9
     overrides,    // M48 to M53
     orientation,  // M19
+    saved_modes,  // M70 M71 M72
     outputs,      // M62 to M65, M67, M68
     subprogram,   // M97 M98 M99
     tool_tip,     // tool tip control: M128 M129, LinuxCNC's M428 M429 M430

@@ -304,6 +304,11 @@ Result<void> Flow::return_from_sub(const OWord& word, Block& block) {
     return {};
 }
 
+Result<bool> Flow::has_program(const Word& number) {
+    if (auto known = require_labels(); !known) return std::unexpected(known.error());
+    return labels_->find_program(std::to_string(static_cast<std::int64_t>(number.value))) >= 0;
+}
+
 Result<void> Flow::call_program(const Word& number, std::int64_t times, int line,
                                 const Arguments* arguments) {
     if (auto known = require_labels(); !known) return known;

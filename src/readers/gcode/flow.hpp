@@ -35,6 +35,8 @@ class Flow {
     using Arguments = std::array<double, kMacroParameters>;
     Result<void> call_program(const Word& number, std::int64_t times, int line,
                               const Arguments* arguments = nullptr);
+    // True if the text has the program of that number.
+    Result<bool> has_program(const Word& number);
     // M97: the same for lines of this program, from N to M99.
     Result<void> call_lines(const Word& number, std::int64_t times, int line);
     // M99. Returns false if no program has called this one. `to`: the line N that it returns to, or null.

@@ -262,6 +262,30 @@ void pass_idle_codes(Command& command, State& state, Output& output) {
     }
 }
 
+// M70 saves the modes, M71 forgets them, M72 restores them.
+void save_or_restore(Code code, State& state) {
+    if (code.tenths == 710) state.saved.reset();
+    if (code.tenths == 700) {
+        state.saved = SavedModes{
+            state.unit_mm,   state.plane, state.incremental, state.absolute_centres, state.retract_to_r,
+            state.feed_mode, state.feed,  state.spindle,     state.spindle_rpm,      state.active_work};
+    }
+    if (code.tenths != 720 || !state.saved) return;
+    const SavedModes& saved = *state.saved;
+    const double before_deg = state.active().turn_deg;
+    state.unit_mm = saved.unit_mm;
+    state.plane = saved.plane;
+    state.incremental = saved.incremental;
+    state.absolute_centres = saved.absolute_centres;
+    state.retract_to_r = saved.retract_to_r;
+    state.feed_mode = saved.feed_mode;
+    state.feed = saved.feed;
+    state.spindle = saved.spindle;
+    state.spindle_rpm = saved.spindle_rpm;
+    state.active_work = saved.active_work;
+    state.reframe(before_deg);
+}
+
 }  // namespace
 
 Result<void> apply_modes(Command& command, State& state, Output& output) {
@@ -292,6 +316,13 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
         state.return_level_stated = true;
     }
     set_motion_mode(command, state, output);
+    if (const auto code = command.m(MGroup::saved_modes)) {
+        if (state.compensation.is_on && state.compensation.left_mm != 0 && code->tenths == 720) {
+            return output.refuse(command.line(), code->column, "M72 while cutter compensation is on",
+                                 "write G40 before it");
+        }
+        save_or_restore(*code, state);
+    }
     return switch_tip_control(command, state, output);
 }
 

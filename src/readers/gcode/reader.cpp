@@ -126,7 +126,7 @@ class ProgramReader {
                 modal_depth_ = flow_.depth();
                 return true;
             }
-            if (auto done = call_macro(*macro, flow_, block.line); !done) {
+            if (auto done = call_macro(*macro, block.line, state_, flow_, output_); !done) {
                 return std::unexpected(done.error());
             }
             return true;
@@ -249,11 +249,11 @@ class ProgramReader {
             return std::unexpected(done.error());
         if (command.has_g(GGroup::idle, 670)) modal_macro_.reset();
         if (modal_macro_ && flow_.depth() == modal_depth_ && moves(command.block())) {
-            if (auto done = call_macro(*modal_macro_, flow_, command.line()); !done) {
+            if (auto done = call_macro(*modal_macro_, command.line(), state_, flow_, output_); !done) {
                 return std::unexpected(done.error());
             }
         }
-        if (calls) return call_or_return(command, flow_, output_);
+        if (calls) return call_or_return(command, state_, flow_, output_);
         const auto stop = command.m(MGroup::stop);
         return !(stop && (stop->tenths == 20 || stop->tenths == 300));
     }

@@ -138,6 +138,18 @@ struct TiltedPlane {
     bool about_axis = false;  // of G68
 };
 
+// The modes that M70 saves and M72 restores (LinuxCNC).
+struct SavedModes {
+    double unit_mm = 1;
+    Plane plane = Plane::xy;
+    bool incremental = false, absolute_centres = false, retract_to_r = true;
+    FeedMode feed_mode = FeedMode::per_minute;
+    std::optional<double> feed;
+    Spindle spindle = Spindle::off;
+    double spindle_rpm = 0;
+    int active_work = 0;
+};
+
 struct State {
     int line = 0;  // of the running block
     double unit_mm = 1;
@@ -178,6 +190,7 @@ struct State {
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
+    std::optional<SavedModes> saved;
     std::optional<WaitingCorner> corner;
     std::optional<Cylinder> cylinder;
 
@@ -262,6 +275,8 @@ enum class Note {
     roll_pitch_yaw,
     round_pocket,
     second_tool,
+    program_of_machine,
+    plane_centre,
 };
 
 // Receives the moves, warnings and errors of the blocks.

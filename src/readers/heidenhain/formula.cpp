@@ -39,11 +39,13 @@ Result<double> LineReader::product(int depth) {
     if (!value) return value;
     for (;;) {
         const int start = column();
-        enum { times, over, length, angle } operation;
+        enum { times, over, remainder, length, angle } operation;
         if (take('*')) {
             operation = times;
         } else if (take('/') || take("DIV")) {
             operation = over;
+        } else if (take('%')) {
+            operation = remainder;
         } else if (take("LEN")) {
             operation = length;
         } else if (take("ANG")) {
@@ -53,12 +55,13 @@ Result<double> LineReader::product(int depth) {
         }
         const auto next = power(depth);
         if (!next) return next;
-        if (operation == over && *next == 0)
+        if ((operation == over || operation == remainder) && *next == 0)
             return refuse(start, "division by zero", "correct the parameters");
-        value = operation == times    ? *value * *next
-                : operation == over   ? *value / *next
-                : operation == length ? math::hypot(*value, *next)
-                                      : math::atan2(*value, *next) * math::kDegPerRad;
+        value = operation == times       ? *value * *next
+                : operation == over      ? *value / *next
+                : operation == remainder ? *value - *next * std::trunc(*value / *next)
+                : operation == length    ? math::hypot(*value, *next)
+                                         : math::atan2(*value, *next) * math::kDegPerRad;
     }
 }
 

@@ -91,6 +91,8 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         words.side = 0;
     } else if (item.name == "RL" || item.name == "RR") {
         words.side = item.name == "RL" ? 1 : -1;
+    } else if ((item.name == "R" || item.name == "M") && !item.value && item.sign == 0) {
+        return {};  // old controls print the words that a block leaves empty
     } else if (item.name == "R") {
         return in.refuse(item.column, "radius compensation in one axis (" + item.name + ") is not read",
                          "write RL, RR or R0");

@@ -114,5 +114,36 @@ TEST(GcodeLenient, passes_over_a_second_tool_and_the_number_of_a_spindle) {
     EXPECT_TRUE(warns_of(program, 3, "the tool after this one"));
 }
 
+TEST(GcodeLenient, leaves_out_the_programs_of_the_machine) {
+    const motion::Program program = fanuc(
+        "G1 X5\nG65 P9810 Z1. F50.\nG1 X10\nG0 X0 Y0 Z0\nG65 P9810 Z1.\nM98 P8999\nG0 X0 Y0 Z0\nG1 X3\n");
+    EXPECT_NEAR(feed_mm(program), 8, 1e-12);
+    EXPECT_TRUE(warns_of(program, 4, "O9810 is a program of the machine's own"));
+    EXPECT_TRUE(warns_of(program, 8, "O8999 is a program of the machine's own"));
+    // One that the text has is run; another one that it lacks is refused.
+    EXPECT_NEAR(feed_mm(fanuc("M98 P9001\nM30\nO9001\nG1 X4\nM99\n")), 4, 1e-12);
+    EXPECT_FALSE(read_gcode("G21\nM98 P7999\n").has_value());
+}
+
+TEST(GcodeLenient, saves_and_restores_modes) {
+    const motion::Program program =
+        program_of("G21 G90 M3 F100\nG0 X0 Y0 Z0\nM70\nG91 F7 G20\nG1 X1\nM72\nG1 X10\nM71\nM72\nX5\n");
+    EXPECT_NEAR(feed_mm(program), 25.4 + 15.4 + 5, 1e-9);
+    EXPECT_DOUBLE_EQ(program.moves.back().feed_mm_per_min, 100);
+}
+
+TEST(GcodeLenient, taps_rigidly_to_the_end_and_back) {
+    const motion::Program program = program_of("G21 M3 S500\nG0 X0 Y0 Z5\nG33.1 Z-5 K1.5\n");
+    EXPECT_NEAR(feed_mm(program), 20, 1e-12);
+    EXPECT_DOUBLE_EQ(program.moves.back().feed_mm_per_min, 750);
+    EXPECT_EQ(program.moves.back().end.tip_mm, (Vec3{0, 0, 5}));
+}
+
+TEST(GcodeLenient, takes_a_and_b_of_g68_as_its_centre) {
+    const motion::Program program = program_of("G21 M3 F9\nG0 X0 Y0 Z0\nG68 A10 B0 R90\nG1 X20 Y0\n");
+    EXPECT_LT(distance(program.moves.back().end.tip_mm, {10, 10, 0}), 1e-9);
+    EXPECT_TRUE(warns_of(program, 3, "the centre of its rotation (Mach3)"));
+}
+
 }  // namespace
 }  // namespace tribo::readers

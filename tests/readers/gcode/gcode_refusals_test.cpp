@@ -98,7 +98,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {"G-1\n", 1, 1, "G code is not known"},
         {"M1.55\n", 1, 1, "M code is not known"},
         {"M-1\n", 1, 1, "M code is not known"},
-        {"M72\n", 1, 1, "M72 (restoring the modes that M70 has saved) is not read yet"},
+        {"M73\n", 1, 1, "M73 (restoring the modes that M70 has saved) is not read yet"},
         {"G68.2 X0 P2\n", 1, 10, "Euler's angles and with P1"},
         {"G68.2 P1 Q122 X0\n", 1, 10, "Q is no order of the axes"},
         {"G51 X0 Y0 P2\nG68.2 X0 I10\n", 2, 1, "a tilted plane in coordinates that are turned"},

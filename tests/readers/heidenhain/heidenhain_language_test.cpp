@@ -299,5 +299,11 @@ TEST(Heidenhain, leaves_out_moves_that_begin_where_only_the_machine_knows) {
     EXPECT_NEAR(feed_mm(program), 10 + 5 * kPi, 1e-9);
 }
 
+TEST(Heidenhain, reads_what_old_controls_print_of_empty_words) {
+    const motion::Program program = conversational(after_start("3 L X+10 R F100 M\n4 L Y+5 R F M\n"));
+    EXPECT_NEAR(feed_mm(program), 15, 1e-12);
+    EXPECT_NEAR(feed_mm(conversational(after_start("3 Q1 = 7 % 4\n4 L X+Q1 F100\n"))), 3, 1e-12);
+}
+
 }  // namespace
 }  // namespace tribo::readers

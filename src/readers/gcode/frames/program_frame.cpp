@@ -48,8 +48,20 @@ Result<void> begin_turn(Command& command, State& state, Output& output, Code cod
     }
     if (auto good = in_range(kLimits.rotary_angle, angle->value, command, *angle, output); !good) return good;
     state.frame.turn_deg = 0;
-    const auto centre = read_centre(command, state, output);
+    auto centre = read_centre(command, state, output);
     if (!centre) return std::unexpected(centre.error());
+    const auto axes = axes_of(state.plane);
+    for (int i = 0; i < 2; ++i) {  // Mach3 writes the centre as A and B
+        const Word* word = command.use("AB"[i]);
+        if (word == nullptr) continue;
+        command.hide(word->letter);
+        const double place_mm = word->value * state.unit_mm;
+        if (auto good = in_range(kLimits.coordinate, place_mm, command, *word, output); !good) return good;
+        (*centre)[axes[static_cast<std::size_t>(i)]] = place_mm;
+        if (output.first(Note::plane_centre)) {
+            output.warn(command.line(), "A and B of G68 are taken as the centre of its rotation (Mach3)");
+        }
+    }
     state.frame.turn_centre_mm = *centre;
     state.frame.turn_deg = angle->value;
     state.frame.turn_plane = state.plane;

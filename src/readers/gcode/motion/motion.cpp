@@ -117,6 +117,30 @@ void assume_motion(const Command& command, State& state, Output& output) {
     }
 }
 
+// G33.1: to the end and back, K for each turn of the spindle (LinuxCNC).
+Result<void> tap_rigidly(Command& command, State& state, Output& output, Code code) {
+    const Word* pitch = command.use('K');
+    const double feed = pitch == nullptr ? 0 : std::abs(pitch->value) * state.unit_mm * state.spindle_rpm;
+    if (!(feed > 0) || !kLimits.feed.range.contains(feed)) {
+        return output.refuse(command.line(), code.column, "G33.1 without a pitch K, or without a speed S",
+                             "write K in this block and S before it");
+    }
+    if (state.has_lost_tip()) return leave_out(command, state, output);
+    if (auto known = require_start(command, state, output); !known) return known;
+    const auto target = target_of(command, state, output);
+    if (!target) return std::unexpected(target.error());
+    const Vec3 start = state.tip_mm;
+    for (const Vec3 to : {target->tip_mm, start}) {
+        motion::Move move = new_move(motion::MoveKind::feed, command, state);
+        move.end.tip_mm = to;
+        move.feed_mm_per_min = feed;
+        if (move.start.tip_mm == to) continue;
+        state.tip_mm = to;
+        if (auto done = append(move, state, output); !done) return done;
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> move_rapidly(Command& command, State& state, Output& output) {
@@ -154,6 +178,7 @@ Result<void> apply_motion(Command& command, State& state, Output& output) {
     if (const auto pocket = command.g(GGroup::round_pocket)) {
         return mill_round_pocket(command, state, output, *pocket);
     }
+    if (const auto tap = command.g(GGroup::rigid_tap)) return tap_rigidly(command, state, output, *tap);
     if (repeats_cycle(command, state)) return run_cycle(command, state, output);
     if (!moves) return {};
     if (state.motion == MotionMode::none) assume_motion(command, state, output);
