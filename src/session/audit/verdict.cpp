@@ -32,10 +32,13 @@ class Judge {
         add_rubbing();
         add_part();
         Verdict verdict;
-        // Sure findings first, of these the one that is farthest over its limit.
+        // Sure findings first, of these collisions, then the one that is farthest over its limit.
         const auto rank = [](const Finding& f) {
-            return std::tuple(f.outcome == Outcome::over ? 0 : 1, f.ratio ? -f.ratio->value : -1e9, f.line,
-                              std::string_view(f.text));
+            return std::tuple(f.outcome == Outcome::over ? 0 : 1,
+                              f.ratio      ? -f.ratio->value
+                              : f.line > 0 ? -1e9
+                                           : 0,
+                              f.line, std::string_view(f.text));
         };
         std::ranges::sort(findings_, {}, rank);
         verdict.findings = std::move(findings_);
