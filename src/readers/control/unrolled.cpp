@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/unrolled.hpp"
+
+#include <cmath>
+#include <span>
+
+#include "base/math.hpp"
+#include "base/text/decimal.hpp"
+#include "motion/path/path.hpp"
+
+namespace tribo::readers {
+namespace {
+
+class Unroller {
+  public:
+    Unroller(const motion::Program& program, const UnrollOptions& options)
+        : program_(program), options_(options) {}
+
+    Result<std::string> write() {
+        out_ = "G21 G90 G94 G17\n";
+        for (const motion::Move& move : program_.moves) {
+            if (auto good = check(move); !good) return std::unexpected(good.error());
+            write_tool(move);
+            if (!at_) {
+                at_ = move.start.tip_mm;
+                block("G0 X" + format_decimal(at_->x) + " Y" + format_decimal(at_->y) + " Z" +
+                      format_decimal(at_->z));
+            }
+            if (move.kind == motion::MoveKind::feed && !move.arc &&
+                motion::path_length_mm(move) > options_.longest_mm) {
+                for (const motion::Move& piece : motion::in_pieces(move, options_.longest_mm))
+                    write_move(piece);
+            } else {
+                write_move(move);
+            }
+        }
+        return out_ + "M30\n";
+    }
+
+  private:
+    Result<void> check(const motion::Move& move) const {
+        const auto refuse = [&](const char* cause) {
+            return fail_at(program_.source, move.line, 0,
+                           std::string("this move cannot be written as plain G-code: ") + cause,
+                           "let the CAM system write the program with lines and arcs alone");
+        };
+        const Vec3 up{0, 0, 1};
+        if (!(move.start.axis == up) || !(move.end.axis == up)) return refuse("its tool is tilted");
+        if (move.quadratic) return refuse("it is a curve, and no arc");
+        if (!move.arc) return {};
+        const Vec3& n = move.arc->normal;
+        if (!(std::abs(n.x) == 1 || std::abs(n.y) == 1 || std::abs(n.z) == 1))
+            return refuse("its arc lies in no plane of the axes");
+        if (std::abs(move.arc->turn_rad) > math::kTwoPi * (1 + 1e-9) &&
+            options_.dialect == GcodeDialect::fanuc)
+            return refuse("it is a helix of more than a turn");
+        return {};
+    }
+
+    void block(const std::string& text) { out_ += text + "\n"; }
+
+    void write_tool(const motion::Move& move) {
+        if (move.tool > 0 && move.tool != tool_) block("T" + std::to_string(tool_ = move.tool) + " M6");
+        if (move.spindle_rpm > 0 && move.spindle_rpm != rpm_)
+            block("S" + format_decimal(rpm_ = move.spindle_rpm) + " M3");
+    }
+
+    std::string feed_of(const motion::Move& move) {
+        if (move.kind != motion::MoveKind::feed) return "";
+        const double feed =
+            move.duration_s > 0 ? 60 * motion::path_length_mm(move) / move.duration_s : move.feed_mm_per_min;
+        if (feed == feed_) return "";
+        return " F" + format_decimal(feed_ = feed);
+    }
+
+    void write_move(const motion::Move& move) {
+        if (move.kind == motion::MoveKind::dwell) {
+            const bool fanuc = options_.dialect == GcodeDialect::fanuc;  // milliseconds there
+            return block("G4 P" +
+                         format_decimal(fanuc ? std::round(1e3 * move.duration_s) : move.duration_s));
+        }
+        std::string words;
+        const Vec3 &from = move.start.tip_mm, &to = move.end.tip_mm;
+        for (int axis = 0; axis < 3; ++axis)
+            if (to[axis] != from[axis] || to[axis] != (*at_)[axis] || move.arc)
+                words += std::string(" ") + "XYZ"[axis] + format_decimal(to[axis]);
+        at_ = to;
+        if (!move.arc) {
+            if (words.empty()) return;
+            return block((move.kind == motion::MoveKind::rapid ? "G0" : "G1") + words + feed_of(move));
+        }
+        const Vec3& n = move.arc->normal;
+        const int normal = n.x != 0 ? 0 : n.y != 0 ? 1 : 2;
+        constexpr const char* kPlanes[] = {"G19", "G18", "G17"};
+        if (normal != normal_) block(kPlanes[normal_ = normal]);
+        const bool clockwise = (n[normal] < 0) != (move.arc->turn_rad < 0);
+        const Vec3 centre = move.arc->centre_mm - from;
+        for (int axis = 0; axis < 3; ++axis)
+            if (axis != normal) words += std::string(" ") + "IJK"[axis] + format_decimal(centre[axis]);
+        const int turns = static_cast<int>(std::ceil(std::abs(move.arc->turn_rad) / math::kTwoPi - 1e-9));
+        if (turns > 1) words += " P" + std::to_string(turns);
+        block((clockwise ? "G2" : "G3") + words + feed_of(move));
+    }
+
+    const motion::Program& program_;
+    const UnrollOptions& options_;
+    std::string out_;
+    std::optional<Vec3> at_;  // none before the first move
+    int tool_ = 0, normal_ = 2;
+    double rpm_ = 0, feed_ = 0;
+};
+
+}  // namespace
+
+Result<std::string> unrolled_gcode(const motion::Program& program, const UnrollOptions& options) {
+    return Unroller(program, options).write();
+}
+
+}  // namespace tribo::readers

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/unrolled.hpp"
+
+#include <gtest/gtest.h>
+
+#include "motion/path/path.hpp"
+
+namespace tribo::readers {
+namespace {
+
+motion::Program program_of(std::string_view text) {
+    auto program = read_gcode(text);
+    EXPECT_TRUE(program) << program.error().text();
+    return program ? *std::move(program) : motion::Program{};
+}
+
+void expect_same(const motion::Program& a, const motion::Program& b) {
+    ASSERT_EQ(a.moves.size(), b.moves.size());
+    for (std::size_t n = 0; n < a.moves.size(); ++n) {
+        const motion::Move &x = a.moves[n], &y = b.moves[n];
+        EXPECT_EQ(x.kind, y.kind) << n;
+        EXPECT_EQ(x.tool, y.tool) << n;
+        EXPECT_EQ(x.spindle_rpm, y.spindle_rpm) << n;
+        EXPECT_NEAR(x.feed_mm_per_min, y.feed_mm_per_min, 1e-9) << n;
+        for (const double t : {0.0, 0.37, 1.0})
+            EXPECT_LT(distance(motion::pose_at(x, t).tip_mm, motion::pose_at(y, t).tip_mm), 1e-9) << n;
+    }
+}
+
+constexpr std::string_view kLoops =
+    "G21 G90 T2 M6 S9000 M3\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 LT 3]\nG1 Z[-1-#1] F200\nG2 X10 Y0 I5 J0 "
+    "F600\nG3 X0 Y0 I-5 J0 Z[-1.5-#1]\n"
+    "G18 G2 X4 Z[-1.5-#1] I2 K0\nG17\nG1 X0\n#1=[#1+1]\no1 endwhile\nG4 P0.5\nG20 G1 X1 F10\nG93 G1 X2 "
+    "F2\nM30\n";
+
+TEST(UnrolledGcode, is_the_same_path_block_by_block) {
+    const motion::Program program = program_of(kLoops);
+    const auto text = unrolled_gcode(program, {});
+    ASSERT_TRUE(text) << text.error().text();
+    for (const char* gone : {"#", "while", "G20", "G93"})
+        EXPECT_EQ(text->find(gone), std::string::npos) << *text;
+    motion::Program again = program_of(*text), same = program;
+    // The time of the last move is a feed now.
+    for (motion::Move& move : same.moves)
+        if (move.kind == motion::MoveKind::feed && move.duration_s > 0)
+            move.feed_mm_per_min = 60 * motion::path_length_mm(move) / move.duration_s;
+    expect_same(same, again);
+    // Each line once, in order.
+    for (std::size_t n = 1; n < again.moves.size(); ++n)
+        EXPECT_GT(again.moves[n].line, again.moves[n - 1].line);
+}
+
+TEST(UnrolledGcode, divides_long_lines_without_leaving_them) {
+    const motion::Program program = program_of("G21 G90 G0 X0 Y0 Z0\nG1 X10 Y7 Z-3 F300\nX11\n");
+    const auto text = unrolled_gcode(program, {.longest_mm = 2});
+    ASSERT_TRUE(text);
+    const motion::Program again = program_of(*text);
+    double length = 0;
+    for (const motion::Move& move : again.moves) {
+        EXPECT_LE(motion::path_length_mm(move), 2 + 1e-9);
+        length += motion::path_length_mm(move);
+    }
+    EXPECT_NEAR(length, motion::path_length_mm(program.moves[0]) + 1, 1e-9);
+}
+
+TEST(UnrolledGcode, is_refused_for_what_plain_words_cannot_say) {
+    motion::Program program = program_of("G21 G90 G0 X0 Y0 Z0\nG1 X10 F300\n");
+    program.source = "p.nc";
+    program.moves[0].end.axis = {0, 0.6, 0.8};
+    const auto tilted = unrolled_gcode(program, {});
+    ASSERT_FALSE(tilted);
+    EXPECT_EQ(tilted.error().line, 2);
+    EXPECT_NE(tilted.error().cause.find("tilted"), std::string::npos);
+    program = program_of("G21 G90 G0 X0 Y0 Z0\nG2 X0 Y0 Z-3 I5 P3 F300\n");
+    EXPECT_TRUE(unrolled_gcode(program, {}));
+    EXPECT_FALSE(unrolled_gcode(program, {.dialect = GcodeDialect::fanuc}));
+}
+
+}  // namespace
+}  // namespace tribo::readers
