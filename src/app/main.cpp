@@ -29,6 +29,7 @@ int run(int argc, char** argv) {
     add_site(program, exit_code);
     add_stability(program, exit_code);
     add_audit(program, exit_code);
+    add_feed(program, exit_code);
     add_devices(program, exit_code);
     try {
         program.parse(argc, argv);

@@ -18,6 +18,7 @@ void add_rub(CLI::App& program, int& exit_code);
 void add_feel(CLI::App& program, int& exit_code);
 void add_press(CLI::App& program, int& exit_code);
 void add_site(CLI::App& program, int& exit_code);
+void add_feed(CLI::App& program, int& exit_code);
 void add_stability(CLI::App& program, int& exit_code);
 void add_audit(CLI::App& program, int& exit_code);
 void add_devices(CLI::App& program, int& exit_code);

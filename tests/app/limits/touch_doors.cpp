@@ -103,6 +103,7 @@ Doors flag_doors() {
         press{"press", "none.json", "--stroke", "none.csv", "--out", "out"},
         rub{"rub", "none.json", "--stroke", "none.csv", "--out", "out.wav"},
         stability{"stability", "none.toml"}, audit{"audit", "none.toml"},
+        feed{"feed", "none.toml", "--out", "new.nc"},
         simulated{"stability", "none.toml", "--out", "out", "--simulate", "1000000:1"};
     const auto with = [](const Limit& limit, std::vector<std::string> call, const std::string& name) {
         call.push_back(name + "={}");
@@ -146,6 +147,14 @@ Doors flag_doors() {
         with(l.memory, render, "--memory"),
         with(l.resolution, audit, "--resolution"),
         with(l.fail_ratio, audit, "--fail-over"),
+        with(l.resolution, feed, "--resolution"),
+        with(l.most_force, feed, "--force-n"),
+        with(l.most_power, feed, "--power-w"),
+        with(l.most_stress, feed, "--stress"),
+        with(l.most_deflection, feed, "--deflection-mm"),
+        with(l.edge, {"feed", "none.toml", "--out", "new.nc", "--unroll"}, "--split"),
+        of_two(l.chip_limit, feed, "--chip-mm", "{}:10", "not below the largest"),
+        of_two(l.chip_limit, feed, "--chip-mm", "0.000001:{}", "not below the largest"),
         with(l.spindle_speed, program, "--spindle-rpm"),
         with(l.feed, program, "--feed-mm-per-min"),
         worded(l.tool_number, "--tool", "T{} flat 6"),

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// `tribo feed` from outside: what it writes, what it leaves, refusals.
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/run/benchmark_slot.hpp"
+#include "app/run/program.hpp"
+
+namespace tribo::test {
+namespace {
+
+constexpr const char* kSlots =
+    "G21 G90 M3 S8000\nG0 X-8 Y20 Z5\nZ-1\nG1 X20 F1600 (first)\nX48\nG0 Z5\nY35\nX-8\nZ-0.5\nG1 X48\nG0 "
+    "Z5\nM30\n";
+
+class FeedVerb : public testing::Test {
+  protected:
+    Outcome run(std::vector<std::string> flags, const std::string& program = kSlots) const {
+        scratch.put("slot.nc", program);
+        scratch.put("job.toml", kBenchmarkSlot);
+        flags.insert(flags.begin(), {"feed", "job.toml"});
+        return run_tribo(flags, scratch.path());
+    }
+    nlohmann::json audit(const std::string& program) const {
+        scratch.put("slot.nc", program);
+        const Outcome outcome = run_tribo({"audit", "job.toml", "--json"}, scratch.path());
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out, nullptr, false);
+    }
+    Scratch scratch;
+};
+
+TEST_F(FeedVerb, changes_the_feed_words_alone_and_reaches_the_target) {
+    const Outcome outcome = run({"--out", "new.nc", "--force-n", "40", "--chip-mm", "0.001:1"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string text = scratch.get("new.nc");
+    // Without its feed words it is the old program.
+    std::string bare, old = kSlots;
+    for (std::size_t n = 0; n < text.size(); ++n) {
+        if (text[n] == 'F') {
+            while (n + 1 < text.size() && (std::isdigit(text[n + 1]) || text[n + 1] == '.')) ++n;
+            if (!bare.empty() && bare.back() == ' ') bare.pop_back();
+            continue;
+        }
+        bare += text[n];
+    }
+    old.erase(old.find(" F1600"), 6);
+    EXPECT_EQ(bare, old);
+    // Two teeth, never both in the slot: the force is depth f (600^2 + 200^2)^0.5, so f = 40 / 632.5.
+    const auto json = audit(text);
+    EXPECT_LE(json["tools"][0]["peak_force_n"]["value"].get<double>(), 40 * 1.01);
+    EXPECT_GE(json["tools"][0]["peak_force_n"]["value"].get<double>(), 40 * 0.98);
+    const auto feed_behind = [&](const std::string& words) {
+        return std::stod(text.substr(text.find(words) + words.size()));
+    };
+    EXPECT_NEAR(feed_behind("G1 X20 F"), 1011.9, 10) << text;
+    EXPECT_NEAR(feed_behind("G1 X48 F"), 2023.9, 20) << text;
+}
+
+TEST_F(FeedVerb, changes_nothing_the_second_time) {
+    ASSERT_EQ(run({"--out", "new.nc", "--force-n", "40", "--chip-mm", "0.001:1"}).code, 0);
+    const std::string once = scratch.get("new.nc");
+    const Outcome again =
+        run({"--out", "newer.nc", "--force-n", "40", "--chip-mm", "0.001:1", "--json"}, once);
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(scratch.get("newer.nc"), once);
+    EXPECT_EQ(nlohmann::json::parse(again.out, nullptr, false)["changed"], 0);
+}
+
+TEST_F(FeedVerb, writes_in_place_only_if_it_is_asked_to) {
+    const Outcome refused = run({"--out", "slot.nc", "--force-n", "40"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("is an input of this run"), std::string::npos) << refused.err;
+    EXPECT_EQ(scratch.get("slot.nc"), kSlots);
+    EXPECT_EQ(run({}).code, 2);
+    EXPECT_EQ(run({"--in-place", "--force-n", "40"}).code, 0);
+    EXPECT_NE(scratch.get("slot.nc"), kSlots);
+}
+
+TEST_F(FeedVerb, refuses_by_line_what_it_cannot_rewrite_and_writes_nothing) {
+    struct Case {
+        const char* program;
+        const char* says;
+    };
+    for (const auto& [program, says] : {
+             Case{"G21 G90 M3 S8000\nG0 X-8 Y20 Z-1\no1 repeat [2]\nG91 G1 X5 F900\nY1\no1 endrepeat\nM30\n",
+                  "slot.nc:4: error: this line runs after line 5"},
+             Case{"G21 G90 M3 S8000\n#1=900\nG0 X-8 Y20 Z-1\nG1 X48 F#1\nM30\n",
+                  "slot.nc:4: error: the feed of this line is computed"},
+             Case{"G21 G90 M3 S8000\nG0 X-8 Y20 Z-1\nG1 X48\nM30\n", "slot.nc:3: error: no feed word"},
+         }) {
+        const Outcome outcome = run({"--out", "new.nc", "--force-n", "40"}, program);
+        EXPECT_EQ(outcome.code, 2) << program;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(scratch.path() + "/new.nc"));
+    }
+}
+
+TEST_F(FeedVerb, unrolls_a_loop_and_divides_its_blocks) {
+    const std::string loop =
+        "G21 G90 M3 S8000\nG0 X-8 Y20 Z-1\n#1=900\no1 repeat [2]\nG91 G1 X14 F#1\nX14\no1 endrepeat\nM30\n";
+    ASSERT_EQ(run({"--out", "new.nc", "--force-n", "40", "--chip-mm", "0.001:1", "--unroll", "--split", "7",
+                   "--json"},
+                  loop)
+                  .code,
+              0);
+    const std::string text = scratch.get("new.nc");
+    EXPECT_EQ(text.find("o1"), std::string::npos) << text;
+    EXPECT_EQ(std::ranges::count(text, '\n'), 12) << text;  // 4 of the head, 8 blocks of 7 mm
+    const auto json = audit(text);
+    EXPECT_NEAR(json["tools"][0]["peak_force_n"]["value"].get<double>(), 40, 0.8);
+    EXPECT_NEAR(json["tools"][0]["feed_mm"].get<double>(), 56, 1e-6);
+    EXPECT_EQ(run({"--out", "new.nc", "--split", "7"}, loop).code, 2);
+}
+
+TEST_F(FeedVerb, refuses_wrong_targets) {
+    EXPECT_EQ(run({"--out", "new.nc", "--force-n", "-1"}).code, 2);
+    EXPECT_EQ(run({"--out", "new.nc", "--chip-mm", "0.1:0.01"}).code, 2);
+    EXPECT_EQ(run({"--out", "new.nc", "--chip-mm", "0.1"}).code, 2);
+    EXPECT_EQ(run({"--out", "new.nc", "--in-place"}).code, 2);
+}
+
+}  // namespace
+}  // namespace tribo::test
