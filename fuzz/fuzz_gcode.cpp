@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Any bytes give moves with finite ends or an error with a remedy; both readings of '/', both dialects, and
-// the reading that goes on after a refusal are tried.
+// Any bytes give moves with finite ends or an error with a remedy; both readings of '/', both dialects, the
+// words of Okuma and Fagor, and the reading that goes on after a refusal are tried.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "readers/control/fanuc_words.hpp"
 #include "readers/gcode/reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -24,7 +26,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.max_moves = 100'000;
         options.default_feed_mm_per_min = skip ? 100 : 0;
         if (!skip) options.refusals = &refusals;
-        const auto program = readers::read_gcode({reinterpret_cast<const char*>(data), size}, options);
+        std::string_view text(reinterpret_cast<const char*>(data), size);
+        std::string translated;
+        if (!skip && size > 0) {  // as an Okuma or Fagor program, if it looks like one
+            if (const auto control = readers::detect_other_control(text)) {
+                translated = readers::in_fanuc_words(text, *control);
+                text = translated;
+            }
+        }
+        const auto program = readers::read_gcode(text, options);
         if (refusals.size() > readers::kMostRefusals) std::abort();
         for (const Error& refusal : refusals) {
             if (refusal.cause.empty() || refusal.remedy.empty()) std::abort();

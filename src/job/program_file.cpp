@@ -9,6 +9,7 @@
 #include "base/text/file_names.hpp"
 #include "job/program/called_programs.hpp"
 #include "readers/apt/reader.hpp"
+#include "readers/control/fanuc_words.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"
 #include "readers/siemens/reader.hpp"
@@ -125,7 +126,14 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
     }
     gcode.missing_programs = options.missing_programs;
-    const readers::Dialect dialect = dialect_of_program(bytes, path, options);
+    const auto other = options.dialect ? std::nullopt : readers::detect_other_control(bytes);
+    std::string in_fanuc_words;
+    if (other) {
+        in_fanuc_words = readers::in_fanuc_words(bytes, *other);
+        bytes = in_fanuc_words;
+    }
+    const readers::Dialect dialect =
+        other ? readers::Dialect::fanuc : dialect_of_program(bytes, path, options);
     if (dialect == readers::Dialect::heidenhain) {
         return sink != nullptr ? readers::read_heidenhain(bytes, gcode, *sink)
                                : readers::read_heidenhain(bytes, gcode);
@@ -137,7 +145,13 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     if (dialect == readers::Dialect::fanuc) gcode.dialect = readers::GcodeDialect::fanuc;
     auto program =
         sink != nullptr ? readers::read_gcode(bytes, gcode, *sink) : readers::read_gcode(bytes, gcode);
-    if (program) program->dialect = readers::name_of(dialect);
+    if (!program) return program;
+    program->dialect = other ? readers::name_of(*other) : readers::name_of(dialect);
+    if (other) {
+        program->warnings.push_back({path, 0,
+                                     "a program of the " + program->dialect +
+                                         " control: its words are read in those of a Fanuc control"});
+    }
     return program;
 }
 
@@ -154,6 +168,7 @@ std::optional<PathKind> detect_program(std::string_view bytes, const std::string
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options) {
     if (options.dialect) return *options.dialect;
+    if (readers::detect_other_control(bytes)) return readers::Dialect::fanuc;
     if (const auto told = readers::detect_dialect(bytes)) return *told;
     const std::string extension = lower(extension_of(path));
     const bool is_siemens = extension == ".mpf" || extension == ".spf";

@@ -145,5 +145,9 @@ TEST(GcodeLenient, takes_a_and_b_of_g68_as_its_centre) {
     EXPECT_TRUE(warns_of(program, 3, "the centre of its rotation (Mach3)"));
 }
 
+TEST(GcodeLenient, keeps_the_words_of_a_cycle_that_is_not_repeated) {
+    EXPECT_NEAR(feed_mm(fanuc("G99 G81 X5 Y5 Z-3 R2 L0\nX9\n")), 5, 1e-12);
+}
+
 }  // namespace
 }  // namespace tribo::readers

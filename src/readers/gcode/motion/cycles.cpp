@@ -96,7 +96,10 @@ class Run {
     // Reads the words of the cycle and finds its levels. False: there is nothing to drill.
     Result<bool> prepare() {
         if (auto done = read_words(); !done) return std::unexpected(done.error());
-        if (repeats_ == 0) return false;
+        if (repeats_ == 0) {  // the words are kept for later, and the tool stays
+            for (const char letter : {'X', 'Y', 'Z'}) command_.use(letter);
+            return false;
+        }
         const auto starts = find_start();
         if (!starts || !*starts) return starts;
         Cycle& cycle = state_.cycle;

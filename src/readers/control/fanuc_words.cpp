@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: MIT
+#include "readers/control/fanuc_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "readers/text/text_lines.hpp"
+
+namespace tribo::readers {
+namespace {
+
+constexpr std::size_t kLookedAt = 1 << 16;  // only this many characters from the start are read
+// Variables of Fanuc that stand for VC0 .. or P0 .., for other names, and lines that stand for labels.
+constexpr int kFirstVariable = 500, kFirstName = 100, kFirstLabel = 90'000;
+constexpr int kMostVariables = 300, kMostNames = 100;
+
+std::string upper(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), to_upper);
+    return out;
+}
+
+bool is_name(char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
+}
+
+std::string_view from(std::string_view text, std::size_t at) {
+    return text.substr(std::min(at, text.size()));
+}
+
+std::string_view digits_at(std::string_view text, std::size_t at) {
+    const std::string_view rest = from(text, at);
+    return rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
+}
+
+bool all_digits(std::string_view text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
+}
+
+class Translator {
+  public:
+    explicit Translator(OtherControl control) : is_okuma_(control == OtherControl::okuma) {}
+
+    std::string line(std::string_view text) {
+        const std::string all = upper(text);
+        if (is_okuma_ && trimmed(all).starts_with('$')) return {};
+        if (trimmed(all).starts_with('%')) return all;
+        in_ = all;
+        at_ = 0;
+        out_.clear();
+        skip_blanks();
+        while (at_ < in_.size() && in_[at_] == '/') out_ += in_[at_++];
+        const bool is_word =
+            is_okuma_ && (from(in_, at_).starts_with("NCYL") || from(in_, at_).starts_with("NOEX"));
+        if (!is_word && at_ + 1 < in_.size() && in_[at_] == 'N' && is_name(in_[at_ + 1])) {
+            ++at_;
+            out_ += "N" + label() + " ";
+        }
+        while (at_ < in_.size()) word();
+        return out_;
+    }
+
+  private:
+    void skip_blanks() {
+        while (at_ < in_.size() && is_blank(in_[at_])) ++at_;
+    }
+    std::string name_at(std::size_t at) const {
+        std::size_t end = at;
+        while (end < in_.size() && is_name(in_[end])) ++end;
+        return in_.substr(at, end - at);
+    }
+    // The number of a line: digits, or one for a name.
+    std::string label() {
+        const std::string name = name_at(at_);
+        at_ += name.size();
+        if (all_digits(name)) return name;
+        const auto known = labels_.try_emplace(name, kFirstLabel + static_cast<int>(labels_.size())).first;
+        return std::to_string(known->second);
+    }
+    // The variable of Fanuc for a name; empty: it is none.
+    std::string variable(const std::string& name) {
+        const std::string_view prefix = is_okuma_ ? "VC" : "P";
+        if (name.starts_with(prefix) && all_digits(from(name, prefix.size())) && name.size() < 7) {
+            const int number = std::stoi(name.substr(prefix.size()));
+            if (number < kMostVariables) return "#" + std::to_string(kFirstVariable + number);
+            return {};
+        }
+        const auto known = names_.find(name);
+        return known == names_.end() ? std::string() : "#" + std::to_string(known->second);
+    }
+    // The variable at a place, VC5 or P5, which ends with its digits; moves behind it. Empty: none is there.
+    std::string take_variable() {
+        const std::string_view prefix = is_okuma_ ? "VC" : "P";
+        if (!from(in_, at_).starts_with(prefix)) return {};
+        const std::string name = std::string(prefix) + std::string(digits_at(in_, at_ + prefix.size()));
+        const std::string known = variable(name);
+        if (!known.empty()) at_ += name.size();
+        return known;
+    }
+    std::string define(const std::string& name) {
+        if (names_.size() < kMostNames)
+            names_.try_emplace(name, kFirstName + static_cast<int>(names_.size()));
+        return variable(name);
+    }
+    // A formula up to `ends` outside of its brackets, with the variables of Fanuc.
+    std::string formula(std::string_view ends) {
+        std::string value;
+        int depth = 0;
+        while (at_ < in_.size()) {
+            const char c = in_[at_];
+            if (depth == 0 && ends.find(c) != std::string_view::npos) break;
+            if (c == '[' || (c == '(' && !is_okuma_)) ++depth;
+            if (c == ']' || (c == ')' && !is_okuma_)) --depth;
+            if (depth < 0) break;
+            if (is_letter(c)) {
+                if (const std::string known = take_variable(); !known.empty()) {
+                    value += known;
+                    continue;
+                }
+                const std::string name = name_at(at_), known = variable(name);
+                value += known.empty() ? name : known;
+                at_ += name.size();
+                continue;
+            }
+            value += is_okuma_ ? c : c == '(' ? '[' : c == ')' ? ']' : c;
+            ++at_;
+        }
+        return value;
+    }
+
+    void word() {
+        const char c = in_[at_];
+        if (c == ';') {
+            out_ += in_.substr(at_);
+            at_ = in_.size();
+        } else if (c == '(') {
+            bracket();
+        } else if (!is_letter(c)) {
+            out_ += c;
+            ++at_;
+        } else if (is_okuma_ && okuma_statement()) {
+            return;
+        } else if (c == 'G' && at_ + 1 < in_.size() && is_digit(in_[at_ + 1])) {
+            code();
+        } else {
+            address();
+        }
+    }
+
+    // A comment, or a statement of Fagor.
+    void bracket() {
+        const std::size_t end = std::min(in_.find(')', at_), in_.size());
+        if (!is_okuma_ && fagor_statement()) return;
+        out_ += in_.substr(at_, end + 1 - at_);
+        at_ = std::min(end + 1, in_.size());
+    }
+
+    // X=VC1+5, XP1, X10, VC1=VC2*2
+    void address() {
+        const std::string name = name_at(at_);
+        const std::size_t after = at_ + name.size();
+        const bool has_equals = after < in_.size() && in_[after] == '=';
+        std::string known = variable(name);
+        if (known.empty() && has_equals && name.size() > 1 && is_letter(name[1])) known = define(name);
+        if (has_equals && !known.empty()) {
+            at_ = after + 1;
+            out_ += known + "=" + formula(" ");
+            return;
+        }
+        const char letter = in_[at_++];
+        if (at_ < in_.size() && in_[at_] == '=') {
+            ++at_;
+            out_ += std::string(1, letter) + "[" + formula(" ") + "]";
+            return;
+        }
+        out_ += letter;
+        const bool is_negative = at_ < in_.size() && in_[at_] == '-';
+        if (is_negative) ++at_;
+        if (const std::string value = take_variable(); !value.empty()) {
+            out_ += is_negative ? "[0-" + value + "]" : value;
+            return;
+        }
+        if (is_negative) out_ += '-';
+        while (at_ < in_.size() && (is_digit(in_[at_]) || in_[at_] == '.' || is_blank(in_[at_])))
+            out_ += in_[at_++];
+    }
+
+    bool takes(std::string_view text) {
+        if (!from(in_, at_).starts_with(text)) return false;
+        at_ += text.size();
+        return true;
+    }
+
+    // CALL, RTS, IF, GOTO and the like.
+    bool okuma_statement() {
+        const std::size_t start = at_;
+        if (takes("IF")) {
+            skip_blanks();
+            if (at_ < in_.size() && in_[at_] == '[') {
+                ++at_;
+                const std::string condition = formula("]");
+                takes("]");
+                skip_blanks();
+                if (takes("GOTO")) skip_blanks();
+                if (takes("N")) {
+                    out_ += "IF[" + condition + "]GOTO" + label();
+                    return true;
+                }
+            }
+        } else if (takes("GOTO")) {
+            skip_blanks();
+            if (takes("N")) {
+                out_ += "GOTO" + label();
+                return true;
+            }
+        } else if (takes("CALL") || takes("MODIN")) {
+            const bool is_modal = in_[at_ - 1] == 'N';
+            skip_blanks();
+            const std::string name = name_at(at_);
+            if (name.starts_with('O') && all_digits(from(name, 1))) {
+                at_ += name.size();
+                skip_blanks();
+                std::string times;
+                if (takes("Q")) {
+                    times = std::string(digits_at(in_, at_));
+                    at_ += times.size();
+                }
+                skip_blanks();
+                // Arguments set variables of the called program, which have no place here.
+                if (at_ >= in_.size() || in_[at_] == '(' || in_[at_] == ';') {
+                    out_ +=
+                        (is_modal ? "G66P" : "M98P") + name.substr(1) + (times.empty() ? "" : "L" + times);
+                    return true;
+                }
+            }
+        } else if (takes("RTS")) {
+            out_ += "M99";
+            return true;
+        } else if (takes("MODOUT")) {
+            out_ += "G67";
+            return true;
+        } else if (takes("NOEX")) {
+            return true;
+        } else if (takes("NCYL")) {  // the place alone: without the cycle's hole
+            const bool begins =
+                in_.find("G8", at_) != std::string::npos || in_.find("G7", at_) != std::string::npos;
+            if (begins || cycle_on_) out_ += "L0 ";
+            return true;
+        }
+        at_ = start;
+        return false;
+    }
+
+    bool fagor_statement() {
+        const std::size_t start = at_++;
+        skip_blanks();
+        const std::string name = name_at(at_);
+        const std::size_t behind = at_ + name.size();
+        std::string text;
+        if (name == "IF") {
+            at_ = behind;
+            const std::size_t go = in_.find("GOTO", at_);
+            if (go != std::string::npos) {
+                const std::string whole = in_;
+                in_ = whole.substr(0, go);
+                text = "IF[" + formula("") + "]GOTO";
+                in_ = whole;
+                at_ = go + 4;
+                skip_blanks();
+                if (takes("N")) text += label();
+            }
+        } else if (name == "GOTO") {
+            at_ = behind;
+            skip_blanks();
+            if (takes("N")) text = "GOTO" + label();
+        } else if (name == "CALL" || name == "SUB") {
+            at_ = behind;
+            skip_blanks();
+            const std::string number(digits_at(in_, at_));
+            at_ += number.size();
+            if (!number.empty()) text = (name == "CALL" ? "M98P" : "O") + number;
+        } else if (name == "RET") {
+            at_ = behind;
+            text = "M99";
+        } else if (name == "RPT" || name == "PCALL" || name == "MCALL" || name == "WHILE" ||
+                   name == "ROTATE") {
+            text = name;  // no word of Fanuc: refused by its name
+            at_ = std::min(in_.find(')', at_), in_.size());
+        } else if (behind < in_.size() && in_[behind] == '=' && !variable(name).empty()) {
+            do {
+                const std::string to = variable(name_at(at_));
+                at_ = std::min(in_.find('=', at_), in_.size() - 1) + 1;
+                text += to + "=" + formula(",)") + " ";
+            } while (takes(","));
+        }
+        skip_blanks();
+        if (text.empty() || !takes(")")) {
+            at_ = start;
+            return false;
+        }
+        out_ += text;
+        return true;
+    }
+
+    void code() {
+        ++at_;
+        std::string number(digits_at(in_, at_));
+        at_ += number.size();
+        const bool has_part = at_ < in_.size() && in_[at_] == '.';
+        while (number.size() > 1 && number[0] == '0') number.erase(0, 1);
+        if (has_part) {
+            out_ += "G" + number;
+        } else if (is_okuma_) {
+            okuma_code(number);
+        } else {
+            fagor_code(number);
+        }
+    }
+
+    // The word of that letter in the rest of the block, taken out of it; empty: it has none.
+    std::string take_word(char letter) {
+        const std::size_t found = in_.find(letter, at_);
+        if (found == std::string::npos) return {};
+        std::size_t end = found + 1;
+        while (end < in_.size() && (is_name(in_[end]) || in_[end] == '.' || in_[end] == '-')) {
+            if (is_letter(in_[end]) && end > found + 1) break;
+            ++end;
+        }
+        const std::string word = in_.substr(found + 1, end - found - 1);
+        in_.erase(found, end - found);
+        return word;
+    }
+
+    void okuma_code(const std::string& number) {
+        if (number == "15" || number == "16") {
+            out_ += "G54.1P" + take_word('H');
+        } else if (number == "53") {
+            out_ += "G49";
+        } else if (number == "54" || number == "55" || number == "56") {
+            const std::string offset = take_word('H');
+            out_ += "G43" + (all_digits(offset) ? "H" + offset : std::string());
+        } else if (number == "71") {
+            take_word('Z');  // the level to which M53 returns
+        } else if (number == "4") {
+            const std::string seconds = take_word('F');
+            out_ += "G4" + (seconds.empty() ? std::string() : "X" + seconds);
+        } else {
+            const bool is_cycle = number.size() == 2 && (number[0] == '7' || number[0] == '8');
+            if (is_cycle) cycle_on_ = number != "80";
+            out_ += "G" + number;
+        }
+    }
+
+    void fagor_code(const std::string& number) {
+        constexpr std::array<std::string_view, 8> refused{"6", "8", "9", "37", "38", "72", "93", "20"};
+        constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
+        if (std::find(refused.begin(), refused.end(), number) != refused.end()) {
+            out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
+        } else if (number == "5" || number == "7" || number == "50") {
+            out_ += number == "7" ? "G61" : "G64";
+        } else if (number == "10") {
+            out_ += "G50.1";
+        } else if (number == "11" || number == "12" || number == "13") {
+            out_ += "G51.1" + std::string(1, "XYZ"[number[1] - '1']) + "0";
+        } else if (number == "44") {
+            out_ += "G49";
+        } else if (std::find(cycles.begin(), cycles.end(), number) != cycles.end()) {
+            const std::string reference = take_word('Z'), depth = take_word('I');
+            out_ += "G" + number + (reference.empty() ? std::string() : "R" + reference) +
+                    (depth.empty() ? std::string() : "Z" + depth);
+        } else if (number == "69" || number == "83") {
+            out_ += "FAGORG" + number;
+        } else {
+            out_ += "G" + number;
+        }
+    }
+
+    bool is_okuma_;
+    bool cycle_on_ = false;
+    std::string in_, out_;
+    std::size_t at_ = 0;
+    std::map<std::string, int> names_, labels_;
+};
+
+}  // namespace
+
+std::string_view name_of(OtherControl control) {
+    return control == OtherControl::okuma ? "Okuma OSP" : "Fagor 8055";
+}
+
+std::optional<OtherControl> detect_other_control(std::string_view bytes) {
+    TextLines lines(bytes.substr(0, kLookedAt));
+    for (int number = 1; const auto line = lines.next(); ++number) {
+        std::string text;
+        for (const char c : *line) {
+            if (c == ';') break;
+            if (!is_blank(c)) text += to_upper(c);
+        }
+        std::string_view block = text;
+        const bool is_first = number == 1;
+        if (is_first && block.starts_with('$') && block.ends_with(".MIN%")) return OtherControl::okuma;
+        if (is_first && block.starts_with('%') && block.find(",MX") != std::string_view::npos)
+            return OtherControl::fagor;
+        if (block.starts_with('N')) {
+            block.remove_prefix(std::min(block.find_first_not_of("0123456789", 1), block.size()));
+        }
+        for (const std::string_view begin : {"(P", "(IFP", "(IF(P"}) {
+            if (!block.starts_with(begin)) continue;
+            const std::string_view digits = digits_at(block, begin.size());
+            const std::string_view rest = from(block, begin.size() + digits.size());
+            if (!digits.empty() && (begin != "(P" || rest.starts_with('='))) return OtherControl::fagor;
+        }
+        if (block.starts_with("(RPTN") || block.starts_with("(GOTON")) return OtherControl::fagor;
+        if (block.starts_with("VC") && block.find('=') != std::string_view::npos &&
+            !digits_at(block, 2).empty())
+            return OtherControl::okuma;
+        if (block.starts_with("CALLO") || block.starts_with("NCYL") || block.starts_with("G15H") ||
+            block.starts_with("G56HA"))
+            return OtherControl::okuma;
+    }
+    return std::nullopt;
+}
+
+std::string in_fanuc_words(std::string_view bytes, OtherControl control) {
+    Translator translator(control);
+    std::string text;
+    TextLines lines(bytes);
+    while (const auto line = lines.next()) {
+        text += translator.line(*line);
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace tribo::readers
