@@ -113,7 +113,8 @@ std::string with_called_programs(const FileSource& files, std::string program, c
         trial.refusals = &refusals;
         trial.default_feed_mm_per_min = std::max(options.default_feed_mm_per_min, 1.0);
         NoMoves none;
-        (void)parse_program(program, path, PathKind::gcode, trial, none);
+        const bool is_whole = parse_program(program, path, PathKind::gcode, trial, none).has_value();
+        if (is_whole && missing.empty()) break;
         bool found_any = false;
         for (const std::string& name : missing) {
             if (!asked.insert(name).second || asked.size() > kMostPrograms) continue;
@@ -126,10 +127,13 @@ std::string with_called_programs(const FileSource& files, std::string program, c
                     program = std::string(without_end(program)) + "\nM30\n";
                 }
                 if (!program.ends_with('\n')) program += '\n';
-                warnings.push_back({path, 0,
-                                    "the program " + name + " is read from " + file +
-                                        ", with lines that count on from " +
-                                        std::to_string(lines_of(program))});
+                std::string text_of_warning = "the program ";
+                text_of_warning += name;
+                text_of_warning += " is read from ";
+                text_of_warning += file;
+                text_of_warning += ", with lines that count on from ";
+                text_of_warning += std::to_string(lines_of(program));
+                warnings.push_back({path, 0, std::move(text_of_warning)});
                 program += behind(name, *text, dialect);
                 found_any = true;
                 break;

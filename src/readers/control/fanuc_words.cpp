@@ -43,7 +43,7 @@ class Translator {
     explicit Translator(OtherControl control) : is_okuma_(control == OtherControl::okuma) {}
 
     std::string line(std::string_view text) {
-        const std::string all = upper(text);
+        std::string all = upper(text);
         if (is_okuma_ && trimmed(all).starts_with('$')) return {};
         if (trimmed(all).starts_with('%')) return all;
         in_ = all;
@@ -72,7 +72,7 @@ class Translator {
     }
     // The number of a line: digits, or one for a name.
     std::string label() {
-        const std::string name = name_at(at_);
+        std::string name = name_at(at_);
         at_ += name.size();
         if (all_digits(name)) return name;
         const auto known = labels_.try_emplace(name, kFirstLabel + static_cast<int>(labels_.size())).first;
@@ -353,7 +353,8 @@ class Translator {
     }
 
     void fagor_code(const std::string& number) {
-        constexpr std::array<std::string_view, 8> refused{"6", "8", "9", "37", "38", "72", "93", "20"};
+        constexpr std::array<std::string_view, 10> refused{"6",  "8",  "9",  "20", "37",
+                                                           "38", "69", "72", "83", "93"};
         constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
         if (std::find(refused.begin(), refused.end(), number) != refused.end()) {
             out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
@@ -369,8 +370,6 @@ class Translator {
             const std::string reference = take_word('Z'), depth = take_word('I');
             out_ += "G" + number + (reference.empty() ? std::string() : "R" + reference) +
                     (depth.empty() ? std::string() : "Z" + depth);
-        } else if (number == "69" || number == "83") {
-            out_ += "FAGORG" + number;
         } else {
             out_ += "G" + number;
         }

@@ -135,7 +135,7 @@ Result<void> Interpreter::mill_pocket_cycle() {
     }
     const auto go_to = [&](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
         const auto before = path_.feed_mm_per_min;
-        if (feed) path_.feed_mm_per_min = *feed;
+        if (feed) path_.feed_mm_per_min = feed;
         auto done = go(!feed, to, arc, path_.rotary_rad());
         path_.feed_mm_per_min = before;
         return done;
