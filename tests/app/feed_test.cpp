@@ -98,6 +98,23 @@ TEST_F(FeedVerb, refuses_by_line_what_it_cannot_rewrite_and_writes_nothing) {
     }
 }
 
+TEST_F(FeedVerb, leaves_feeds_that_stand_in_no_feed_word_and_says_so) {
+    const std::string apt =
+        "UNITS/MM\nMULTAX/ON\nSPINDL/8000,CLW\nRAPID\nGOTO/-8,20,5,0,0,1\nFEDRAT/1600,MMPM\nGOTO/"
+        "-8,20,-1,0,0,1\nGOTO/20,20,-1,0,0,1\n"
+        "RAPID\nGOTO/20,20,5,0,0,1\nCYCLE/DRILL,FEDTO,3,MMPM,700,RAPTO,3\nGOTO/20,32,0,0,0,1\nCYCLE/"
+        "OFF\nFINI\n";
+    scratch.put("slot.apt", apt);
+    const Outcome outcome =
+        run_tribo({"feed", "slot.apt", "--tool", "flat 10 helix 0 length 20", "--stock", "0 0 -10 40 40 0",
+                   "--out", "new.apt", "--force-n", "2000", "--chip-mm", "0.0001:1"},
+                  scratch.path());
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("stand in no feed word"), std::string::npos)
+        << outcome.err << outcome.out << scratch.get("new.apt");
+    EXPECT_NE(scratch.get("new.apt").find("MMPM,700"), std::string::npos);
+}
+
 TEST_F(FeedVerb, unrolls_a_loop_and_divides_its_blocks) {
     const std::string loop =
         "G21 G90 M3 S8000\nG0 X-8 Y20 Z-1\n#1=900\no1 repeat [2]\nG91 G1 X14 F#1\nX14\no1 endrepeat\nM30\n";

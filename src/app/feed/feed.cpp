@@ -106,16 +106,18 @@ bool run(session::MillSession& session, const session::LoadModel& model,
     return true;
 }
 
-// The same moves, at the feeds that were asked for.
-Result<void> compare(const session::MillSetup& before, const session::MillSetup& after,
-                     const std::vector<session::BlockFeed>& blocks, const std::string& file) {
+// Refuses other moves. Returns the blocks, by number, that do not run at the feeds that were asked for.
+Result<std::vector<std::size_t>> compare(const session::MillSetup& before, const session::MillSetup& after,
+                                         const std::vector<session::BlockFeed>& blocks,
+                                         const std::string& file) {
     const auto refuse = [&](int line, std::string cause) {
         return fail_at(
             file, line, 0, std::move(cause),
-            "this program's feeds cannot be changed in its text: write it without variables and cycles");
+            "the feeds of this program cannot be changed in its text: write it without variables and cycles");
     };
     if (before.moves.size() != after.moves.size())
         return refuse(0, "with other feed words the program would move otherwise");
+    std::vector<std::size_t> stubborn;
     auto block = blocks.begin();
     for (std::size_t n = 0; n < before.moves.size(); ++n) {
         const motion::Move &a = before.moves[n], &b = after.moves[n];
@@ -143,10 +145,12 @@ Result<void> compare(const session::MillSetup& before, const session::MillSetup&
         if (factor == 1 ? std::abs(is - 1) < 1e-9
                         : is <= factor * (1 + 1e-9) && is >= factor * (1 - readers::kFeedReuse - kRounding))
             continue;
-        return refuse(a.line, "this line would run at " + format_digits(is, 4) +
-                                  " times its feed, and not at " + format_digits(factor, 4) + " times");
+        if (block == blocks.end() || factor == 1)
+            return refuse(a.line, "this line would run at " + format_digits(is, 4) + " times its feed");
+        const auto number = static_cast<std::size_t>(block - blocks.begin());
+        if (stubborn.empty() || stubborn.back() != number) stubborn.push_back(number);
     }
-    return {};
+    return stubborn;
 }
 
 FileResult<session::MillSetup> prepare_edited(const FeedCall& call, const std::string& file, std::string text,
@@ -163,6 +167,56 @@ FileResult<session::MillSetup> prepare_edited(const FeedCall& call, const std::s
     auto setup = session::prepare_mill(*loaded, options, again);
     if (!setup) return std::unexpected(FileFailure(setup.error()));
     return *std::move(setup);
+}
+
+std::vector<readers::LineFeed> line_feeds(const std::vector<session::BlockFeed>& blocks) {
+    std::vector<readers::LineFeed> feeds;
+    for (const session::BlockFeed& block : blocks) {
+        // Two runs of a line follow each other only where its tool changes within.
+        if (!feeds.empty() && feeds.back().line == block.line) {
+            feeds.back().factor = std::min(feeds.back().factor, block.factor());
+        } else {
+            feeds.push_back({block.line, block.factor()});
+        }
+    }
+    return feeds;
+}
+
+struct Rewritten {
+    std::string text;
+    session::MillSetup setup;  // of this text
+};
+
+// Feeds that do not stand in feed words, as those of some cycles, stay as they are.
+FileResult<Rewritten> rewrite(const FeedCall& call, const session::MillSetup& before, const std::string& text,
+                              readers::FeedLanguage language, FeedAnswer& answer) {
+    constexpr int kMostTries = 3;
+    std::vector<session::BlockFeed>& blocks = answer.before.blocks;
+    for (int tries = 0;; ++tries) {
+        const std::vector<readers::LineFeed> feeds = line_feeds(blocks);
+        answer.changed = static_cast<std::size_t>(
+            std::ranges::count_if(feeds, [](const auto& f) { return !readers::keeps_feed(f.factor); }));
+        auto written = readers::with_feeds(text, language, feeds, answer.program);
+        if (!written) return std::unexpected(FileFailure(written.error()));
+        auto edited = prepare_edited(call, answer.program, *written, before.cell_mm);
+        if (!edited) return std::unexpected(edited.error());
+        const auto stubborn = compare(before, *edited, blocks, answer.program);
+        if (!stubborn) return std::unexpected(FileFailure(stubborn.error()));
+        if (stubborn->empty()) return Rewritten{*std::move(written), *std::move(edited)};
+        const int first = blocks[stubborn->front()].line;
+        if (tries == kMostTries)
+            return std::unexpected(
+                FileFailure(Error{answer.program, first, 0, "the feed of this line follows no feed word",
+                                  "write the program without cycles"}));
+        answer.warnings.push_back({answer.program, first,
+                                   "the feeds of " + std::to_string(stubborn->size()) +
+                                       " blocks stand in no feed word, as that of a cycle does, and stay as "
+                                       "they are; the first is here"});
+        for (const std::size_t number : *stubborn) {
+            blocks[number].new_mm_per_min = blocks[number].old_mm_per_min;
+            blocks[number].reason = session::FeedReason::fixed;
+        }
+    }
 }
 
 // The program as plain G-code, in place of its text. It must read as the same moves.
@@ -215,31 +269,15 @@ FileResult<void> make(const FeedCall& call, PreparedJob& loaded, std::string tex
     const ParallelFor parallel = parallel_for_over(available_threads());
     session::FeedPlanOptions options{call.sure, loaded.job.machine.rapid_mm_per_min, true};
     Progress progress;
-    const double cell_mm = loaded.setup.cell_mm;
     session::MillSession session(std::move(loaded.setup), parallel);
     if (stopped = !run(session, model, options, progress, "milling", answer.before); stopped) return {};
 
-    std::vector<readers::LineFeed> feeds;
-    for (const session::BlockFeed& block : answer.before.blocks) {
-        // Two runs of a line follow each other only where its tool changes within.
-        if (!feeds.empty() && feeds.back().line == block.line) {
-            feeds.back().factor = std::min(feeds.back().factor, block.factor());
-        } else {
-            feeds.push_back({block.line, block.factor()});
-        }
-    }
-    answer.changed = static_cast<std::size_t>(
-        std::ranges::count_if(feeds, [](const auto& f) { return !readers::keeps_feed(f.factor); }));
-    auto written = readers::with_feeds(text, *language, feeds, file);
-    if (!written) return std::unexpected(FileFailure(written.error()));
-    auto edited = prepare_edited(call, file, *written, cell_mm);
-    if (!edited) return std::unexpected(edited.error());
-    if (auto same = compare(session.setup(), *edited, answer.before.blocks, file); !same)
-        return std::unexpected(FileFailure(same.error()));
-    session::MillSession again(*std::move(edited), parallel);
+    auto written = rewrite(call, session.setup(), text, *language, answer);
+    if (!written) return std::unexpected(written.error());
+    session::MillSession again(std::move(written->setup), parallel);
     options.solve = false;
     if (stopped = !run(again, model, options, progress, "milling again", answer.after); stopped) return {};
-    return files::write_file(answer.file, *written);
+    return files::write_file(answer.file, written->text);
 }
 
 }  // namespace
@@ -252,17 +290,19 @@ int feed(const FeedCall& call) {
     const auto text = files::read_file(file, job::kLargestProgramBytes, files::Pipes::refuse);
     if (!text) return report(text.error());
     FeedAnswer answer;
+    answer.program = file;
     answer.file = call.in_place ? file : call.out;
     if (!call.in_place) {
         if (auto good = check_outputs({answer.file}); !good) return report(good.error());
     }
     if (auto fits = check_memory(call.job, loaded->setup, {}, {}); !fits) return report(fits.error());
     report(loaded->warnings);
-    answer.warnings = loaded->warnings;
     bool stopped = false;
     auto made = make(call, *loaded, *text, answer, stopped);
     if (!made) return report(made.error());
     if (stopped || interrupted()) return interrupted_exit_code();
+    report(answer.warnings);
+    answer.warnings.insert(answer.warnings.begin(), loaded->warnings.begin(), loaded->warnings.end());
     if (call.json) {
         std::fputs(feed_json(call, answer).c_str(), stdout);
     } else {

@@ -32,8 +32,8 @@ struct FeedRun {
 
 struct FeedAnswer {
     FeedRun before, after;
-    std::string file;         // that was written
-    std::size_t changed = 0;  // blocks with another feed
+    std::string program, file;  // that was written
+    std::size_t changed = 0;    // blocks with another feed
     Warnings warnings;
 };
 

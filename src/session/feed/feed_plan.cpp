@@ -33,6 +33,8 @@ std::string_view name_of(FeedReason reason) {
             return "acceleration";
         case FeedReason::thin_chip:
             return "least chip";
+        case FeedReason::fixed:
+            return "no feed word";
         case FeedReason::edge:
             return "edge force";
     }
@@ -40,7 +42,7 @@ std::string_view name_of(FeedReason reason) {
 }
 
 bool may_stay_over(FeedReason reason) {
-    return reason == FeedReason::thin_chip || reason == FeedReason::edge;
+    return reason == FeedReason::thin_chip || reason == FeedReason::fixed || reason == FeedReason::edge;
 }
 
 FeedPlan::FeedPlan(const LoadModel& model, const MillSession& session, FeedPlanOptions options)

@@ -20,6 +20,7 @@ enum class FeedReason {
     machine,       // the machine goes no faster
     acceleration,  // the block is too short to be faster than the ones beside it
     thin_chip,     // less would rub: a load stays above its limit
+    fixed,         // its feed stands in no feed word, and stays
     edge           // the edges alone need more than a limit: no feed helps
 };
 // A few words.

@@ -24,7 +24,8 @@ class FeedSolver {
     double ratio(const milling::CutRow& row, const milling::ForcePeaks& peaks) const;
     // The largest factor, at most `most`, at which the ratio is not above 1. 0: no feed is small enough,
     // because the edges alone need more. `now`: the ratio of the row itself. The mean force is linear in the
-    // feed, and its peak is convex, a maximum of norms; so is every ratio.
+    // feed, and its peak is convex, a maximum of norms; so is every ratio. Only where run-out lets another
+    // tooth begin to cut does the force of its edge make it jump.
     double largest_factor(const milling::CutRow& row, double now, double most);
 
   private:
