@@ -114,6 +114,41 @@ struct Limits {
                         {0, 500},
                         "`corner_mm`, CUTTER, `--tool`",
                         "At most the radius of the largest cutter."};
+    Limit tip_size{"tip of a cutter",
+                   "mm",
+                   {0, 1000},
+                   "`tip_mm`, `--tool`",
+                   "At most the diameter of the largest cutter; 0 is a sharp point."};
+    Limit point_angle{"angle of a point",
+                      "deg",
+                      {1, 179},
+                      "`point_deg`, `--tool`",
+                      "The sharpest engraver has 10 degrees; at 180 the point is flat."};
+    Limit taper_angle{"angle of a side to the axis",
+                      "deg",
+                      {0.01, 89},
+                      "`taper_deg`, `--tool`",
+                      "Tapered mills have 0.5 degrees and more; at 90 the side is a bottom."};
+    Limit side_radius{"radius of a barrel's side",
+                      "mm",
+                      {0.01, 1e5},
+                      "`side_mm`, `--tool`",
+                      "Barrel cutters have up to 1500 mm; beyond 100 m a side is straight."};
+    Limit profile_height{"height on a cutter",
+                         "mm",
+                         {1e-3, 1000},
+                         "`height_mm`, `--tool`",
+                         "At most the length of the longest edges."};
+    Limit profile_coordinate{"coordinate of a profile",
+                             "mm",
+                             {0, 1000},
+                             "r and z of `profile`",
+                             "The half plane beside the axis, from the tip up."};
+    Limit bulge{"bulge of an arc",
+                "",
+                {-1, 1},
+                "the third number of a vertex of `profile`",
+                "The tangent of a quarter of its angle; 1 is half a circle."};
     Limit core_diameter{"core diameter",
                         "mm",
                         {0, 1000},

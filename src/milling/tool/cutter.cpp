@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "base/math.hpp"
 #include "base/text/limit_text.hpp"
+#include "milling/tool/cutter_shape.hpp"
 
 namespace tribo::milling {
 namespace {
@@ -23,7 +25,7 @@ Result<void> check_numbers(const Cutter& c) {
         double value;
         const Limit& limit;
     };
-    const double corner = c.kind == CutterKind::bull ? c.corner_mm : 0;
+    const double corner = c.kind >= CutterKind::bull ? c.corner_mm : 0;
     for (const auto& [key, value, limit] : {Number{"diameter_mm", c.diameter_mm, kLimits.cutter_diameter},
                                             Number{"corner_mm", corner, kLimits.corner_radius},
                                             Number{"flutes", static_cast<double>(c.flutes), kLimits.flutes},
@@ -59,7 +61,8 @@ Result<void> check_shank(const Cutter& c) {
         if (value == 0) continue;
         if (!limit.range.contains(value))
             return refuse(key, "is " + plain_number(value), range_remedy(limit));
-        if (c.stickout_mm == 0)
+        const bool is_shape = key == std::string_view("neck_mm") && is_shape_key(c.kind, key);
+        if (c.stickout_mm == 0 && !is_shape)
             return refuse(key, "says nothing without a stick-out",
                           "add stickout_mm, from the tip to the holder's face");
     }
@@ -68,7 +71,7 @@ Result<void> check_shank(const Cutter& c) {
         return refuse("stickout_mm",
                       "is shorter than the cutting edges of " + plain_number(c.length_mm) + " mm",
                       "give the length from the tip to the holder's face, or correct length_mm");
-    const double shank = c.shank_mm > 0 ? c.shank_mm : c.diameter_mm;
+    const double shank = c.shank_mm > 0 ? c.shank_mm : c.top_diameter_mm();
     if (c.neck_mm > shank)
         return refuse("neck_mm", "is wider than the shank of " + plain_number(shank) + " mm",
                       "give the diameter of the relieved neck, or the shank's as shank_mm");
@@ -117,7 +120,7 @@ std::vector<HolderStep> Cutter::shank_steps() const {
         height = std::max(height, end_mm);
     };
     if (neck_mm > 0) up_to(reach_mm > 0 ? reach_mm : stickout_mm, neck_mm);
-    up_to(stickout_mm, shank_mm > 0 ? shank_mm : diameter_mm);
+    up_to(stickout_mm, shank_mm > 0 ? shank_mm : top_diameter_mm());
     return steps;
 }
 
@@ -133,11 +136,14 @@ Result<void> check(const Cutter& c) {
         return refuse("corner_mm", "is not between 0 and the radius",
                       "give the corner radius of the bull-nose cutter, or make it flat or ball");
     }
+    if (c.has_profile()) {
+        if (auto done = check_profile(c); !done) return done;
+    }
     if (!(c.core_mm <= c.diameter_mm - 2 * c.corner_radius_mm())) {
         return refuse("core_mm", "is not between 0 and the diameter of the flat bottom",
                       "give the diameter that the bottom edges leave out, or 0 where they cut over centre");
     }
-    if (c.length_mm < c.corner_radius_mm()) {
+    if (!c.has_profile() && c.length_mm < c.corner_radius_mm()) {
         return refuse("length_mm", "is shorter than the rounded bottom",
                       "make it at least the corner radius");
     }

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "milling/tool/convex_zones.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/math.hpp"
+
+namespace tribo::milling {
+namespace {
+
+// A joint that turns by less (sine) counts as smooth.
+constexpr double kSmooth = 1e-9;
+// Points nearer than this to the start of a ray are the start, mm.
+constexpr double kNearMm = 1e-7;
+// Half of the shortest chord that is more than a touch, mm.
+constexpr double kTouchMm = 1e-4;
+// Limit of the tangents of one concave arc.
+constexpr int kMostTangents = 1000;
+
+// A ray at s from 0: from + s * way, |way| = 1.
+struct Ray {
+    PlanePoint from, way;
+};
+
+void take_nearer(double s, double& nearest) {
+    if (s > kNearMm) nearest = std::min(nearest, s);
+}
+
+// Shortens `nearest` to the first point of the element on the ray.
+void meet(const Ray& ray, const ProfileElement& e, double& nearest) {
+    if (!e.is_arc()) {
+        const double approach = dot(ray.way, e.from_normal);
+        if (std::abs(approach) < 1e-14) return;
+        const double s = dot(e.from - ray.from, e.from_normal) / approach;
+        const PlanePoint at = ray.from + s * ray.way, side = e.to - e.from;
+        const double along = dot(at - e.from, side);
+        if (along >= 0 && along <= dot(side, side)) take_nearer(s, nearest);
+        return;
+    }
+    const PlanePoint from = ray.from - e.centre;
+    const double middle = -dot(from, ray.way);
+    const double square = middle * middle - dot(from, from) + e.radius_mm * e.radius_mm;
+    // A ray that only touches the arc stays inside.
+    if (square < kTouchMm * kTouchMm) return;
+    for (const double s : {middle - std::sqrt(square), middle + std::sqrt(square)}) {
+        const double height = ray.from.z + s * ray.way.z;
+        if (height >= e.from.z && height <= e.to.z) take_nearer(s, nearest);
+    }
+}
+
+// The direction of the profile where it has this outward normal.
+PlanePoint along(PlanePoint normal) {
+    return {-normal.z, normal.r};
+}
+
+// Returns the height half way to where the straight continuation from `from` leaves the cutter; nothing if it
+// reaches the axis first, or does not rise or fall.
+std::optional<double> half_way(const std::vector<ProfileElement>& elements, PlanePoint from, PlanePoint way) {
+    if (std::abs(way.z) < kSmooth) return std::nullopt;
+    double nearest = 1e6;
+    for (const ProfileElement& e : elements) meet({from, way}, e, nearest);
+    if (way.r < 0 && from.r + nearest * way.r <= 0) return std::nullopt;
+    return from.z + 0.5 * nearest * way.z;
+}
+
+}  // namespace
+
+ConvexZones::Seen ConvexZones::Face::look(PlanePoint at) const {
+    if (radius_mm == 0) return {dot(first, at) - offset_mm, first};
+    const PlanePoint d = at - centre;
+    const double size = norm(d);
+    if (size > 0 && cross(first, d) >= 0 && cross(d, last) >= 0) return {size - radius_mm, (1 / size) * d};
+    const double by_first = dot(first, d), by_last = dot(last, d);
+    return by_first >= by_last ? Seen{by_first - radius_mm, first} : Seen{by_last - radius_mm, last};
+}
+
+// A run of elements from `first` to before `end` without a concave joint.
+struct ConvexZones::Run {
+    std::size_t first, end;
+};
+
+void ConvexZones::add_face(const ProfileElement& e) {
+    faces_.push_back({e.from_normal, e.to_normal, dot(e.from_normal, e.from), e.centre, e.radius_mm});
+}
+
+// Keeps a zone below (up = 1) or above (up = -1) a height.
+void ConvexZones::add_level(double up, double height_mm) {
+    const PlanePoint normal{0, up};
+    faces_.push_back({normal, normal, up * height_mm, {}, 0});
+}
+
+void ConvexZones::add_run(const std::vector<ProfileElement>& elements, const Run& run) {
+    const std::size_t first = faces_.size();
+    for (std::size_t n = run.first; n < run.end; ++n) add_face(elements[n]);
+    const ProfileElement &low = elements[run.first], &high = elements[run.end - 1];
+    if (run.first > 0) {
+        if (const auto height = half_way(elements, low.from, -1.0 * along(low.from_normal)))
+            add_level(-1, *height);
+    }
+    if (run.end < elements.size()) {
+        if (const auto height = half_way(elements, high.to, along(high.to_normal))) add_level(1, *height);
+    }
+    zones_.push_back({first, faces_.size()});
+}
+
+// Between two tangents the arc is off their corner by radius * step^2 / 8.
+void ConvexZones::add_concave(const std::vector<ProfileElement>& elements, std::size_t number) {
+    const ProfileElement& arc = elements[number];
+    const double angle =
+        math::atan2(cross(arc.from_normal, arc.to_normal), dot(arc.from_normal, arc.to_normal));
+    const double step = std::sqrt(8 * kConcaveErrorMm / -arc.radius_mm);
+    const int count = std::clamp(static_cast<int>(std::ceil(std::abs(angle) / step)), 1, kMostTangents);
+    for (int n = 0; n <= count; ++n) {
+        double sine, cosine;
+        math::sincos(angle * n / count, sine, cosine);
+        const PlanePoint a = arc.from_normal;
+        const PlanePoint normal{a.r * cosine - a.z * sine, a.z * cosine + a.r * sine};
+        const PlanePoint at = arc.centre + arc.radius_mm * normal;
+        const std::size_t first = faces_.size();
+        faces_.push_back({normal, normal, dot(normal, at), {}, 0});
+        if (const auto height = half_way(elements, at, along(normal))) add_level(1, *height);
+        if (const auto height = half_way(elements, at, -1.0 * along(normal))) add_level(-1, *height);
+        zones_.push_back({first, faces_.size()});
+    }
+}
+
+ConvexZones::ConvexZones(const Cutter& cutter) : length_mm_(cutter.length_mm) {
+    std::vector<ProfileElement> elements = profile_elements(cutter);
+    radius_mm_ = largest_radius_mm(elements);
+    const PlanePoint top = elements.back().to, up{0, 1};
+    elements.push_back({top, {0, top.z}, up, up, {}, 0});
+    std::size_t begin = 0;
+    for (std::size_t n = 0; n < elements.size(); ++n) {
+        const bool concave = elements[n].radius_mm < 0;
+        const bool joins = n > begin && cross(elements[n - 1].to_normal, elements[n].from_normal) > -kSmooth;
+        if ((concave || !joins) && n > begin) add_run(elements, {begin, n});
+        if (concave || !joins) begin = n;
+        if (!concave) continue;
+        add_concave(elements, n);
+        begin = n + 1;
+    }
+    if (begin < elements.size()) add_run(elements, {begin, elements.size()});
+}
+
+ConvexZones::Seen ConvexZones::look(std::size_t zone, PlanePoint at) const {
+    Seen most = faces_[zones_[zone].first].look(at);
+    for (std::size_t n = zones_[zone].first + 1; n < zones_[zone].end; ++n) {
+        const Seen seen = faces_[n].look(at);
+        if (seen.distance_mm > most.distance_mm) most = seen;
+    }
+    return most;
+}
+
+PlanePoint ConvexZones::other_normal(std::size_t zone, PlanePoint at, double slack_mm) const {
+    const Seen most = look(zone, at);
+    for (std::size_t n = zones_[zone].first; n < zones_[zone].end; ++n) {
+        const Seen seen = faces_[n].look(at);
+        if (seen.distance_mm > most.distance_mm - slack_mm && dot(seen.normal, most.normal) < 1 - kSmooth)
+            return seen.normal;
+    }
+    return most.normal;
+}
+
+ConvexZones::Seen ConvexZones::look(PlanePoint at) const {
+    Seen least = look(0, at);
+    for (std::size_t n = 1; n < zones_.size(); ++n) {
+        const Seen seen = look(n, at);
+        if (seen.distance_mm < least.distance_mm) least = seen;
+    }
+    return least;
+}
+
+double ConvexZones::distance_mm(PlanePoint at) const {
+    return look(at).distance_mm;
+}
+
+}  // namespace tribo::milling
