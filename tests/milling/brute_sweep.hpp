@@ -43,12 +43,12 @@ inline double greatest_speed(const motion::Move& m, Vec3 p) {
 // 65 within each gap that the greatest speed lets hold a lesser distance; then golden sections in each valley
 // among these. A valley that no sample shows is no deeper than the point's acceleration, less than 40 mm per
 // t^2, times the square of the step.
-inline double brute_distance(const Cutter& c, const motion::Move& m, Vec3 p) {
+// `distance_at` is the distance from the tool at one pose.
+template <class Distance>
+double brute_distance(const Distance& distance_at, const motion::Move& m, Vec3 p) {
     constexpr int kGaps = 64, kSections = 40;
     constexpr double kGap = 1.0 / kGaps, kStep = kGap / kGaps, kGolden = 0.6180339887498949;
-    const auto at = [&](double t) {
-        return tool_distance(c, motion::pose_at(m, std::clamp(t, 0.0, 1.0)), p);
-    };
+    const auto at = [&](double t) { return distance_at(motion::pose_at(m, std::clamp(t, 0.0, 1.0)), p); };
     double coarse[kGaps + 1], best = 1e300;
     for (int n = 0; n <= kGaps; ++n) best = std::min(best, coarse[n] = at(n * kGap));
     const double fall = 0.5 * greatest_speed(m, p) * kGap;
@@ -81,6 +81,10 @@ inline double brute_distance(const Cutter& c, const motion::Move& m, Vec3 p) {
         }
     }
     return best;
+}
+inline double brute_distance(const Cutter& c, const motion::Move& m, Vec3 p) {
+    return brute_distance([&](const motion::ToolPose& pose, Vec3 q) { return tool_distance(c, pose, q); }, m,
+                          p);
 }
 
 }  // namespace tribo::milling

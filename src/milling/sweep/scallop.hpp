@@ -6,7 +6,8 @@
 //
 // Seen along the feed the bottom circle of a flat end mill is an ellipse. A ball is a circle. A torus (corner
 // r on the circle R - r) is the ellipse of that circle grown by r. Where the normal is perpendicular to the
-// tool axis, the flank follows. Derived here and checked by sampling the tool, see the tests.
+// tool axis, the flank follows. A cutter with a profile has no such form: do not pass it here. Derived here
+// and checked by sampling the tool, see the tests.
 #pragma once
 
 #include "milling/tool/cutter.hpp"

@@ -7,9 +7,10 @@
 
 #include "base/math.hpp"
 #include "base/simd.hpp"
+#include "milling/sweep/profile_sweep.hpp"
+#include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
 #include "milling/sweep/sweep_lines.hpp"
-#include "motion/algebra/direction.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::milling {
@@ -26,19 +27,6 @@ using field::kLatticeEdge;
 #include "milling/sweep/sweep_curved.inl"
 // clang-format on
 
-// Returns the box of the tool at one pose, cap included.
-Box3 tool_box(const ToolProfile& tool, Vec3 tip, Vec3 axis) {
-    const double r = tool.radius_mm;
-    const auto reach = [r](double u) { return r * std::sqrt(std::max(0.0, 1 - u * u)); };
-    const Vec3 disc{reach(axis.x), reach(axis.y), reach(axis.z)};
-    Box3 box;
-    for (const Vec3 centre : {tip, tip + tool.length_mm * axis}) {
-        box.include(centre - disc);
-        box.include(centre + disc);
-    }
-    return box;
-}
-
 // Calls f with the kind as a constant, so that each formula is compiled for its profile.
 template <class F>
 auto by_kind(CutterKind kind, const F& f) {
@@ -47,7 +35,7 @@ auto by_kind(CutterKind kind, const F& f) {
             return f.template operator()<CutterKind::ball>();
         case CutterKind::bull:
             return f.template operator()<CutterKind::bull>();
-        case CutterKind::flat:
+        default:
             break;
     }
     return f.template operator()<CutterKind::flat>();
@@ -101,64 +89,50 @@ Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
 
 class StraightSweep final : public field::Shape {
   public:
-    StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis) : tool_(tool), start_(from) {
-        double rise = dot(travel, axis);
-        Vec3 across = travel - rise * axis;
-        // A part along or across the axis below this share is rounding of the axis itself.
-        constexpr double kRounding = 1e-12;
-        if (std::abs(rise) < kRounding * length(across)) rise = 0;
-        if (length(across) < kRounding * std::abs(rise)) across = {};
-        frame_.z = axis;
-        frame_.x = normalized(across, any_perpendicular(axis));
-        frame_.y = cross(frame_.z, frame_.x);
-        line_ = StraightLine(length(across), rise);
-    }
+    StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis)
+        : tool_(tool), path_(from, travel, axis) {}
 
-    Box3 bounds_mm() const override {
-        Box3 box = tool_box(tool_, start_, frame_.z);
-        box.include(tool_box(tool_, start_ + travel(), frame_.z));
-        return box;
-    }
+    Box3 bounds_mm() const override { return path_.box({tool_.radius_mm, tool_.length_mm}); }
 
     double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
 
     double distance_below(Vec3 point, double bound) const override {
-        const Vec3 q = frame_.into(point - start_);
+        const Vec3 q = path_.frame.into(point - path_.start);
         const Profile<double> p(tool_);
-        const Line<double> l(line_);
+        const Line<double> l(path_.line);
         // Lower bounds of the distance: to the cylinder around the path, to the lowest plane of the tip, and
         // for a ball also to the nearest of its centres if the point is below all of them.
         const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
-        const double lowest = std::min(line_.rise, 0.0);
+        const double lowest = std::min(path_.line.rise, 0.0);
         if (lowest - q.z >= bound) return bound;
         const double below =
             tool_.kind == CutterKind::ball ? std::max(lowest + tool_.radius_mm - q.z, 0.0) : 0;
         if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
         return by_kind(tool_.kind, [&]<CutterKind kind>() {
-            return line_.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
-                                   : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
+            return path_.line.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
+                                        : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
         });
     }
 
     Vec3 gradient(Vec3 point) const override {
-        const Vec3 q = frame_.into(point - start_);
+        const Vec3 q = path_.frame.into(point - path_.start);
         const Profile<double> p(tool_);
-        const Line<double> l(line_);
+        const Line<double> l(path_.line);
         const auto nearest = by_kind(tool_.kind, [&]<CutterKind kind>() {
-            if (line_.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
+            if (path_.line.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
             const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
             return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
         });
-        if (q.z - std::max(line_.rise, 0.0) - tool_.length_mm > nearest.distance) return frame_.z;
-        const Vec3 across{q.x - nearest.t * line_.across, q.y, 0};
+        if (q.z - std::max(path_.line.rise, 0.0) - tool_.length_mm > nearest.distance) return path_.frame.z;
+        const Vec3 across{q.x - nearest.t * path_.line.across, q.y, 0};
         ToolView v;
         v.axis = {0, 0, 1};
         v.radial = normalized(across, {0, 0, 0});
         v.rho = length(across);
-        v.z = q.z - nearest.t * line_.rise;
-        v.drho = -v.radial.x * line_.across;
-        v.dz = -line_.rise;
-        return frame_.out_of(swept_normal(tool_, v, nearest.t));
+        v.z = q.z - nearest.t * path_.line.rise;
+        v.drho = -v.radial.x * path_.line.across;
+        v.dz = -path_.line.rise;
+        return path_.frame.out_of(swept_normal(tool_, v, nearest.t));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -166,118 +140,58 @@ class StraightSweep final : public field::Shape {
     }
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sweep_kernels().straight(tool_, line_, frame_, start_, lattice, near_mm, out);
+        sweep_kernels().straight(tool_, path_.line, path_.frame, path_.start, lattice, near_mm, out);
     }
 
   private:
-    Vec3 travel() const { return line_.across * frame_.x + line_.rise * frame_.z; }
-
     ToolProfile tool_;
-    Vec3 start_;
-    Frame frame_;
-    StraightLine line_;
+    StraightFrame path_;
 };
 
 class ArcSweep final : public field::Shape {
   public:
-    ArcSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool) {
-        const motion::Arc& arc = *move.arc;
-        const Vec3 axis = move.start.axis;
-        const Vec3 from_centre = move.start.tip_mm - arc.centre_mm;
-        const Vec3 radial = from_centre - dot(from_centre, axis) * axis;
-        centre_ = move.start.tip_mm - radial;
-        line_.radius = length(radial);
-        frame_.z = axis;
-        frame_.x = normalized(radial, any_perpendicular(axis));
-        frame_.y = cross(frame_.z, frame_.x);
-        // A right turn is a left turn with y mirrored. The formula is the same for both.
-        const double turn = arc.turn_rad * (dot(arc.normal, axis) < 0 ? -1 : 1);
-        if (turn < 0) frame_.y = -frame_.y;
-        assert(std::abs(turn) <= math::kPi + 1e-9);
-        math::sincos(std::abs(turn), line_.end_y, line_.end_x);
-        line_.end_y = std::max(line_.end_y, 0.0);
-    }
+    ArcSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool), path_(move) {}
 
-    Box3 bounds_mm() const override {
-        Box3 box;
-        const Box3 tool = tool_box(tool_, {}, frame_.z);
-        // The extremes of the path: its ends, and the points where its tangent has no part along a
-        // coordinate.
-        const auto include = [&](Vec3 radial) {
-            const Vec3 tip = centre_ + line_.radius * radial;
-            box.include(Box3{tip + tool.min, tip + tool.max});
-        };
-        include(frame_.x);
-        include(line_.end_x * frame_.x + line_.end_y * frame_.y);
-        for (int k = 0; k < 3; ++k) {
-            for (const double sign : {1.0, -1.0}) {
-                const Vec3 toward = normalized({sign * frame_.x[k], sign * frame_.y[k], 0}, {1, 0, 0});
-                if (toward.y >= 0 && toward.x * line_.end_y - toward.y * line_.end_x >= 0)
-                    include(toward.x * frame_.x + toward.y * frame_.y);
-            }
-        }
-        return box;
-    }
+    Box3 bounds_mm() const override { return path_.box({tool_.radius_mm, tool_.length_mm}); }
 
     double distance_mm(Vec3 point) const override {
-        const Vec3 q = frame_.into(point - centre_);
+        const Vec3 q = path_.frame.into(point - path_.centre);
         const Profile<double> p(tool_);
-        const Round<double> a(line_);
+        const Round<double> a(path_.line);
         return by_kind(tool_.kind,
                        [&]<CutterKind kind>() { return arc_distance<kind>(p, a, q.x, q.y, q.z); });
     }
 
     Vec3 gradient(Vec3 point) const override {
-        const Vec3 q = frame_.into(point - centre_);
-        const Vec3 start{line_.radius, 0, 0}, end = line_.radius * Vec3{line_.end_x, line_.end_y, 0};
-        const Vec3 level{q.x, q.y, 0};
-        Vec3 nearest = squared_length(level - start) < squared_length(level - end) ? start : end;
-        if (std::min(q.y, q.x * line_.end_y - q.y * line_.end_x) >= 0) {
-            nearest = line_.radius * normalized(level, {1, 0, 0});
-        }
-        const Vec3 radial = level - nearest;
+        const Vec3 q = path_.frame.into(point - path_.centre);
+        const Vec3 radial = Vec3{q.x, q.y, 0} - path_.nearest(q);
         const double rho = length(radial);
         const Profile<double> p(tool_);
         const double cap = q.z - tool_.length_mm;
         if (cap > by_kind(tool_.kind,
                           [&]<CutterKind kind>() { return profile_distance<kind>(p, rho * rho, q.z); })) {
-            return frame_.z;
+            return path_.frame.z;
         }
         const ProfileNormal n = profile_normal(tool_, rho, q.z);
-        return frame_.out_of(
+        return path_.frame.out_of(
             normalized(n.by_rho * normalized(radial, {0, 0, 0}) + Vec3{0, 0, n.by_z}, {0, 0, -1}));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
-        sweep_kernels().arc(tool_, line_, frame_, centre_, lattice, out);
+        sweep_kernels().arc(tool_, path_.line, path_.frame, path_.centre, lattice, out);
     }
 
   private:
     ToolProfile tool_;
-    Vec3 centre_;  // at the height of the tip
-    Frame frame_;
-    ArcLine line_;
+    ArcFrame path_;
 };
 
 class CurvedSweep final : public field::Shape {
   public:
     CurvedSweep(const ToolProfile& tool, const motion::Move& move)
-        : tool_(tool), start_(move.start.tip_mm), line_(line_of(move)), instants_(line_) {}
+        : tool_(tool), start_(move.start.tip_mm), line_(curved_line(move)), instants_(line_) {}
 
-    Box3 bounds_mm() const override {
-        // A point of the tool deviates from the chord between two neighbouring poses by at most a share of
-        // the square of their spacing.
-        constexpr int kPoses = 17;
-        const double turn = length(line_.axis1) + 2 * length(line_.axis2);
-        const double bend = 2 * length(line_.tip2) +
-                            (tool_.length_mm + tool_.radius_mm) * (2 * length(line_.axis2) + 2 * turn * turn);
-        Box3 box;
-        for (int n = 0; n < kPoses; ++n) {
-            const double t = n / (kPoses - 1.0);
-            box.include(tool_box(tool_, start_ + tip_at(line_, t), axis_at(line_, t)));
-        }
-        return box.inflated(bend / (8.0 * (kPoses - 1) * (kPoses - 1)));
-    }
+    Box3 bounds_mm() const override { return curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_); }
 
     double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
 
@@ -326,21 +240,6 @@ class CurvedSweep final : public field::Shape {
     }
 
   private:
-    static CurvedLine line_of(const motion::Move& move) {
-        const motion::Quadratic middle = move.quadratic ? *move.quadratic : even_turn(move);
-        const Vec3 a = move.start.axis, b = move.end.axis;
-        const Vec3 tip1 = 2 * (middle.tip_control_mm - move.start.tip_mm),
-                   axis1 = 2 * (middle.axis_control - a);
-        return {tip1, move.end.tip_mm - move.start.tip_mm - tip1, a, axis1, b - a - axis1};
-    }
-    // Returns the quadratic of a straight tip and an axis that turns evenly along the great circle, to the
-    // fifth order.
-    static motion::Quadratic even_turn(const motion::Move& move) {
-        const motion::ToolPose middle = motion::pose_at(move, 0.5);
-        const double half = 0.5 * motion::angle_rad(move.start.axis, move.end.axis);
-        const double size = half > 1e-4 ? math::sin(half) / half : 1 - half * half / 6;
-        return {middle.tip_mm, (2 * size) * middle.axis - 0.5 * (move.start.axis + move.end.axis)};
-    }
     Least<double> nearest(const Floors& floors, Vec3 d, double bound) const {
         const Profile<double> p(tool_);
         return by_kind(tool_.kind,
@@ -420,6 +319,9 @@ CurvedInstants::CurvedInstants(const CurvedLine& line) {
 }
 
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& move) {
+    if (cutter.has_profile())
+        return make_profile_sweep(cutter.zones ? cutter.zones : std::make_shared<const ConvexZones>(cutter),
+                                  move);
     const ToolProfile tool(cutter);
     if (move.arc) return std::make_unique<ArcSweep>(tool, move);
     if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);

@@ -108,12 +108,12 @@ void straight(const ToolProfile& tool, const StraightLine& line, const Frame& fr
     const Offsets at(lattice, reference);
     const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
-        case CutterKind::flat:
-            return straight_of<CutterKind::flat>(tool, line, frame, at, far, out);
         case CutterKind::ball:
             return straight_of<CutterKind::ball>(tool, line, frame, at, far, out);
         case CutterKind::bull:
             return straight_of<CutterKind::bull>(tool, line, frame, at, far, out);
+        default:
+            return straight_of<CutterKind::flat>(tool, line, frame, at, far, out);
     }
 }
 
@@ -129,12 +129,12 @@ void arc(const ToolProfile& tool, const ArcLine& line, const Frame& frame, Vec3 
          const field::Lattice& lattice, float* out) {
     const Offsets at(lattice, reference);
     switch (tool.kind) {
-        case CutterKind::flat:
-            return arc_of<CutterKind::flat>(tool, line, frame, at, out);
         case CutterKind::ball:
             return arc_of<CutterKind::ball>(tool, line, frame, at, out);
         case CutterKind::bull:
             return arc_of<CutterKind::bull>(tool, line, frame, at, out);
+        default:
+            return arc_of<CutterKind::flat>(tool, line, frame, at, out);
     }
 }
 
@@ -188,12 +188,12 @@ void curved(const ToolProfile& tool, const CurvedLine& line, const CurvedInstant
     const Offsets at(lattice, reference);
     const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
-        case CutterKind::flat:
-            return curved_of<CutterKind::flat>(tool, line, instants, at, far, out);
         case CutterKind::ball:
             return curved_of<CutterKind::ball>(tool, line, instants, at, far, out);
         case CutterKind::bull:
             return curved_of<CutterKind::bull>(tool, line, instants, at, far, out);
+        default:
+            return curved_of<CutterKind::flat>(tool, line, instants, at, far, out);
     }
 }
 
@@ -203,12 +203,12 @@ void floors(const ToolProfile& tool, const CurvedInstants& at, const TravelBound
     const float seen[3] = {static_cast<float>(point.x), static_cast<float>(point.y),
                            static_cast<float>(point.z)};
     switch (tool.kind) {
-        case CutterKind::flat:
-            return curved_floors<CutterKind::flat>(p, at, travel, seen, out);
         case CutterKind::ball:
             return curved_floors<CutterKind::ball>(p, at, travel, seen, out);
         case CutterKind::bull:
             return curved_floors<CutterKind::bull>(p, at, travel, seen, out);
+        default:
+            return curved_floors<CutterKind::flat>(p, at, travel, seen, out);
     }
 }
 

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include "milling/sweep/profile_sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "milling/sweep/sweep_frames.hpp"
+
+namespace tribo::milling {
+namespace {
+
+using field::kLatticeEdge;
+
+// Larger than every distance, mm.
+constexpr double kNever = 1e30;
+// A path or turn that bends by less is straight but for rounding, mm and rad.
+constexpr double kStraight = 1e-9;
+// Surfaces that are nearer to each other than this meet in an edge, mm.
+constexpr double kEdgeMm = 1e-5;
+
+// Calls distance(point, bound) for the nodes of a lattice. `near` and rows as in sweep_kernels.inl: where the
+// neighbour before shows that a node is farther than `near` from the surface, its bound is enough.
+template <class F>
+void sample_nodes(const field::Lattice& lattice, double near_mm, float* out, const F& distance) {
+    for (int n = 0; n < field::kLatticeNodes; ++n) {
+        const int a = n % kLatticeEdge, b = n / kLatticeEdge % kLatticeEdge,
+                  c = n / (kLatticeEdge * kLatticeEdge);
+        double above = -kNever, below = kNever;
+        const auto learn = [&](bool has, int step) {
+            if (!has) return;
+            const double before = static_cast<double>(out[n - step]);
+            above = std::max(above, before - lattice.cell_mm - kProvenMm);
+            below = std::min(below, before + lattice.cell_mm + kProvenMm);
+        };
+        learn(a > 0, 1);
+        learn(b > 0, kLatticeEdge);
+        learn(c > 0, kLatticeEdge * kLatticeEdge);
+        const double known = above >= near_mm ? above : below <= -near_mm ? below : 0;
+        out[n] = static_cast<float>(known != 0 ? known : distance(lattice.node(a, b, c), near_mm));
+    }
+}
+
+// A level move: straight, or along an arc.
+class LevelSweep : public field::Shape {
+  public:
+    double distance_mm(Vec3 point) const override { return zones_->distance_mm(seen(point).at); }
+    Vec3 gradient(Vec3 point) const override {
+        const View v = seen(point);
+        const PlanePoint normal = zones_->look(v.at).normal;
+        return normalized(normal.r * v.radial + normal.z * v.axis, -v.axis);
+    }
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sample_near(lattice, kNever, out);
+    }
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sample_nodes(lattice, near_mm, out, [this](Vec3 point, double) { return distance_mm(point); });
+    }
+
+  protected:
+    // The tool where it is nearest. `radial` is a unit vector in stock coordinates; zero on the axis.
+    struct View {
+        PlanePoint at;
+        Vec3 radial, axis;
+    };
+    explicit LevelSweep(std::shared_ptr<const ConvexZones> zones) : zones_(std::move(zones)) {}
+    virtual View seen(Vec3 point) const = 0;
+    ToolCylinder cylinder() const { return {zones_->radius_mm(), zones_->length_mm()}; }
+    static View view(const Frame& frame, Vec3 off) {
+        const Vec3 across{off.x, off.y, 0};
+        return {{length(across), off.z}, frame.out_of(normalized(across, {0, 0, 0})), frame.z};
+    }
+
+    std::shared_ptr<const ConvexZones> zones_;
+};
+
+class LevelLineSweep final : public LevelSweep {
+  public:
+    LevelLineSweep(std::shared_ptr<const ConvexZones> zones, const StraightFrame& path)
+        : LevelSweep(std::move(zones)), path_(path) {}
+    Box3 bounds_mm() const override { return path_.box(cylinder()); }
+
+  private:
+    View seen(Vec3 point) const override {
+        const Vec3 q = path_.frame.into(point - path_.start);
+        const double t = std::clamp(q.x * path_.line.per_across, 0.0, 1.0);
+        return view(path_.frame, q - Vec3{t * path_.line.across, 0, 0});
+    }
+
+    StraightFrame path_;
+};
+
+class LevelArcSweep final : public LevelSweep {
+  public:
+    LevelArcSweep(std::shared_ptr<const ConvexZones> zones, const motion::Move& move)
+        : LevelSweep(std::move(zones)), path_(move) {}
+    Box3 bounds_mm() const override { return path_.box(cylinder()); }
+
+  private:
+    View seen(Vec3 point) const override {
+        const Vec3 q = path_.frame.into(point - path_.centre);
+        return view(path_.frame, q - path_.nearest(q));
+    }
+
+    ArcFrame path_;
+};
+
+// The tool as seen from a point at one instant; derivatives by t.
+struct ToolView {
+    Vec3 axis, radial;
+    PlanePoint at, rate;
+};
+ToolView view(const CurvedLine& c, Vec3 point, double t) {
+    const Vec3 d = point - t * (c.tip1 + t * c.tip2), velocity = c.tip1 + 2 * t * c.tip2;
+    const Vec3 raw = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
+    const double size = length(raw);
+    ToolView v;
+    v.axis = raw / size;
+    const Vec3 axis_rate = (turning - dot(turning, v.axis) * v.axis) / size;
+    v.at.z = dot(d, v.axis);
+    const Vec3 radial = d - v.at.z * v.axis;
+    v.at.r = length(radial);
+    v.radial = normalized(radial, {0, 0, 0});
+    v.rate.z = dot(d, axis_rate) - dot(velocity, v.axis);
+    v.rate.r = -dot(v.radial, velocity) - v.at.z * dot(v.radial, axis_rate);
+    return v;
+}
+
+class SearchedSweep final : public field::Shape {
+  public:
+    SearchedSweep(std::shared_ptr<const ConvexZones> zones, const motion::Move& move)
+        : zones_(std::move(zones)), start_(move.start.tip_mm), line_(curved_line(move)) {
+        box_ = curved_box({zones_->radius_mm(), zones_->length_mm()}, line_, start_);
+        instants_ = line_.bounds.turn < kStraight && line_.bounds.tip_bend < kStraight ? 2 : kMostInstants;
+    }
+
+    Box3 bounds_mm() const override { return box_; }
+    double distance_mm(Vec3 point) const override { return least(point, kNever, kNever).distance; }
+    double distance_below(Vec3 point, double bound) const override {
+        return least(point, bound, kNever).distance;
+    }
+    bool is_searched() const override { return true; }
+
+    // Where two surfaces of the cutter meet in an edge that makes the surface, its normal is perpendicular to
+    // the travel of the edge, between their normals.
+    Vec3 gradient(Vec3 point) const override {
+        const Least nearest = least(point, kNever, kNever);
+        const ToolView v = view(line_, point - start_, nearest.t);
+        const PlanePoint normal = edge_normal(v, nearest);
+        return normalized(normal.r * v.radial + normal.z * v.axis, -v.axis);
+    }
+
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sample_near(lattice, kNever, out);
+    }
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sample_nodes(lattice, near_mm, out,
+                     [this](Vec3 point, double near) { return least(point, near, near).distance; });
+    }
+
+  private:
+    static constexpr int kMostInstants = 5, kDepth = 40, kMostLooks = 400;
+
+    struct Least {
+        double distance, t;
+        std::size_t zone;
+    };
+    // The distance to a zone at one instant.
+    struct Instant {
+        double t, distance, slope;
+    };
+    struct Stretch {
+        Instant a, b;
+        double floor;  // nothing between is lower
+    };
+
+    Instant instant(std::size_t zone, const ToolView& v, double t) const {
+        const ConvexZones::Seen seen = zones_->look(zone, v.at);
+        return {t, seen.distance_mm, dot(seen.normal, v.rate)};
+    }
+
+    // The parabolas from both ends meet once; below neither of them is the least there or at an end.
+    static double meeting(const Instant& a, const Instant& b, double bend) {
+        const double width = b.t - a.t, steepness = b.slope - a.slope + bend * width;
+        const double x = a.distance - b.distance + (b.slope + 0.5 * bend * width) * width;
+        return steepness > 0 ? std::clamp(x / steepness, 0.0, width) : 0;
+    }
+    static Stretch stretch(const Instant& a, const Instant& b, double bend) {
+        const double x = meeting(a, b, bend), ends = std::min(a.distance, b.distance);
+        return {a, b, std::min(ends, a.distance + x * (a.slope - 0.5 * bend * x))};
+    }
+
+    // Returns the next instant to look at: the bottom of the cubic through both ends, or by turns where the
+    // parabolas meet, which finds the edges.
+    static double next(const Stretch& s, double bend, int look) {
+        const double width = s.b.t - s.a.t;
+        double x = meeting(s.a, s.b, bend);
+        if (s.a.slope < 0 && s.b.slope > 0 && look % 2 == 0) {
+            const double chord = s.a.slope + s.b.slope + 3 * (s.a.distance - s.b.distance) / width;
+            const double root = std::sqrt(std::max(chord * chord - s.a.slope * s.b.slope, 0.0));
+            x = width - width * (s.b.slope + root - chord) / (s.b.slope - s.a.slope + 2 * root);
+        }
+        return s.a.t + std::clamp(x, 0.05 * width, 0.95 * width);
+    }
+
+    // Looks for the least distance below `bound`. Beyond `near` on both sides of the surface only the side is
+    // exact: above it the result is a bound from below.
+    Least least(Vec3 point, double bound, double near) const {
+        const Vec3 d = point - start_;
+        const TravelBounds& b = line_.bounds;
+        const double reach = length(d - b.middle) + b.spread;
+        const double bend = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
+        std::array<ToolView, kMostInstants> views;
+        for (int k = 0; k < instants_; ++k) views[static_cast<std::size_t>(k)] = view(line_, d, time(k));
+        Least best{bound, 0, 0};
+        double lowest_floor = kNever;
+        for (std::size_t zone = 0; zone < zones_->size(); ++zone) {
+            std::array<Stretch, kDepth> open;
+            int count = 0;
+            const auto goal = [&] {
+                return best.distance > -near ? std::min(best.distance - 0.5 * kProvenMm, near) : -kNever;
+            };
+            const auto take = [&](const Instant& i) {
+                if (i.distance < best.distance) best = {i.distance, i.t, zone};
+            };
+            const auto push = [&](const Stretch& s) {
+                if (s.floor < goal() && count < kDepth) {
+                    open[static_cast<std::size_t>(count++)] = s;
+                } else {
+                    lowest_floor = std::min(lowest_floor, s.floor);
+                }
+            };
+            Instant before = instant(zone, views[0], 0);
+            take(before);
+            for (int k = 1; k < instants_; ++k) {
+                const Instant after = instant(zone, views[static_cast<std::size_t>(k)], time(k));
+                take(after);
+                push(stretch(before, after, bend));
+                before = after;
+            }
+            // The deepest first, so that the others may be left out.
+            std::sort(open.begin(), open.begin() + count,
+                      [](const Stretch& p, const Stretch& q) { return p.floor > q.floor; });
+            for (int look = 0; count > 0 && look < kMostLooks; ++look) {
+                const Stretch s = open[static_cast<std::size_t>(--count)];
+                if (s.floor >= goal()) {
+                    lowest_floor = std::min(lowest_floor, s.floor);
+                    continue;
+                }
+                const double t = next(s, bend, look);
+                const Instant middle = instant(zone, view(line_, d, t), t);
+                take(middle);
+                const Stretch left = stretch(s.a, middle, bend), right = stretch(middle, s.b, bend);
+                push(left.floor < right.floor ? right : left);
+                push(left.floor < right.floor ? left : right);
+            }
+        }
+        const double far = std::min(near, bound);
+        if (best.distance >= far) best.distance = std::max(far, std::min(lowest_floor, best.distance));
+        return best;
+    }
+
+    double time(int k) const { return static_cast<double>(k) / (instants_ - 1); }
+
+    PlanePoint edge_normal(const ToolView& v, const Least& nearest) const {
+        const PlanePoint normal = zones_->look(nearest.zone, v.at).normal;
+        if (nearest.t <= 0 || nearest.t >= 1) return normal;
+        const PlanePoint other = zones_->other_normal(nearest.zone, v.at, kEdgeMm);
+        const double slope = dot(normal, v.rate), rate = dot(other, v.rate);
+        if (!(slope * rate < 0)) return normal;
+        return std::abs(rate) * normal + std::abs(slope) * other;
+    }
+
+    std::shared_ptr<const ConvexZones> zones_;
+    Vec3 start_;
+    CurvedLine line_;
+    Box3 box_;
+    int instants_ = 2;
+};
+
+}  // namespace
+
+std::unique_ptr<field::Shape> make_profile_sweep(std::shared_ptr<const ConvexZones> zones,
+                                                 const motion::Move& move) {
+    if (move.arc) return std::make_unique<LevelArcSweep>(std::move(zones), move);
+    if (!move.quadratic && move.start.axis == move.end.axis) {
+        const StraightFrame path(move.start.tip_mm, move.end.tip_mm - move.start.tip_mm, move.start.axis);
+        if (path.line.rise == 0) return std::make_unique<LevelLineSweep>(std::move(zones), path);
+    }
+    return std::make_unique<SearchedSweep>(std::move(zones), move);
+}
+
+}  // namespace tribo::milling
