@@ -29,7 +29,9 @@ set(TRIBO_MILL_HEADERS
     milling/tool/coefficients.hpp
     milling/tool/cut_pose.hpp
     milling/tool/cutter.hpp
+    milling/tool/cutter_profile.hpp
     milling/tool/tool_frame.hpp
+    milling/tool/turned_profile.hpp
     session/cut/mill_totals.hpp)
 
 # A material under a finger: the sheet that yields, its picture, its voice.

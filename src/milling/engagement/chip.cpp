@@ -32,7 +32,7 @@ double thickest_chip_mm(const Engagement& engagement, const ToolTravel& feed_per
         most = std::max(most, largest(normal_travel(feed_per_tooth, middle), b.entry_rad, b.exit_rad));
     }
     for (const BottomBand& b : engagement.bottom) {
-        const ProfilePoint middle{0.5 * (b.r0_mm + b.r1_mm), 0, 0, 1};
+        const ProfilePoint middle = point_of(b, 0.5 * (b.r0_mm + b.r1_mm));
         most = std::max(most, largest(normal_travel(feed_per_tooth, middle), b.entry_rad, b.exit_rad));
     }
     return most;

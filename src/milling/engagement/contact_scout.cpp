@@ -40,8 +40,8 @@ void ContactScout::set_rows(double s0, double s1, double cell) {
 void ContactScout::set_windows(const CutPose& pose) {
     const std::size_t rows = borders_.size() - 1;
     windows_.assign(rows, 0);
-    const bool cylinder = borders_.front() >= profile_.corner_end();
-    const bool alike = !pose.travel.turns() && (pose.travel.down_mm == 0 || cylinder);
+    const bool straight = profile_.is_straight(borders_.front());
+    const bool alike = !pose.travel.turns() && (pose.travel.down_mm == 0 || straight);
     for (std::size_t row = 0; row < rows; ++row) {
         if (alike && row > 0) {
             windows_[row] = windows_[0];

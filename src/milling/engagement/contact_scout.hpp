@@ -28,7 +28,8 @@ class ContactScout {
     explicit ContactScout(const Cutter& cutter);
 
     // Appends the engaged stretches between s0 and s1 in order, each with the row without contact before and
-    // after it. The range must lie within the bottom, within the corner or on the cylinder.
+    // after it. The range must lie within the bottom, within the corner or on the cylinder; on a profile
+    // within one part.
     void look(const field::CarvedView& stock, const CutPose& pose, double s0_mm, double s1_mm,
               std::vector<MeridianStretch>& out);
 

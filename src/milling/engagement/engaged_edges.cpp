@@ -33,6 +33,12 @@ struct ChipLine {
 ChipLine line_of(const TurnLaw& h) {
     return {h.cosine == 0 ? std::abs(h.sine) : math::hypot(h.sine, h.cosine), h.constant};
 }
+// The load of a level edge that faces the shank.
+EdgeLoad upward_load(const CuttingCoefficients& k, const ToolTravel& travel, double r0_mm, double r1_mm) {
+    EdgeLoad load = bottom_load(k, -1.0 * travel, r0_mm, r1_mm);
+    load.a = {-load.a.sine, -load.a.cosine, -load.a.constant};
+    return load;
+}
 double shift_of(const TurnLaw& h) {
     return h.cosine == 0 ? (h.sine < 0 ? math::kPi : 0) : math::atan2(h.cosine, h.sine);
 }
@@ -47,7 +53,8 @@ struct EngagedEdges::Part {
 };
 
 EngagedEdges::EngagedEdges(const Cutter& cutter, const CuttingCoefficients& coefficients)
-    : k_(coefficients),
+    : profile_(cutter),
+      k_(coefficients),
       bottom_k_(coefficients),
       radius_(cutter.radius_mm()),
       corner_(cutter.corner_radius_mm()),
@@ -85,6 +92,12 @@ void EngagedEdges::engage(const Engagement& engagement, const ToolTravel& feed) 
         part.edge.exit_rad = band.exit_rad;
         const double z0 = std::max(band.z0_mm, 0.0), z1 = band.z1_mm, middle = std::clamp(corner_, z0, z1);
         if (!(z1 > z0)) continue;
+        if (!profile_.parts().empty()) {
+            part.edge.z0_mm = z0;
+            part.edge.z1_mm = z1;
+            add_profile(part, feed);
+            continue;
+        }
         if (middle > z0) {
             part.edge.round = true;
             part.edge.z0_mm = z0;
@@ -137,6 +150,42 @@ void EngagedEdges::add_lateral(Part part, const ToolTravel& feed) {
     }
 }
 
+// Cuts a band of a profile at its joints, where its chips change along an arc or with a turn of the axis, and
+// where its edge lags too much for one set of Gauss points.
+void EngagedEdges::add_profile(Part band, const ToolTravel& feed) {
+    constexpr double kLagStepRad = 1.5;
+    profile_.over_parts(
+        band.edge.z0_mm, band.edge.z1_mm, [&](const CutterProfile::Part& along, double z0, double z1) {
+            Part part = band;
+            part.edge.round = true;
+            part.edge.part = static_cast<int>(&along - profile_.parts().data());
+            const double s0 = along.at_height(z0), s1 = along.at_height(z1), size = s1 - s0;
+            const bool alike = feed.down_mm == 0 && !feed.turns() && uniform_;
+            double steps = (z1 - z0) * std::abs(lag_per_mm_) / kLagStepRad;
+            if (!alike && along.element.is_arc())
+                steps = std::max(steps, size / std::abs(along.element.radius_mm) / kKappaStepRad);
+            if (feed.turns()) {
+                const auto speed = [&](double s) {
+                    const TurnLaw h = normal_travel(feed, along.at(s));
+                    return math::hypot(h.sine, h.cosine) + std::abs(h.constant);
+                };
+                const double change = size * math::hypot(feed.turn_x_rad, feed.turn_y_rad);
+                steps = std::max(
+                    steps, std::min(change / (kFeedStep * std::max(speed(s0), speed(s1))), 1 / kFeedStep));
+            }
+            const int count = std::max(1, static_cast<int>(std::ceil(steps)));
+            const auto height = [&](int n) {
+                return n == 0 ? z0 : n == count ? z1 : along.at(s0 + size * n / count).height_mm;
+            };
+            for (int n = 0; n < count; ++n) {
+                part.edge.z0_mm = height(n);
+                part.edge.z1_mm = height(n + 1);
+                part.at = along.at(s0 + size * (n + 0.5) / count);
+                if (part.edge.z1_mm > part.edge.z0_mm) add_teeth(part, feed);
+            }
+        });
+}
+
 // Where the axis turns, the bottom dips on one side of a line. In narrow rings the chip in the middle is
 // accurate enough for both ends of an edge.
 void EngagedEdges::add_bottom(const BottomBand& band, const ToolTravel& feed) {
@@ -148,7 +197,7 @@ void EngagedEdges::add_bottom(const BottomBand& band, const ToolTravel& feed) {
         part.r0_mm = band.r0_mm + (band.r1_mm - band.r0_mm) * n / steps;
         part.r1_mm = band.r0_mm + (band.r1_mm - band.r0_mm) * (n + 1) / steps;
         if (!(part.r1_mm > part.r0_mm)) continue;
-        part.at = {0.5 * (part.r0_mm + part.r1_mm), 0, 0, 1};
+        part.at = point_of(band, 0.5 * (part.r0_mm + part.r1_mm));
         add_teeth(part, feed);
     }
 }
@@ -233,14 +282,20 @@ void EngagedEdges::add_window(const Part& part, const Chip& chip, double phase, 
     edge.phase_rad = phase;
     if (part.r1_mm > 0) {
         edge.weight_mm = 1;
-        edge.load = bottom_load(bottom_k_, chip.travel, part.r0_mm, part.r1_mm);
+        edge.load = part.at.cos_kappa > 0 ? bottom_load(bottom_k_, chip.travel, part.r0_mm, part.r1_mm)
+                                          : upward_load(bottom_k_, chip.travel, part.r0_mm, part.r1_mm);
+        edge.lag0_rad = edge.lag1_rad = part.at.height_mm * lag_per_mm_;
         edge.edge_torque_nmm = k_.kte * 0.5 * (part.r1_mm * part.r1_mm - part.r0_mm * part.r0_mm);
     } else {
         edge.weight_mm = edge.z1_mm - edge.z0_mm;
         const double lag0 = edge.z0_mm * lag_per_mm_, lag1 = edge.z1_mm * lag_per_mm_;
         edge.lag0_rad = std::min(lag0, lag1);
         edge.lag1_rad = std::max(lag0, lag1);
-        if (edge.round) {
+        if (edge.part >= 0) {
+            const CutterProfile::Part& along = profile_.parts()[static_cast<std::size_t>(edge.part)];
+            edge.edge_torque_nmm =
+                k_.kte * along.radius_integral(along.at_height(edge.z0_mm), along.at_height(edge.z1_mm));
+        } else if (edge.round) {
             // Integral of r over the profile: the core and the circle.
             const double c0 = 1 - edge.z0_mm / corner_, c1 = std::max(1 - edge.z1_mm / corner_, -1.0);
             edge.edge_torque_nmm =
@@ -285,7 +340,7 @@ void EngagedEdges::push(const EngagedEdge& edge) {
     const std::size_t oldest = edges_.size() > kLookBack ? edges_.size() - kLookBack : 0;
     for (std::size_t i = edges_.size(); i > oldest; --i) {
         EngagedEdge& below = edges_[i - 1];
-        if (edge.z1_mm > 0 && below.z1_mm == edge.z0_mm && below.round == edge.round &&
+        if (edge.part < 0 && edge.z1_mm > 0 && below.z1_mm == edge.z0_mm && below.round == edge.round &&
             below.phase_rad == edge.phase_rad && below.entry_rad == edge.entry_rad &&
             below.exit_rad == edge.exit_rad && below.chip == edge.chip &&
             (edge.round || !edge.chip.travel.turns())) {

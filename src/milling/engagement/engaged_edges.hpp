@@ -16,6 +16,7 @@
 #include "milling/force/edge_force.hpp"
 #include "milling/tool/coefficients.hpp"
 #include "milling/tool/cutter.hpp"
+#include "milling/tool/cutter_profile.hpp"
 
 namespace tribo::milling {
 
@@ -33,8 +34,9 @@ inline constexpr double kFeedStep = 0.08;
 inline constexpr double kStraightRad = 1e-7;
 
 // A piece between two heights or, on the flat bottom, between two radii. Both heights lie on the cylinder, or
-// both lie in the rounded part.
+// both lie in the rounded part. Every lateral part of a profile counts as round.
 struct EngagedEdge {
+    int part = -1;                       // of a cutter with a profile: the number of its part; else -1
     double z0_mm = 0, z1_mm = 0;         // 0 on the bottom
     double weight_mm = 0;                // factor on `load`: the height on the cylinder, 1 on the bottom
     double lag0_rad = 0, lag1_rad = 0;   // lag behind the tip, the smaller value first; equal if straight
@@ -74,6 +76,7 @@ class EngagedEdges {
     double period_rad() const;  // period of the force: one tooth if uniform, else one turn
     double radius_mm() const { return radius_; }
     double corner_mm() const { return corner_; }
+    const CutterProfile& profile() const { return profile_; }
     double lag_per_mm() const { return lag_per_mm_; }  // < 0 on a left-hand helix
     // Returns the mean torque over a turn of the edge coefficient kte alone, N mm. The rest of the mean
     // torque is ktc times the area of the chips.
@@ -82,6 +85,7 @@ class EngagedEdges {
   private:
     struct Part;
     void add_lateral(Part part, const ToolTravel& feed);
+    void add_profile(Part part, const ToolTravel& feed);
     void add_bottom(const BottomBand& band, const ToolTravel& feed);
     void add_teeth(const Part& part, const ToolTravel& feed);
     void add_teeth_apart(const Part& part, const ToolTravel& feed, double lag);
@@ -89,6 +93,7 @@ class EngagedEdges {
                     double sine_high);
     void push(const EngagedEdge& edge);
 
+    CutterProfile profile_;
     CuttingCoefficients k_, bottom_k_;
     double radius_, corner_, lag_per_mm_;
     int flutes_;

@@ -15,10 +15,13 @@ struct EngagementBand {
     double entry_rad = 0, exit_rad = 0;
 };
 
-// The same for the straight edges of a flat bottom, between two radii in mm.
+// The same for the straight edges of a flat bottom, or of another level part of a profile, between two radii
+// in mm.
 struct BottomBand {
     double r0_mm = 0, r1_mm = 0;
     double entry_rad = 0, exit_rad = 0;
+    double z_mm = 0;  // above the tip
+    bool faces_up = false;
 };
 
 struct Engagement {

@@ -32,6 +32,15 @@ double integral(const TurnLaw& law, double from, double to) {
     return law.sine * (cos0 - cos1) + law.cosine * (sin1 - sin0) + law.constant * (to - from);
 }
 
+// Returns where the radius passes a value on a part, from a place inside to one outside of it.
+double s_at_radius(const CutterProfile::Part& part, double inside, double outside, double radius_mm) {
+    for (int n = 0; n < 50; ++n) {
+        const double middle = 0.5 * (inside + outside);
+        (part.at(middle).radius_mm < radius_mm ? inside : outside) = middle;
+    }
+    return outside;
+}
+
 double fastest(const TurnLaw& law) {
     return math::hypot(law.sine, law.cosine) + law.constant;
 }
@@ -95,7 +104,7 @@ EngagementProbe::Level EngagementProbe::look(double s0, double s1, const field::
 void EngagementProbe::start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose) {
     stretches_.clear();
     scout_.look(stock, pose, s0, s1, stretches_);
-    const bool corner = s0 >= profile_.bottom_end() && s0 < profile_.corner_end();
+    const bool corner = profile_.is_round(s0);
     const std::span<const double> parts =
         corner ? std::span<const double>(kCornerParts) : std::span<const double>(kStraightParts);
     for (const MeridianStretch& stretch : stretches_) {
@@ -344,8 +353,10 @@ void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, doub
         const double from = std::max(arc.from_rad + turn, 0.0);
         const double to = std::min(arc.to_rad + turn, math::kTwoPi);
         if (!(to > from)) continue;
-        if (level.s < profile_.bottom_end()) {
-            out.bottom.push_back({s0, s1, from, to});
+        if (profile_.is_level(level.s)) {
+            const ProfilePoint a = profile_.at(s0), b = profile_.at(s1);
+            out.bottom.push_back({std::min(a.radius_mm, b.radius_mm), std::max(a.radius_mm, b.radius_mm),
+                                  from, to, level.at.height_mm, level.at.cos_kappa < 0});
             continue;
         }
         const double z0 = profile_.at(s0).height_mm, z1 = profile_.at(s1).height_mm;
@@ -356,7 +367,7 @@ void EngagementProbe::add_band(const Level& level, const MaterialArc& seen, doub
 // Extends the band right below on the cylinder if the borders of both are alike.
 bool EngagementProbe::joined_below(std::vector<EngagementBand>& bands, double s0,
                                    const EngagementBand& band) const {
-    if (s0 < profile_.corner_end()) return false;
+    if (!profile_.is_straight(s0)) return false;
     for (std::size_t n = bands.size(); n-- > 0;) {
         EngagementBand& below = bands[n];
         if (below.z1_mm != band.z0_mm || std::abs(below.entry_rad - band.entry_rad) >= kAlikeRad ||
@@ -377,10 +388,34 @@ void EngagementProbe::add_bands(const CutPose& pose, Engagement& out) const {
     }
 }
 
+// The lateral parts first, then the level ones.
+template <class Look>
+void EngagementProbe::each_part_of_profile(const CutPose& pose, double low, double high, Look look) const {
+    const ToolTravel& travel = pose.travel;
+    for (const bool level : {false, true}) {
+        for (const CutterProfile::Part& part : profile_.parts()) {
+            const double z0 = std::max(low, part.element.from.z), z1 = std::min(high, part.element.to.z);
+            if (part.is_level() != level || z0 > z1 || (z0 == z1 && !level)) continue;
+            const double down = part.faces_up() ? -travel.down_mm : travel.down_mm;
+            if (level && !(down > 0) && !travel.turns()) continue;
+            double s0 = level ? part.s0 : part.at_height(z0), s1 = level ? part.s1 : part.at_height(z1);
+            // Within the core nothing cuts.
+            if (part.at(s1).radius_mm <= core_mm_ && part.at(s0).radius_mm <= core_mm_) continue;
+            if (part.at(s0).radius_mm < core_mm_) s0 = s_at_radius(part, s0, s1, core_mm_);
+            if (part.at(s1).radius_mm < core_mm_) s1 = s_at_radius(part, s1, s0, core_mm_);
+            if (s1 > s0) look(s0, s1);
+        }
+    }
+}
+
 template <class Look>
 void EngagementProbe::each_part(const field::CarvedView& stock, const CutPose& pose, Look look) const {
     double low, high;
     if (!clip_heights(stock, pose, low, high)) return;
+    if (!profile_.parts().empty()) {
+        each_part_of_profile(pose, low, high, look);
+        return;
+    }
     const double s0 = profile_.at_height(low), s1 = profile_.at_height(high);
     const double corner = std::clamp(profile_.corner_end(), s0, s1), bottom = profile_.bottom_end();
     if (corner > s0) look(s0, corner);
@@ -401,8 +436,8 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
         arcs_.clear();
     };
     each_part(stock, pose, [&](double s0, double s1) {
-        // The bottom is refined alone, after the lateral area is known.
-        if (s0 < profile_.bottom_end()) finish();
+        // The bottom is refined alone, after the lateral area is known; so is each part of a profile.
+        if (profile_.is_level(s0) || !profile_.parts().empty()) finish();
         start(s0, s1, stock, pose);
     });
     finish();
@@ -421,9 +456,9 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
     constexpr double kPlace[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
     constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     double volume = 0;
-    const auto add_piece = [&](double s0, double s1, double entry, double exit) {
+    const auto add_piece = [&](const auto& point_at, double s0, double s1, double entry, double exit) {
         for (int n = 0; n < 3; ++n) {
-            const ProfilePoint at = profile.at(0.5 * (s0 + s1) + 0.5 * (s1 - s0) * kPlace[n]);
+            const ProfilePoint at = point_at(0.5 * (s0 + s1) + 0.5 * (s1 - s0) * kPlace[n]);
             const TurnLaw law = normal_travel(travel, at);
             const TurnWindow window = window_above(law, 0);
             const double weight = kWeight[n] * (s1 - s0) * at.radius_mm;
@@ -438,12 +473,23 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
     // Where the axis turns, the window in which an edge moves outward has kinks along the meridian. So it is
     // cut into pieces.
     const int pieces = travel.turns() ? 6 : 1;
-    const auto add = [&](double s0, double s1, double entry, double exit) {
+    const auto add_along = [&](const auto& point_at, double s0, double s1, double entry, double exit) {
         for (int n = 0; n < pieces && s1 > s0; ++n)
-            add_piece(s0 + (s1 - s0) * n / pieces, s0 + (s1 - s0) * (n + 1) / pieces, entry, exit);
+            add_piece(point_at, s0 + (s1 - s0) * n / pieces, s0 + (s1 - s0) * (n + 1) / pieces, entry, exit);
     };
-    for (const BottomBand& b : engagement.bottom) add(b.r0_mm, b.r1_mm, b.entry_rad, b.exit_rad);
+    const auto add = [&](double s0, double s1, double entry, double exit) {
+        add_along([&](double s) { return profile.at(s); }, s0, s1, entry, exit);
+    };
+    for (const BottomBand& b : engagement.bottom)
+        add_along([&](double r) { return point_of(b, r); }, b.r0_mm, b.r1_mm, b.entry_rad, b.exit_rad);
     for (const EngagementBand& b : engagement.bands) {
+        if (!profile.parts().empty()) {
+            profile.over_parts(b.z0_mm, b.z1_mm, [&](const CutterProfile::Part& part, double z0, double z1) {
+                add_along([&](double s) { return part.at(s); }, part.at_height(z0), part.at_height(z1),
+                          b.entry_rad, b.exit_rad);
+            });
+            continue;
+        }
         const double s0 = profile.at_height(b.z0_mm), s1 = profile.at_height(b.z1_mm);
         const double middle = std::clamp(profile.corner_end(), s0, s1);
         add(s0, middle, b.entry_rad, b.exit_rad);

@@ -43,6 +43,8 @@ class EngagementProbe {
     // Calls `look(s0, s1)` for each part of the meridian that may cut: corner, cylinder, bottom.
     template <class Look>
     void each_part(const field::CarvedView& stock, const CutPose& pose, Look look) const;
+    template <class Look>
+    void each_part_of_profile(const CutPose& pose, double low, double high, Look look) const;
     // Computes the heights at which the envelope may meet the blank. Returns false if there are none.
     bool clip_heights(const field::CarvedView& stock, const CutPose& pose, double& low, double& high) const;
     void start(double s0, double s1, const field::CarvedView& stock, const CutPose& pose);

@@ -93,7 +93,7 @@ Machining::Machining(field::CarvedField& stock, std::span<const Cutter> cutters,
     for (const Cutter& cutter : cutters_) {
         for (auto& share : probes_) share.emplace_back(cutter);
         std::vector<HolderStep> steps = cutter.steps();
-        if (steps.empty()) steps.push_back({cutter.diameter_mm, 2 * cutter.length_mm});
+        if (steps.empty()) steps.push_back({cutter.top_diameter_mm(), 2 * cutter.length_mm});
         std::vector<Cylinder>& body = bodies_.emplace_back();
         double height = cutter.length_mm;
         for (const HolderStep& step : steps) {

@@ -35,6 +35,23 @@ inline constexpr GaussRule kGauss6{6,
 template <class Visit>
 void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, double z1_mm,
                    const GaussRule& rule, Visit&& visit) {
+    const auto scaled = [&](const ProfilePoint& at, double length) {
+        EdgeLoad load = edge_load(tool.coefficients(), chip, at);
+        for (TurnLaw* law : {&load.t, &load.r, &load.a, &load.m}) {
+            law->sine *= length;
+            law->cosine *= length;
+            law->constant *= length;
+        }
+        visit(at.height_mm * tool.lag_per_mm(), load);
+    };
+    if (!tool.profile().parts().empty()) {
+        const CutterProfile::Part& part =
+            tool.profile().parts()[tool.profile().lateral_part(0.5 * (z0_mm + z1_mm))];
+        const double s0 = part.at_height(z0_mm), s1 = part.at_height(z1_mm);
+        for (int i = 0; i < rule.points; ++i)
+            scaled(part.at(0.5 * (s0 + s1) + 0.5 * (s1 - s0) * rule.x[i]), 0.5 * (s1 - s0) * rule.weight[i]);
+        return;
+    }
     const double corner = tool.corner_mm(), core = tool.radius_mm() - corner;
     const double u0 = std::sqrt(z0_mm / (2 * corner)), u1 = std::sqrt(z1_mm / (2 * corner));
     const double middle = 0.5 * (u0 + u1), half = 0.5 * (u1 - u0);
@@ -43,14 +60,7 @@ void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, dou
         const double sin_kappa = 2 * u * root, cos_kappa = 1 - 2 * u * u;
         const double length = 2 * corner * half * rule.weight[i] / root;
         const double height = 2 * corner * u * u;
-        EdgeLoad load =
-            edge_load(tool.coefficients(), chip, {core + corner * sin_kappa, height, sin_kappa, cos_kappa});
-        for (TurnLaw* law : {&load.t, &load.r, &load.a, &load.m}) {
-            law->sine *= length;
-            law->cosine *= length;
-            law->constant *= length;
-        }
-        visit(height * tool.lag_per_mm(), load);
+        scaled({core + corner * sin_kappa, height, sin_kappa, cos_kappa}, length);
     }
 }
 
@@ -59,8 +69,19 @@ void visit_profile(const EngagedEdges& tool, const Chip& chip, double z0_mm, dou
 inline constexpr double kThreePointProfile = 0.2, kThreePointRad = 0.5;
 inline constexpr double kTwoPointProfile = 0.05, kTwoPointRad = 0.2;
 
+// Returns the step of sin(kappa / 2) between two heights; on a profile half of the turn, which is more.
+inline double profile_step(const EngagedEdges& tool, double z0_mm, double z1_mm) {
+    if (!tool.profile().parts().empty()) {
+        const CutterProfile::Part& part =
+            tool.profile().parts()[tool.profile().lateral_part(0.5 * (z0_mm + z1_mm))];
+        const double size = part.at_height(z1_mm) - part.at_height(z0_mm);
+        return part.element.is_arc() ? 0.5 * size / std::abs(part.element.radius_mm) : 0;
+    }
+    return std::sqrt(z1_mm / (2 * tool.corner_mm())) - std::sqrt(z0_mm / (2 * tool.corner_mm()));
+}
+
 inline const GaussRule& profile_rule(const EngagedEdges& tool, double z0_mm, double z1_mm, double turn_rad) {
-    const double span = std::sqrt(z1_mm / (2 * tool.corner_mm())) - std::sqrt(z0_mm / (2 * tool.corner_mm()));
+    const double span = profile_step(tool, z0_mm, z1_mm);
     if (span < kTwoPointProfile && turn_rad < kTwoPointRad) return kGauss2;
     return span < kThreePointProfile && turn_rad < kThreePointRad ? kGauss3 : kGauss6;
 }

@@ -192,12 +192,32 @@ constexpr double kPhasePerPanelRad = 4;
 // Widest step of sin(kappa / 2) over one set of Gauss points.
 constexpr double kProfilePerPanel = 0.36;
 
+// A piece of a profile, in steps along it.
+void add_profile(const EngagedEdges& tool, const EngagedEdge& edge, double scale, int step, double highest,
+                 std::span<ForceHarmonic> out) {
+    const CutterProfile::Part& part = tool.profile().parts()[static_cast<std::size_t>(edge.part)];
+    const double s0 = part.at_height(edge.z0_mm), s1 = part.at_height(edge.z1_mm);
+    const double turn = highest * (edge.lag1_rad - edge.lag0_rad);
+    const double bow = profile_step(tool, edge.z0_mm, edge.z1_mm);
+    const int panels = 1 + static_cast<int>(std::max(turn / kPhasePerPanelRad, bow / kProfilePerPanel));
+    double from = edge.z0_mm;
+    for (int i = 0; i < panels; ++i) {
+        const double to = i + 1 == panels ? edge.z1_mm : part.at(s0 + (s1 - s0) * (i + 1) / panels).height_mm;
+        add_round(tool, edge, from, to, scale, step, out);
+        from = to;
+    }
+}
+
 void add_pieces(const EngagedEdges& tool, int step, std::span<ForceHarmonic> out) {
     const double scale = (tool.uniform() ? tool.flutes() : 1) / math::kTwoPi;
     const double highest = step * static_cast<double>(out.size() - 1);
     for (const EngagedEdge& edge : tool.edges()) {
         if (!edge.round) {
             add_cylinder(edge, scale, step, out);
+            continue;
+        }
+        if (edge.part >= 0) {
+            add_profile(tool, edge, scale, step, highest, out);
             continue;
         }
         const double diameter = 2 * tool.corner_mm();
