@@ -2,39 +2,65 @@
 #include "job/completion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "base/text/decimal.hpp"
 #include "job/program_tools.hpp"
 #include "job/solid.hpp"
 #include "job/words/tool_words.hpp"
+#include "milling/tool/cutter_shape.hpp"
 
 namespace tribo::job {
 namespace {
 
-milling::Cutter cutter_of(const motion::DeclaredTool& tool, int number) {
+// A tool of a kind with a profile.
+Result<milling::Cutter> shaped_cutter(const motion::DeclaredTool& tool, milling::Cutter cutter) {
+    const auto& words = milling::kCutterKindWords;
+    const auto word = std::find(words.begin(), words.end(), tool.kind);
+    if (word == words.end())
+        return fail("it is a " + tool.kind + ", which is no kind of cutter",
+                    "describe it as a [[cutter]] of the job");
+    cutter.kind = static_cast<milling::CutterKind>(word - words.begin());
+    const std::array sizes{tool.corner_mm, tool.tip_mm,    tool.point_deg, tool.taper_deg,
+                           tool.side_mm,   tool.height_mm, tool.neck_mm};  // in the order of kShapeKeys
+    static_assert(sizes.size() == milling::kShapeKeys.size());
+    for (std::size_t n = 0; n < sizes.size(); ++n) {
+        const milling::ShapeKey& key = milling::kShapeKeys[n];
+        if (milling::is_shape_key(cutter.kind, key.name)) cutter.*key.value = sizes[n];
+    }
+    cutter.helix_deg = milling::usual_helix_deg(cutter.kind);
+    cutter.length_mm = tool.edge_mm;
+    if (auto made = milling::make_profile(cutter); !made) return std::unexpected(made.error());
+    return cutter;
+}
+
+Result<milling::Cutter> cutter_of(const motion::DeclaredTool& tool, int number) {
     milling::Cutter cutter;
     cutter.number = number;
     cutter.diameter_mm = tool.diameter_mm;
     if (tool.flutes > 0) cutter.flutes = tool.flutes;
+    if (!tool.kind.empty()) return shaped_cutter(tool, std::move(cutter));
     if (2 * tool.corner_mm >= tool.diameter_mm) {
         cutter.kind = milling::CutterKind::ball;
     } else if (tool.corner_mm > 0) {
         cutter.kind = milling::CutterKind::bull;
         cutter.corner_mm = tool.corner_mm;
     }
-    cutter.length_mm = std::max(cutter.length_mm, cutter.corner_radius_mm());
+    cutter.length_mm =
+        std::max(tool.edge_mm > 0 ? tool.edge_mm : cutter.length_mm, cutter.corner_radius_mm());
     return cutter;
 }
 
 std::string description(const milling::Cutter& cutter, const motion::DeclaredTool& tool) {
     std::string text = std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]) + " D" +
-                       format_decimal(cutter.diameter_mm);
-    if (cutter.kind == milling::CutterKind::bull) text += " corner " + format_decimal(cutter.corner_mm);
+                       format_decimal(cutter.diameter_mm) + shape_words(cutter);
     text += tool.flutes > 0 ? ", " + std::to_string(cutter.flutes) + " flutes; " : "; ";
     if (tool.flutes == 0) text += std::to_string(cutter.flutes) + " flutes, ";
-    return text + "helix " + format_decimal(cutter.helix_deg) + " deg and " +
-           format_decimal(cutter.length_mm) + " mm of edge are assumed; write --tool \"" +
+    const bool has_length = tool.edge_mm > 0 || milling::has_own_length(cutter.kind);
+    text += "helix " + format_decimal(cutter.helix_deg) + " deg";
+    if (!has_length) text += " and " + format_decimal(cutter.length_mm) + " mm of edge";
+    return text + (has_length && tool.flutes > 0 ? " is" : " are") + " assumed; write --tool \"" +
            tool_words(cutter) + "\", or a [[cutter]] into a job, to say otherwise";
 }
 
@@ -44,12 +70,13 @@ Result<void> add_cutter(Job& job, const motion::Program& program, const Declared
                                        [&](const milling::Cutter& c) { return c.number == number; });
     const motion::DeclaredTool* tool = described ? nullptr : declared.find(number);
     if (tool == nullptr) return {};
-    const milling::Cutter cutter = cutter_of(*tool, number);
+    const auto made = cutter_of(*tool, number);
     const std::string name = number > 0 ? "tool T" + std::to_string(number) : "the tool";
     const bool from_table = !tool->table.empty();
     const std::string& source = from_table ? tool->table : program.source;
-    if (const auto good = milling::check(cutter); !good)
-        return fail_at(source, tool->line, 0, name + ": " + good.error().cause, good.error().remedy);
+    const Result<void> good = made ? milling::check(*made) : std::unexpected(made.error());
+    if (!good) return fail_at(source, tool->line, 0, name + ": " + good.error().cause, good.error().remedy);
+    const milling::Cutter& cutter = *made;
     warnings.push_back({source, tool->line,
                         name + " is taken from the " + (from_table ? "tool table" : "program") + ": " +
                             description(cutter, *tool)});

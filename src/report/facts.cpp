@@ -10,14 +10,15 @@
 #include "base/mesh_edges.hpp"
 #include "base/text/printable.hpp"
 #include "files/json/json.hpp"
+#include "job/words/tool_words.hpp"
 #include "milling/sweep/scallop.hpp"
+#include "milling/tool/cutter_shape.hpp"
 #include "motion/path/close_passes.hpp"
 
 namespace tribo::report {
 namespace {
 
 constexpr std::string_view kPathNames[] = {"keyframes", "gcode", "apt"};
-constexpr std::string_view kCutterNames[] = {"flat", "ball", "bull"};
 
 std::string_view path_name(job::PathKind kind) {
     return kPathNames[static_cast<std::size_t>(kind)];
@@ -98,8 +99,9 @@ std::string tools_text(const std::vector<int>& numbers) {
 
 std::string cutter_text(const milling::Cutter& c) {
     std::string text = c.number > 0 ? "T" + std::to_string(c.number) + ": " : "";
-    text += std::string(kCutterNames[static_cast<std::size_t>(c.kind)]) + " D" + number(c.diameter_mm);
-    if (c.kind == milling::CutterKind::bull) text += " corner " + number(c.corner_mm);
+    text += std::string(milling::kCutterKindWords[static_cast<std::size_t>(c.kind)]) + " D" +
+            number(c.diameter_mm);
+    text += job::shape_words(c);
     text += ", " + std::to_string(c.flutes) + (c.flutes == 1 ? " flute" : " flutes") + ", helix " +
             number(c.helix_deg) + " deg, " + number(c.length_mm) + " mm long";
     if (c.stickout_mm > 0) text += ", sticks out " + number(c.stickout_mm) + " mm";
@@ -110,9 +112,13 @@ std::string cutter_text(const milling::Cutter& c) {
 files::Json cutter_json(const milling::Cutter& c) {
     files::Json json;
     if (c.number > 0) json["number"] = c.number;
-    json["kind"] = kCutterNames[static_cast<std::size_t>(c.kind)];
+    json["kind"] = milling::kCutterKindWords[static_cast<std::size_t>(c.kind)];
     json["diameter_mm"] = c.diameter_mm;
-    if (c.kind == milling::CutterKind::bull) json["corner_mm"] = c.corner_mm;
+    for (const milling::ShapeKey& key : milling::kShapeKeys) {
+        const double size = c.*key.value;
+        if (size > 0 && milling::is_shape_key(c.kind, key.name)) json[std::string(key.name)] = size;
+    }
+    for (const milling::ProfileVertex& v : c.profile) json["profile"].push_back({v.r_mm, v.z_mm, v.bulge});
     json["flutes"] = c.flutes;
     json["helix_deg"] = c.helix_deg;
     json["length_mm"] = c.length_mm;
@@ -217,6 +223,10 @@ void add_passes(Builder& b, const milling::Cutter& cutter, std::span<const motio
     b.json["passes"] = {{"share", passes.share}, {"sidestep_mm", passes.sidestep_mm}};
     std::string text = number(passes.sidestep_mm) + " mm aside over " +
                        number(std::floor(100 * passes.share)) + " % of the feed path";
+    if (cutter.has_profile()) {
+        b.line("passes", text + "; the cusps of this kind of cutter are not computed: measure the part");
+        return;
+    }
     const double scallop =
         milling::scallop_height_mm(cutter, {passes.tilt_rad, passes.turn_rad}, passes.sidestep_mm);
     if (std::isfinite(scallop)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cmath>
 
+#include "base/text/limit_text.hpp"
 #include "job/toml/sections.hpp"
 #include "job/words/tool_words.hpp"
 
@@ -12,7 +14,8 @@ using namespace std::string_view_literals;
 constexpr std::array kCutterKeys{"number"sv,    "kind"sv,      "diameter_mm"sv, "corner_mm"sv,  "flutes"sv,
                                  "helix_deg"sv, "length_mm"sv, "runout_mm"sv,   "runout_deg"sv, "pitch_deg"sv,
                                  "holder"sv,    "core_mm"sv,   "stickout_mm"sv, "shank_mm"sv,   "neck_mm"sv,
-                                 "reach_mm"sv,  "body"sv};
+                                 "reach_mm"sv,  "body"sv,      "tip_mm"sv,      "point_deg"sv,  "taper_deg"sv,
+                                 "side_mm"sv,   "height_mm"sv, "profile"sv};
 constexpr std::array kBodyWords{"carbide"sv, "hss"sv};  // in the order of CutterBody
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
@@ -47,9 +50,8 @@ std::vector<milling::HolderStep> read_holder(TomlSection& owner) {
     return steps;
 }
 
-// milling::check names the key that is wrong; the message goes to the line of that key.
-void check_cutter(TomlSection& section, const milling::Cutter& cutter) {
-    const Result<void> checked = milling::check(cutter);
+// The room names the key that is wrong; the message goes to the line of that key.
+void report(TomlSection& section, const Result<void>& checked) {
     if (checked || !section.file().ok()) return;
     std::string_view culprit = "kind";
     std::size_t earliest = std::string::npos;
@@ -63,25 +65,72 @@ void check_cutter(TomlSection& section, const milling::Cutter& cutter) {
     section.fail(culprit, checked.error().cause, checked.error().remedy);
 }
 
+std::string word_of(const milling::Cutter& cutter) {
+    return std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]);
+}
+
+void read_kind(TomlSection& section, milling::Cutter& cutter) {
+    if (section.has("kind")) {
+        cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kCutterKindWords).value_or(0));
+    } else if (section.has("profile")) {
+        cutter.kind = milling::CutterKind::profile;
+    } else {
+        section.missing("kind");
+    }
+    if (section.has("profile") && cutter.kind != milling::CutterKind::profile)
+        section.fail("profile", "a " + word_of(cutter) + " cutter has no 'profile'",
+                     "remove it or write kind = \"profile\"");
+}
+
+// The numbers and vertices that shape a cutter, and what follows from them.
+void read_shape(TomlSection& section, milling::Cutter& cutter) {
+    using milling::CutterKind;
+    for (const milling::ShapeKey& key : milling::kShapeKeys) {
+        if (milling::is_shape_key(cutter.kind, key.name)) {
+            cutter.*key.value = cutter.kind == CutterKind::bull
+                                    ? section.required_number(key.name, key.limit)
+                                    : section.number(key.name, key.limit).value_or(0);
+        } else if (section.has(key.name) && key.name != "neck_mm") {
+            section.fail(key.name, "a " + word_of(cutter) + " cutter has no '" + std::string(key.name) + "'",
+                         key.name == "corner_mm" && !cutter.has_profile()
+                             ? "remove it or write kind = \"bull\""
+                             : "remove it or write another kind");
+        }
+    }
+    const auto length = section.number("length_mm", kLimits.cutting_length);
+    if (!cutter.has_profile()) {
+        cutter.length_mm = length.value_or(cutter.length_mm);
+        return;
+    }
+    cutter.length_mm = milling::has_own_length(cutter.kind) ? 0 : length.value_or(0);
+    const auto vertices =
+        section.triples("profile", {kLimits.profile_coordinate, kLimits.profile_coordinate, kLimits.bulge},
+                        "at most 200 vertices [[r, z], [r, z, bulge], ...]", 2);
+    if (vertices)
+        for (const auto& [r, z, bulge] : *vertices) cutter.profile.push_back({r, z, bulge});
+    if (!section.file().ok()) return;
+    report(section, milling::make_profile(cutter));
+    if (length && section.file().ok() && std::abs(*length - cutter.length_mm) > 1e-6)
+        section.fail("length_mm",
+                     "the edges of this " + word_of(cutter) + " end " + plain_number(cutter.length_mm) +
+                         " mm above the tip",
+                     "leave length_mm out");
+}
+
 milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std::string& label) {
     TomlSection section(file, table, label, kCutterKeys);
     milling::Cutter cutter;
     cutter.number = section.integer("number", kLimits.tool_number).value_or(0);
-    if (!section.has("kind")) section.missing("kind");
-    cutter.kind = static_cast<milling::CutterKind>(section.word("kind", kCutterKindWords).value_or(0));
-    cutter.diameter_mm = section.required_number("diameter_mm", kLimits.cutter_diameter);
-    if (cutter.kind == milling::CutterKind::bull) {
-        cutter.corner_mm = section.required_number("corner_mm", kLimits.corner_radius);
-    } else if (section.has("corner_mm")) {
-        section.fail("corner_mm",
-                     "a " + std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]) +
-                         " cutter has no 'corner_mm'",
-                     "remove it or write kind = \"bull\"");
+    read_kind(section, cutter);
+    if (cutter.kind != milling::CutterKind::profile) {
+        cutter.diameter_mm = section.required_number("diameter_mm", kLimits.cutter_diameter);
+    } else if (section.has("diameter_mm")) {
+        section.fail("diameter_mm", "a profile says its diameter itself", "remove diameter_mm");
     }
     cutter.flutes = section.integer("flutes", kLimits.flutes).value_or(cutter.flutes);
-    cutter.helix_deg = section.number("helix_deg", kLimits.helix).value_or(cutter.helix_deg);
+    cutter.helix_deg =
+        section.number("helix_deg", kLimits.helix).value_or(milling::usual_helix_deg(cutter.kind));
     cutter.core_mm = section.number("core_mm", kLimits.core_diameter).value_or(0);
-    cutter.length_mm = section.number("length_mm", kLimits.cutting_length).value_or(cutter.length_mm);
     cutter.runout_mm = section.number("runout_mm", kLimits.runout).value_or(0);
     cutter.runout_deg = section.number("runout_deg", kLimits.runout_angle).value_or(0);
     cutter.pitch_deg = section.numbers("pitch_deg", kLimits.pitch).value_or(std::vector<double>());
@@ -91,7 +140,8 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
     cutter.reach_mm = section.number("reach_mm", kLimits.stickout).value_or(0);
     cutter.body = static_cast<milling::CutterBody>(section.word("body", kBodyWords).value_or(0));
     cutter.holder = read_holder(section);
-    check_cutter(section, cutter);
+    read_shape(section, cutter);
+    report(section, milling::check(cutter));
     return cutter;
 }
 

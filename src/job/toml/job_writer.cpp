@@ -27,6 +27,12 @@ class JobText {
     void box(const char* key, const Box3& box) {
         line(key, "[" + point(box.min) + ", " + point(box.max) + "]");
     }
+    void vertices(const char* key, const std::vector<milling::ProfileVertex>& vertices) {
+        std::string value;
+        for (const milling::ProfileVertex& v : vertices)
+            value += (value.empty() ? "[" : ", ") + point({v.r_mm, v.z_mm, v.bulge});
+        line(key, value + "]");
+    }
     std::string take() { return std::move(text_); }
 
   private:
@@ -52,11 +58,16 @@ void write_cutter(JobText& text, const milling::Cutter& cutter) {
     text.section("[[cutter]]");
     if (cutter.number > 0) text.number("number", cutter.number);
     text.string("kind", kCutterKindWords[static_cast<std::size_t>(cutter.kind)]);
-    text.number("diameter_mm", cutter.diameter_mm);
-    if (cutter.kind == milling::CutterKind::bull) text.number("corner_mm", cutter.corner_mm);
+    const bool is_profile = cutter.kind == milling::CutterKind::profile;
+    if (!is_profile) text.number("diameter_mm", cutter.diameter_mm);
+    for (const milling::ShapeKey& key : milling::kShapeKeys) {
+        const double size = cutter.*key.value;
+        if (size > 0 && milling::is_shape_key(cutter.kind, key.name)) text.number(key.name.data(), size);
+    }
+    if (is_profile) text.vertices("profile", cutter.profile);
     text.number("flutes", cutter.flutes);
     text.number("helix_deg", cutter.helix_deg);
-    text.number("length_mm", cutter.length_mm);
+    if (!milling::has_own_length(cutter.kind)) text.number("length_mm", cutter.length_mm);
     if (cutter.core_mm > 0) text.number("core_mm", cutter.core_mm);
 }
 

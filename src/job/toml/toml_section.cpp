@@ -222,7 +222,8 @@ std::optional<std::vector<double>> TomlSection::numbers(std::string_view key, co
 
 std::optional<std::vector<std::array<double, 3>>> TomlSection::triples(std::string_view key,
                                                                        const std::array<Limit, 3>& limits,
-                                                                       const char* wanted) {
+                                                                       const char* wanted,
+                                                                       std::size_t least) {
     const toml::node* node = table_.get(key);
     if (!node) return {};
     const auto refuse = [&](const toml::node& where) {
@@ -235,9 +236,9 @@ std::optional<std::vector<std::array<double, 3>>> TomlSection::triples(std::stri
     std::vector<std::array<double, 3>> all;
     for (const toml::node& row : *rows) {
         const toml::array* numbers = row.as_array();
-        if (!numbers || numbers->size() != 3) return refuse(row);
+        if (!numbers || numbers->size() < least || numbers->size() > 3) return refuse(row);
         std::array<double, 3>& triple = all.emplace_back();
-        for (std::size_t n = 0; n < 3; ++n) {
+        for (std::size_t n = 0; n < numbers->size(); ++n) {
             const std::optional<double> value = number_of(key, *numbers->get(n), limits[n]);
             if (!value) return {};
             triple[n] = *value;

@@ -82,10 +82,11 @@ class TomlSection {
     std::optional<Box3> box(std::string_view key);
     // One number or an array of them.
     std::optional<std::vector<double>> numbers(std::string_view key, const Limit& limit);
-    // [[a, b, c], ...]: rows of three numbers. `wanted` describes them in messages.
+    // [[a, b, c], ...]: rows of three numbers, or of at least so many: the others are 0. `wanted` describes
+    // them in messages.
     std::optional<std::vector<std::array<double, 3>>> triples(std::string_view key,
                                                               const std::array<Limit, 3>& limits,
-                                                              const char* wanted);
+                                                              const char* wanted, std::size_t least = 3);
 
     // The same, but absence is an error too; the value is then anything.
     double required_number(std::string_view key, const Limit& limit);

@@ -17,9 +17,7 @@ using milling::Cutter;
 using milling::CutterKind;
 
 enum class Meaning {
-    flat,
-    ball,
-    bull,
+    kind,
     end_mill,
     filler,
     number,
@@ -28,19 +26,26 @@ enum class Meaning {
     corner,
     helix,
     length,
-    core
+    core,
+    tip,
+    point,
+    angle,
+    side,
+    height,
+    neck
 };
 
 struct Word {
     std::string_view text;
     Meaning meaning;
+    CutterKind kind = CutterKind::flat;
 };
 // The first words are those that messages suggest.
-constexpr std::size_t kSuggested = 10;
+constexpr std::size_t kSuggested = 27;
 constexpr std::array kWords{
-    Word{"flat", Meaning::flat},
-    Word{"ball", Meaning::ball},
-    Word{"bull", Meaning::bull},
+    Word{"flat", Meaning::kind, CutterKind::flat},
+    Word{"ball", Meaning::kind, CutterKind::ball},
+    Word{"bull", Meaning::kind, CutterKind::bull},
     Word{"T", Meaning::number},
     Word{"diameter", Meaning::diameter},
     Word{"flutes", Meaning::flutes},
@@ -48,12 +53,30 @@ constexpr std::array kWords{
     Word{"helix", Meaning::helix},
     Word{"length", Meaning::length},
     Word{"core", Meaning::core},
-    Word{"square", Meaning::flat},
-    Word{"ballnose", Meaning::ball},
-    Word{"ballend", Meaning::ball},
-    Word{"bullnose", Meaning::bull},
-    Word{"torus", Meaning::bull},
-    Word{"toroidal", Meaning::bull},
+    Word{"taper", Meaning::kind, CutterKind::taper},
+    Word{"v", Meaning::kind, CutterKind::v},
+    Word{"drill", Meaning::kind, CutterKind::drill},
+    Word{"chamfer", Meaning::kind, CutterKind::chamfer},
+    Word{"countersink", Meaning::kind, CutterKind::countersink},
+    Word{"dovetail", Meaning::kind, CutterKind::dovetail},
+    Word{"lens", Meaning::kind, CutterKind::lens},
+    Word{"barrel", Meaning::kind, CutterKind::barrel},
+    Word{"lollipop", Meaning::kind, CutterKind::lollipop},
+    Word{"thread", Meaning::kind, CutterKind::thread},
+    Word{"engraver", Meaning::kind, CutterKind::engraver},
+    Word{"tip", Meaning::tip},
+    Word{"point", Meaning::point},
+    Word{"angle", Meaning::angle},
+    Word{"side", Meaning::side},
+    Word{"height", Meaning::height},
+    Word{"neck", Meaning::neck},
+    Word{"bit", Meaning::filler},
+    Word{"square", Meaning::kind, CutterKind::flat},
+    Word{"ballnose", Meaning::kind, CutterKind::ball},
+    Word{"ballend", Meaning::kind, CutterKind::ball},
+    Word{"bullnose", Meaning::kind, CutterKind::bull},
+    Word{"torus", Meaning::kind, CutterKind::bull},
+    Word{"toroidal", Meaning::kind, CutterKind::bull},
     Word{"end", Meaning::end_mill},
     Word{"mill", Meaning::end_mill},
     Word{"endmill", Meaning::end_mill},
@@ -74,11 +97,24 @@ constexpr std::array kWords{
     Word{"helixdeg", Meaning::helix},
     Word{"lengthmm", Meaning::length},
     Word{"coremm", Meaning::core},
+    Word{"tipmm", Meaning::tip},
+    Word{"pointdeg", Meaning::point},
+    Word{"taperdeg", Meaning::angle},
+    Word{"sidemm", Meaning::side},
+    Word{"heightmm", Meaning::height},
+    Word{"neckmm", Meaning::neck},
 };
 
-Result<Meaning> meaning_of(const Item& item) {
+// In the order of milling::kShapeKeys.
+constexpr std::array kShapeMeanings{Meaning::corner, Meaning::tip,    Meaning::point, Meaning::angle,
+                                    Meaning::side,   Meaning::height, Meaning::neck};
+constexpr std::array<std::string_view, kShapeMeanings.size()> kShapeWords{
+    "corner", "tip", "point", "angle", "side", "height", "neck"};
+static_assert(kShapeMeanings.size() == milling::kShapeKeys.size());
+
+Result<Word> meaning_of(const Item& item) {
     for (const Word& word : kWords) {
-        if (item.word == word.text || (item.word == "t" && word.text == "T")) return word.meaning;
+        if (item.word == word.text || (item.word == "t" && word.text == "T")) return word;
     }
     std::vector<std::string_view> known;
     for (std::size_t n = 0; n < kSuggested; ++n) known.push_back(kWords[n].text);
@@ -107,30 +143,31 @@ class ToolText {
         if (item.is_number()) {
             // `3 flutes`, but the 6 of `6 flutes 3` is the diameter.
             const bool has_word = n + 1 < items.size() && !is_number(n + 1) && !is_number(n + 2);
-            const auto next = has_word ? meaning_of(items[n + 1]) : Result<Meaning>(Meaning::filler);
-            const bool counts = next && *next == Meaning::flutes;
+            const auto next = has_word ? meaning_of(items[n + 1]) : Result<Word>(Word{"", Meaning::filler});
+            const bool counts = next && next->meaning == Meaning::flutes;
             if (auto set = put(counts ? Meaning::flutes : Meaning::diameter, item); !set)
                 return std::unexpected(set.error());
             return counts ? 2 : 1;
         }
-        const auto meaning = meaning_of(item);
-        if (!meaning) return std::unexpected(meaning.error());
-        if (*meaning == Meaning::filler) return 1;
-        if (*meaning == Meaning::end_mill) {
+        const auto word = meaning_of(item);
+        if (!word) return std::unexpected(word.error());
+        const Meaning meaning = word->meaning;
+        if (meaning == Meaning::filler) return 1;
+        if (meaning == Meaning::end_mill) {
             is_end_mill_ = true;
             return 1;
         }
-        if (*meaning <= Meaning::bull) {
-            const auto kind = static_cast<CutterKind>(*meaning);
-            if (kind_ && *kind_ != kind) return fail("a tool has one kind, and this one two", "keep one");
-            kind_ = kind;
+        if (meaning == Meaning::kind) {
+            if (kind_ && *kind_ != word->kind)
+                return fail("a tool has one kind, and this one two", "keep one");
+            kind_ = word->kind;
             return 1;
         }
         if (!is_number(n + 1)) {
             return fail("'" + std::string(item.text) + "' has no number behind it",
                         "write '" + std::string(item.text) + " 2', for example");
         }
-        if (auto set = put(*meaning, items[n + 1]); !set) return std::unexpected(set.error());
+        if (auto set = put(meaning, items[n + 1]); !set) return std::unexpected(set.error());
         return 2;
     }
 
@@ -144,7 +181,8 @@ class ToolText {
                        : fail("the number " + number + " says the same thing again", "keep one of them");
         }
         const bool is_count = meaning == Meaning::number || meaning == Meaning::flutes;
-        const bool is_angle = meaning == Meaning::helix;
+        const bool is_angle =
+            meaning == Meaning::helix || meaning == Meaning::point || meaning == Meaning::angle;
         const bool is_length = item.unit == Unit::millimetre || item.unit == Unit::inch;
         if ((is_count && item.unit != Unit::none) || (is_angle && is_length) ||
             (!is_angle && item.unit == Unit::degree)) {
@@ -189,16 +227,42 @@ class ToolText {
         }
         c.number = static_cast<int>(value(Meaning::number).value_or(0));
         c.flutes = static_cast<int>(value(Meaning::flutes).value_or(c.flutes));
-        c.helix_deg = value(Meaning::helix).value_or(c.helix_deg);
-        c.length_mm = value(Meaning::length).value_or(c.length_mm);
+        c.helix_deg = value(Meaning::helix).value_or(milling::usual_helix_deg(c.kind));
         c.core_mm = value(Meaning::core).value_or(c.core_mm);
+        if (auto shaped = take_shape(c); !shaped) return std::unexpected(shaped.error());
         if (auto good = milling::check(c); !good) return std::unexpected(good.error());
         return c;
     }
 
+    // Length, and for a kind with a profile its sizes.
+    Result<void> take_shape(Cutter& c) const {
+        const auto length = value(Meaning::length);
+        const std::string kind(kCutterKindWords[static_cast<std::size_t>(c.kind)]);
+        for (std::size_t n = 0; n < kShapeMeanings.size(); ++n) {
+            const milling::ShapeKey& key = milling::kShapeKeys[n];
+            const auto size = value(kShapeMeanings[n]);
+            if (!size || (kShapeMeanings[n] == Meaning::corner && !c.has_profile())) continue;
+            if (!milling::is_shape_key(c.kind, key.name))
+                return fail("a " + kind + " tool has no " + std::string(kShapeWords[n]), "leave it out");
+            if (!key.limit.range.contains(*size))
+                return fail(out_of_range(key.limit, *size), range_remedy(key.limit));
+            c.*key.value = *size;
+        }
+        if (!c.has_profile()) {
+            c.length_mm = length.value_or(c.length_mm);
+            return {};
+        }
+        c.length_mm = milling::has_own_length(c.kind) ? 0 : length.value_or(0);
+        if (auto made = milling::make_profile(c); !made) return made;
+        if (length && std::abs(*length - c.length_mm) > 1e-6)
+            return fail("the edges of this " + kind + " are " + format_decimal(c.length_mm) + " mm long",
+                        "leave the length out");
+        return {};
+    }
+
     std::optional<CutterKind> kind_;
     bool is_end_mill_ = false;
-    std::array<std::optional<double>, static_cast<std::size_t>(Meaning::core) + 1> values_;
+    std::array<std::optional<double>, static_cast<std::size_t>(Meaning::neck) + 1> values_;
 };
 
 }  // namespace
@@ -207,15 +271,27 @@ Result<Cutter> parse_tool_words(std::string_view text) {
     return ToolText().read(text);
 }
 
+std::string shape_words(const Cutter& cutter) {
+    std::string text;
+    for (std::size_t n = 0; n < kShapeWords.size(); ++n) {
+        const milling::ShapeKey& key = milling::kShapeKeys[n];
+        const double value = cutter.*key.value;
+        if (value == 0 || !milling::is_shape_key(cutter.kind, key.name)) continue;
+        text += " " + std::string(kShapeWords[n]) + " " + format_decimal(value);
+    }
+    return text;
+}
+
 std::string tool_words(const Cutter& cutter) {
     const Cutter usual;
     std::string text = cutter.number > 0 ? "T" + std::to_string(cutter.number) + " " : "";
     text += kCutterKindWords[static_cast<std::size_t>(cutter.kind)];
     text += " " + format_decimal(cutter.diameter_mm);
-    if (cutter.kind == CutterKind::bull) text += " corner " + format_decimal(cutter.corner_mm);
-    text += " flutes " + std::to_string(cutter.flutes);
-    if (cutter.helix_deg != usual.helix_deg) text += " helix " + format_decimal(cutter.helix_deg);
-    if (cutter.length_mm != usual.length_mm) text += " length " + format_decimal(cutter.length_mm);
+    text += shape_words(cutter) + " flutes " + std::to_string(cutter.flutes);
+    if (cutter.helix_deg != milling::usual_helix_deg(cutter.kind))
+        text += " helix " + format_decimal(cutter.helix_deg);
+    if (cutter.length_mm != usual.length_mm && !milling::has_own_length(cutter.kind))
+        text += " length " + format_decimal(cutter.length_mm);
     if (cutter.core_mm != usual.core_mm) text += " core " + format_decimal(cutter.core_mm);
     return text;
 }

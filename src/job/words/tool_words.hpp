@@ -7,12 +7,11 @@
 #include <string_view>
 
 #include "base/result.hpp"
-#include "milling/tool/cutter.hpp"
+#include "milling/tool/cutter_shape.hpp"
 
 namespace tribo::job {
 
-// The names of milling::CutterKind, in its order; also `kind` in a job file.
-inline constexpr std::array<std::string_view, 3> kCutterKindWords{"flat", "ball", "bull"};
+using milling::kCutterKindWords;
 
 // Reads: a kind, the diameter (the first number without a word, or `D 6`), and any of `T number`, `flutes`,
 // `corner`, `helix`, `length`, `core`, each with its number behind it; `3 flutes` too. Lengths are in mm, or
@@ -24,5 +23,7 @@ Result<milling::Cutter> parse_tool_words(std::string_view text);
 // Writes what parse_tool_words() reads back to the same kind, number and sizes. Values that a cutter has by
 // default are left out, except its flutes. Holder, run-out and pitch are not written.
 std::string tool_words(const milling::Cutter& cutter);
+// Its part between diameter and flutes: " corner 1", " point 60"; with a leading blank, empty if none.
+std::string shape_words(const milling::Cutter& cutter);
 
 }  // namespace tribo::job
