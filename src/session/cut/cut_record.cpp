@@ -116,6 +116,9 @@ std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions&
         for (const double v :
              {c.diameter_mm, c.corner_mm, c.helix_deg, c.length_mm, c.runout_mm, c.runout_deg})
             hash.add(v);
+        for (const milling::ProfileVertex& v : c.profile) {
+            for (const double value : {v.r_mm, v.z_mm, v.bulge}) hash.add(value);
+        }
         hash.add(c.pitch_deg);
     }
     const milling::CuttingCoefficients& k = setup.coefficients;

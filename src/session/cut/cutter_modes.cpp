@@ -6,6 +6,7 @@
 
 #include "base/text/limit_text.hpp"
 #include "dynamics/tool_estimate.hpp"
+#include "milling/tool/cutter_shape.hpp"
 
 namespace tribo::session {
 namespace {
@@ -46,6 +47,16 @@ std::string estimate_text(const milling::Cutter& cutter, std::span<const dynamic
 
 Result<void> add_modes(const job::Job& job, MillSetup& setup, Warnings& warnings) {
     if (!job.can_vibrate()) return {};
+    for (const milling::Cutter& cutter : setup.cutters) {
+        if (!cutter.has_profile()) continue;
+        const std::string_view kind = milling::kCutterKindWords[static_cast<std::size_t>(cutter.kind)];
+        return fail_at(
+            job.file, 0, 0,
+            name_of(cutter) + " is a " + std::string(kind) +
+                ": vibration is computed for flat, ball and bull cutters only",
+            "remove what bends ([[mode]], [[frf]], estimate), or replace the cutter by the bull or flat "
+            "one that is nearest to it");
+    }
     setup.modes_of_cutter.assign(setup.cutters.size(), job.modes);
     if (!job.estimate) return {};
     for (std::size_t n = 0; n < setup.cutters.size(); ++n) {

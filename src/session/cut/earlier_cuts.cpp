@@ -73,6 +73,9 @@ std::uint64_t hash_of_cutters(const EarlierCuts& cuts) {
         hash.add(cutter.diameter_mm);
         hash.add(cutter.corner_mm);
         hash.add(cutter.length_mm);
+        for (const milling::ProfileVertex& v : cutter.profile) {
+            for (const double value : {v.r_mm, v.z_mm, v.bulge}) hash.add(value);
+        }
     }
     return hash.value();
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "field/carved/carved_field.hpp"
+#include "milling/tool/convex_zones.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::session {
@@ -44,6 +45,11 @@ FromTool from_tool(const milling::Cutter& c, const motion::ToolPose& pose, Vec3 
     const double along = dot(from_tip, pose.axis);
     const double off = std::sqrt(std::max(0.0, squared_length(from_tip) - along * along));
     const Vec3 outward = off > 0 ? (from_tip - along * pose.axis) / off : Vec3{};
+    if (c.zones) {
+        const milling::ConvexZones::Seen seen = c.zones->look(milling::PlanePoint{off, along});
+        return {seen.distance_mm,
+                normalized(seen.normal.r * outward + seen.normal.z * pose.axis, -pose.axis)};
+    }
     const double corner = c.corner_radius_mm();
     const double below = corner - along, beyond = off - (c.radius_mm() - corner);
     FromTool side{off - c.radius_mm(), outward};

@@ -87,6 +87,27 @@ void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& so
     }
 }
 
+// What the forces of cutters with a profile leave out.
+void warn_of_points(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+    using milling::CutterKind;
+    for (const milling::Cutter& cutter : setup.cutters) {
+        if (!cutter.has_profile()) continue;
+        const std::string name = cutter.number > 0 ? "tool T" + std::to_string(cutter.number) : "the tool";
+        if (cutter.kind == CutterKind::drill) {
+            warnings.push_back(
+                {source, 0,
+                 name + " is a drill: the thrust of its chisel edge is not modelled; core_mm, the "
+                        "diameter of its web, keeps that part out of the forces"});
+        } else if (cutter.profile.front().r_mm == 0 && cutter.core_mm == 0 &&
+                   cutter.profile.front().bulge == 0) {
+            warnings.push_back(
+                {source, 0,
+                 name + " cuts with a sharp point, where its edge hardly moves: there it ploughs, "
+                        "and the forces of the model are too low; tip_mm gives it a flat tip"});
+        }
+    }
+}
+
 // Scallops are accurate on a grid of up to half the sidestep. On a coarser grid cusps merge.
 constexpr double kLeastCellsPerSidestep = 2;
 // A smaller share of the path is a lead-in, a corner or the end of a raster.
@@ -214,6 +235,7 @@ Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& 
     if (auto done = add_modes(loaded.job, setup, warnings); !done) return std::unexpected(done.error());
     setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded.job, stock->blank->bounds_mm()));
     warn_where_the_grid_is_coarse(setup, loaded.job.file, warnings);
+    warn_of_points(setup, loaded.job.file, warnings);
     warn_of_passes_below_the_grid(setup, loaded.job.file, warnings);
     if (loaded.part) warn_of_part_outside(loaded.part->mesh, *stock->blank, loaded.job.file, warnings);
     setup.blank = std::move(stock->blank);

@@ -58,6 +58,7 @@ class InspectSource final : public haptics::ForceSource {
 };
 
 // Position of the cutter as a function of program time. Real-time safe; any thread.
+// A cutter with a profile counts as the cylinder around it.
 class CutterTrack {
   public:
     // `setup` has not run yet.
