@@ -15,6 +15,7 @@ std::span<const Golden> goldens() {
                                           {"formats", readers},
                                           {"mill_three_axes", mill_three_axes},
                                           {"mill_five_axes", mill_five_axes},
+                                          {"mill_profiles", mill_profiles},
                                           {"surface", surface},
                                           {"haptics", haptics},
                                           {"learning", learning}};

@@ -30,5 +30,6 @@ std::uint64_t haptics();
 std::uint64_t learning();
 std::uint64_t mill_three_axes();
 std::uint64_t mill_five_axes();
+std::uint64_t mill_profiles();
 
 }  // namespace tribo::golden

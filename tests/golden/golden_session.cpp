@@ -8,6 +8,7 @@
 #include "contact/contact_sample.hpp"
 #include "field/contour/contour.hpp"
 #include "golden/golden.hpp"
+#include "milling/tool/cutter_shape.hpp"
 #include "motion/curve/keyframe_motion.hpp"
 #include "readers/gcode/reader.hpp"
 #include "session/cut/mill_setup.hpp"
@@ -85,10 +86,8 @@ job::Job job_with(const milling::Cutter& cutter) {
     return job;
 }
 
-}  // namespace
-
-// A ball cutter on straight, circular and helical moves, in and out of the block.
-std::uint64_t mill_three_axes() {
+// On straight, circular and helical moves, in and out of the block.
+std::uint64_t mill_three_axes_with(const milling::Cutter& cutter) {
     constexpr std::string_view kProgram = R"(G21 G90 G17 S6000 M3
 G0 X-16 Y-6 Z2
 G1 Z-2 F900
@@ -100,22 +99,12 @@ G3 X4 Y5 I3 J0 Z-3.5
 G1 X8 Y-9 Z-1
 G0 Z5
 )";
-    milling::Cutter cutter;
-    cutter.kind = milling::CutterKind::ball;
-    cutter.diameter_mm = 6;
-    cutter.flutes = 3;
-    cutter.length_mm = 20;
     auto program = readers::read_gcode(kProgram);
     return program ? milled(job_with(cutter), std::move(*program)) : 0;
 }
 
-// A bull-nose cutter whose axis turns along a curved motion.
-std::uint64_t mill_five_axes() {
-    milling::Cutter cutter;
-    cutter.kind = milling::CutterKind::bull;
-    cutter.corner_mm = 1;
-    cutter.diameter_mm = 8;
-    cutter.length_mm = 25;
+// The axis turns along a curved motion.
+std::uint64_t mill_five_axes_with(const milling::Cutter& cutter) {
     const job::Job job = job_with(cutter);
     std::vector<motion::Keyframe> keyframes;
     for (int i = 0; i <= 10; ++i) {
@@ -131,6 +120,50 @@ std::uint64_t mill_five_axes() {
     motion::Program program;
     program.moves = std::move(*moves);
     return milled(job, std::move(program));
+}
+
+}  // namespace
+
+// A ball cutter.
+std::uint64_t mill_three_axes() {
+    milling::Cutter cutter;
+    cutter.kind = milling::CutterKind::ball;
+    cutter.diameter_mm = 6;
+    cutter.flutes = 3;
+    cutter.length_mm = 20;
+    return mill_three_axes_with(cutter);
+}
+
+// A bull-nose cutter.
+std::uint64_t mill_five_axes() {
+    milling::Cutter cutter;
+    cutter.kind = milling::CutterKind::bull;
+    cutter.corner_mm = 1;
+    cutter.diameter_mm = 8;
+    cutter.length_mm = 25;
+    return mill_five_axes_with(cutter);
+}
+
+// A rounded V, a lollipop, and a profile with a hollow arc and a step.
+std::uint64_t mill_profiles() {
+    milling::Cutter v, lollipop, form;
+    v.kind = milling::CutterKind::v;
+    v.diameter_mm = 8;
+    v.corner_mm = 0.3;
+    v.point_deg = 60;
+    lollipop.kind = milling::CutterKind::lollipop;
+    lollipop.diameter_mm = 6;
+    lollipop.neck_mm = 3;
+    form.kind = milling::CutterKind::profile;
+    form.length_mm = 15;
+    form.profile = {{1, 0, 0}, {1, 1, -0.4}, {2, 2, 0}, {3, 2, 0}, {3, 3, 0.3}, {2.5, 5, 0}};
+    Hash hash;
+    for (milling::Cutter* cutter : {&v, &lollipop, &form}) {
+        if (!milling::make_profile(*cutter)) return 0;
+        hash.add(mill_three_axes_with(*cutter));
+        hash.add(mill_five_axes_with(*cutter));
+    }
+    return hash.value();
 }
 
 }  // namespace tribo::golden

@@ -316,7 +316,8 @@ INSTANTIATE_TEST_SUITE_P(
                "0\nkae_n_per_mm = 0",
                15, "'kte_n_per_mm' is -1"},
         // Words that are not among the choices.
-        BadJob{"\"flat\"", "\"flta\"", 6, "'kind' cannot be 'flta'; try 'flat' (one of flat, ball, bull)"},
+        BadJob{"\"flat\"", "\"flta\"", 6,
+               "'kind' cannot be 'flta'; try 'flat' (one of flat, ball, bull, taper,"},
         BadJob{"distance_factor = 1.0", "mode = \"stereo\"", 20, "try one of hrtf, sphere, pan"},
         BadJob{"\"bowl.csv\"", "\"bowl.csv\"\ninterpolation = \"cubic\"", 18,
                "try one of spline, linear, fit"},

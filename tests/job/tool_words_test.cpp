@@ -91,8 +91,8 @@ TEST(ToolWords, that_are_wrong_are_refused_with_the_nearest) {
                              "flat 6 length 0", "flat 6 core 7", "flat 1e400"}) {
         EXPECT_TRUE(refusal(text).starts_with("error: ")) << text;
     }
-    EXPECT_NE(refusal("drill 6").find("try one of flat, ball, bull"), std::string::npos)
-        << refusal("drill 6");
+    EXPECT_NE(refusal("reamer 6").find("try one of flat, ball, bull"), std::string::npos)
+        << refusal("reamer 6");
 }
 
 TEST(ToolWords, are_written_as_they_are_read) {

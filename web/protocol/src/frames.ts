@@ -12,6 +12,8 @@ export interface Cutter {
   corner: number;
   length: number;
   holder: { radius: number; length: number }[];
+  // Points (radius, height above the tip) of a cutter that is not flat, ball or bull, from the bottom up to its length.
+  outline?: [number, number][];
 }
 
 export interface JobFrame {
@@ -335,6 +337,12 @@ function decodeJob(r: Reader): JobFrame {
     cutters.push(cutter);
   }
   const chipLimits = r.left() > 0 ? { rubbing: r.f32(), overloadShare: r.f32() } : undefined;
+  for (let n = r.left() > 0 ? r.u32() : 0, k = 0; k < n; ++k) {
+    const outline: [number, number][] = [];
+    for (let points = r.u32(); points > 0; --points) outline.push([r.f32(), r.f32()]);
+    const cutter = cutters[k];
+    if (cutter && outline.length > 0) cutter.outline = outline;
+  }
   return { kind: "job", duration, cell, blank, cutters, chipLimits };
 }
 

@@ -33,6 +33,13 @@ const chatter = (told: Told | undefined) =>
   };
 const floats = (told: unknown) => Float32Array.from(told as (number | null)[], (value) => value ?? Number.NaN);
 
+// Of a cutter with a profile.
+const outline = (told: Told | undefined) => {
+  const points = told ? list(told.points) : [];
+  if (points.length === 0) return {};
+  return { outline: points.map((point) => [point.radius_mm, point.height_mm] as [number, number]) };
+};
+
 // What the page's frame is, out of the fields that the engine names.
 const MEANING: Record<string, (told: Told) => Frame> = {
   job: (told) => ({
@@ -40,7 +47,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     duration: told.duration_s as number,
     cell: told.cell_mm as number,
     blank: { min: told.blank_min_mm as never, max: told.blank_max_mm as never },
-    cutters: list(told.cutters).map((cutter) => ({
+    cutters: list(told.cutters).map((cutter, n) => ({
       number: cutter.number as number,
       flutes: cutter.flutes as number,
       radius: cutter.radius_mm as number,
@@ -50,6 +57,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
         radius: step.radius_mm as number,
         length: step.length_mm as number,
       })),
+      ...outline(list(told.outlines)[n]),
     })),
     chipLimits: { rubbing: told.rubbing_chip_mm as number, overloadShare: told.overload_chip_share as number },
   }),

@@ -24,11 +24,16 @@ const UP = new Vector3(0, 0, 1);
 export function outline(cutter: Cutter): [number, number][] {
   const { radius, corner, length, holder } = cutter;
   const points: [number, number][] = [[0, 0]];
-  for (let n = corner > 0 ? 0 : CORNER_STEPS; n <= CORNER_STEPS; ++n) {
-    const a = (n / CORNER_STEPS) * (Math.PI / 2);
-    points.push([radius - corner + corner * Math.sin(a), corner - corner * Math.cos(a)]);
+  if (cutter.outline) {
+    points.push(...cutter.outline.filter(([, height]) => height <= length));
+    points.push([points[points.length - 1]![0], length]);
+  } else {
+    for (let n = corner > 0 ? 0 : CORNER_STEPS; n <= CORNER_STEPS; ++n) {
+      const a = (n / CORNER_STEPS) * (Math.PI / 2);
+      points.push([radius - corner + corner * Math.sin(a), corner - corner * Math.cos(a)]);
+    }
+    points.push([radius, length]);
   }
-  points.push([radius, length]);
   let z = length;
   for (const step of holder) {
     points.push([step.radius, z], [step.radius, z + step.length]);
