@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/math.hpp"
+#include "milling/tool/cutter_profile.hpp"
 
 namespace tribo::dynamics {
 namespace {
@@ -11,12 +12,30 @@ namespace {
 constexpr BeamMaterial kCarbide{600e3, 0.22, 14.5e-9}, kHighSpeedSteel{210e3, 0.3, 8.1e-9};
 constexpr BeamMaterial kSteel{210e3, 0.3, 7.85e-9};
 
+// A profile in thin slices.
+void add_edges(const milling::Cutter& cutter, const BeamMaterial& body, std::vector<BeamSection>& sections) {
+    constexpr int kSlices = 16;  // of each line or arc
+    const milling::CutterProfile profile(cutter);
+    for (const milling::CutterProfile::Part& part : profile.parts()) {
+        const double low = part.element.from.z, step = (part.element.to.z - low) / kSlices;
+        if (part.is_level()) continue;
+        for (int n = 0; n < kSlices; ++n) {
+            const double radius = part.at(part.at_height(low + (n + 0.5) * step)).radius_mm;
+            sections.push_back({kFlutedShare * 2 * radius, step, body});
+        }
+    }
+}
+
 }  // namespace
 
 ToolBeam tool_beam(const milling::Cutter& cutter) {
     const BeamMaterial& body = cutter.body == milling::CutterBody::carbide ? kCarbide : kHighSpeedSteel;
     ToolBeam beam;
-    beam.body.push_back({kFlutedShare * cutter.diameter_mm, cutter.length_mm, body});
+    if (cutter.has_profile()) {
+        add_edges(cutter, body, beam.body);
+    } else {
+        beam.body.push_back({kFlutedShare * cutter.diameter_mm, cutter.length_mm, body});
+    }
     for (const milling::HolderStep& step : cutter.shank_steps())
         beam.body.push_back({step.diameter_mm, step.length_mm, body});
     for (const milling::HolderStep& step : cutter.holder)

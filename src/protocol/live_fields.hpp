@@ -43,6 +43,15 @@ void fields(Wire& wire, FrameOf<Wire, LiveCutter> cutter) {
     wire.list("holder", cutter.holder);
 }
 template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveOutlinePoint> point) {
+    wire.f32("radius_mm", point.radius_mm);
+    wire.f32("height_mm", point.height_mm);
+}
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveOutline> outline) {
+    wire.list("points", outline.points);
+}
+template <class Wire>
 void fields(Wire& wire, FrameOf<Wire, LiveJob> job) {
     wire.f64("duration_s", job.duration_s);
     wire.f32("cell_mm", job.cell_mm);
@@ -52,6 +61,7 @@ void fields(Wire& wire, FrameOf<Wire, LiveJob> job) {
     wire.added();
     wire.f32("rubbing_chip_mm", job.rubbing_chip_mm);
     wire.f32("overload_chip_share", job.overload_chip_share);
+    wire.list("outlines", job.outlines);
 }
 
 template <>

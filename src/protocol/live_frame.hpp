@@ -52,6 +52,13 @@ struct LiveCutter {
     double radius_mm = 0, corner_radius_mm = 0, length_mm = 0;
     std::vector<LiveHolderStep> holder;  // from the shank upwards
 };
+struct LiveOutlinePoint {
+    double radius_mm = 0, height_mm = 0;
+};
+// From the bottom up; none of flat, ball and bull.
+struct LiveOutline {
+    std::vector<LiveOutlinePoint> points;
+};
 // All that was sent before is void.
 struct LiveJob {
     double duration_s = 0, cell_mm = 0;
@@ -59,6 +66,7 @@ struct LiveJob {
     std::vector<LiveCutter> cutters;
     // Limits of a chip, as in milling/engagement/chip.hpp; 0: not told.
     double rubbing_chip_mm = 0, overload_chip_share = 0;
+    std::vector<LiveOutline> outlines;  // of each cutter
 };
 
 struct LiveChunkPlace {

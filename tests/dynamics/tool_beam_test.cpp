@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "milling/tool/cutter_shape.hpp"
+
 namespace tribo::dynamics {
 namespace {
 
@@ -108,6 +110,19 @@ TEST(ToolBeam, is_not_bent_by_a_force_above_it) {
     const BendingByForce bending = bending_by_force(tool_beam(cutter(6, 10, 20)), 25);
     EXPECT_EQ(bending.yield_mm, 0);
     EXPECT_EQ(bending.stress_per_mm2, 0);
+}
+
+// A tapered cantilever under a force at its thin end yields by 64 F L^3 / (3 pi E d0 d1^3).
+TEST(ToolBeam, of_a_taper_bends_as_a_tapered_cantilever) {
+    milling::Cutter taper{
+        .kind = milling::CutterKind::taper, .diameter_mm = 10, .length_mm = 40, .tip_mm = 4, .taper_deg = 1};
+    taper.taper_deg = std::atan(3.0 / 40) * 180 / kPi;
+    taper.tip_mm = 4;
+    ASSERT_TRUE(milling::make_profile(taper));
+    const BendingByForce bending = bending_by_force(tool_beam(taper), 0);
+    const double d0 = kFlutedShare * 4, d1 = kFlutedShare * 10, length = 40, young = 600e3;
+    const double expected = 64 * length * length * length / (3 * kPi * young * d0 * d1 * d1 * d1);
+    EXPECT_NEAR(bending.yield_mm / expected, 1, 0.01);
 }
 
 }  // namespace

@@ -160,9 +160,11 @@ std::uint64_t mill_profiles() {
     Hash hash;
     for (milling::Cutter* cutter : {&v, &lollipop, &form}) {
         if (!milling::make_profile(*cutter)) return 0;
-        hash.add(mill_three_axes_with(*cutter));
-        hash.add(mill_five_axes_with(*cutter));
     }
+    hash.add(mill_three_axes_with(v));
+    hash.add(mill_three_axes_with(form));
+    hash.add(mill_five_axes_with(v));
+    hash.add(mill_five_axes_with(lollipop));
     return hash.value();
 }
 

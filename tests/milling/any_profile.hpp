@@ -36,6 +36,12 @@ inline Cutter form_tool() {
                  {r + hollow + 0.5 * step, 2 * tall + hollow + step, 0},
                  {r + hollow, 2 * tall + hollow + step, 0},
                  {r + hollow, 3 * tall + hollow + step + 5, 0}};
+    if (*rc::gen::inRange(0, 3) == 0) c.profile[1].bulge = -std::tan(math::kPi / 8);
+    // Without its step the hollow corner ends in an edge that stands out.
+    if (*rc::gen::inRange(0, 2) == 0) {
+        c.profile = {c.profile[0], c.profile[1], c.profile[2], {r + hollow, 2 * tall + hollow, 0}};
+        return finished(c);
+    }
     if (!make_profile(c)) {
         c.profile[1].bulge = -std::tan(math::kPi / 8);
         c.profile[4].bulge = 0;

@@ -179,7 +179,8 @@ TEST(LiveFrames, AreTheStoredBytes) {
                              {{0, 0, -10}, {40, 30, 0}},
                              {{7, 4, 6, 1, 40, {{10, 30}}}, {8, 2, 3, 3, 20, {}}},
                              0.015625,
-                             0.03125},
+                             0.03125,
+                             {{{{0, 0}, {6, 4}}}, {}}},
                      "job");
     expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {}}, "chunk");
     const float none = std::numeric_limits<float>::quiet_NaN();

@@ -212,6 +212,8 @@ class SearchedSweep final : public field::Shape {
         const double bend = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
         std::array<ToolView, kMostInstants> views;
         for (int k = 0; k < instants_; ++k) views[static_cast<std::size_t>(k)] = view(line_, d, time(k));
+        const ToolView halfway = view(line_, d, 0.5);
+        const double speed = b.speed + b.turn * reach;
         Least best{bound, 0, 0};
         double lowest_floor = kNever;
         for (std::size_t zone = 0; zone < zones_->size(); ++zone) {
@@ -230,6 +232,14 @@ class SearchedSweep final : public field::Shape {
                     lowest_floor = std::min(lowest_floor, s.floor);
                 }
             };
+            // Where one of many zones may come in half of the travel is seen from the middle.
+            if (zones_->size() > 1) {
+                const double nearest = zones_->look(zone, halfway.at).distance_mm - 0.5 * speed;
+                if (nearest >= goal()) {
+                    lowest_floor = std::min(lowest_floor, nearest);
+                    continue;
+                }
+            }
             Instant before = instant(zone, views[0], 0);
             take(before);
             for (int k = 1; k < instants_; ++k) {

@@ -12,6 +12,8 @@ namespace {
 
 // A joint that turns by less (sine) counts as smooth.
 constexpr double kSmooth = 1e-9;
+// A normal with a smaller part across the axis is that of a level tangent.
+constexpr double kLevel = 1e-6;
 // Points nearer than this to the start of a ray are the start, mm.
 constexpr double kNearMm = 1e-7;
 // Half of the shortest chord that is more than a touch, mm.
@@ -91,17 +93,36 @@ void ConvexZones::add_level(double up, double height_mm) {
     faces_.push_back({normal, normal, up * height_mm, {}, 0});
 }
 
+// Ends a zone below its first element: at the joint if that is convex, else within the cutter.
+void ConvexZones::add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number,
+                                PlanePoint normal) {
+    const PlanePoint joint = elements[number].from;
+    const bool convex = number > 0 && cross(elements[number - 1].to_normal, normal) > kSmooth;
+    if (convex) {
+        add_level(-1, joint.z);
+    } else if (const auto height = half_way(elements, joint, -1.0 * along(normal))) {
+        add_level(-1, *height);
+    }
+}
+
+// The same above its last element.
+void ConvexZones::add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number,
+                                PlanePoint normal) {
+    const PlanePoint joint = elements[number].to;
+    const bool convex =
+        number + 1 < elements.size() && cross(normal, elements[number + 1].from_normal) > kSmooth;
+    if (convex) {
+        add_level(1, joint.z);
+    } else if (const auto height = half_way(elements, joint, along(normal))) {
+        add_level(1, *height);
+    }
+}
+
 void ConvexZones::add_run(const std::vector<ProfileElement>& elements, const Run& run) {
     const std::size_t first = faces_.size();
     for (std::size_t n = run.first; n < run.end; ++n) add_face(elements[n]);
-    const ProfileElement &low = elements[run.first], &high = elements[run.end - 1];
-    if (run.first > 0) {
-        if (const auto height = half_way(elements, low.from, -1.0 * along(low.from_normal)))
-            add_level(-1, *height);
-    }
-    if (run.end < elements.size()) {
-        if (const auto height = half_way(elements, high.to, along(high.to_normal))) add_level(1, *height);
-    }
+    if (run.first > 0) add_lower_end(elements, run.first, elements[run.first].from_normal);
+    if (run.end < elements.size()) add_upper_end(elements, run.end - 1, elements[run.end - 1].to_normal);
     zones_.push_back({first, faces_.size()});
 }
 
@@ -117,11 +138,21 @@ void ConvexZones::add_concave(const std::vector<ProfileElement>& elements, std::
         math::sincos(angle * n / count, sine, cosine);
         const PlanePoint a = arc.from_normal;
         const PlanePoint normal{a.r * cosine - a.z * sine, a.z * cosine + a.r * sine};
+        // A level tangent has no height; those beside it and the element behind it are enough.
+        if (std::abs(normal.r) < kLevel) continue;
         const PlanePoint at = arc.centre + arc.radius_mm * normal;
         const std::size_t first = faces_.size();
         faces_.push_back({normal, normal, dot(normal, at), {}, 0});
-        if (const auto height = half_way(elements, at, along(normal))) add_level(1, *height);
-        if (const auto height = half_way(elements, at, -1.0 * along(normal))) add_level(-1, *height);
+        if (n == 0) {
+            add_lower_end(elements, number, normal);
+        } else if (const auto low = half_way(elements, at, -1.0 * along(normal))) {
+            add_level(-1, *low);
+        }
+        if (n == count) {
+            add_upper_end(elements, number, normal);
+        } else if (const auto high = half_way(elements, at, along(normal))) {
+            add_level(1, *high);
+        }
         zones_.push_back({first, faces_.size()});
     }
 }
@@ -165,9 +196,14 @@ PlanePoint ConvexZones::other_normal(std::size_t zone, PlanePoint at, double sla
 
 ConvexZones::Seen ConvexZones::look(PlanePoint at) const {
     Seen least = look(0, at);
-    for (std::size_t n = 1; n < zones_.size(); ++n) {
-        const Seen seen = look(n, at);
-        if (seen.distance_mm < least.distance_mm) least = seen;
+    for (std::size_t zone = 1; zone < zones_.size(); ++zone) {
+        std::size_t n = zones_[zone].first;
+        Seen most = faces_[n].look(at);
+        for (++n; n < zones_[zone].end && most.distance_mm < least.distance_mm; ++n) {
+            const Seen seen = faces_[n].look(at);
+            if (seen.distance_mm > most.distance_mm) most = seen;
+        }
+        if (most.distance_mm < least.distance_mm) least = most;
     }
     return least;
 }

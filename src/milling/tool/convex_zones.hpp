@@ -59,6 +59,8 @@ class ConvexZones {
     struct Run;
     void add_run(const std::vector<ProfileElement>& elements, const Run& run);
     void add_concave(const std::vector<ProfileElement>& elements, std::size_t arc);
+    void add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
+    void add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
     void add_face(const ProfileElement& element);
     void add_level(double up, double height_mm);
 

@@ -18,6 +18,20 @@ CutterProfile::CutterProfile(const Cutter& cutter)
     }
 }
 
+std::vector<PlanePoint> profile_outline(const Cutter& cutter, double step_rad) {
+    std::vector<PlanePoint> outline;
+    const CutterProfile profile(cutter);
+    for (const CutterProfile::Part& part : profile.parts()) {
+        if (outline.empty()) outline.push_back(part.element.from);
+        const int steps = std::max(1, static_cast<int>(std::ceil(part.turn_rad() / step_rad)));
+        for (int n = 1; n <= steps; ++n) {
+            const ProfilePoint at = part.at(part.s0 + (part.s1 - part.s0) * n / steps);
+            outline.push_back({at.radius_mm, at.height_mm});
+        }
+    }
+    return outline;
+}
+
 std::size_t CutterProfile::lateral_part(double z_mm) const {
     std::size_t found = parts_.size();
     for (std::size_t n = 0; n < parts_.size(); ++n) {

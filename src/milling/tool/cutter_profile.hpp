@@ -97,4 +97,7 @@ class CutterProfile {
     std::vector<Part> parts_;
 };
 
+// Returns points along the profile, arcs in steps of at most this angle; empty for flat, ball and bull.
+std::vector<PlanePoint> profile_outline(const Cutter& cutter, double step_rad);
+
 }  // namespace tribo::milling

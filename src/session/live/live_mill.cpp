@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/math.hpp"
+#include "milling/tool/cutter_profile.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::session {
@@ -63,6 +64,14 @@ protocol::LiveCutter live_cutter(const milling::Cutter& cutter) {
     for (const milling::HolderStep& step : cutter.steps())
         told.holder.push_back({0.5 * step.diameter_mm, step.length_mm});
     return told;
+}
+
+protocol::LiveOutline live_outline(const milling::Cutter& cutter) {
+    constexpr double kStepRad = 0.15;
+    protocol::LiveOutline outline;
+    for (const milling::PlanePoint point : milling::profile_outline(cutter, kStepRad))
+        outline.points.push_back({point.r, point.z});
+    return outline;
 }
 
 }  // namespace
@@ -202,9 +211,17 @@ void LiveMill::mill(double target_s, const std::function<bool()>& has_time) {
 
 void LiveMill::show_job(const protocol::FrameSink& frames) {
     const MillSetup& setup = session_->setup();
-    protocol::LiveJob job{duration_s(), setup.cell_mm,           session_->stock().blank().bounds_mm(),
-                          {},           milling::kRubbingChipMm, milling::kOverloadShare};
-    for (const milling::Cutter& cutter : setup.cutters) job.cutters.push_back(live_cutter(cutter));
+    protocol::LiveJob job{duration_s(),
+                          setup.cell_mm,
+                          session_->stock().blank().bounds_mm(),
+                          {},
+                          milling::kRubbingChipMm,
+                          milling::kOverloadShare,
+                          {}};
+    for (const milling::Cutter& cutter : setup.cutters) {
+        job.cutters.push_back(live_cutter(cutter));
+        job.outlines.push_back(live_outline(cutter));
+    }
     protocol::write_frame(job, frame_);
     frames(frame_);
     job::Listening listening = this->listening();
