@@ -45,7 +45,8 @@ TEST(CutterShape, of_pointed_tools_is_a_cone_of_the_given_angle) {
     EXPECT_EQ(drill.point_deg, 118);
     expect_vertices(drill, {{0, 0, 0}, {4, 4 / std::tan(59 * math::kRadPerDeg), 0}});
     EXPECT_NEAR(made({.kind = CutterKind::countersink, .diameter_mm = 10}).profile.back().z_mm, 5, 1e-12);
-    EXPECT_NEAR(made({.kind = CutterKind::chamfer, .diameter_mm = 10, .tip_mm = 2}).profile.back().z_mm, 4, 1e-12);
+    EXPECT_NEAR(made({.kind = CutterKind::chamfer, .diameter_mm = 10, .tip_mm = 2}).profile.back().z_mm, 4,
+                1e-12);
 }
 
 // The side of a tapered mill passes through (tip / 2, 0) if it is sharp; a ball of half its tip touches side
