@@ -55,8 +55,8 @@ struct Move {
     int line = 0;                // of the source, from 1
 };
 
-// A tool that a program declares itself (CUTTER/, a tool comment) or that a tool table contains. Numbers are 0
-// where they are not given.
+// A tool that a program declares itself (CUTTER/, a tool comment) or that a tool table contains. Numbers are
+// 0 where they are not given.
 struct DeclaredTool {
     int number = 0;
     double diameter_mm = 0;
@@ -65,7 +65,8 @@ struct DeclaredTool {
     int flutes = 0;                     // 0: not given
     std::optional<double> length_mm{};  // from the spindle nose to the tip
     std::string table{};                // name of the table; empty: the program's own
-    // The shape, if it is not flat, ball or bull by diameter and corner: a `kind` of docs/job.md and its keys.
+    // The shape, if it is not flat, ball or bull by diameter and corner: a `kind` of docs/job.md and its
+    // keys.
     std::string kind{};
     double tip_mm = 0, point_deg = 0, taper_deg = 0, side_mm = 0, height_mm = 0, neck_mm = 0;
     double edge_mm = 0;  // length of the cutting edges, `length_mm` of a job's cutter
