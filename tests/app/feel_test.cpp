@@ -284,7 +284,8 @@ TEST_F(Feel, touches_a_model_whose_triangles_do_not_agree_on_a_side) {
 TEST_F(Feel, says_which_devices_there_are) {
     const Outcome text = run_tribo({"devices"}, folder_.string());
     EXPECT_EQ(text.code, 0);
-    for (const char* word : {"openhaptics", "forcedimension", "haply", "falcon", "simulated", "playback", "sound"})
+    for (const char* word :
+         {"openhaptics", "forcedimension", "haply", "falcon", "simulated", "playback", "sound"})
         EXPECT_NE(text.out.find(word), std::string::npos) << word;
     const auto json = nlohmann::json::parse(run_tribo({"devices", "--json"}, folder_.string()).out);
     EXPECT_EQ(json["schema"], "tribo.devices/1");
