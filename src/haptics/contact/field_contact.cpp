@@ -42,6 +42,8 @@ constexpr double kLeft = 1e-3;
 // A landing this much (of the step's length) off the trial is looked at again, so often.
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
+// So often a proxy in material is pushed out; in a corner of bent sides each push takes most of the depth.
+constexpr int kMostPushes = 8;
 constexpr int kMostLinks = 24;  // of a chain of balls
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
@@ -315,6 +317,12 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         to.proxy = corner.nearest(trial);
         // Not between here and the trial: the far side of a wall.
         if (distance(to.proxy, trial) > size + kSkin) return Landing::none;
+        // A side that is far behind by now would hold the proxy where there is air.
+        to.sides = {};
+        for (int i = 0; i < from.sides.count; ++i) {
+            const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
+            if (dot(h.normal, to.proxy - from.proxy) > -kOff * size) to.sides.put(h, kOneSide);
+        }
     } else {
         // Along a corner: a side that the step has left is not there, nor one behind which there is air.
         to.proxy = trial - g.gap_mm * g.normal;
@@ -424,7 +432,7 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
 // Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
 // along the normals; where that does not do, to the air that it is tied to. Whether it stood there.
 bool FieldContact::push_out() {
-    for (int n = 0; n < kMostLandings; ++n) {
+    for (int n = 0; n < kMostPushes; ++n) {
         const ProbeGap::Gap g = measure(at_.proxy);
         if (g.gap_mm >= -2 * kSkin) return n > 0;
         at_.proxy -= g.gap_mm * g.normal;
@@ -490,7 +498,7 @@ bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
 // touch.
 bool FieldContact::tie(const Place& to) {
     if (distance(to.proxy, anchor_.at) <= (1 + kTouches) * anchor_.radius) return true;
-    const Vec3 up = up_from(to);
+    Vec3 up = up_from(to);
     const double step = distance(to.proxy, at_.proxy);
     double height = std::clamp(std::max(1.5 * step, 0.5 * height_), kLowest, kHighest);
     for (int tries = 0; tries < 3 && budget(2); ++tries) {
@@ -500,7 +508,12 @@ bool FieldContact::tie(const Place& to) {
             height_ = height;
             return chain(a);
         }
-        height = std::max(kLowest, 0.25 * height);
+        // A side that the step has just left is still near: there is room only away from it too.
+        if (tries == 0 && at_.sides.count > to.sides.count) {
+            up = normalized(up + up_from(at_), up);
+        } else {
+            height = std::max(kLowest, 0.25 * height);
+        }
     }
     height_ = height;
     return false;
