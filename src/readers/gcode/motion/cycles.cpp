@@ -189,7 +189,7 @@ class Run {
         // The word of the cycle axis is the depth, not a target of the tip.
         const auto depth = coordinate_mm(command_, axis_, state_, output_);
         if (!depth) return std::unexpected(depth.error());
-        if (*depth) cycle.depth_mm = **depth;
+        if (*depth) cycle.depth_mm = *depth;
         command_.hide("XYZ"[axis_]);
         if (auto done = read_length('R', cycle.retract_mm); !done) return done;
         if (may_peck() || cycle.tenths == 760 || cycle.tenths == 870) {
