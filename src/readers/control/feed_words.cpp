@@ -185,7 +185,7 @@ class FeedWriter {
     std::optional<FeedWord> feed_in(std::string_view line) const {
         return language_ == FeedLanguage::apt ? feed_in_statement(line) : feed_in_block(line, language_);
     }
-    std::string unrolled(std::string remedy) const {
+    std::string unrolled(const std::string& remedy) const {
         return language_ == FeedLanguage::gcode ? remedy + ", or add --unroll" : remedy;
     }
     void refuse(int line, std::string cause, std::string remedy) {
