@@ -61,8 +61,8 @@ constexpr int kMostLines = 600;
 }  // namespace
 
 const std::vector<Room>& rooms() {
-    const Names core{"base",     "contact", "motion",  "field",   "surface", "milling",
-                     "dynamics", "noise",   "elastic", "haptics", "sound",   "readers"};
+    const Names core{"base",  "contact", "motion",  "field",   "surface", "milling", "dynamics",
+                     "sweep", "noise",   "elastic", "haptics", "sound",   "readers"};
     const auto with = [](Names names, const Names& more) {
         names.insert(more.begin(), more.end());
         return names;
@@ -75,6 +75,7 @@ const std::vector<Room>& rooms() {
         {"surface", "base contact field", {"base", "contact", "field"}, true},
         {"milling", "base contact motion field", {"base", "contact", "motion", "field"}, true},
         {"dynamics", "base contact motion milling", {"base", "contact", "motion", "milling"}, false},
+        {"sweep", "base", {"base"}, true},
         {"noise", "base", {"base"}, true},
         {"elastic", "base contact", {"base", "contact"}, true},
         {"haptics", "base contact", {"base", "contact"}, true},
