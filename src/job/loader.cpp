@@ -271,7 +271,7 @@ FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
     if (input->program) {
         done = load_program(reading, name, *input->program, *loaded);
     } else {
-        auto job = read_job(files, name);
+        auto job = read_job(files, name, options.changes);
         if (!job) return std::unexpected(job.error());
         loaded->job = *std::move(job);
         done = read_path_and_modes(reading, loaded->job, loaded->program);

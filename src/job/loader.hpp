@@ -11,6 +11,7 @@
 
 #include "job/file_source.hpp"
 #include "job/job.hpp"
+#include "job/sweep/job_change.hpp"
 #include "job/program_inputs.hpp"
 #include "job/solid.hpp"
 #include "motion/path/program.hpp"
@@ -44,6 +45,7 @@ struct LoadOptions {
     std::uint64_t memory_bytes = 0;
     std::function<double()> clock_s{};  // ends endless loops of programs; see readers::GcodeOptions
     ProgramInputs program{};            // for a program in place of a job; a job does not use them
+    std::vector<JobChange> changes{};   // of the job, not of its earlier jobs; a program takes none
 };
 
 // Largest number of earlier jobs in a chain; more are probably a mistake.

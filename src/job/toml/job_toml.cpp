@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "job/toml/job_changes.hpp"
 #include "job/toml/sections.hpp"
 
 namespace tribo::job {
@@ -61,8 +62,9 @@ void read_all(TomlSection& root, Job& job) {
 
 }  // namespace
 
-FileResult<Job> parse_job(std::string_view text, const std::string& name, const FileSource& files) {
-    const Result<toml::table> parsed = parse_toml(text, name);
+FileResult<Job> parse_job(std::string_view text, const std::string& name, const FileSource& files,
+                          std::span<const JobChange> changes) {
+    Result<toml::table> parsed = parse_toml(text, name);
     if (!parsed) return std::unexpected(FileFailure(parsed.error()));
     TomlFile file(name);
     Job job;
@@ -71,6 +73,8 @@ FileResult<Job> parse_job(std::string_view text, const std::string& name, const 
         return std::unexpected(FileFailure(
             {name, 1, 1, "the job is empty", "write at least [stock], [cutter], [material] and [path]"}));
     }
+    if (auto changed = apply(changes, *parsed, name); !changed)
+        return std::unexpected(FileFailure(changed.error()));
     TomlSection root(file, *parsed, "", kJobKeys);
     read_all(root, job);
     auto machine = read_machine(root, job.path, files);
@@ -80,10 +84,11 @@ FileResult<Job> parse_job(std::string_view text, const std::string& name, const 
     return job;
 }
 
-FileResult<Job> read_job(const FileSource& files, const std::string& path) {
+FileResult<Job> read_job(const FileSource& files, const std::string& path,
+                         std::span<const JobChange> changes) {
     const FileResult<std::string> text = files.read(path, kLargestJobBytes);
     if (!text) return std::unexpected(text.error());
-    return parse_job(*text, path, files);
+    return parse_job(*text, path, files, changes);
 }
 
 }  // namespace tribo::job
