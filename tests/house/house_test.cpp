@@ -138,6 +138,7 @@ TEST(House, the_notice_names_what_is_linked_and_bundled) {
         {"libboost-dev", "Boost"},
         {"libssl-dev", "OpenSSL"},
         {"zlib1g-dev", "zlib"},
+        {"libsqlite3-dev", "SQLite"},
         {"libpng-dev", "libpng"},
         {"libjpeg62-turbo-dev", "libjpeg-turbo"},
         {"wasi-libc", "wasi-libc"},

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "app/sweep/finished_cases.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+
+namespace tribo::app {
+
+FinishedCases::Key FinishedCases::key_of(const CaseId& id) {
+    Key key{};
+    for (std::size_t n = 0; n < key.size() && 16 * (n + 1) <= id.size(); ++n)
+        std::from_chars(id.data() + 16 * n, id.data() + 16 * (n + 1), key[n], 16);
+    return key;
+}
+
+FileResult<FinishedCases> FinishedCases::read(const std::string& folder) {
+    FinishedCases finished;
+    auto done = scan_cases(folder, finished.files_, [&](const CaseResult& result, CasePlace place) {
+        finished.places_.push_back({key_of(result.id), place.offset, place.file, result.died});
+    });
+    if (!done) return std::unexpected(done.error());
+    // The order of the files and of their lines stays; a case that died comes last.
+    std::ranges::stable_sort(finished.places_, [](const Entry& a, const Entry& b) {
+        return a.key != b.key ? a.key < b.key : a.died < b.died;
+    });
+    const auto repeated = std::ranges::unique(finished.places_, {}, &Entry::key);
+    finished.repeated_ = repeated.size();
+    finished.places_.erase(repeated.begin(), repeated.end());
+    return finished;
+}
+
+const FinishedCases::Entry* FinishedCases::find(const CaseId& id) const {
+    const Key key = key_of(id);
+    const auto found = std::ranges::lower_bound(places_, key, {}, &Entry::key);
+    return found == places_.end() || found->key != key ? nullptr : &*found;
+}
+
+bool FinishedCases::has(const CaseId& id, bool and_died) const {
+    const Entry* entry = find(id);
+    return entry != nullptr && (and_died || !entry->died);
+}
+
+FileResult<std::optional<CaseResult>> FinishedCases::result(const CaseId& id) const {
+    const Entry* entry = find(id);
+    if (entry == nullptr) return std::nullopt;
+    const std::string& path = files_[entry->file];
+    std::ifstream in(path, std::ios::binary);
+    std::string line;
+    in.seekg(static_cast<std::streamoff>(entry->offset));
+    if (!in || !std::getline(in, line)) return files::system_failure(path, "read", errno);
+    return read_case(line);
+}
+
+}  // namespace tribo::app
