@@ -149,9 +149,7 @@ TEST(ProfileCut, does_the_work_of_the_metal_in_slots_side_cuts_plunges_and_tilte
             const MillTotals& totals = session.totals();
             if (totals.fed_mm3 < 1) continue;
             ASSERT_TRUE(totals.energy_balance) << kind.name << " " << words;
-            // A hollow arc on an axis that turns is known to within 5 % only.
-            const bool is_hollow = kind.cutter.kind == CutterKind::profile && std::string(words) == "turning";
-            EXPECT_NEAR(*totals.energy_balance, 1, is_hollow ? 0.05 : 0.01) << kind.name << " " << words;
+            EXPECT_NEAR(*totals.energy_balance, 1, 0.01) << kind.name << " " << words;
         }
     }
 }

@@ -57,14 +57,15 @@ PlanePoint along(PlanePoint normal) {
     return {-normal.z, normal.r};
 }
 
-// Returns the height half way to where the straight continuation from `from` leaves the cutter; nothing if it
+// Returns the point half way to where the straight continuation from `from` leaves the cutter; nothing if it
 // reaches the axis first, or does not rise or fall.
-std::optional<double> half_way(const std::vector<ProfileElement>& elements, PlanePoint from, PlanePoint way) {
+std::optional<PlanePoint> half_way(const std::vector<ProfileElement>& elements, PlanePoint from,
+                                   PlanePoint way) {
     if (std::abs(way.z) < kSmooth) return std::nullopt;
     double nearest = 1e6;
     for (const ProfileElement& e : elements) meet({from, way}, e, nearest);
     if (way.r < 0 && from.r + nearest * way.r <= 0) return std::nullopt;
-    return from.z + 0.5 * nearest * way.z;
+    return from + (0.5 * nearest) * way;
 }
 
 }  // namespace
@@ -93,36 +94,45 @@ void ConvexZones::add_level(double up, double height_mm) {
     faces_.push_back({normal, normal, up * height_mm, {}, 0});
 }
 
-// Ends a zone below its first element: at the joint if that is convex, else within the cutter.
-void ConvexZones::add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number,
-                                PlanePoint normal) {
+// Ends a zone below its first element: at the joint if that is convex, else within the cutter. Returns the
+// radius there.
+double ConvexZones::add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number,
+                                  PlanePoint normal) {
     const PlanePoint joint = elements[number].from;
     const bool convex = number > 0 && cross(elements[number - 1].to_normal, normal) > kSmooth;
-    if (convex) {
-        add_level(-1, joint.z);
-    } else if (const auto height = half_way(elements, joint, -1.0 * along(normal))) {
-        add_level(-1, *height);
-    }
+    return add_end(-1, convex ? joint : half_way(elements, joint, -1.0 * along(normal)));
 }
 
 // The same above its last element.
-void ConvexZones::add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number,
-                                PlanePoint normal) {
+double ConvexZones::add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number,
+                                  PlanePoint normal) {
     const PlanePoint joint = elements[number].to;
     const bool convex =
         number + 1 < elements.size() && cross(normal, elements[number + 1].from_normal) > kSmooth;
-    if (convex) {
-        add_level(1, joint.z);
-    } else if (const auto height = half_way(elements, joint, along(normal))) {
-        add_level(1, *height);
-    }
+    return add_end(1, convex ? joint : half_way(elements, joint, along(normal)));
+}
+
+double ConvexZones::add_end(double up, const std::optional<PlanePoint>& end) {
+    if (!end) return 0;
+    add_level(up, end->z);
+    return end->r;
+}
+
+// Adds a cylinder around a zone, so that the distance beside its sharp ends is not much too small.
+void ConvexZones::add_side(double radius_mm) {
+    faces_.push_back({{1, 0}, {1, 0}, radius_mm, {}, 0});
 }
 
 void ConvexZones::add_run(const std::vector<ProfileElement>& elements, const Run& run) {
     const std::size_t first = faces_.size();
     for (std::size_t n = run.first; n < run.end; ++n) add_face(elements[n]);
-    if (run.first > 0) add_lower_end(elements, run.first, elements[run.first].from_normal);
-    if (run.end < elements.size()) add_upper_end(elements, run.end - 1, elements[run.end - 1].to_normal);
+    double radius = largest_radius_mm({elements.begin() + static_cast<std::ptrdiff_t>(run.first),
+                                       elements.begin() + static_cast<std::ptrdiff_t>(run.end)});
+    if (run.first > 0)
+        radius = std::max(radius, add_lower_end(elements, run.first, elements[run.first].from_normal));
+    if (run.end < elements.size())
+        radius = std::max(radius, add_upper_end(elements, run.end - 1, elements[run.end - 1].to_normal));
+    if (run.first > 0 || run.end < elements.size()) add_side(radius);
     zones_.push_back({first, faces_.size()});
 }
 
@@ -143,16 +153,11 @@ void ConvexZones::add_concave(const std::vector<ProfileElement>& elements, std::
         const PlanePoint at = arc.centre + arc.radius_mm * normal;
         const std::size_t first = faces_.size();
         faces_.push_back({normal, normal, dot(normal, at), {}, 0});
-        if (n == 0) {
-            add_lower_end(elements, number, normal);
-        } else if (const auto low = half_way(elements, at, -1.0 * along(normal))) {
-            add_level(-1, *low);
-        }
-        if (n == count) {
-            add_upper_end(elements, number, normal);
-        } else if (const auto high = half_way(elements, at, along(normal))) {
-            add_level(1, *high);
-        }
+        const double low = n == 0 ? add_lower_end(elements, number, normal)
+                                  : add_end(-1, half_way(elements, at, -1.0 * along(normal)));
+        const double high = n == count ? add_upper_end(elements, number, normal)
+                                       : add_end(1, half_way(elements, at, along(normal)));
+        add_side(std::max({at.r, low, high}));
         zones_.push_back({first, faces_.size()});
     }
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "milling/tool/turned_profile.hpp"
@@ -59,8 +60,10 @@ class ConvexZones {
     struct Run;
     void add_run(const std::vector<ProfileElement>& elements, const Run& run);
     void add_concave(const std::vector<ProfileElement>& elements, std::size_t arc);
-    void add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
-    void add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
+    double add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
+    double add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
+    double add_end(double up, const std::optional<PlanePoint>& end);
+    void add_side(double radius_mm);
     void add_face(const ProfileElement& element);
     void add_level(double up, double height_mm);
 
