@@ -8,6 +8,7 @@
 #include "base/text/file_names.hpp"
 #include "files/json/stock_record_json.hpp"
 #include "files/model/model_file.hpp"
+#include "files/zip.hpp"
 
 namespace tribo::files {
 namespace {
@@ -21,11 +22,21 @@ fs::path resolved(const std::string& file) {
     return error ? fs::path(file) : folder / absolute.filename();
 }
 
+// Tool libraries of Fusion (.tools) are a zip with one file.
+FileResult<std::string> unpacked(FileResult<std::string> bytes, const std::string& path,
+                                 std::uint64_t limit_bytes) {
+    if (!bytes || !is_zip(*bytes) || extension_of(path) != ".tools") return bytes;
+    auto library = unzip(*bytes, ".json", limit_bytes, path);
+    if (!library) return std::unexpected(FileFailure(library.error()));
+    return *std::move(library);
+}
+
 }  // namespace
 
 FileResult<std::string> DiskSource::read(const std::string& path, std::uint64_t limit_bytes) const {
     std::error_code error;
-    if (policy_ == Pipes::refuse || !fs::is_fifo(path, error)) return read_file(path, limit_bytes, policy_);
+    if (policy_ == Pipes::refuse || !fs::is_fifo(path, error))
+        return unpacked(read_file(path, limit_bytes, policy_), path, limit_bytes);
     const std::lock_guard lock(mutex_);
     const auto known = pipes_.find(path);
     if (known != pipes_.end()) return known->second;

@@ -29,6 +29,7 @@ DeclaredTools::DeclaredTools(const motion::Program& program) {
     for (const motion::DeclaredTool& tool : program.tools) {
         if (!(tool.diameter_mm > 0)) continue;
         if (first_ == nullptr) first_ = &tool;
+        if (tool.number == 0 && !tool.table.empty() && for_all_ == nullptr) for_all_ = &tool;
         tools_.emplace(tool.number, &tool);
     }
 }
@@ -36,7 +37,7 @@ DeclaredTools::DeclaredTools(const motion::Program& program) {
 const motion::DeclaredTool* DeclaredTools::find(int number) const {
     if (number == 0) return first_;
     const auto found = tools_.find(number);
-    return found == tools_.end() ? nullptr : found->second;
+    return found == tools_.end() ? for_all_ : found->second;
 }
 
 }  // namespace tribo::job

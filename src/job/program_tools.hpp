@@ -23,12 +23,12 @@ class DeclaredTools {
     explicit DeclaredTools(const motion::Program& program);
 
     // Returns the first declared tool with a diameter, of any number for 0; null if there is none. Tables
-    // stand before what the program says itself.
+    // stand before what the program says itself. The tool of a table without numbers stands for every number.
     const motion::DeclaredTool* find(int number) const;
 
   private:
     std::map<int, const motion::DeclaredTool*> tools_;
-    const motion::DeclaredTool* first_ = nullptr;
+    const motion::DeclaredTool *first_ = nullptr, *for_all_ = nullptr;
 };
 
 }  // namespace tribo::job

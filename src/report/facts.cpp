@@ -10,6 +10,7 @@
 #include "base/mesh_edges.hpp"
 #include "base/text/printable.hpp"
 #include "files/json/json.hpp"
+#include "job/program_tools.hpp"
 #include "job/words/tool_words.hpp"
 #include "milling/sweep/scallop.hpp"
 #include "milling/tool/cutter_shape.hpp"
@@ -78,23 +79,66 @@ class Builder {
     Facts facts;
 };
 
+std::string tools_text(const std::vector<int>& numbers) {
+    std::string text;
+    for (const int tool : numbers) text += (text.empty() ? "T" : ", T") + std::to_string(tool);
+    return text;
+}
+
+// Its kind of docs/job.md.
+std::string kind_of(const motion::DeclaredTool& tool) {
+    if (!tool.kind.empty()) return tool.kind;
+    return tool.corner_mm == 0 ? "flat" : 2 * tool.corner_mm >= tool.diameter_mm ? "ball" : "bull";
+}
+
 files::Json declared_tools(const motion::Program& program) {
     files::Json tools = files::Json::array();
     for (const motion::DeclaredTool& tool : program.tools) {
         files::Json entry;
         entry["number"] = tool.number;
         if (tool.diameter_mm > 0) entry["diameter_mm"] = tool.diameter_mm;
-        if (tool.diameter_mm > 0) entry["corner_mm"] = tool.corner_mm;
+        if (tool.diameter_mm > 0) {
+            entry["corner_mm"] = tool.corner_mm;
+            entry["kind"] = kind_of(tool);
+        }
+        if (tool.flutes > 0) entry["flutes"] = tool.flutes;
+        const std::pair<const char*, double> sizes[] = {
+            {"tip_mm", tool.tip_mm},   {"point_deg", tool.point_deg}, {"taper_deg", tool.taper_deg},
+            {"side_mm", tool.side_mm}, {"height_mm", tool.height_mm}, {"neck_mm", tool.neck_mm},
+            {"edge_mm", tool.edge_mm},
+        };
+        for (const auto& [key, size] : sizes) {
+            if (size > 0) entry[key] = size;
+        }
+        entry["file"] = tool.table.empty() ? program.source : tool.table;
         if (tool.line > 0) entry["line"] = tool.line;
         tools.push_back(std::move(entry));
     }
     return tools;
 }
 
-std::string tools_text(const std::vector<int>& numbers) {
-    std::string text;
-    for (const int tool : numbers) text += (text.empty() ? "T" : ", T") + std::to_string(tool);
-    return text;
+// The shape and sizes of a tool, and where they were read.
+std::string declared_text(const motion::DeclaredTool& tool) {
+    std::string text = tool.number > 0 ? "T" + std::to_string(tool.number) + ": " : "";
+    text += kind_of(tool) + " D" + number(tool.diameter_mm);
+    if (tool.corner_mm > 0 && kind_of(tool) != "ball") text += " corner " + number(tool.corner_mm);
+    if (tool.point_deg > 0) text += " point " + number(tool.point_deg) + " deg";
+    if (tool.taper_deg > 0) text += " taper " + number(tool.taper_deg) + " deg";
+    if (tool.tip_mm > 0) text += " tip " + number(tool.tip_mm);
+    if (tool.flutes > 0)
+        text += ", " + std::to_string(tool.flutes) + (tool.flutes == 1 ? " flute" : " flutes");
+    return text + " (" + (tool.table.empty() ? "" : tool.table + ", ") + "line " + std::to_string(tool.line) +
+           ")";
+}
+
+// The tools that a program calls and neither it nor a table describes: "T3, T4".
+std::string undescribed_tools(const motion::Program& program, const std::vector<int>& called) {
+    const job::DeclaredTools declared(program);
+    std::vector<int> numbers;
+    for (const int tool : called) {
+        if (declared.find(tool) == nullptr) numbers.push_back(tool);
+    }
+    return tools_text(numbers);
 }
 
 std::string cutter_text(const milling::Cutter& c) {
@@ -261,6 +305,11 @@ Facts describe(const motion::Program& program, const motion::ProgramMeter& meter
     b.json["tools"] = s.tools;
     if (!s.tools.empty()) b.line("tools", tools_text(s.tools));
     if (!program.tools.empty()) b.json["declared_tools"] = declared_tools(program);
+    for (const motion::DeclaredTool& tool : program.tools) {
+        if (tool.diameter_mm > 0) b.line("tool", declared_text(tool));
+    }
+    if (const std::string text = undescribed_tools(program, s.tools); !text.empty())
+        b.line("not described", text);
     b.json["rotary"] = program.has_rotary_words;
     b.json["tilted"] = s.tilted;
     if (!program.machine.empty()) {

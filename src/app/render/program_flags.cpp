@@ -29,7 +29,8 @@ Error with_flag(const char* flag, const std::string& text, const Error& error) {
 
 bool is_table(const std::string& text) {
     const std::string_view extension = extension_of(text);
-    return extension == ".tbl" || extension == ".csv";
+    return extension == ".tbl" || extension == ".csv" || extension == ".json" || extension == ".tools" ||
+           extension == ".fctb" || extension == ".xml";
 }
 
 Result<void> read_tools(const ProgramFlags& flags, job::ProgramInputs& inputs) {
@@ -74,7 +75,7 @@ CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& descri
     const std::string group = "For a program in place of a job (what is absent is assumed)";
     verb.add_option("--tool", flags.tools,
                     "A tool in words: \"flat 6\", \"T2 ball 8 flutes 3\", \"bull 10 corner 1\"; or a tool "
-                    "table (.tbl, .csv); may be repeated")
+                    "table (.tbl, .csv, .json, .tools, .fctb, .xml); may be repeated")
         ->allow_extra_args(false)
         ->type_name("TOOL")
         ->group(group);

@@ -8,6 +8,7 @@
 #include "base/math.hpp"
 #include "base/text/limit_text.hpp"
 #include "readers/text/length_unit.hpp"
+#include "readers/tools/declared_tool.hpp"
 
 namespace tribo::readers::apt {
 namespace {
@@ -226,14 +227,28 @@ Result<void> set_cutter(const Statement& statement, Settings& settings, Report& 
                              "correct it");
     }
     const auto differs = [](double a, double b) { return std::abs(a - b) > kCutterTolerance; };
-    const bool is_other = (count > 2 && differs(e, 0.5 * d - r)) || (count > 3 && differs(f, r)) ||
-                          differs(bottom_deg, 0) || differs(flank_deg, 0);
-    if (is_other && report.first(Note::cutter_shape)) {
+    const bool is_mill = (count < 3 || !differs(e, 0.5 * d - r)) && (count < 4 || !differs(f, r)) &&
+                         !differs(bottom_deg, 0) && !differs(flank_deg, 0);
+    settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
+                                           statement.word.line};
+    // The angles of APT: of the bottom to the plane normal to the axis, of the flank to the axis.
+    const bool is_point = !differs(r, 0) && bottom_deg > 0 && !differs(flank_deg, 0) && !differs(e, 0.5 * d);
+    const bool is_cone = !differs(bottom_deg, 0) && flank_deg > 0 && height > 0;
+    std::string remark;
+    ToolSizes sizes{.diameter_mm = settings.cutter->diameter_mm, .corner_mm = settings.cutter->corner_mm};
+    if (is_point) {
+        sizes.shape = ToolShape::drill;
+        sizes.point_deg = 180 - 2 * bottom_deg;
+    } else if (is_cone) {
+        sizes.shape = ToolShape::taper;
+        sizes.taper_deg = flank_deg;
+        sizes.edge_mm = height * settings.unit_mm;
+    }
+    const bool is_shaped = (is_point || is_cone) && set_shape(*settings.cutter, sizes, remark);
+    if (!is_mill && (!is_shaped || !remark.empty()) && report.first(Note::cutter_shape)) {
         report.warn(statement.word.line,
                     "CUTTER describes a cone or a barrel: only its diameter and corner radius are taken");
     }
-    settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
-                                           statement.word.line};
     settings.diameter_mm = settings.cutter->diameter_mm;
     return {};
 }

@@ -84,6 +84,7 @@ Result<void> set_spindle(Command& command, State& state, Output& output) {
 }
 
 Result<void> set_tool(Command& command, State& state, Output& output) {
+    const int before = state.tool();
     if (const Word* word = command.use('T')) {
         if (word->value != 0) {
             if (auto good = in_range(kLimits.tool_number, word->value, command, *word, output); !good)
@@ -105,6 +106,7 @@ Result<void> set_tool(Command& command, State& state, Output& output) {
         state.loaded_tool = state.selected_tool;
         state.has_changed_tool = true;
     }
+    if (command.m(MGroup::tool) || state.tool() != before) output.notes.change(state.tool());
     if (output.machine && (command.m(MGroup::tool) || command.has('T'))) {
         output.machine->set_tool_length(output.tool_length_mm(state.tool()));
     }

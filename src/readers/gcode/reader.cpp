@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -23,7 +22,6 @@
 #include "readers/gcode/text/fanuc_variables.hpp"
 #include "readers/gcode/text/lexer.hpp"
 #include "readers/gcode/text/parameters.hpp"
-#include "readers/gcode/text/tool_comment.hpp"
 
 namespace tribo::readers {
 namespace gcode {
@@ -92,7 +90,7 @@ class ProgramReader {
             is_over_ = true;
             return std::unexpected(counted.error());
         }
-        for (const std::string_view comment : block.comments) read_comment(comment, block.line);
+        for (const std::string_view comment : block.comments) output_.notes.read(comment, block.line);
         note_writing(block, output_);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
@@ -105,7 +103,10 @@ class ProgramReader {
             pass_setting(block, state_, output_);
             return true;
         }
-        if (block.kind == BlockKind::percent) return begins_or_goes_on(block);
+        if (block.kind == BlockKind::percent) {
+            output_.notes.read(block.label, block.line);
+            return begins_or_goes_on(block);
+        }
         if (block.kind == BlockKind::o_word) return run_o_word(block);
         for (const Assignment& assignment : block.assignments) {
             if (auto done = assign(assignment, block.line); !done) return std::unexpected(done.error());
@@ -150,14 +151,6 @@ class ProgramReader {
                              std::string(block.label.substr(0, 60)));
         }
         return is_remark;
-    }
-
-    void read_comment(std::string_view comment, int line) {
-        const auto tool = tool_in_comment(comment);
-        if (!tool) return;
-        if (!tool_lines_.insert(line).second) return;  // a loop may read the line again
-        declared_.push_back({tool->number, tool->diameter, tool->corner, line});
-        output_.declare_tool({tool->number, tool->diameter * state_.unit_mm});
     }
 
     Result<void> assign(const Assignment& assignment, int line) {
@@ -285,11 +278,7 @@ class ProgramReader {
         output_.finish();
         note_lathe(state_, output_);
         if (output_.moves == 0) output_.warn(0, "the program moves no tool");
-        for (motion::DeclaredTool& tool : declared_) {
-            tool.diameter_mm *= state_.unit_mm;
-            tool.corner_mm *= state_.unit_mm;
-        }
-        program.tools = std::move(declared_);
+        program.tools = output_.notes.tools(state_.unit_mm, program.source, program.warnings);
         return std::move(program);
     }
 
@@ -298,8 +287,6 @@ class ProgramReader {
     Parameters parameters_;
     Lexer lexer_;
     Flow flow_;
-    std::vector<motion::DeclaredTool> declared_;  // in units of the program until the end
-    std::set<int> tool_lines_;
     std::optional<MacroCall> modal_macro_;  // of G66
     std::size_t modal_depth_ = 0;           // of calls at its G66
     bool has_percent_ = false, has_number_ = false, has_words_ = false;

@@ -35,6 +35,7 @@ motion::Move turned(const motion::Move& move, double degrees) {
 Result<void> Output::append(const motion::Move& move) {
     if (moves >= options.max_moves) return refuse_more_moves(move.line);
     ++moves;
+    if (move.kind == motion::MoveKind::feed) notes.cut();
     if (sink_ != nullptr) {
         sink_->take(move);
     } else {
@@ -43,12 +44,12 @@ Result<void> Output::append(const motion::Move& move) {
     return {};
 }
 
-std::optional<double> Output::tool_diameter_mm(int number) const {
+std::optional<double> Output::tool_diameter_mm(int number, double unit_of_program_mm) const {
     for (const auto& [tools, wanted] :
          {std::pair{&given_, number}, std::pair{&given_, 0}, std::pair{&declared_, number}}) {
         if (const auto tool = tools->find(wanted); tool != tools->end()) return tool->second.diameter_mm;
     }
-    return std::nullopt;
+    return notes.diameter_mm(number, unit_of_program_mm);
 }
 
 std::optional<double> Output::tool_length_mm(int number) const {

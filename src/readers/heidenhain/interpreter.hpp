@@ -106,7 +106,7 @@ class Interpreter {
     Result<void> call_tool(LineReader& in);
     void number_tools();
     int number_of_tool(const std::string& name);
-    void declare_commented_tool(std::string_view comment);
+    void read_notes(std::string_view line);
 
     // Words of a block (words.cpp)
     struct Words;  // the sorted words of a path function

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/math.hpp"
-#include "readers/gcode/text/tool_comment.hpp"
 #include "readers/heidenhain/interpreter.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -123,24 +122,17 @@ int Interpreter::number_of_tool(const std::string& name) {
     while (numbered_tools_.contains(number)) ++number;
     numbered_tools_.insert(number);
     named_tools_[name] = number;
+    path_.notes.name(number, name, line_.number);
     path_.warn(line_.number, "the tool \"" + name + "\" counts as tool " + std::to_string(number) +
                                  ": give it this number in the job");
     return number;
 }
 
-// ;  #3 D=10 CR=0 - ZMIN=-4.5 - flat end mill: the tool list of Fusion's and HSM's posts.
-void Interpreter::declare_commented_tool(std::string_view comment) {
-    const std::size_t from = comment.find('#');
-    if (from == std::string_view::npos || comment.find(';') > from) return;
-    const auto found = gcode::tool_in_comment("T" + std::string(comment.substr(from + 1)));
-    if (!found) return;
-    motion::DeclaredTool tool;
-    tool.line = line_.number;
-    tool.number = found->number;
-    tool.diameter_mm = found->diameter * unit_mm_;
-    tool.corner_mm = found->corner * unit_mm_;
-    if (!kLimits.cutter_diameter.range.contains(tool.diameter_mm)) return;
-    path_.declare(tool);
+// The comment of a line, or a heading `* - TEXT`, may describe a tool.
+void Interpreter::read_notes(std::string_view line) {
+    const std::size_t from = line.find(';');
+    if (from != std::string_view::npos) path_.notes.read(line.substr(from + 1), line_.number);
+    if (line_.text.starts_with('*')) path_.notes.read(line_.text.substr(1), line_.number);
 }
 
 // TOOL CALL 5 Z S2000 F500 DL+0 DR+0
@@ -156,9 +148,8 @@ Result<void> Interpreter::call_tool(LineReader& in) {
                 if (auto good = in.in_range(kLimits.tool_number, *item.value, item.column); !good)
                     return good;
             }
-            path_.tool =
-                item.name.empty() ? static_cast<int>(*item.value) : number_of_tool(item.name.substr(1));
-            path_.measure_tool();
+            path_.change_tool(item.name.empty() ? static_cast<int>(*item.value)
+                                                : number_of_tool(item.name.substr(1)));
             tool_oversize_mm_ = 0;
             if (const auto radius = path_.tool_radius_mm()) {
                 parameters_.set(kRadiusParameter, *radius / unit_mm_);

@@ -81,7 +81,7 @@ Result<void> Interpreter::run_line() {
         return path_.refuse(place(1), *std::move(cause), RunLimit::kRemedy);
     }
     const std::string_view code = code_of(text);
-    if (code.size() < text.size()) declare_commented_tool(text.substr(code.size() + 1));
+    read_notes(text, code);
     const Head head = head_of(code);
     Cursor in{code, head.at, line_number(), &source_name_};
     if (in.at_end()) return {};
@@ -173,6 +173,7 @@ Result<motion::Program> Interpreter::finish() {
             continue;
         path_.warn(static_cast<int>(unit.begin) + 1, "a second program follows: only the first one is run");
     }
+    path_.finish_tools(unit_mm_);
     if (path_.moves == 0) path_.warn(0, "the program moves no tool");
     return std::move(program);
 }

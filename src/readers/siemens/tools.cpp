@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/math.hpp"
-#include "readers/gcode/text/tool_comment.hpp"
 #include "readers/siemens/interpreter.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -71,29 +70,26 @@ int Interpreter::number_of_tool(const std::string& name) {
     named_tools_[name] = number;
     std::string shown;
     for (const char c : name.substr(0, 40)) shown += c < ' ' || c > '~' ? '?' : c;
+    path_.notes.name(number, name, line_number());
     path_.warn(line_number(), "the tool \"" + shown + "\" counts as tool " + std::to_string(number) +
                                   ": give it this number in the job");
     return number;
 }
 
 void Interpreter::load_tool(int number) {
-    path_.tool = number;
-    path_.measure_tool();
+    path_.change_tool(number);
 }
 
-// T1 D=10 CR=0 - ZMIN=-4.5 - flat end mill: the tool list of CAM systems.
-void Interpreter::declare_commented_tool(std::string_view comment) {
-    std::size_t from = comment.find_first_of("T#");
-    if (from == std::string_view::npos) return;
-    const auto found = gcode::tool_in_comment("T" + std::string(comment.substr(from + 1)));
-    if (!found) return;
-    motion::DeclaredTool tool;
-    tool.line = line_number();
-    tool.number = found->number;
-    tool.diameter_mm = found->diameter * unit_mm_;
-    tool.corner_mm = found->corner * unit_mm_;
-    if (!kLimits.cutter_diameter.range.contains(tool.diameter_mm)) return;
-    path_.declare(tool);
+// Comments, MSG("...") and (texts of other dialects) may describe tools.
+void Interpreter::read_notes(std::string_view text, std::string_view code) {
+    if (code.size() < text.size()) path_.notes.read(text.substr(code.size() + 1), line_number());
+    const std::size_t message = code.find("MSG");
+    const std::size_t open = message == std::string_view::npos ? message : code.find('"', message);
+    if (open != std::string_view::npos) {
+        const std::string_view inside = code.substr(open + 1);
+        path_.notes.read(inside.substr(0, inside.find('"')), line_number());
+    }
+    if (trimmed(code).starts_with('(')) path_.notes.read(trimmed(code).substr(1), line_number());
 }
 
 // $TC_DP6[1,1]=5; the cursor is at the '$'.

@@ -13,6 +13,8 @@
 #include "readers/text/csv_fields.hpp"
 #include "readers/text/model_text.hpp"
 #include "readers/text/text_lines.hpp"
+#include "readers/tools/library/libraries.hpp"
+#include "readers/tools/tool_notes.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -121,7 +123,10 @@ class ToolTableReader {
                 ++at;
                 continue;
             }
-            if (line[at] == ';') break;
+            if (line[at] == ';') {
+                read_comment(tool, line.substr(at + 1), unit);
+                break;
+            }
             const int column = static_cast<int>(at) + 1;
             const char letter = to_upper(line[at]);
             double value = 0;
@@ -141,6 +146,22 @@ class ToolTableReader {
             }
         }
         return tool;
+    }
+
+    // T2 P2 D8 ;8 mm ball end mill 2 flutes
+    void read_comment(motion::DeclaredTool& tool, std::string_view comment, double unit) {
+        const ToolText text = read_tool_text(comment);
+        if (!text.names_tool) return;
+        ToolSizes sizes = sizes_of(text, unit);
+        if (tool.diameter_mm > 0) sizes.diameter_mm = tool.diameter_mm;
+        motion::DeclaredTool shaped = tool;
+        std::string remark;
+        if (!(sizes.diameter_mm > 0) || !set_shape(shaped, sizes, remark)) return;
+        tool = shaped;
+        if (!remark.empty()) {
+            table_.warnings.push_back(
+                {options_.source_name, lines_.number(), "T" + std::to_string(tool.number) + ": " + remark});
+        }
     }
 
     Result<void> set(motion::DeclaredTool& tool, std::size_t what, double value, int column) {
@@ -201,6 +222,15 @@ class ToolTableReader {
 }  // namespace
 
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options) {
+    const std::size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+    const char begin = first == std::string_view::npos ? ' ' : bytes[first];
+    if (begin == '{' || begin == '[') return read_json_library(bytes, options.source_name);
+    if (begin == '<') return read_xml_library(bytes, options.source_name);
+    if (is_csv_library(bytes)) return read_csv_library(bytes, options.source_name);
+    if (bytes.starts_with("PK\x03\x04")) {
+        return fail_at(options.source_name, 0, 0, "the tool library is still packed (zip)",
+                       "unpack it and give the tools.json in it");
+    }
     return ToolTableReader(bytes, options).read();
 }
 

@@ -74,8 +74,9 @@ class Pocket {
         const Word* number = command_.use('D');
         const double offset =
             number == nullptr ? state_.offset_number.value_or(state_.tool()) : number->value;
-        const auto diameter =
-            offset == 0 ? std::optional<double>(0) : output_.tool_diameter_mm(static_cast<int>(offset));
+        const auto diameter = offset == 0
+                                  ? std::optional<double>(0)
+                                  : output_.tool_diameter_mm(static_cast<int>(offset), state_.unit_mm);
         if (!diameter && output_.first(Note::compensation_unknown)) {
             output_.warn(command_.line(), name() +
                                               ": nothing states the diameter of the tool: its circles are "

@@ -264,7 +264,7 @@ Result<double> compensated_diameter(Command& command, Code code, const State& st
     // D0 means no compensation, by convention.
     const bool is_tool = word == nullptr && !has_modal_number(state, output);
     if (number == 0 && !is_tool) return 0.0;
-    const auto diameter_mm = output.tool_diameter_mm(static_cast<int>(number));
+    const auto diameter_mm = output.tool_diameter_mm(static_cast<int>(number), state.unit_mm);
     if (diameter_mm) return *diameter_mm;
     if (output.first(Note::compensation_unknown, static_cast<int>(number))) {
         output.warn(

@@ -111,6 +111,7 @@ Result<bool> Lexer::next(Block& block) {
         }
         if (c == '/' && !is_first && skip_deletable_) {
             block.has_deleted_rest = true;
+            block.comments.push_back(cursor_.line);  // T1//15.98 names a tool and its diameter (EZ-CAM)
             return true;
         }
         const bool is_end = c == '%' && trimmed(cursor_.line.substr(cursor_.at + 1)).empty();

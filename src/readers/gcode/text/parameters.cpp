@@ -132,7 +132,7 @@ Result<double> Parameters::get(int number) const {
     }
     if (number == kTool) return state_.tool();
     if (number == kToolDiameter) {
-        const auto diameter = output_.tool_diameter_mm(state_.tool());
+        const auto diameter = output_.tool_diameter_mm(state_.tool(), state_.unit_mm);
         return diameter.value_or(0) / state_.unit_mm;
     }
     if (number >= kFirstState && number <= kLastState) return 0.0;

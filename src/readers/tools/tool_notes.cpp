@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "readers/tools/tool_notes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/limits.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers {
+namespace {
+
+// Diameters of two texts that differ by less are one, as 0.5 inch and 12.7 mm in few digits.
+constexpr double kSameDiameter = 0.01;
+// A program has no more warnings than this about its tools.
+constexpr std::size_t kMostWarnings = 1000;
+// An angle of a chamfer mill up to this is that of its side; a larger one is the full angle of its point.
+constexpr double kLargestSideAngle = 45;
+
+// What the second text adds to the first.
+void add(ToolText& to, const ToolText& from) {
+    if (!to.number) to.number = from.number;
+    if (to.shape == ToolShape::unstated) to.shape = from.shape;
+    to.names_tool = to.names_tool || from.names_tool;
+    if (!to.diameter) to.diameter = from.diameter;
+    if (!to.corner) to.corner = from.corner;
+    if (!to.angle_deg) {
+        to.angle_deg = from.angle_deg;
+        to.is_taper_key = from.is_taper_key;
+    }
+    if (to.flutes == 0) to.flutes = from.flutes;
+}
+
+std::string size_text(const StatedLength& length) {
+    return short_decimal(length.value) + (length.unit_mm == 1 ? " mm" : length.unit_mm > 1 ? " in" : "");
+}
+
+}  // namespace
+
+ToolSizes sizes_of(const ToolText& text, double unit_mm) {
+    ToolSizes sizes;
+    sizes.shape = text.shape;
+    if (text.diameter) sizes.diameter_mm = text.diameter->mm(unit_mm);
+    if (text.corner) sizes.corner_mm = text.corner->mm(unit_mm);
+    sizes.edge_mm = text.height * unit_mm;
+    sizes.flutes = text.flutes;
+    const double angle = text.angle_deg.value_or(0);
+    switch (text.shape) {
+        case ToolShape::taper:
+        case ToolShape::dovetail:
+            sizes.taper_deg = angle;
+            break;
+        case ToolShape::chamfer:
+            sizes.point_deg = text.is_taper_key || angle <= kLargestSideAngle ? 2 * angle : angle;
+            break;
+        default:
+            sizes.point_deg = angle;
+    }
+    return sizes;
+}
+
+void ToolNotes::read(std::string_view text, int line) {
+    if (lines_.contains(line)) return;
+    Note note{read_tool_text(text), line};
+    ToolText& tool = note.text;
+    if (tool.is_bare_size) {
+        if (!std::exchange(expects_size_, false)) return;
+        tool.names_tool = true;
+    }
+    expects_size_ = tool.asks_for_size;
+    if (tool.number && tool.diameter) {
+        lines_.insert(line);
+        attach(*tool.number, note);
+        if (window_tool_ == *tool.number) window_has_note_ = true;
+        return;
+    }
+    // A shape or a diameter alone is part of a header of several lines: TOOL TYPE : .., TOOL DIA. : ..
+    if (tool.number || (!tool.diameter && !tool.names_tool)) return;
+    if (tool.diameter && !tool.names_tool) return;
+    lines_.insert(line);
+    if (window_tool_ && !window_has_note_) {
+        if (pending_) add(tool, pending_->text);
+        pending_.reset();
+        if (tool.describes_tool()) {
+            attach(*window_tool_, note);
+            window_has_note_ = true;
+        } else {
+            pending_ = note;
+        }
+        return;
+    }
+    if (pending_ && !(tool.diameter && pending_->text.diameter)) add(tool, pending_->text);
+    pending_ = note;
+}
+
+void ToolNotes::name(int number, std::string_view name, int line) {
+    Note note{read_tool_text(name), line};
+    if (note.text.diameter && !index_.contains(number)) attach(number, note);
+}
+
+void ToolNotes::change(int tool) {
+    window_tool_ = tool;
+    window_has_note_ = false;
+    has_changed_ = true;
+    if (!pending_) return;
+    if (pending_->text.describes_tool()) {
+        attach(tool, *pending_);
+        window_has_note_ = true;
+    }
+    pending_.reset();
+}
+
+void ToolNotes::cut() {
+    window_tool_.reset();
+    if (has_changed_) pending_.reset();
+}
+
+void ToolNotes::attach(int tool, const Note& note) {
+    const auto known = index_.find(tool);
+    if (known == index_.end()) {
+        if (notes_.size() == kMostTools) return;
+        index_.emplace(tool, notes_.size());
+        notes_.emplace_back(tool, note);
+        return;
+    }
+    Note& first = notes_[known->second].second;
+    const StatedLength &a = *first.text.diameter, &b = *note.text.diameter;
+    // Without its own unit a diameter is in that of the program: the ratio may be an inch.
+    const double ratio = a.mm(1) / b.mm(1);
+    const auto is_near = [&](double x) { return std::abs(ratio - x) <= kSameDiameter * x; };
+    const bool is_same = is_near(1) || (a.unit_mm != b.unit_mm && (is_near(25.4) || is_near(1 / 25.4)));
+    if (is_same) {
+        add(first.text, note.text);
+    } else if ((note.text.number || !first.text.number) && conflicts_.size() < kMostConflicts) {
+        conflicts_.push_back({tool, first, note});
+    }
+}
+
+std::optional<double> ToolNotes::diameter_mm(int tool, double unit_of_program_mm) const {
+    const auto known = index_.find(tool);
+    if (known == index_.end() || !notes_[known->second].second.text.is_for_compensation) return std::nullopt;
+    return notes_[known->second].second.text.diameter->mm(unit_of_program_mm);
+}
+
+std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, const std::string& source,
+                                                   Warnings& warnings) const {
+    std::vector<motion::DeclaredTool> tools;
+    const auto declare = [&](int number, const Note& note) {
+        motion::DeclaredTool tool;
+        std::string remark;
+        tool.number = number;
+        tool.line = note.line;
+        ToolSizes sizes = sizes_of(note.text, unit_of_program_mm);
+        const bool has_unit = note.text.diameter->unit_mm > 0;
+        if (!has_unit && sizes.diameter_mm > kLimits.cutter_diameter.range.max) {
+            // Names of tools count millimetres in programs in inches too.
+            sizes = sizes_of(note.text, 1);
+            remark = "the diameter is taken in mm: in the unit of the program no tool is so large";
+        }
+        if (set_shape(tool, sizes, remark)) {
+            if (!remark.empty() && warnings.size() < kMostWarnings)
+                warnings.push_back({source, note.line, "T" + std::to_string(number) + ": " + remark});
+            tools.push_back(std::move(tool));
+        } else {
+            warnings.push_back({source, note.line,
+                                "T" + std::to_string(number) + " is not taken from this text: " + remark});
+        }
+    };
+    for (const auto& [number, note] : notes_) declare(number, note);
+    if (!has_changed_ && pending_ && pending_->text.describes_tool() && !index_.contains(0))
+        declare(0, *pending_);
+    std::set<int> said;
+    for (const Conflict& conflict : conflicts_) {
+        if (!said.insert(conflict.tool).second) continue;
+        const std::string name = "T" + std::to_string(conflict.tool);
+        warnings.push_back(
+            {source, conflict.second.line,
+             name + " has a diameter of " + size_text(*conflict.second.text.diameter) + " here, and of " +
+                 size_text(*conflict.first.text.diameter) + " on line " +
+                 std::to_string(conflict.first.line) +
+                 ": the first counts for the whole program; give each tool a number of its own"});
+    }
+    return tools;
+}
+
+}  // namespace tribo::readers

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The tools of a program from its comments, messages and names of tools. A text with a number is about that
+// tool; a text without one is about the tool that is changed next, or that was just changed. Any thread;
+// allocates.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.hpp"
+#include "motion/path/program.hpp"
+#include "readers/tools/declared_tool.hpp"
+#include "readers/tools/tool_text.hpp"
+
+namespace tribo::readers {
+
+// Returns the sizes in mm. What an angle means depends on the shape: the full angle of a point; of the side
+// to the axis for tapered and dovetail mills, and for chamfer mills up to 45 degrees or behind TAPER.
+ToolSizes sizes_of(const ToolText& text, double unit_of_program_mm);
+
+class ToolNotes {
+  public:
+    // Reads a comment, a message or the name of a tool; each line once, though a loop may run it again.
+    void read(std::string_view text, int line);
+    // Reads the name under which a program calls tool `number`.
+    void name(int number, std::string_view name, int line);
+    // Another tool comes into the spindle; maybe under the number of the one before.
+    void change(int tool);
+    // The tool in the spindle begins to cut: what is written from now on is about the next one.
+    void cut();
+
+    // Returns the diameter for radius compensation, mm; none if no text states it, or if the text says that
+    // the control corrects wear alone.
+    std::optional<double> diameter_mm(int tool, double unit_of_program_mm) const;
+
+    // Returns the tools in the order of their texts. Adds warnings where two texts disagree about one number.
+    std::vector<motion::DeclaredTool> tools(double unit_of_program_mm, const std::string& source,
+                                            Warnings& warnings) const;
+
+  private:
+    struct Note {
+        ToolText text;
+        int line = 0;
+    };
+    struct Conflict {
+        int tool = 0;
+        Note first, second;
+    };
+    void attach(int tool, const Note& note);
+
+    // Most different tools of a program (job/program_tools.hpp refuses more), and most conflicts.
+    static constexpr std::size_t kMostTools = 1000, kMostConflicts = 100;
+
+    std::vector<std::pair<int, Note>> notes_;  // one for each number
+    std::map<int, std::size_t> index_;         // of a number in notes_
+    std::vector<Conflict> conflicts_;
+    std::set<int> lines_;
+    std::optional<Note> pending_;     // about the next tool
+    std::optional<int> window_tool_;  // changed and has not cut yet
+    bool window_has_note_ = false;
+    bool has_changed_ = false;
+    bool expects_size_ = false;  // "Tool Size" stood before
+};
+
+}  // namespace tribo::readers

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+#include "readers/tools/tool_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/limits.hpp"
+#include "readers/tools/folded_text.hpp"
+#include "readers/tools/text_tokens.hpp"
+
+namespace tribo::readers {
+namespace {
+
+using namespace std::string_view_literals;
+
+using Words = std::span<const std::string_view>;
+
+constexpr std::array kToolWords{"TOOL"sv,        "WERKZEUG"sv, "WZ"sv,    "OUTIL"sv,
+                                "HERRAMIENTA"sv, "UTENSILE"sv, "CUTTER"sv};
+constexpr std::array kDiameterWords{"DIA"sv,      "DIAM"sv,        "DIAMETER"sv, "DIAMETRE"sv,
+                                    "DIAMETRO"sv, "DURCHMESSER"sv, "DIAMETR"sv,  "DMR"sv};
+constexpr std::array kCornerWords{"CR"sv, "RC"sv, "ECKENRADIUS"sv, "ECKRADIUS"sv};
+constexpr std::array kFluteWords{
+    "FLUTE"sv, "FLUTES"sv, "FLUITE"sv,    "FL"sv,        "TEETH"sv, "TOOTH"sv,  "ZAHN"sv,  "ZAEHNE"sv,
+    "ZAHNE"sv, "ZAHNIG"sv, "SCHNEIDER"sv, "SCHNEIDEN"sv, "DENTS"sv, "LABIOS"sv, "FILOS"sv, "TAGLIENTI"sv};
+// The number behind one of these is no diameter.
+constexpr std::array kOtherWords{"L"sv,  "LEN"sv, "LENGTH"sv, "LANGE"sv, "LAENGE"sv, "LONG"sv,  "EXT"sv,
+                                 "H"sv,  "S"sv,   "F"sv,      "Z"sv,     "ZMIN"sv,   "ZMAX"sv,  "X"sv,
+                                 "Y"sv,  "OFF"sv, "RPM"sv,    "FEED"sv,  "CUT"sv,    "DEPTH"sv, "STICKOUT"sv,
+                                 "ID"sv, "N"sv,   "STOCK"sv,  "LEAVE"sv, "PITCH"sv,  "SHANK"sv};
+// A number before one of these is no diameter.
+constexpr std::array kExtents{"DEEP"sv,  "DEPTH"sv, "TIEF"sv, "LONG"sv,  "LANG"sv, "WIDE"sv,
+                              "THICK"sv, "MIN"sv,   "RPM"sv,  "SHANK"sv, "BORE"sv};
+constexpr std::array kAngleWords{"TAPER"sv, "ANGLE"sv, "WINKEL"sv,  "SPITZENWINKEL"sv,
+                                 "POINT"sv, "SIG"sv,   "TIPANGLE"sv};
+constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGISTER"sv, "KORREKTUR"sv};
+constexpr int kMostFlutesInText = 24;
+
+// How plainly a text states a diameter: a higher one overrides a lower one.
+enum class Plainness { none, size, name, key };
+
+bool is_one_of(Words words, const TextToken& token) {
+    return token.kind == TextToken::Kind::word &&
+           std::ranges::any_of(words, [&](std::string_view word) { return token.text == word; });
+}
+
+class TextReader {
+  public:
+    explicit TextReader(std::string_view text) : text_(folded(text)), tokens_(tokens_of(text_)) {}
+
+    ToolText read() {
+        if (read_cut_viewer()) return tool_;
+        if (tokens_.size() == 1 && tokens_[0].is_number() && !tokens_[0].is_angle) {
+            tool_.is_bare_size = tokens_[0].value > 0;
+            if (tool_.is_bare_size) set_diameter(tokens_[0], Plainness::size);
+            return tool_;
+        }
+        tool_.is_for_compensation = text_.find("CONTROL COMP") != std::string::npos;
+        const ShapeWords shape = shape_in(text_);
+        tool_.shape = shape.shape;
+        tool_.names_tool = shape.names_tool;
+        for (std::size_t i = 0; i < tokens_.size();) i += take(i);
+        finish();
+        return tool_;
+    }
+
+  private:
+    const TextToken& token(std::size_t i) const {
+        static const TextToken none;
+        return i < tokens_.size() ? tokens_[i] : none;
+    }
+    bool is_end(std::size_t i) const { return i >= tokens_.size(); }
+
+    // Returns the place of the number behind a key: `=`, `:`, `.`, `-`, `>` and `_` may stand between; or the
+    // number of tokens if there is none.
+    std::size_t number_behind(std::size_t i) const {
+        for (std::size_t k = i + 1; k < tokens_.size() && k < i + 4; ++k) {
+            if (tokens_[k].is_number()) return k;
+            if (tokens_[k].kind == TextToken::Kind::word ||
+                std::string_view("=:.->_|#").find(tokens_[k].text[0]) == std::string_view::npos)
+                break;
+        }
+        return tokens_.size();
+    }
+
+    void set_diameter(const TextToken& number, Plainness plainness) {
+        if (!(number.value > 0) || plainness <= plainness_) return;
+        tool_.diameter = StatedLength{number.value, number.unit_mm};
+        plainness_ = plainness;
+    }
+
+    static bool is_tool_number(const TextToken& number) {
+        return number.is_count() && kLimits.tool_number.range.contains(std::max(number.value, 1.0));
+    }
+
+    // Takes what begins at token i. Returns the number of tokens that belong to it.
+    std::size_t take(std::size_t i) {
+        const TextToken& t = token(i);
+        if (t.kind == TextToken::Kind::word) return take_word(i);
+        if (t.is_number()) return take_number(i);
+        if (i == 0 && t.is_sign('#') && token(1).is_count()) {
+            set_number(token(i + 1));
+            return 2;
+        }
+        return 1;
+    }
+
+    void set_number(const TextToken& number) {
+        if (!tool_.number && is_tool_number(number)) tool_.number = static_cast<int>(number.value);
+    }
+
+    std::size_t take_word(std::size_t i) {
+        const TextToken& t = token(i);
+        const TextToken& next = token(i + 1);
+        if (t.text == "T" && next.is_count() && next.is_glued && !tool_.number) {
+            set_number(next);
+            number_at_ = i + 1;
+            return 2;
+        }
+        is_about_offset_ = is_about_offset_ || is_one_of(kOffsetWords, t);
+        if (is_one_of(kToolWords, t)) return take_tool_word(i);
+        if (is_one_of(kDiameterWords, t)) return take_diameter(i);
+        const std::size_t at = number_behind(i);
+        const bool has_number = !is_end(at);
+        const bool has_sign = has_number && at > i + 1;
+        if (t.text == "SIZE" && has_number) {
+            set_diameter(token(at), Plainness::key);
+            return at - i + 1;
+        }
+        if (t.text == "D" && has_number && (has_sign || next.is_glued)) {
+            set_diameter(token(at), has_sign ? Plainness::key : Plainness::name);
+            if (!has_sign) glued_d_ = token(at).value;
+            if (token(i + 1).is_sign('=') && tool_.number) tool_.is_for_compensation = true;
+            return at - i + 1;
+        }
+        if (t.text == "MM" && next.is_count() && next.is_glued) {  // MM10
+            TextToken size = next;
+            size.unit_mm = 1;
+            set_diameter(size, Plainness::name);
+            return 2;
+        }
+        const bool is_corner = is_one_of(kCornerWords, t) ||
+                               (t.text == "R" && has_number && plainness_ != Plainness::none) ||
+                               (t.text == "CORNER" && has_number);
+        if (is_corner && has_number) return take_corner(i, at);
+        if (t.text == "CORNER" || (t.text == "TIP" && next.is_word("RADIUS"))) {
+            const std::size_t behind = number_behind(i + 1);
+            if (!is_end(behind)) return take_corner(i, behind);
+        }
+        if ((t.text == "R" || t.text == "RADIUS") && has_number && !radius_) {
+            radius_ = StatedLength{token(at).value, token(at).unit_mm};
+            return at - i + 1;
+        }
+        if (is_one_of(kFluteWords, t)) return take_flutes(i, at);
+        if (t.text == "Z" && next.is_count() && next.is_glued && next.value >= 1 && next.value <= 12) {
+            lettered_flutes_ = static_cast<int>(next.value);
+            return 2;
+        }
+        if (is_one_of(kAngleWords, t) && has_number && token(at).unit_mm == 0) {
+            set_angle(token(at).value);
+            tool_.is_taper_key = t.text == "TAPER";
+            return at - i + 1;
+        }
+        if (is_one_of(kOtherWords, t) && has_number) {
+            if (t.text == "H" && next.is_glued) offset_ = next.value;
+            return at - i + 1;
+        }
+        return 1;
+    }
+
+    // TOOL 1, TOOL NUMBER: 1, TOOL - 1; TOOL DIAMETER and TOOL: 6mm are no numbers of tools.
+    std::size_t take_tool_word(std::size_t i) {
+        is_about_tool_ = true;
+        is_named_ = is_named_ || token(i + 1).is_word("NAME") || token(i + 1).is_word("ID");
+        std::size_t k = i;
+        for (const std::string_view word : {"NUMBER", "NUM", "NO", "NR"}) {
+            if (token(i + 1).is_word(word)) k = i + 1;
+        }
+        const std::size_t at = number_behind(k);
+        if (token(i).text == "CUTTER" || is_end(at)) return 1;
+        const TextToken& number = token(at);
+        const bool counts = is_one_of(kFluteWords, token(at + 1)) || token(at + 1).is_sign('/');
+        if (!number.is_count() || counts) return 1;
+        set_number(number);
+        return at - i + 1;
+    }
+
+    std::size_t take_diameter(std::size_t i) {
+        const std::size_t at = number_behind(i);
+        if (!is_end(at)) {
+            has_diameter_key_ = true;
+            set_diameter(token(at), Plainness::key);
+            return at - i + 1;
+        }
+        // 10 MM DIA END MILL; but DIA. OFF. is an offset.
+        const bool is_offset = token(i + 1).is_word("OFF") || token(i + 2).is_word("OFF");
+        if (i > 0 && token(i - 1).is_number() && !is_offset) set_diameter(token(i - 1), Plainness::key);
+        return 1;
+    }
+
+    std::size_t take_corner(std::size_t i, std::size_t at) {
+        if (!tool_.corner) tool_.corner = StatedLength{token(at).value, token(at).unit_mm};
+        return at - i + 1;
+    }
+
+    // FLUTES 3; but FLUTE LEN 16 is a length.
+    std::size_t take_flutes(std::size_t i, std::size_t at) {
+        if (token(i + 1).kind == TextToken::Kind::word && is_one_of(kOtherWords, token(i + 1))) return 1;
+        if (is_end(at) || !token(at).is_count()) return 1;
+        set_flutes(token(at).value);
+        return at - i + 1;
+    }
+
+    void set_flutes(double count) {
+        if (tool_.flutes == 0 && count >= 1 && count <= kMostFlutesInText)
+            tool_.flutes = static_cast<int>(count);
+    }
+    void set_angle(double degrees) {
+        if (!tool_.angle_deg && degrees > 0 && degrees < 180) tool_.angle_deg = degrees;
+    }
+
+    std::size_t take_number(std::size_t i) {
+        const TextToken& t = token(i);
+        std::size_t next = i + 1;
+        if (token(next).is_sign('-')) ++next;
+        if (t.is_count() && is_one_of(kFluteWords, token(next)) && !is_one_of(kOtherWords, token(next + 1))) {
+            set_flutes(t.value);
+            return next - i + 1;
+        }
+        if (t.is_angle) {
+            set_angle(t.value);
+            return 1;
+        }
+        // 1 = End Mill {6 mm}
+        if (i == 0 && t.is_count() && token(1).is_sign('=') && tool_.names_tool) {
+            set_number(t);
+            return 2;
+        }
+        const bool is_extent = is_one_of(kExtents, token(i + 1));
+        if (t.unit_mm > 0 && !is_extent) {
+            is_behind_number_ = is_behind_number_ || is_right_behind_number(i);
+            set_diameter(t, Plainness::size);
+        }
+        // T0 : 1.0 and T1//15.98: nothing else in the text.
+        const bool is_last = is_end(i + 1) && is_right_behind_number(i) && i > number_at_ + 1;
+        if (is_last && t.unit_mm == 0) {
+            is_behind_number_ = true;
+            set_diameter(t, Plainness::size);
+        }
+        return 1;
+    }
+
+    // True if nothing but signs stands between the tool's number and token i.
+    bool is_right_behind_number(std::size_t i) const {
+        if (!tool_.number || number_at_ == 0 || i <= number_at_) return false;
+        return std::all_of(
+            tokens_.begin() + static_cast<std::ptrdiff_t>(number_at_) + 1,
+            tokens_.begin() + static_cast<std::ptrdiff_t>(i), [](const TextToken& t) {
+                return t.kind == TextToken::Kind::sign &&
+                       (t.text == ":" || t.text == "/" || t.text == "=" || t.text == "|" || t.text == "-");
+            });
+    }
+
+    // TOOL/MILL, diameter, corner radius, height, taper per side; TOOL/DRILL and TOOL/CHAMFER, diameter,
+    // point angle, height (CutViewer, Carbide Create).
+    bool read_cut_viewer() {
+        if (!token(0).is_word("TOOL") || !token(1).is_sign('/') || token(2).kind != TextToken::Kind::word)
+            return false;
+        const std::string_view kind = token(2).text;
+        std::vector<double> values;
+        // A comma between digits separates here: 6.350,0.000.
+        std::string rest(
+            text_.substr(static_cast<std::size_t>(token(2).text.data() - text_.data()) + kind.size()));
+        std::ranges::replace(rest, ',', ' ');
+        for (const TextToken& t : tokens_of(rest)) {
+            if (t.is_number()) values.push_back(t.value);
+        }
+        if (values.empty() || !(values[0] > 0)) return false;
+        values.resize(std::max<std::size_t>(values.size(), 4));
+        tool_.diameter = StatedLength{values[0], 0};
+        tool_.names_tool = true;
+        if (kind == "MILL") {
+            tool_.corner = StatedLength{values[1], 0};
+            tool_.shape = ToolShape::flat;
+            if (values[3] > 0) {
+                tool_.shape = ToolShape::taper;
+                set_angle(values[3]);
+                tool_.height = values[2];  // over which the cone widens from the diameter at its tip
+            }
+        } else if (kind == "DRILL" || kind == "CHAMFER") {
+            tool_.shape = kind == "DRILL" ? ToolShape::drill : ToolShape::chamfer;
+            set_angle(values[1]);
+        } else {
+            tool_.shape = kind == "CDRILL" ? ToolShape::centre_drill : ToolShape::form;
+        }
+        return true;
+    }
+
+    void finish() {
+        if (!tool_.diameter) tool_.asks_for_size = is_about_tool_ && text_.find("SIZE") != std::string::npos;
+        // H1 D1 are the numbers of offsets, and D1 beside words about offsets is.
+        if (plainness_ == Plainness::name && glued_d_ > 0 && (glued_d_ == offset_ || is_about_offset_))
+            tool_.diameter.reset();
+        if (radius_ && !tool_.diameter && tool_.shape == ToolShape::ball) {
+            tool_.diameter = StatedLength{2 * radius_->value, radius_->unit_mm};
+            plainness_ = Plainness::name;
+        } else if (radius_ && !tool_.corner && tool_.diameter) {
+            tool_.corner = radius_;
+        }
+        if (tool_.flutes == 0 && (tool_.names_tool || plainness_ == Plainness::name))
+            tool_.flutes = lettered_flutes_;
+        const bool says_tool = (is_about_tool_ && (has_diameter_key_ || plainness_ == Plainness::key)) ||
+                               (is_named_ && plainness_ == Plainness::name);
+        tool_.names_tool = tool_.names_tool || says_tool;
+        // A bare size beside a number must follow it: (T1 5 mm below the clamp) is one, (T1 at 5 mm) none.
+        if (plainness_ == Plainness::size && !tool_.names_tool && !is_behind_number_) tool_.diameter.reset();
+        if (tool_.shape == ToolShape::turning || tool_.shape == ToolShape::probe) tool_.diameter.reset();
+    }
+
+    std::string text_;
+    std::vector<TextToken> tokens_;
+    ToolText tool_;
+    Plainness plainness_ = Plainness::none;
+    std::optional<StatedLength> radius_;  // R or RADIUS before any diameter
+    double glued_d_ = 0, offset_ = -1;
+    int lettered_flutes_ = 0;
+    std::size_t number_at_ = 0;  // of the tool's number, where T stands before it
+    bool is_about_tool_ = false, has_diameter_key_ = false, is_behind_number_ = false, is_named_ = false;
+    bool is_about_offset_ = false;
+};
+
+}  // namespace
+
+ToolText read_tool_text(std::string_view text) {
+    constexpr std::size_t longest = 400;
+    return TextReader(text.substr(0, longest)).read();
+}
+
+}  // namespace tribo::readers

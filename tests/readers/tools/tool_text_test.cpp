@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The forms in which CAM systems and people write tools into programs, one of each kind.
+#include "readers/tools/tool_text.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+
+#include "readers/tools/tool_notes.hpp"
+
+namespace tribo::readers {
+namespace {
+
+using enum ToolShape;
+
+constexpr int kNoNumber = -1;
+
+struct Form {
+    const char* text;
+    int number;
+    ToolShape shape;
+    double diameter, unit_mm, corner, angle_deg;
+    int flutes;
+};
+
+// Sizes are what a machinist reads in the text; unit 0: that of the program.
+const Form kForms[] = {
+    // Fusion, HSMWorks, Inventor CAM
+    {"T7 D=8. CR=1.5 - ZMIN=-2. - bullnose end mill", 7, bull, 8, 0, 1.5, 0, 0},
+    {"T3  D=5 CR=2.5 - ZMIN=-1 - ball end mill", 3, ball, 5, 0, 2.5, 0, 0},
+    {"T9 D=4.2 CR=0. TAPER=118deg - ZMIN=-11 - drill", 9, drill, 4.2, 0, 0, 118, 0},
+    {"T4 D=6 CR=0 TAPER=45deg - ZMIN=-1 - chamfer mill", 4, chamfer, 6, 0, 0, 45, 0},
+    {"#12 D=16 CR=0.8 - ZMIN=-3 - ZMAX=+10 - bull nose end mill", 12, bull, 16, 0, 0.8, 0, 0},
+    // SolidWorks CAM, CAMWorks, Mastercam
+    {"T04 ID=004  DIA-0.3750  TOOL END MILL", 4, flat, 0.375, 0, 0, 0, 0},
+    {" T2 | 3/8 BALL ENDMILL | H2 | D2 | WEAR COMP | TOOL DIA. - .375 ", 2, ball, 0.375, 0, 0, 0, 0},
+    {"3/4 FLAT ENDMILL TOOL - 5 DIA. OFF. - 5 LEN. - 5 DIA. - .75", 5, flat, 0.75, 0, 0, 0, 0},
+    // CamBam, EZ-CAM, Estlcam, HeeksCNC
+    {" T2 : 3.175 ", 2, unstated, 3.175, 0, 0, 0, 0},
+    {"T6//11.97", 6, unstated, 11.97, 0, 0, 0, 0},
+    {"tool change to 3 mm HSS Ball End Mill", kNoNumber, ball, 3, 1, 0, 0, 0},
+    // FreeCAD
+    {"begin operation: T2: 5mm Endmill", 2, flat, 5, 1, 0, 0, 0},
+    {"TC: 6.35mm Ball End", kNoNumber, ball, 6.35, 1, 0, 0, 0},
+    {"Compensated Tool Path. Diameter: 4.0", kNoNumber, unstated, 4, 0, 0, 0, 0},
+    // pcb2gcode, FlatCAM, pcb-gcode
+    {"MSG, Change tool bit to drill size 0.9 mm", kNoNumber, drill, 0.9, 1, 0, 0, 0},
+    {"MSG, Change tool bit to cutter diameter 1.50000mm", kNoNumber, unstated, 1.5, 1, 0, 0, 0},
+    {"TOOL DIAMETER: 0.4 mm", kNoNumber, unstated, 0.4, 1, 0, 0, 0},
+    {"MSG, Change to Tool Dia = 1.2000", kNoNumber, unstated, 1.2, 0, 0, 0, 0},
+    {"Tool: 3 -> Dia: 0.8", 3, unstated, 0.8, 0, 0, 0, 0},
+    {" T05 | 0.600mm 0.0236in | 0.0000in | 0.0000in |       7 ", 5, unstated, 0.6, 1, 0, 0, 0},
+    // Vectric
+    {"1 = End Mill {3 mm}", 1, flat, 3, 1, 0, 0, 0},
+    {"T3 = Ball Nose {0.25 inches}", 3, ball, 0.25, 25.4, 0, 0, 0},
+    {"2 = V-Bit {60 deg 12.7 mm}", 2, v, 12.7, 1, 0, 60, 0},
+    {"Toolpath: Outside Tool: End Mill {1/8 inch}", kNoNumber, flat, 0.125, 25.4, 0, 0, 0},
+    // Carbide Create, CutViewer
+    {"TOOL/MILL,6.350,3.175, 0.000, 0.00", kNoNumber, flat, 6.35, 0, 3.175, 0, 0},
+    {"TOOL/MILL,0.10, 0.00, 8.00, 30.00", kNoNumber, taper, 0.1, 0, 0, 30, 0},
+    {"TOOL/DRILL, 5, 118, 40", kNoNumber, drill, 5, 0, 0, 118, 0},
+    {"TOOL/CHAMFER, 10, 90, 5", kNoNumber, chamfer, 10, 0, 0, 90, 0},
+    // PowerMill, Blender CAM, NX
+    {"TOOL DIA. : 12. LENGTH 60.", kNoNumber, unstated, 12, 0, 0, 0, 0},
+    {"TOOL ID : D20R2", kNoNumber, unstated, 20, 0, 2, 0, 0},
+    {"Tool: D = 2.0 mm type BALLNOSE flutes 4", kNoNumber, ball, 2, 1, 0, 0, 4},
+    {"TOOL NAME FACEMILL_D50", kNoNumber, face, 50, 0, 0, 0, 0},
+    {"TOOL NAME MM12_NUT", kNoNumber, unstated, 12, 1, 0, 0, 0},
+    // By hand, in several languages
+    {"Tool:  4mm 3-flute flat end mill", kNoNumber, flat, 4, 1, 0, 0, 3},
+    {"TOOL CHANGE \xE2\x80\x94 T2: 8mm Ball End Mill", 2, ball, 8, 1, 0, 0, 0},
+    {"Current cutter: 3mm endmill 2flute", kNoNumber, flat, 3, 1, 0, 0, 2},
+    {"Change tool to 1/4\" Engraver 90 degree", kNoNumber, engraver, 0.25, 25.4, 0, 90, 0},
+    {"T10 12 MM DIA ROUGHING END MILL", 10, flat, 12, 1, 0, 0, 0},
+    {"T9 1-1/2 FACE MILL", 9, face, 1.5, 25.4, 0, 0, 0},
+    {"T1 1/2 END MILL", 1, flat, 0.5, 25.4, 0, 0, 0},
+    {"T4 SCHAFTFRAESER D12 Z4", 4, flat, 12, 0, 0, 0, 4},
+    {"T5 Kugelfr\xC3\xA4ser \xC3\x98"
+     "6,5 mm 2 Schneiden",
+     5, ball, 6.5, 1, 0, 0, 2},
+    {"Kugelfr\xE4ser \xD8"
+     "6,5",
+     kNoNumber, ball, 6.5, 0, 0, 0, 0},
+    {"T6 BOHRER D=8,5 SPITZENWINKEL 130", 6, drill, 8.5, 0, 0, 130, 0},
+    {"T7 NC-Anbohrer D10 90\xC2\xB0", 7, spot_drill, 10, 0, 0, 90, 0},
+    {"VHM-Torusfraeser D10 R1", kNoNumber, bull, 10, 0, 1, 0, 0},
+    {"FRAISE DIAMETRE 20", kNoNumber, flat, 20, 0, 0, 0, 0},
+    {"T8 FORET A CENTRER D3.15", 8, centre_drill, 3.15, 0, 0, 0, 0},
+    {"T3 D=3 CR=0. - ZMIN=-1. - FRESA CON PUNTA PLANA", 3, flat, 3, 0, 0, 0, 0},
+    {"T11 GEWINDEBOHRER M6 D6", 11, tap, 6, 0, 0, 0, 0},
+};
+
+TEST(ToolText, reads_the_forms_of_cam_systems_and_people) {
+    for (const Form& form : kForms) {
+        SCOPED_TRACE(form.text);
+        const ToolText tool = read_tool_text(form.text);
+        ASSERT_TRUE(tool.describes_tool());
+        EXPECT_EQ(tool.number.value_or(kNoNumber), form.number);
+        EXPECT_EQ(tool.shape, form.shape);
+        EXPECT_EQ(tool.diameter->value, form.diameter);
+        EXPECT_EQ(tool.diameter->unit_mm, form.unit_mm);
+        EXPECT_EQ(tool.corner.value_or(StatedLength{}).value, form.corner);
+        EXPECT_EQ(tool.angle_deg.value_or(0), form.angle_deg);
+        EXPECT_EQ(tool.flutes, form.flutes);
+    }
+}
+
+TEST(ToolText, takes_nothing_from_texts_about_other_things) {
+    for (const char* text : {"",
+                             "2D Pocket 10mm",
+                             "DRILL 4 HOLES 5MM DEEP",
+                             "POINTAGE 4 TROUS DIAM 10",
+                             "T1 AT 5 MM ABOVE THE CLAMP",
+                             "STOCK IS 30MM DIAMETER ACETAL ROD",
+                             "Groove roughing cuts - 4.6825mm wide",
+                             "Z Toolchange: 12.7 mm",
+                             "CUTTER COMP LEFT (D1 = RADIUS REGISTER)",
+                             "T12 CNMG OD TURN WITH .03\" NR INSERT",
+                             "12-HOLE DRILL PATTERN",
+                             "Pocket size: 60mm x 60mm",
+                             "Hexagon - Face #1 - Square X[-5.7..8.8] Y[18..30]",
+                             "T2 later",
+                             "TOOL T3",
+                             "CHANGE TOOL TO 0.0 MM ENDMILL",
+                             "X= 100.000, Y= 100.000 ,Z= 12.000",
+                             "ENGRAVE \"5\" AND \"10\"",
+                             "FEED 300 MM/MIN",
+                             "tool change at 0.0000  0.0000  10.0000 "}) {
+        EXPECT_FALSE(read_tool_text(text).describes_tool()) << text;
+    }
+}
+
+motion::DeclaredTool only_tool(ToolNotes& notes, double unit_mm = 1) {
+    Warnings warnings;
+    const auto tools = notes.tools(unit_mm, "p.nc", warnings);
+    EXPECT_EQ(tools.size(), 1u);
+    EXPECT_TRUE(warnings.empty());
+    return tools.empty() ? motion::DeclaredTool{} : tools.front();
+}
+
+TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to_it) {
+    ToolNotes before;  // the text, then the change
+    before.read("6 mm end mill", 3);
+    before.change(4);
+    EXPECT_EQ(only_tool(before).number, 4);
+    ToolNotes after;  // the change, then the text, then the first cut
+    after.change(2);
+    after.read("6 mm end mill", 3);
+    after.cut();
+    EXPECT_EQ(only_tool(after).number, 2);
+    ToolNotes late;  // the tool has cut: the text is about the next one
+    late.change(2);
+    late.cut();
+    late.read("6 mm end mill", 9);
+    late.change(5);
+    EXPECT_EQ(only_tool(late).number, 5);
+    ToolNotes alone;  // a program without T
+    alone.read("6 mm end mill", 1);
+    alone.cut();
+    EXPECT_EQ(only_tool(alone).number, 0);
+}
+
+TEST(ToolNotes, join_a_header_of_several_lines) {
+    ToolNotes notes;
+    notes.read("TOOL TYPE : BALLNOSED MILL BALL", 1);
+    notes.read("TOOL DIA. : 16. LENGTH 80.", 2);
+    notes.change(3);
+    const motion::DeclaredTool tool = only_tool(notes);
+    EXPECT_EQ(tool.diameter_mm, 16);
+    EXPECT_EQ(tool.corner_mm, 8);
+    ToolNotes sized;
+    sized.read("  Tool Size", 1);
+    sized.read("0.2000  ", 2);
+    EXPECT_EQ(only_tool(sized).diameter_mm, 0.2);
+}
+
+TEST(ToolNotes, say_that_two_texts_disagree_about_one_tool) {
+    ToolNotes notes;
+    notes.read("T1 D=6 - end mill", 2);
+    notes.read("T1: 6mm end mill", 5);  // the same
+    notes.read("T1 D=8 - end mill", 90);
+    Warnings warnings;
+    const auto tools = notes.tools(1, "p.nc", warnings);
+    ASSERT_EQ(tools.size(), 1u);
+    EXPECT_EQ(tools[0].diameter_mm, 6);
+    EXPECT_EQ(tools[0].line, 2);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].line, 90);
+    EXPECT_NE(warnings[0].text.find("a diameter of 8 here, and of 6 on line 2"), std::string::npos);
+}
+
+TEST(ToolNotes, take_sizes_in_the_unit_of_the_program_or_their_own) {
+    ToolNotes inches;
+    inches.read("T1 D=0.5 CR=0.1 - bull nose end mill", 1);
+    const motion::DeclaredTool bull_mill = only_tool(inches, 25.4);
+    EXPECT_EQ(bull_mill.diameter_mm, 12.7);
+    EXPECT_EQ(bull_mill.corner_mm, 2.54);
+    ToolNotes stated;
+    stated.read("T1: 6mm end mill", 1);
+    EXPECT_EQ(only_tool(stated, 25.4).diameter_mm, 6);
+}
+
+TEST(ToolNotes, make_the_shapes_that_texts_name) {
+    struct Shape {
+        const char* text;
+        std::string kind;
+        double diameter_mm, corner_mm, point_deg, taper_deg, tip_mm;
+        const char* remark;  // a part of the warning; empty: none
+    };
+    const Shape shapes[] = {
+        {"T1 D=8 CR=0 - flat end mill", "", 8, 0, 0, 0, 0, ""},
+        {"T1 D=8 - ball end mill", "", 8, 4, 0, 0, 0, ""},
+        {"T1 D=5 CR=0 TAPER=118deg - drill", "drill", 5, 0, 118, 0, 0, ""},
+        {"T1 D=5 - drill", "drill", 5, 0, 118, 0, 0, "118 degrees are assumed"},
+        {"T1 D=10 TAPER=90deg - spot drill", "drill", 10, 0, 90, 0, 0, ""},
+        {"T1 D=6 TAPER=45deg - chamfer mill", "chamfer", 6, 0, 90, 0, 0, ""},
+        {"T1 D=6 90 DEG CHAMFER MILL", "chamfer", 6, 0, 90, 0, 0, ""},
+        {"T1 D=6 45 DEG CHAMFER MILL", "chamfer", 6, 0, 90, 0, 0, ""},
+        {"1 = V-Bit {60 deg 12 mm}", "v", 12, 0, 60, 0, 0, ""},
+        {"T1 D=10 TAPER=82deg - countersink", "countersink", 10, 0, 82, 0, 0, ""},
+        {"T1: 1/4\" engraver 30 degree", "engraver", 6.35, 0, 30, 0, 0, ""},
+        {"T1 D=6 - thread mill", "", 6, 0, 0, 0, 0, "thread mill is milled as an end mill"},
+        {"T1 D=6 - right hand tap", "", 6, 0, 0, 0, 0, "tap is milled as an end mill"},
+        {"T1 D=6 CR=0 - bull nose end mill", "", 6, 0, 0, 0, 0, "taken as sharp"},
+    };
+    for (const Shape& shape : shapes) {
+        SCOPED_TRACE(shape.text);
+        ToolNotes notes;
+        notes.read(shape.text, 7);
+        Warnings warnings;
+        const auto tools = notes.tools(1, "p.nc", warnings);
+        ASSERT_EQ(tools.size(), 1u);
+        EXPECT_EQ(tools[0].kind, shape.kind);
+        EXPECT_EQ(tools[0].diameter_mm, shape.diameter_mm);
+        EXPECT_EQ(tools[0].corner_mm, shape.corner_mm);
+        EXPECT_EQ(tools[0].point_deg, shape.point_deg);
+        EXPECT_EQ(tools[0].taper_deg, shape.taper_deg);
+        EXPECT_EQ(tools[0].tip_mm, shape.tip_mm);
+        ASSERT_EQ(warnings.empty(), *shape.remark == '\0');
+        if (!warnings.empty()) {
+            EXPECT_NE(warnings[0].text.find(shape.remark), std::string::npos) << warnings[0].text;
+            EXPECT_EQ(warnings[0].line, 7);
+        }
+    }
+    ToolNotes cone;  // at 45 degrees it widens by 16 mm over 8 mm
+    cone.read("TOOL/MILL,0.5,0,8,45", 1);
+    const motion::DeclaredTool taper = only_tool(cone);
+    EXPECT_EQ(taper.kind, "taper");
+    EXPECT_EQ(taper.tip_mm, 0.5);
+    EXPECT_EQ(taper.edge_mm, 8);
+    EXPECT_NEAR(taper.diameter_mm, 16.5, 1e-12);
+}
+
+TEST(ToolNotes, give_radius_compensation_only_diameters_that_the_control_uses) {
+    ToolNotes notes;
+    notes.read("T1 D=10 CR=0 - flat end mill", 1);
+    notes.read("T2 | END MILL | H2 | D2 | CONTROL COMP | TOOL DIA. - 8.", 2);
+    notes.read("T3 | END MILL | H3 | D3 | WEAR COMP | TOOL DIA. - 8.", 3);
+    EXPECT_EQ(notes.diameter_mm(1, 1), 10);
+    EXPECT_EQ(notes.diameter_mm(2, 1), 8);
+    EXPECT_FALSE(notes.diameter_mm(3, 1));
+    EXPECT_FALSE(notes.diameter_mm(4, 1));
+}
+
+}  // namespace
+}  // namespace tribo::readers
