@@ -309,7 +309,7 @@ Facts describe(const motion::Program& program, const motion::ProgramMeter& meter
         if (tool.diameter_mm > 0) b.line("tool", declared_text(tool));
     }
     if (const std::string text = undescribed_tools(program, s.tools); !text.empty())
-        b.line("not described", text);
+        b.line("tool", text + ": not described");
     b.json["rotary"] = program.has_rotary_words;
     b.json["tilted"] = s.tilted;
     if (!program.machine.empty()) {

@@ -15,10 +15,16 @@ using namespace std::string_view_literals;
 constexpr std::array kMachineKeys{
     "rapid_mm_per_min"sv, "acceleration_mm_per_s2"sv, "based_on"sv, "axes"sv, "limits_mm"sv,
     "stock_mm"sv,         "tool_length_mm"sv};
-constexpr std::array kAxisKeys{"word"sv,    "carries"sv,  "direction"sv, "pivot_mm"sv,
-                               "zero_mm"sv, "zero_deg"sv, "limits_mm"sv, "limits_deg"sv};
+constexpr std::array kAxisKeys{"word"sv,     "carries"sv,   "direction"sv,  "pivot_mm"sv,         "zero_mm"sv,
+                               "zero_deg"sv, "limits_mm"sv, "limits_deg"sv, "speed_deg_per_min"sv};
 constexpr std::array kAxisWords{"X"sv, "Y"sv, "Z"sv, "A"sv, "B"sv, "C"sv};
 constexpr std::array kCarriedWords{"part"sv, "tool"sv};
+
+constexpr Limit kAxisSpeed{"speed of a rotary axis",
+                           "deg/min",
+                           {1, 1e7},
+                           "`speed_deg_per_min`",
+                           "A table of a lathe turns a few thousand times a minute; nobody mills at that."};
 
 motion::MachineAxis* find_axis(motion::Machine& machine, char word) {
     for (auto* side : {&machine.part_side, &machine.tool_side}) {
@@ -65,6 +71,11 @@ void read_axis(TomlFile& file, const toml::table& table, motion::Machine& machin
                                : "write millimetres, as zero_mm and limits_mm");
         }
     }
+    if (section.has("speed_deg_per_min") && !turns) {
+        section.fail("speed_deg_per_min", "a linear axis does not turn", "remove it");
+    }
+    if (const auto speed = section.number("speed_deg_per_min", kAxisSpeed); speed && turns)
+        axis->max_speed = *speed * math::kRadPerDeg / 60;
     if (section.has("pivot_mm") && !turns) {
         section.fail("pivot_mm", "a linear axis has no pivot", "remove it");
     }

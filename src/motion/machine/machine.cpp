@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
+#include "base/math.hpp"
 #include "base/text/nearest.hpp"
 
 namespace tribo::motion {
@@ -14,9 +16,13 @@ namespace {
 // Directions nearer than this to one line or plane count as lying in it.
 constexpr double kDegenerate = 1e-6;
 
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
 struct NamedAxis {
     char word;
     Vec3 direction;
+    double min_deg = -kAny, max_deg = kAny;
+    double max_rpm = kAny;
 };
 struct Named {
     std::string_view name;
@@ -29,14 +35,51 @@ constexpr std::array kHeadHead{NamedAxis{'C', {0, 0, 1}}, NamedAxis{'B', {0, 1, 
 constexpr std::array kHead{NamedAxis{'B', {0, 1, 0}}};
 constexpr std::array kTable{NamedAxis{'C', {0, 0, -1}}};
 constexpr std::array kIndexer{NamedAxis{'A', {-1, 0, 0}}};
+// Travel and speed of rotary axes as data sheets of such machines give them, rounded; models differ.
+constexpr std::array kTableTable{NamedAxis{'A', {-1, 0, 0}, -120, 120, 25},
+                                 NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 40}};
+constexpr std::array kHaasUmc{NamedAxis{'B', {0, -1, 0}, -35, 120, 8},
+                              NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 8}};
+constexpr std::array kHaasTr{NamedAxis{'A', {-1, 0, 0}, -120, 120, 13},
+                             NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 13}};
+constexpr std::array kDmgDmu{NamedAxis{'B', {0, -1, 0}, -35, 110, 30},
+                             NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 30}};
+constexpr std::array kHermleC{NamedAxis{'A', {-1, 0, 0}, -130, 130, 25},
+                              NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 40}};
+// Half of the root of two: the part of a unit vector at 45 degrees along each axis.
+constexpr double kHalf = 0.70710678118654752440;
+constexpr std::array kNutatingTable{NamedAxis{'B', {0, -kHalf, -kHalf}, -180, 180, 30},
+                                    NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 30}};
+constexpr std::array kNutatingHead{NamedAxis{'B', {0, kHalf, kHalf}, -180, 180, 30}};
+constexpr std::array kRoundTable{NamedAxis{'C', {0, 0, -1}, -kAny, kAny, 30}};
+constexpr std::array kNutatingHeads{NamedAxis{'C', {0, 0, 1}, -360, 360, 30},
+                                    NamedAxis{'B', {0, kHalf, kHalf}, -180, 180, 30}};
 constexpr std::array kNamed{
-    Named{"xyzac-trt", kXyzac, {}},    Named{"xyzbc-trt", kXyzbc, {}},     Named{"xyzab-tdr", kXyzab, {}},
-    Named{"head-head", {}, kHeadHead}, Named{"head-table", kTable, kHead}, Named{"xyza", kIndexer, {}},
+    Named{"xyzac-trt", kXyzac, {}},
+    Named{"xyzbc-trt", kXyzbc, {}},
+    Named{"xyzab-tdr", kXyzab, {}},
+    Named{"head-head", {}, kHeadHead},
+    Named{"head-table", kTable, kHead},
+    Named{"xyza", kIndexer, {}},
+    Named{"table-table", kTableTable, {}},
+    Named{"haas-umc", kHaasUmc, {}},
+    Named{"haas-tr", kHaasTr, {}},
+    Named{"dmg-dmu", kDmgDmu, {}},
+    Named{"hermle-c", kHermleC, {}},
+    Named{"nutating-table", kNutatingTable, {}},
+    Named{"nutating-head", kRoundTable, kNutatingHead},
+    Named{"nutating-head-head", {}, kNutatingHeads},
 };
 
 std::vector<MachineAxis> axes_of(std::span<const NamedAxis> named) {
     std::vector<MachineAxis> axes;
-    for (const NamedAxis& axis : named) axes.push_back({.word = axis.word, .direction = axis.direction});
+    for (const NamedAxis& axis : named) {
+        axes.push_back({.word = axis.word,
+                        .direction = axis.direction,
+                        .min = axis.min_deg * math::kRadPerDeg,
+                        .max = axis.max_deg * math::kRadPerDeg,
+                        .max_speed = axis.max_rpm * math::kTwoPi / 60});
+    }
     return axes;
 }
 
@@ -50,6 +93,7 @@ Result<void> check_axis(const MachineAxis& axis) {
         return fail(name + " holds a number that is not finite", "give finite numbers");
     if (!(axis.min < axis.max))
         return fail("the limits of " + name + " leave no travel", "give the lower limit first");
+    if (!(axis.max_speed > 0)) return fail("the speed of " + name + " is not above 0", "correct it");
     return {};
 }
 

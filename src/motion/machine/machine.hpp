@@ -34,6 +34,7 @@ struct MachineAxis {
     double zero = 0;  // value of the word in the position described here: mm or rad
     double min = -std::numeric_limits<double>::infinity();  // travel, in values of the word: mm or rad
     double max = std::numeric_limits<double>::infinity();
+    double max_speed = std::numeric_limits<double>::infinity();  // of a rotary axis, rad/s
 
     bool turns() const { return word >= 'A' && word <= 'C'; }
 };
@@ -61,7 +62,9 @@ void add_linear_axes(Machine& machine);
 // two rotary axes, rotary axes that turn nothing, limits in the wrong order.
 Result<void> check(const Machine& machine);
 
-// Returns a machine known by name, with unlimited travel and all axes through the machine's zero:
+// Returns a machine known by name, with all axes through the machine's zero. The first six have unlimited
+// travel and speed; the others have limits as machines of their kind have them, which differ from model to
+// model:
 //   xyzac-trt  A tilts the table about +x and carries C about +z: the table turns the way the words grow, as
 //              LinuxCNC's kinematics of this name has it
 //   xyzbc-trt  B about +y carries C about +z, likewise
@@ -69,6 +72,14 @@ Result<void> check(const Machine& machine);
 //   head-head  C about +z carries B about +y, in the head (ISO 841)
 //   head-table B about +y in the head, a table C about -z (ISO 841)
 //   xyza       A about -x carries the part: a rotary indexer (ISO 841)
+//   table-table       A about -x carries C about -z (ISO 841)
+//   haas-umc          B about -y carries C about -z: a tilting table on a vertical mill
+//   haas-tr           A about -x carries C about -z: a trunnion on a vertical mill
+//   dmg-dmu           B about -y carries C about -z: a swivel rotary table
+//   hermle-c          A about -x carries C about -z: a trunnion in a gantry
+//   nutating-table    B about (0, -1, -1) carries C about -z: a table that swivels about an axis at 45
+//   degrees nutating-head     C about -z in the table, B about (0, 1, 1) in the head nutating-head-head C
+//   about +z carries B about (0, 1, 1), both in the head
 Result<Machine> named_machine(std::string_view name);
 // Returns their names, for messages: "xyzac-trt, xyzbc-trt, ...".
 std::string machine_names();

@@ -7,6 +7,7 @@
 
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
+#include "motion/path/path.hpp"
 #include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers {
@@ -20,6 +21,17 @@ constexpr int kMostTravelSteps = 1000;
 // kSingularRatio times as far as the tool axis.
 constexpr double kSingularTurnRad = 10 * math::kRadPerDeg;
 constexpr double kSingularRatio = 10;
+
+// No tip of a mill feeds faster over a part, mm/min; no rotary axis turns faster at a feed, rad/s (200 rpm:
+// direct drives). Beyond it words or kinematics are wrong.
+constexpr double kFastestTip = 100'000;
+constexpr double kFastestTurn = 200 * math::kTwoPi / 60;
+// Rounding of a feed that was computed from the limit.
+constexpr double kSpeedSlack = 1.001;
+// Programs that turn in so many blocks and whose largest word lies between these, degrees, may mean radians:
+// a quarter turn to a whole one.
+constexpr int kManyTurns = 20;
+constexpr double kLeastRadians = 1.5, kMostRadians = 6.3;
 
 // If a millimetre of tool length moves the tip by less than this, the tip does not depend on the length, mm.
 constexpr double kNoLever = 1e-9;
@@ -64,6 +76,7 @@ const std::vector<motion::Move>* MachineRun::run(const motion::MachineBlock& blo
         check_travel(motion::joints_at(kinematics_, block, static_cast<double>(i) / steps), like.line);
     }
     if (block.tip_control && like.kind == motion::MoveKind::feed) check_turn(block, like.line);
+    if (like.kind == motion::MoveKind::feed) check_speed(block, like.line);
     return &moves_;
 }
 
@@ -79,6 +92,38 @@ void MachineRun::check_travel(const motion::Joints& joints, int line) {
         if (excess.worst_line != 0 && less) continue;
         excess.worst_line = line;
         excess.worst = over;
+    }
+}
+
+void MachineRun::Rush::take(double speed, int line) {
+    if (first_line == 0) first_line = line;
+    if (speed <= worst) return;
+    worst = speed;
+    worst_line = line;
+}
+
+// For a block at feed whose moves are in moves_.
+void MachineRun::check_speed(const motion::MachineBlock& block, int line) {
+    const Vec3 turn = block.end_rad - block.start_rad;
+    if (turn == Vec3{}) return;
+    ++turning_blocks_;
+    for (int k = 0; k < 3; ++k) {
+        largest_word_rad_ =
+            std::max({largest_word_rad_, std::abs(block.start_rad[k]), std::abs(block.end_rad[k])});
+    }
+    double whole_s = 0, fastest = 0;
+    for (const motion::Move& move : moves_) {
+        const double way_mm = motion::path_length_mm(move);
+        const double time_s = move.duration_s > 0 ? move.duration_s : 60 * way_mm / move.feed_mm_per_min;
+        whole_s += time_s;
+        if (time_s > 0) fastest = std::max(fastest, 60 * way_mm / time_s);
+    }
+    if (fastest > kFastestTip) tip_rush_.take(fastest, line);
+    for (int k = 0; k < 3 && whole_s > 0; ++k) {
+        const motion::MachineAxis* axis = machine_.axis("ABC"[k]);
+        const double speed = std::abs(turn[k]) / whole_s;
+        const double limit = axis == nullptr ? kFastestTurn : std::min(axis->max_speed, kFastestTurn);
+        if (speed > limit * kSpeedSlack) rush_[static_cast<std::size_t>(k)].take(speed, line);
     }
 }
 
@@ -102,6 +147,45 @@ void MachineRun::check_turn(const motion::MachineBlock& block, int line) {
     singular_axis_rad_ = tool;
 }
 
+void MachineRun::add_rushes(const std::string& source, Warnings& warnings) const {
+    const auto at_worst = [](const Rush& rush, const std::string& speed) {
+        return rush.worst_line == rush.first_line
+                   ? ""
+                   : " (at worst " + speed + " on line " + std::to_string(rush.worst_line) + ")";
+    };
+    for (std::size_t k = 0; k < rush_.size(); ++k) {
+        const Rush& rush = rush_[k];
+        if (rush.first_line == 0) continue;
+        const motion::MachineAxis* axis = machine_.axis(kWords[3 + k]);
+        const double limit = axis == nullptr ? kFastestTurn : std::min(axis->max_speed, kFastestTurn);
+        const std::string speed = short_decimal(rush.worst * 60 * math::kDegPerRad, 0) + " deg/min";
+        warnings.push_back({source, rush.first_line,
+                            std::string("the feed turns ") + kWords[3 + k] + " faster than the " +
+                                short_decimal(limit * 60 * math::kDegPerRad, 0) + " deg/min that " +
+                                (axis != nullptr && axis->max_speed <= kFastestTurn
+                                     ? "the machine " + machine_.name + " allows"
+                                     : "any machine turns at a feed") +
+                                ": there it runs slower than is computed here; at most " + speed +
+                                at_worst(rush, speed)});
+    }
+    if (tip_rush_.first_line != 0) {
+        const std::string speed = short_decimal(tip_rush_.worst / 1000, 0) + " m/min";
+        warnings.push_back(
+            {source, tip_rush_.first_line,
+             "at this feed the tip runs over the part at up to " + speed + at_worst(tip_rush_, speed) +
+                 ", faster than any machine: check the machine's axes and pivots, and the unit of F"});
+    }
+    const bool may_be_radians = turning_blocks_ >= kManyTurns &&
+                                largest_word_rad_ > kLeastRadians * math::kRadPerDeg &&
+                                largest_word_rad_ <= kMostRadians * math::kRadPerDeg;
+    if (may_be_radians) {
+        warnings.push_back(
+            {source, 0,
+             "no rotary word is larger than " + short_decimal(largest_word_rad_ * math::kDegPerRad) +
+                 ": words count degrees; if these are radians, let the CAM system write degrees"});
+    }
+}
+
 Warnings MachineRun::findings(const std::string& source) const {
     Warnings warnings;
     for (const Excess& excess : excess_) {
@@ -113,6 +197,7 @@ Warnings MachineRun::findings(const std::string& source) const {
         if (excess.worst_line != excess.first_line) text += " on line " + std::to_string(excess.worst_line);
         warnings.push_back({source, excess.first_line, std::move(text)});
     }
+    add_rushes(source, warnings);
     if (singular_line_ != 0) {
         std::string text = "near a singular position of the machine: a rotary axis turns " +
                            short_decimal(singular_joints_rad_ * math::kDegPerRad) +

@@ -38,8 +38,8 @@ class MachineRun {
         "its rotary axes turn too far for one move: it would become more moves than fit";
     static constexpr const char* kFewerPieces = "split it, or correct its rotary words";
 
-    // Returns warnings: axes beyond their travel and turns near a singular position, each with its first
-    // line.
+    // Returns warnings: axes beyond their travel or speed, turns near a singular position, and a tip faster
+    // than any machine, each with its first line.
     Warnings findings(const std::string& source) const;
 
   private:
@@ -49,6 +49,8 @@ class MachineRun {
     };
     void check_travel(const motion::Joints& joints, int line);
     void check_turn(const motion::MachineBlock& block, int line);
+    void check_speed(const motion::MachineBlock& block, int line);
+    void add_rushes(const std::string& source, Warnings& warnings) const;
 
     motion::Machine machine_;
     motion::Kinematics kinematics_;
@@ -56,6 +58,16 @@ class MachineRun {
     bool length_known_ = false;
     std::vector<motion::Move> moves_;  // of the last block
     std::array<Excess, 12> excess_;    // of X Y Z A B C, below and above their travel
+    // A speed above what is possible.
+    struct Rush {
+        int first_line = 0, worst_line = 0;
+        double worst = 0;
+        void take(double speed, int line);
+    };
+    std::array<Rush, 3> rush_;  // of A B C, rad/s
+    Rush tip_rush_;             // mm/min
+    int turning_blocks_ = 0;    // at feed
+    double largest_word_rad_ = 0;
     int singular_line_ = 0, singular_blocks_ = 0;
     double singular_joints_rad_ = 0, singular_axis_rad_ = 0;
 };

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "base/math.hpp"
 #include "base/text/limit_text.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
@@ -66,6 +65,7 @@ Result<void> Path::append(const motion::Move& move) {
     if (moves >= options.max_moves)
         return refuse_more_moves(options.source_name, move.line, options.max_moves);
     ++moves;
+    if (move.kind == motion::MoveKind::feed) notes.cut();
     if (sink_ != nullptr) {
         sink_->take(move);
     } else {
@@ -104,10 +104,8 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
         if (auto good = in_range(kLimits.feed, *feed_mm_per_min, place); !good) return good;
         move.feed_mm_per_min = *feed_mm_per_min;
         const double length = motion::path_length_mm(move);
-        if (turns && (!in_stock() || length == 0)) {
-            const double degrees = tribo::length(to_rad - now_rad_) * math::kDegPerRad;
-            move.duration_s = 60 * (length > 0 ? length : degrees) / move.feed_mm_per_min;
-        }
+        if (turns && !feed_on_part && (!in_stock() || length == 0))
+            move.duration_s = turning_time_s(length, to_rad - now_rad_, move.feed_mm_per_min, rotary_feed);
     }
     const Vec3 from_rad = std::exchange(now_rad_, to_rad);
     place_mm_ = move.end.tip_mm;
@@ -216,13 +214,21 @@ int Path::flutes() const {
     return 0;
 }
 
-void Path::measure_tool() {
+void Path::change_tool(int number) {
+    tool = number;
+    notes.change(number);
     if (!machine) return;
     std::optional<double> length_mm;
     for (const auto* lengths : {&declared_lengths_mm_, &given_lengths_mm_}) {
         if (const auto known = lengths->find(tool); known != lengths->end()) length_mm = known->second;
     }
     machine->set_tool_length(length_mm);
+}
+
+void Path::finish_tools(double unit_of_program_mm) {
+    for (motion::DeclaredTool& noted : notes.tools(unit_of_program_mm, program.source, program.warnings)) {
+        program.tools.push_back(std::move(noted));
+    }
 }
 
 void Path::switch_tip_control(bool on, int line) {

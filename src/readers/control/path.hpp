@@ -13,7 +13,9 @@
 #include "motion/machine/work_frame.hpp"
 #include "motion/path/program.hpp"
 #include "readers/control/machine_run.hpp"
+#include "readers/control/rotary_feed.hpp"
 #include "readers/gcode/reader.hpp"
+#include "readers/tools/tool_notes.hpp"
 
 namespace tribo::readers::control {
 
@@ -33,6 +35,7 @@ class Path {
     motion::Program program;
     std::size_t moves = 0;
     std::optional<MachineRun> machine;
+    ToolNotes notes;  // tools in comments, messages and names
 
     // Data that each move gets.
     double spindle_rpm = 0;
@@ -44,6 +47,10 @@ class Path {
     // Frame of the coordinates of the block: datum, rotation and tilted plane.
     motion::WorkFrame frame;
     bool tip_control = false;
+    // What the feed counts of rotary axes without tool tip control; `feed_on_part`: the feed is that of the
+    // tip on the part (M116).
+    RotaryFeed rotary_feed;
+    bool feed_on_part = false;
 
     // The tip in the coordinates of the frame; valid only if it is known.
     Vec3 tip() const { return frame.from_stock(place_mm_); }
@@ -79,8 +86,11 @@ class Path {
     std::optional<double> tool_radius_mm() const;
     // Number of its teeth; 0: not known.
     int flutes() const;
-    // Takes the length of the tool in the spindle from the options, else from TOOL DEF of the program.
-    void measure_tool();
+    // The tool `number` comes into the spindle. Its length is taken from the options, else from TOOL DEF of
+    // the program.
+    void change_tool(int number);
+    // Adds the tools of comments behind those of TOOL DEF.
+    void finish_tools(double unit_of_program_mm);
 
     // Switches the coordinates to those of the tip in the stock, or back to those of the machine. The tool
     // does not move.

@@ -15,8 +15,12 @@ std::unexpected<Error> refuse_unused(const Command& command, const Word& word, c
         case 'U':
         case 'V':
         case 'W':
-            return output.refuse(command.line(), word.column, "axes U, V and W are not read yet",
-                                 "let the CAM system write the path with X, Y and Z");
+            return output.refuse(
+                command.line(), word.column,
+                letter +
+                    " is a second axis beside X, Y or Z, an increment of a lathe, or the other "
+                    "end of a hot wire: the program does not say which",
+                "let the CAM system write the path with X, Y and Z");
         case 'I':
         case 'J':
         case 'K':

@@ -18,6 +18,7 @@
 #include "readers/gcode/frames/program_frame.hpp"
 #include "readers/gcode/motion/contour.hpp"
 #include "readers/gcode/reader.hpp"
+#include "readers/tools/tool_notes.hpp"
 
 namespace tribo::readers::gcode {
 
@@ -272,6 +273,7 @@ enum class Note {
     preset_as_origin,
     deletable_blocks,
     rotary_home,
+    rotary_feed,
     roll_pitch_yaw,
     round_pocket,
     second_tool,
@@ -301,11 +303,12 @@ class Output {
     std::size_t moves = 0;              // so far
     std::string_view text;              // of the program
     std::optional<MachineRun> machine;  // absent: a machine of three axes
+    ToolNotes notes;                    // tools in comments
 
     // Adds a move in the frame of the stock.
     Result<void> append(const motion::Move& move);
     // From the options or the program; absent: neither gives it.
-    std::optional<double> tool_diameter_mm(int number) const;
+    std::optional<double> tool_diameter_mm(int number, double unit_of_program_mm) const;
     std::optional<double> tool_length_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_[tool.number] = tool; }
 

@@ -61,10 +61,8 @@ Result<motion::Program> Interpreter::run() {
 
 Result<void> Interpreter::run_line() {
     if (auto taken = take_line(); !taken) return taken;
-    if (line_.text.empty()) {
-        declare_commented_tool(lines_[at_]);
-        return {};
-    }
+    read_notes(lines_[at_]);
+    if (line_.text.empty()) return {};
     if (line_.text[0] == '/' && path_.options.skip_deletable_blocks) {
         if (path_.first(kSkipped)) path_.warn(line_.number, "blocks that begin with '/' are skipped");
         return {};
@@ -230,7 +228,7 @@ Result<void> Interpreter::begin() {
     std::string text(line_.text);
     std::transform(text.begin(), text.end(), text.begin(), to_upper);
     if (text.ends_with("INCH") || text.ends_with(" IN")) {
-        unit_mm_ = mm_per(LengthUnit::inch);
+        unit_mm_ = path_.rotary_feed.degree_mm = mm_per(LengthUnit::inch);
     } else if (!text.ends_with("MM") && path_.first(kNoUnit)) {
         path_.warn(line_.number, "BEGIN PGM names no unit: millimetres are taken");
     }
@@ -254,6 +252,7 @@ Result<motion::Program> Interpreter::finish() {
                                        std::to_string(left_out_) +
                                        " in all): write X, Y and Z with FMAX before them");
     }
+    path_.finish_tools(unit_mm_);
     if (path_.moves == 0) path_.warn(0, "the program moves no tool");
     return std::move(program);
 }

@@ -13,9 +13,8 @@ namespace {
 constexpr std::string_view kAxes = "XYZ", kRotary = "ABC";
 // Miscellaneous functions without effect on the path: stop, tool change, coolant, clamps, feed of rotary axes
 // and of circles, corner and look-ahead behaviour, limits of the machine.
-constexpr int kSilent[] = {0,   1,   6,   7,   8,   9,   25,  26,  27,  28,  90,  97,
-                           98,  101, 103, 107, 108, 109, 110, 111, 112, 113, 116, 117,
-                           118, 120, 124, 134, 135, 138, 141, 148, 149, 197};
+constexpr int kSilent[] = {0,   1,   6,   7,   8,   9,   25,  26,  27,  28,  90,  97,  98,  101, 103, 107,
+                           108, 109, 110, 111, 112, 113, 118, 120, 124, 134, 135, 138, 141, 148, 149, 197};
 
 bool is_silent(int m) {
     return std::find(std::begin(kSilent), std::end(kSilent), m) != std::end(kSilent);
@@ -195,6 +194,10 @@ Result<void> Interpreter::miscellaneous(const Words& words) {
                 path_.set_rotary({std::fmod(path_.rotary_rad().x, math::kTwoPi),
                                   std::fmod(path_.rotary_rad().y, math::kTwoPi),
                                   std::fmod(path_.rotary_rad().z, math::kTwoPi)});
+                break;
+            case 116:
+            case 117:
+                path_.feed_on_part = m == 116;
                 break;
             case 126:
             case 127:

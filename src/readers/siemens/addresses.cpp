@@ -14,11 +14,11 @@ constexpr std::string_view kAxes = "XYZ", kRotary = "ABC", kCentres = "IJK";
 
 // Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits.
 constexpr std::string_view kSilent[] = {
-    "ADIS",   "ADISPOS", "STOLF",  "OTOL",   "CTOL",   "CTOLG0", "FRC",  "FRCM",  "FD",    "FDA",
-    "FP",     "OVR",     "OVRRAP", "OVRA",   "SPOS",   "SPOSA",  "LIMS", "SVC",   "DL",    "DITS",
-    "DITE",   "VELOLIM", "ACC",    "FA",     "FL",     "FXS",    "SF",   "ANGLE", "FGREF", "DISC",
-    "SCC",    "TOWER",   "MTL",    "SR",     "SRA",    "ST",     "STA",  "G",     "FMA",   "JERKLIM",
-    "ACCLIM", "DISCL",   "ORIRES", "CUTMOD", "OTOLG0", "SCPARA",
+    "ADIS",  "ADISPOS", "STOLF",   "OTOL",    "CTOL",  "CTOLG0", "FRC",    "FRCM",   "FD",
+    "FDA",   "FP",      "OVR",     "OVRRAP",  "OVRA",  "SPOS",   "SPOSA",  "LIMS",   "SVC",
+    "DL",    "DITS",    "DITE",    "VELOLIM", "ACC",   "FA",     "FL",     "FXS",    "SF",
+    "ANGLE", "DISC",    "SCC",     "TOWER",   "MTL",   "SR",     "SRA",    "ST",     "STA",
+    "G",     "FMA",     "JERKLIM", "ACCLIM",  "DISCL", "ORIRES", "CUTMOD", "OTOLG0", "SCPARA",
 };
 
 constexpr std::pair<std::string_view, Measure> kMeasures[] = {
@@ -103,6 +103,7 @@ Result<void> Interpreter::read_indexed(Cursor& in, const std::string& name, std:
         words.positions = true;
         return take_address(in, axis, *value, words);
     }
+    if (name == "FGREF") return refer_feed(in, axis);
     if (name == "PO") {
         const std::size_t k = axis.size() == 1 ? kAxes.find(axis[0]) : std::string_view::npos;
         if (k > 2)
@@ -132,6 +133,37 @@ Result<void> Interpreter::read_indexed(Cursor& in, const std::string& name, std:
         return value ? Result<void>{} : std::unexpected(value.error());
     }
     return in.refuse(at, name.substr(0, 31) + "[] is not known", "define it with DEF, or delete it");
+}
+
+// FGREF[A]=10: the radius at which the feed counts the turn of the axis.
+Result<void> Interpreter::refer_feed(Cursor& in, const std::string& axis) {
+    const auto value = amount(in);
+    if (!value) return std::unexpected(value.error());
+    const std::size_t k = axis.size() == 1 ? std::string_view("ABC").find(axis[0]) : std::string_view::npos;
+    if (k > 2 || !(value->value > 0)) return {};
+    feed_radius_mm_[static_cast<int>(k)] = value->value * unit_mm_;
+    count_turns();
+    return {};
+}
+
+// FGROUP(X,Y,Z,A): the axes whose way the feed counts; FGROUP() returns to X, Y and Z.
+Result<void> Interpreter::group_feed(Cursor& in) {
+    in_feed_ = {};
+    count_turns();
+    if (in.peek_after_blanks() != '(') return {};
+    const std::size_t begin = in.at;
+    if (auto done = skip_parentheses(in); !done) return done;
+    for (const char c : in.line.substr(begin, in.at - begin)) {
+        const std::size_t k = std::string_view("ABC").find(to_upper(c));
+        if (k < 3) in_feed_[k] = true;
+    }
+    count_turns();
+    return {};
+}
+
+void Interpreter::count_turns() {
+    for (int k = 0; k < 3; ++k)
+        path_.rotary_feed.mm_per_rad[k] = in_feed_[static_cast<std::size_t>(k)] ? feed_radius_mm_[k] : 0;
 }
 
 Result<void> Interpreter::take_address(Cursor& in, const std::string& name, Amount amount, Words& words) {

@@ -81,6 +81,7 @@ Result<void> Interpreter::apply_g(Words& words, const Code& code) {
     const auto choose_unit = [&](LengthUnit unit) -> Result<void> {
         unit_mm_ = mm_per(unit);
         has_unit_ = true;
+        path_.rotary_feed.degree_mm = unit_mm_;
         return {};
     };
     switch (g) {

@@ -2,6 +2,7 @@
 // Runs the blocks of a program one by one.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/math.hpp"
 #include "readers/control/contour.hpp"
 #include "readers/control/path.hpp"
 #include "readers/control/pocket.hpp"
@@ -113,6 +115,9 @@ class Interpreter : private SystemValues {
     Result<bool> read_keyword(Cursor& in, const std::string& name, Words& words);
     Result<void> skip_parentheses(Cursor& in);
     Result<Amount> amount(Cursor& in);
+    Result<void> refer_feed(Cursor& in, const std::string& axis);
+    Result<void> group_feed(Cursor& in);
+    void count_turns();
     Result<void> take_address(Cursor& in, const std::string& name, Amount amount, Words& words);
     Result<void> choose_tool(Cursor& in, std::size_t at, Words& words);
 
@@ -129,7 +134,7 @@ class Interpreter : private SystemValues {
     void number_tools();
     int number_of_tool(const std::string& name);
     void load_tool(int number);
-    void declare_commented_tool(std::string_view line);
+    void read_notes(std::string_view text, std::string_view code);
     std::optional<Value> system_value(const std::string& name,
                                       const std::vector<Value>& index) const override;
 
@@ -239,6 +244,10 @@ class Interpreter : private SystemValues {
     bool changes_with_m6_ = false;
 
     double unit_mm_ = 1;
+    // FGROUP and FGREF: the rotary axes that the feed counts, and the radii at which it does. The control
+    // begins with the radius at which a degree is a millimetre.
+    std::array<bool, 3> in_feed_{};
+    Vec3 feed_radius_mm_{math::kDegPerRad, math::kDegPerRad, math::kDegPerRad};
     bool has_unit_ = false;
     bool incremental_ = false;
     Motion motion_ = Motion::rapid;

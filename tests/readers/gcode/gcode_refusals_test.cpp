@@ -155,7 +155,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G3 I-10 P0\n", 3, 9, "number of turns"},
         {ready + "G1 X5 I2\n", 3, 7, "I without an arc"},
         {ready + "G1 X5 R2\n", 3, 7, "R without an arc"},
-        {ready + "G1 X5 U2\n", 3, 7, "axes U, V and W"},
+        {ready + "G1 X5 U2\n", 3, 7, "U is a second axis"},
         {ready + "G1 X2000000\n", 3, 4, "X: the coordinate of 2000000 mm is out of range"},
         {ready + "G3 I9999999999\n", 3, 4, "I: the coordinate of 9999999999 mm is out of range"},
         {ready + "G4 P-1\n", 3, 4, "dwell of -1 s is out of range"},

@@ -58,7 +58,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
         move.arc = *arc;
     }
     if (auto fed = set_feed(move, command, state, output); !fed) return fed;
-    set_turning_time(move, state);
+    set_turning_time(move, state, output);
     note_spindle(command, state, output);
     const bool stays =
         !move.arc && move.start.tip_mm == move.end.tip_mm && !state.rotary.turns() && !state.left_at_mm;

@@ -5,6 +5,7 @@
 
 #include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
+#include "readers/control/rotary_feed.hpp"
 #include "readers/gcode/frames/tilted_plane.hpp"
 #include "readers/gcode/motion/moves.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -232,16 +233,25 @@ motion::Move with_vectors(const motion::Move& move, State& state) {
     return leaning;
 }
 
-void set_turning_time(motion::Move& move, const State& state) {
+void set_turning_time(motion::Move& move, const State& state, Output& output) {
     if (!state.rotary.turns() || move.kind != motion::MoveKind::feed || move.duration_s > 0) return;
     const double length = motion::path_length_mm(move);
     // With tool tip control the feed is that of the tip, unless the tip stands still.
     if ((state.rotary.tip_control || state.rotary.vectors || state.tilt) && length > 0) return;
     const RotaryState& rotary = state.rotary;
-    const double turn_deg = (tribo::length(rotary.target_rad - rotary.now_rad) +
-                             motion::angle_rad(rotary.now_axis, rotary.target_axis)) *
-                            math::kDegPerRad;
-    move.duration_s = 60 * (length > 0 ? length : turn_deg) / move.feed_mm_per_min;
+    const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
+    RotaryFeed rule{{}, state.unit_mm};
+    if (is_fanuc) rule = RotaryFeed::degrees_as_lengths(state.unit_mm);
+    const Vec3 turn = rotary.target_rad - rotary.now_rad;
+    // A vector without a machine turns the tool by its angle.
+    const Vec3 lean{motion::angle_rad(rotary.now_axis, rotary.target_axis), 0, 0};
+    move.duration_s = turning_time_s(length, turn == Vec3{} ? lean : turn, move.feed_mm_per_min, rule);
+    if (is_fanuc && output.first(Note::rotary_feed)) {
+        output.warn(
+            move.line,
+            "the feed of a move that turns counts a degree as a unit of length, as Fanuc controls do; Haas "
+            "controls count the diameters of their settings 34 and 79: write G93 for one time on both");
+    }
 }
 
 Result<void> append_on_machine(const motion::Move& move, State& state, Output& output) {

@@ -20,9 +20,10 @@ Result<void> read_rotary_words(Command& command, State& state, Output& output);
 // vector the current direction.
 motion::Move with_vectors(const motion::Move& move, State& state);
 
-// Sets the time of a feed move that turns rotary axes, from its feed. If X Y Z move, the feed is that of the
-// path; else it counts degrees (RS274/NGC 2.1.2.5). Moves without a turn are unchanged.
-void set_turning_time(motion::Move& move, const State& state);
+// Sets the time of a feed move that turns rotary axes, from its feed. On LinuxCNC the feed is that of the
+// path where X Y Z move, else it counts degrees (RS274/NGC 2.1.2.5); Fanuc: control/rotary_feed.hpp. Moves
+// without a turn are unchanged.
+void set_turning_time(motion::Move& move, const State& state, Output& output);
 
 // Outputs the move, given in coordinates as written in the program, as moves of the tip in the stock. The
 // rotary axes are at their targets afterwards.
