@@ -37,8 +37,9 @@ void meet(const Ray& ray, const ProfileElement& e, double& nearest) {
         if (std::abs(approach) < 1e-14) return;
         const double s = dot(e.from - ray.from, e.from_normal) / approach;
         const PlanePoint at = ray.from + s * ray.way, side = e.to - e.from;
-        const double along = dot(at - e.from, side);
-        if (along >= 0 && along <= dot(side, side)) take_nearer(s, nearest);
+        // A ray along the wall of a cylinder meets the bottom at its very end.
+        const double along = dot(at - e.from, side), slack = kNearMm * norm(side);
+        if (along >= -slack && along <= dot(side, side) + slack) take_nearer(s, nearest);
         return;
     }
     const PlanePoint from = ray.from - e.centre;
