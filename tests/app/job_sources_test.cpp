@@ -79,7 +79,8 @@ TEST(JobSources, give_every_example_alike) {
         if (!folder.is_directory()) continue;
         const job::MemorySource memory = all_files_of(folder.path());
         for (const fs::directory_entry& file : fs::directory_iterator(folder.path())) {
-            if (file.path().extension() != ".toml") continue;
+            // A sweep names a job of another folder.
+            if (file.path().extension() != ".toml" || file.path().filename() == "sweep.toml") continue;
             SCOPED_TRACE(file.path().string());
             const Prepared disk = prepared(files::DiskSource(), file.path().string());
             expect_same(disk, prepared(memory, file.path().string()));
