@@ -11,9 +11,9 @@
 
 #include "job/file_source.hpp"
 #include "job/job.hpp"
-#include "job/sweep/job_change.hpp"
 #include "job/program_inputs.hpp"
 #include "job/solid.hpp"
+#include "job/sweep/job_change.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::job {

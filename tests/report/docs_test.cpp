@@ -36,7 +36,7 @@ std::vector<std::string> blocks(const std::string& text) {
 
 TEST(Docs, job_page_shows_a_job_that_is_read) {
     const std::vector<std::string> shown = blocks(page("job.md"));
-    ASSERT_EQ(shown.size(), 7u);
+    ASSERT_EQ(shown.size(), 9u);
     const auto job = job::parse_job(shown[0], "job.md", job::MemorySource());
     ASSERT_TRUE(job) << job.error().text();
     EXPECT_EQ(job->cutters.size(), 2u);
@@ -65,11 +65,19 @@ TEST(Docs, job_page_shows_a_job_that_is_read) {
     const auto estimated = job::parse_job(sticks_out + shown[4], "job.md", job::MemorySource());
     ASSERT_TRUE(estimated) << estimated.error().text();
     EXPECT_TRUE(estimated->estimate.has_value());
-    const auto felt = job::parse_job(least + shown[5], "job.md", job::MemorySource());
+    const auto limited = job::parse_job(least + shown[5], "job.md", job::MemorySource());
+    ASSERT_TRUE(limited) << limited.error().text();
+    EXPECT_EQ(limited->limits.force_n, 400);
+    const auto felt = job::parse_job(least + shown[6], "job.md", job::MemorySource());
     ASSERT_TRUE(felt) << felt.error().text();
     EXPECT_EQ(felt->haptics.friction_static, 0.3);
     EXPECT_EQ(felt->haptics.friction_kinetic, 0.2);
-    const auto second = job::parse_job(shown[6], "job.md", job::MemorySource());
+    std::string turned = least;
+    turned.erase(turned.find("[cutter]"), turned.find("[path]") - turned.find("[cutter]"));
+    const auto profiled = job::parse_job(turned + shown[7], "job.md", job::MemorySource());
+    ASSERT_TRUE(profiled) << profiled.error().text();
+    EXPECT_EQ(profiled->cutters[0].profile.size(), 5u);
+    const auto second = job::parse_job(shown[8], "job.md", job::MemorySource());
     ASSERT_TRUE(second) << second.error().text();
     EXPECT_EQ(second->stock_from.value().path, "top.toml");
     EXPECT_EQ(second->setup.value().y, (Vec3{0, -1, 0}));

@@ -26,9 +26,9 @@ struct ToolTable {
 };
 
 // A CSV table begins with a line of column names: number, diameter_mm (both required), corner_mm, flutes,
-// length_mm (from the spindle nose to the tip). Libraries are told by their content: JSON of Fusion and FreeCAD,
-// XML of DIN 4000 and ISO 13399, CSV of Fusion and HSM. Any other text is read as tool.tbl; the comment of a line
-// may state shape, corner and flutes.
+// length_mm (from the spindle nose to the tip). Libraries are told by their content: JSON of Fusion and
+// FreeCAD, XML of DIN 4000 and ISO 13399, CSV of Fusion and HSM. Any other text is read as tool.tbl; the
+// comment of a line may state shape, corner and flutes.
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options = {});
 
 }  // namespace tribo::readers
