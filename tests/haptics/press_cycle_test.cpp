@@ -269,7 +269,7 @@ TEST(PressCycle, no_edge_catches_a_probe_that_rides_over_it) {
 // room of its next anchor (19519).
 TEST(PressCycle, corners_of_bent_sides_neither_set_the_proxy_back_nor_hold_it) {
     const Slots thin = slots(2.2, 2, 3, 0.2, 0.15), thick = slots(3, 2, 3, 0.4, 0.15);
-    for (const std::uint64_t n : {12747, 13342, 19519, 23378, 27106}) {
+    for (const std::uint64_t n : {12747u, 13342u, 19519u, 23378u, 27106u}) {
         const Found one = Press(n % 2 == 0 ? thin : thick, n).run();
         EXPECT_EQ(one.lost + one.in_air + one.inward + one.kicks, 0) << n;
     }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <tuple>
 
 namespace tribo::app {
 
@@ -21,10 +22,9 @@ FileResult<FinishedCases> FinishedCases::read(const std::string& folder) {
         finished.places_.push_back({key_of(result.id), place.offset, place.file, result.died});
     });
     if (!done) return std::unexpected(done.error());
-    // The order of the files and of their lines stays; a case that died comes last.
-    std::ranges::stable_sort(finished.places_, [](const Entry& a, const Entry& b) {
-        return a.key != b.key ? a.key < b.key : a.died < b.died;
-    });
+    // In the order of the files and of their lines; a case that died comes last.
+    std::ranges::sort(finished.places_, {},
+                      [](const Entry& e) { return std::tuple(e.key, e.died, e.file, e.offset); });
     const auto repeated = std::ranges::unique(finished.places_, {}, &Entry::key);
     finished.repeated_ = repeated.size();
     finished.places_.erase(repeated.begin(), repeated.end());

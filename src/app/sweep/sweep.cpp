@@ -86,7 +86,7 @@ std::vector<std::uint64_t> missing_cases(SweepCases& cases, const FinishedCases&
         std::ranges::copy(id, one.id.begin());
         one.number = n;
     }
-    std::ranges::stable_sort(missing, {}, &Missing::id);
+    std::ranges::sort(missing, {}, [](const Missing& one) { return std::pair(one.id, one.number); });
     const auto repeated = std::ranges::unique(missing, {}, &Missing::id);
     missing.erase(repeated.begin(), repeated.end());
     std::vector<std::uint64_t> numbers;

@@ -109,7 +109,9 @@ std::vector<report::SweepOutput> SweepStatistics::outputs() const {
 std::vector<report::SweepFailure> SweepStatistics::failures() const {
     std::vector<report::SweepFailure> all;
     for (const auto& [kind, failure] : failures_) all.push_back(failure);
-    std::ranges::stable_sort(all, std::greater{}, &report::SweepFailure::count);
+    std::ranges::sort(all, [](const report::SweepFailure& a, const report::SweepFailure& b) {
+        return a.count != b.count ? a.count > b.count : a.example < b.example;
+    });
     return all;
 }
 

@@ -221,7 +221,7 @@ Result<Sweep> parse_sweep(std::string_view text, const std::string& name) {
         file.fail(axes.front().where, "programs without a job have no keys to change",
                   "write base = \"JOB.toml\" too; its program is replaced");
     // Tables are sorted by key; the order of the file decides which axis changes first.
-    std::ranges::stable_sort(axes, {}, [](const FoundAxis& found) {
+    std::ranges::sort(axes, {}, [](const FoundAxis& found) {
         return std::pair(found.where.begin.line, found.where.begin.column);
     });
     for (const FoundAxis& found : axes) sweep.plan.axes.push_back(found.axis);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "report/html_parts.hpp"
 #include "report/report_page.hpp"
@@ -48,8 +49,9 @@ std::string shares_table(const SweepReport& report) {
                 "</h3><table><tr><th>input</th><th>alone</th><th>total</th></tr>\n";
         std::vector<std::size_t> order(report.inputs.size());
         for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
-        std::ranges::stable_sort(order, std::greater{},
-                                 [&](std::size_t n) { return output.shares[n].total; });
+        std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+            return std::pair(-output.shares[a].total, a) < std::pair(-output.shares[b].total, b);
+        });
         for (const std::size_t n : order)
             html += "<tr><th scope=\"row\">" + escaped(report.inputs[n].key) + "</th><td>" +
                     bar(output.shares[n].first) + "</td><td>" + bar(output.shares[n].total) + "</td></tr>\n";
