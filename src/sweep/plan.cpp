@@ -42,7 +42,7 @@ std::vector<Value> Plan::values(std::uint64_t number) const {
     if (design == Design::grid) {
         for (std::size_t n = axes.size(); n-- > 0;) {
             const std::uint64_t count = axes[n].values.size();
-            values[n] = axes[n].values[number % count];
+            values[n] = axes[n].values[static_cast<std::size_t>(number % count)];
             number /= count;
         }
         return values;
