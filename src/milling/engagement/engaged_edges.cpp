@@ -163,7 +163,7 @@ void EngagedEdges::add_profile(Part band, const ToolTravel& feed) {
             const bool alike = feed.down_mm == 0 && !feed.turns() && uniform_;
             double steps = (z1 - z0) * std::abs(lag_per_mm_) / kLagStepRad;
             if (!alike && along.element.is_arc())
-                steps = std::max(steps, size / std::abs(along.element.radius_mm) / kKappaStepRad);
+                steps = std::max(steps, size / std::abs(along.element.radius_mm) / kProfileStepRad);
             if (feed.turns()) {
                 const auto speed = [&](double s) {
                     const TurnLaw h = normal_travel(feed, along.at(s));

@@ -472,21 +472,26 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
     };
     // Where the axis turns, the window in which an edge moves outward has kinks along the meridian. So it is
     // cut into pieces.
-    const int pieces = travel.turns() ? 6 : 1;
-    const auto add_along = [&](const auto& point_at, double s0, double s1, double entry, double exit) {
+    constexpr int kArcPieces = 48;
+    const int kinked = travel.turns() ? 6 : 1;
+    const auto add_along = [&](const auto& point_at, double s0, double s1, double entry, double exit,
+                               int pieces) {
         for (int n = 0; n < pieces && s1 > s0; ++n)
             add_piece(point_at, s0 + (s1 - s0) * n / pieces, s0 + (s1 - s0) * (n + 1) / pieces, entry, exit);
     };
     const auto add = [&](double s0, double s1, double entry, double exit) {
-        add_along([&](double s) { return profile.at(s); }, s0, s1, entry, exit);
+        add_along([&](double s) { return profile.at(s); }, s0, s1, entry, exit, kinked);
     };
     for (const BottomBand& b : engagement.bottom)
-        add_along([&](double r) { return point_of(b, r); }, b.r0_mm, b.r1_mm, b.entry_rad, b.exit_rad);
+        add_along([&](double r) { return point_of(b, r); }, b.r0_mm, b.r1_mm, b.entry_rad, b.exit_rad,
+                  kinked);
     for (const EngagementBand& b : engagement.bands) {
         if (!profile.parts().empty()) {
             profile.over_parts(b.z0_mm, b.z1_mm, [&](const CutterProfile::Part& part, double z0, double z1) {
+                // On an arc the window has kinks where the tool moves along its axis, too.
+                const bool arc = part.element.is_arc() && (travel.down_mm != 0 || travel.turns());
                 add_along([&](double s) { return part.at(s); }, part.at_height(z0), part.at_height(z1),
-                          b.entry_rad, b.exit_rad);
+                          b.entry_rad, b.exit_rad, arc ? kArcPieces : kinked);
             });
             continue;
         }
