@@ -81,8 +81,7 @@ std::optional<Vec3> surface_point(const field::Shape& sweep, const Cutter& c, co
     return 0.5 * (in + out);
 }
 
-// Tangents in place of a hollow arc add half of a tenth.
-constexpr double kTenthUm = 1e-4, kHollowUm = 0.5e-4;
+constexpr double kTenthUm = 1e-4;
 
 void surface_is_exact(const Cutter& c, const Move& m) {
     const auto sweep = make_sweep(c, m);
@@ -90,7 +89,7 @@ void surface_is_exact(const Cutter& c, const Move& m) {
         const auto p = surface_point(*sweep, c, m);
         if (!p) continue;
         const double off = truth(c, m, *p);
-        if (std::abs(off) >= kTenthUm + (c.kind == CutterKind::profile ? kHollowUm : 0)) {
+        if (std::abs(off) >= kTenthUm) {
             RC_FAIL(std::string(kCutterKindWords[static_cast<std::size_t>(c.kind)]) + " off the surface by " +
                     std::to_string(1e3 * off) + " um");
         }

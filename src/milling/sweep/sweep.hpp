@@ -20,8 +20,9 @@ namespace tribo::milling {
 // error at the surface is at most 0.1 um for pieces as motion::to_elementary cuts them, up to 30 degrees of
 // turn and 10 mm of travel. The search itself is proven to 0.01 um (sweep_search.inl); the rest is the error
 // of the quadratic that approximates an even turn. A cutter with a profile (profile_sweep.hpp) is the union
-// of its convex zones; tangents in place of a hollow arc add at most 0.05 um. The cap of a curved sweep is
-// the highest position of the top of the tool. Other moves are not elementary; do not pass them here.
+// of its convex zones; the error includes 0.03 um of tangents in place of a hollow arc. The cap of a curved
+// sweep is the highest position of the top of the tool. Other moves are not elementary; do not pass them
+// here.
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
 
 }  // namespace tribo::milling

@@ -19,7 +19,7 @@
 namespace tribo::milling {
 
 // Largest distance of the tangents from a concave arc.
-inline constexpr double kConcaveErrorMm = 5e-5;
+inline constexpr double kConcaveErrorMm = 3e-5;
 
 class ConvexZones {
   public:
