@@ -3,23 +3,15 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "base/limits.hpp"
 #include "base/math.hpp"
 #include "base/noise_hash.hpp"
 #include "session/chatter/row_stability.hpp"
+#include "sweep/distribution.hpp"
 
 namespace tribo::session {
 namespace {
-
-// The normal deviate with this probability below it (Abramowitz and Stegun 1964, 26.2.23: to 4.5e-4).
-double normal_deviate(double below) {
-    const double t = std::sqrt(-2 * math::log(std::min(below, 1 - below)));
-    const double z =
-        t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-    return below < 0.5 ? -z : z;
-}
 
 // The factors of one value in all cases.
 class Factors {
@@ -42,7 +34,7 @@ class Factors {
 
     double at(std::size_t n) const {
         const double below = (static_cast<double>(order_[n]) + 0.5) / static_cast<double>(order_.size());
-        return math::exp(middle_ + sigma_ * normal_deviate(below));
+        return math::exp(middle_ + sigma_ * sweep::normal_quantile(below));
     }
 
   private:
