@@ -34,9 +34,12 @@ long_sound() {
 fuzz_one() {
     local reader=$1 seconds=$2 work=build/fuzz/grown/$1 log=build/fuzz/grown/$1.log
     mkdir -p "$work" build/fuzz/crashes
+    local seeds=("fuzz/corpus/$reader")
+    # Programs in the style of many posts, which a test reads too.
+    [[ $reader =~ ^(apt|gcode|heidenhain|siemens)$ ]] && seeds+=(tests/job/posts)
     # Findings go to the first folder; the committed corpus is only read.
     if "build/fuzz/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
-        -artifact_prefix="build/fuzz/crashes/$reader-" "$work" "fuzz/corpus/$reader" >"$log" 2>&1; then
+        -artifact_prefix="build/fuzz/crashes/$reader-" "$work" "${seeds[@]}" >"$log" 2>&1; then
         printf '%-12s %s\n' "$reader" "$(sed -n 's/^stat::number_of_executed_units: */runs: /p' "$log")"
     else
         tail -n 60 "$log"
