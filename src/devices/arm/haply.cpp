@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/hand_over.hpp"
+#include "devices/arm/arm_exchange.hpp"
 #include "devices/servo/tick_clock.hpp"
 #include "net/websocket_client.hpp"
 
@@ -17,7 +17,6 @@ using haptics::DeviceState;
 using Json = nlohmann::json;
 
 constexpr double kMmPerM = 1e3;
-constexpr std::uint64_t kServoSilentNs = 5'000'000;
 constexpr int kReplyMs = 100;  // time for one reply; then the loop checks whether it must end
 constexpr int kRepliesMissed = 50;
 
@@ -87,11 +86,6 @@ bool read_state(const Json& json, HaplyState& state) {
     return false;
 }
 
-struct Command {
-    Vec3 force;
-    std::uint64_t sent_ns = 0;
-};
-
 class Haply final : public haptics::Device {
   public:
     Haply(std::unique_ptr<net::WebSocketClient> client, HaplyState first, const HaplyOptions& options)
@@ -114,14 +108,10 @@ class Haply final : public haptics::Device {
     const haptics::DeviceLimits& limits() const override { return limits_; }
     DeviceState read(haptics::HandReading& reading) noexcept override {
         if (gone_.load(std::memory_order_acquire)) return DeviceState::gone;
-        const haptics::HandReading& newest = readings_.read();
-        if (newest.sequence == reading.sequence) return DeviceState::silent;
-        reading = newest;
-        return DeviceState::ready;
+        return take_newest(readings_, reading);
     }
     DeviceState write(Vec3 force_n) noexcept override {
-        commands_.back() = {kRightAwayUp.from_stock(force_n), wall_ns()};
-        commands_.publish();
+        command_.send(kRightAwayUp.from_stock(force_n));
         return DeviceState::ready;
     }
     std::string trouble() const override {
@@ -151,11 +141,7 @@ class Haply final : public haptics::Device {
         int missed = 0;
         bool answered = true;
         while (!closing_.load(std::memory_order_relaxed) && missed < kRepliesMissed) {
-            if (answered) {
-                const Command& c = commands_.read();
-                const bool fresh = wall_ns() - c.sent_ns < kServoSilentNs;
-                if (!client_->send(haply_force_command(state_, fresh ? c.force : Vec3{}))) break;
-            }
+            if (answered && !client_->send(haply_force_command(state_, command_.force_n()))) break;
             const auto got = client_->receive(text);
             if (got == net::WebSocketClient::Got::closed) break;
             answered = got == net::WebSocketClient::Got::message;
@@ -173,7 +159,7 @@ class Haply final : public haptics::Device {
     haptics::DeviceLimits limits_;
     std::uint64_t sequence_ = 0;
     Snapshot<haptics::HandReading> readings_;
-    Snapshot<Command> commands_;
+    ForceCommand command_;
     std::atomic<bool> closing_{false}, gone_{false};
     std::thread thread_;
 };

@@ -6,9 +6,8 @@
 #include <chrono>
 #include <thread>
 
-#include "base/hand_over.hpp"
+#include "devices/arm/arm_exchange.hpp"
 #include "devices/arm/shared_library.hpp"
-#include "devices/servo/tick_clock.hpp"
 
 namespace tribo::devices {
 namespace {
@@ -37,8 +36,6 @@ constexpr unsigned int HD_WARM_MOTORS = 0x200, HD_FORCE_ERROR = 0x204, HD_DEVICE
                        HD_COMM_ERROR = 0x302;
 constexpr unsigned int HD_CALLBACK_DONE = 0, HD_CALLBACK_CONTINUE = 1;
 constexpr unsigned short kPriority = 65535;
-// A force older than this is not used, ns.
-constexpr std::uint64_t kServoSilentNs = 5'000'000;
 
 struct Api {
     HHD (*init)(const char*);
@@ -82,11 +79,6 @@ bool bind(SharedLibrary& library, Api& api) {
     all &= library.find("hdUnschedule", api.unschedule);
     return all;
 }
-
-struct Command {
-    Vec3 force;  // in the axes of the arm
-    std::uint64_t sent_ns = 0;
-};
 
 class OpenHaptics final : public haptics::Device {
   public:
@@ -142,8 +134,7 @@ class OpenHaptics final : public haptics::Device {
                                                                       : DeviceState::ready;
     }
     DeviceState write(Vec3 force_n) noexcept override {
-        command_.back() = {kRightUpNear.from_stock(force_n), wall_ns()};
-        command_.publish();
+        command_.send(kRightUpNear.from_stock(force_n));
         return DeviceState::ready;
     }
     std::string trouble() const override {
@@ -164,7 +155,7 @@ class OpenHaptics final : public haptics::Device {
     // Runs on the HD thread, once per tick of its scheduler.
     unsigned int exchange() noexcept {
         if (closing_.load(std::memory_order_relaxed)) return HD_CALLBACK_DONE;
-        std::array<double, 3> position{}, velocity{}, force{};
+        std::array<double, 3> position{}, velocity{};
         std::array<double, 16> transform{};
         int buttons = 0;
         api_.begin_frame(handle_);
@@ -172,8 +163,8 @@ class OpenHaptics final : public haptics::Device {
         api_.get_doublev(HD_CURRENT_VELOCITY, velocity.data());
         api_.get_doublev(HD_CURRENT_TRANSFORM, transform.data());
         api_.get_integerv(HD_CURRENT_BUTTONS, &buttons);
-        const Command& c = command_.read();
-        if (wall_ns() - c.sent_ns < kServoSilentNs) force = {c.force.x, c.force.y, c.force.z};
+        const Vec3 asked_n = command_.force_n();
+        const std::array<double, 3> force{asked_n.x, asked_n.y, asked_n.z};
         api_.set_doublev(HD_CURRENT_FORCE, force.data());
         api_.end_frame(handle_);
         const HDErrorInfo error = api_.get_error();
@@ -203,7 +194,7 @@ class OpenHaptics final : public haptics::Device {
     unsigned long task_ = 0;
     std::uint64_t sequence_ = 0;
     Snapshot<State> state_;
-    Snapshot<Command> command_;
+    ForceCommand command_;
     std::atomic<bool> closing_{false};
     std::atomic<unsigned int> last_error_{0};
 };

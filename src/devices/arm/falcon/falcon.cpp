@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "base/hand_over.hpp"
 #include "base/math.hpp"
+#include "devices/arm/arm_exchange.hpp"
 #include "devices/arm/falcon/falcon_kinematics.hpp"
 #include "devices/arm/falcon/falcon_packets.hpp"
 #include "devices/arm/falcon/ftdi_port.hpp"
@@ -41,7 +41,6 @@ constexpr std::size_t kMostFirmware = 1 << 20;
 constexpr milliseconds kTransfer{1000}, kReply{20};
 // Replies in a row that may be missing before the Falcon counts as gone: one second.
 constexpr int kMostMissed = 50;
-constexpr std::uint64_t kServoSilentNs = 5'000'000;
 // Number of readings for the speed.
 constexpr std::size_t kSpeedReadings = 8;
 
@@ -139,11 +138,6 @@ std::array<int, 3> motors_for(Vec3 force_n, Vec3 grip) {
     return motors;
 }
 
-struct Command {
-    Vec3 force;  // in the axes of the arm
-    std::uint64_t sent_ns = 0;
-};
-
 class Falcon final : public haptics::Device {
   public:
     Falcon(FtdiPort port, const falcon::State& first, const Mounting& mounting)
@@ -160,14 +154,10 @@ class Falcon final : public haptics::Device {
     const haptics::DeviceLimits& limits() const override { return limits_; }
     DeviceState read(haptics::HandReading& reading) noexcept override {
         if (gone_.load(std::memory_order_acquire)) return DeviceState::gone;
-        const haptics::HandReading& newest = readings_.read();
-        if (newest.sequence == reading.sequence) return DeviceState::silent;
-        reading = newest;
-        return DeviceState::ready;
+        return take_newest(readings_, reading);
     }
     DeviceState write(Vec3 force_n) noexcept override {
-        commands_.back() = {kRightUpNear.from_stock(force_n), wall_ns()};
-        commands_.publish();
+        command_.send(kRightUpNear.from_stock(force_n));
         return DeviceState::ready;
     }
     std::string trouble() const override {
@@ -201,9 +191,7 @@ class Falcon final : public haptics::Device {
         falcon::StateReader reader;
         int missed = 0;
         while (!closing_.load(std::memory_order_relaxed) && missed < kMostMissed && port_.is_connected()) {
-            const Command& c = commands_.read();
-            const bool fresh = wall_ns() - c.sent_ns < kServoSilentNs;
-            const auto motors = motors_for(fresh ? c.force : Vec3{}, grip_);
+            const auto motors = motors_for(command_.force_n(), grip_);
             const bool answered = exchange(port_, reader, falcon::command(motors, falcon::kGreen, false));
             missed = answered ? 0 : missed + 1;
             if (answered) take(reader.state());
@@ -222,7 +210,7 @@ class Falcon final : public haptics::Device {
     std::array<Past, kSpeedReadings + 1> past_;
     std::uint64_t taken_ = 0;
     Snapshot<haptics::HandReading> readings_;
-    Snapshot<Command> commands_;
+    ForceCommand command_;
     std::atomic<bool> closing_{false}, gone_{false};
     std::thread thread_;
 };
