@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -14,14 +15,20 @@ namespace {
 
 std::string number(double value) {
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.5g", value);
+    std::snprintf(text.data(), text.size(), "%.6g", value);
     return text.data();
+}
+
+// Equal in all cases but for rounding.
+bool is_constant(const SweepOutput& output) {
+    constexpr double kRounding = 1e-9;
+    return output.most - output.least <= kRounding * std::max(std::abs(output.least), std::abs(output.most));
 }
 
 std::string histogram(const SweepOutput& output) {
     constexpr double kWidth = 260, kHeight = 60;
     const std::uint64_t most = output.histogram.empty() ? 0 : std::ranges::max(output.histogram);
-    if (most == 0 || output.least == output.most) return "<p class=\"hint\">always the same</p>";
+    if (most == 0 || is_constant(output)) return "<p class=\"hint\">always the same</p>";
     std::string svg = "<svg viewBox=\"0 0 260 60\" role=\"img\" aria-label=\"distribution of " +
                       escaped(output.name) + "\">";
     const double width = kWidth / static_cast<double>(output.histogram.size());
@@ -44,7 +51,7 @@ std::string shares_table(const SweepReport& report) {
         "variance of a result that an input causes alone, and together with the others (total). An input "
         "with a total near 0 does not matter here.</p>\n";
     for (const SweepOutput& output : report.outputs) {
-        if (output.shares.empty() || output.least == output.most) continue;
+        if (output.shares.empty() || is_constant(output)) continue;
         html += "<h3>" + escaped(output.name) +
                 "</h3><table><tr><th>input</th><th>alone</th><th>total</th></tr>\n";
         std::vector<std::size_t> order(report.inputs.size());
@@ -62,9 +69,11 @@ std::string shares_table(const SweepReport& report) {
 
 std::string outputs_table(const SweepReport& report) {
     std::string html =
-        "<section><h2>Results</h2><p class=\"hint\">Of 9 in 10 cases the result lies between low and "
-        "high. Cases are counted from 0.</p>\n<table><tr><th>result</th><th>low</th><th>median</th>"
-        "<th>high</th><th>mean</th><th>least (case)</th><th>most (case)</th><th>distribution</th></tr>\n";
+        "<section><h2>Results</h2><p class=\"hint\">In 9 of 10 cases a result lies between low and high. "
+        "Cases are counted from 0.</p>\n<table><tr><th>result</th>";
+    for (const char* column : {"low", "median", "high", "mean", "least (case)", "most (case)"})
+        html += std::string("<th class=\"number\">") + column + "</th>";
+    html += "<th>distribution</th></tr>\n";
     for (const SweepOutput& o : report.outputs) {
         html += "<tr><th scope=\"row\">" + escaped(o.name) + "</th>";
         for (const double value : {o.low, o.median, o.high, o.mean})
@@ -107,7 +116,8 @@ std::string sweep_report(const SweepReport& report) {
         "base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width, "
         "initial-scale=1\"><title>" +
         name + ": sweep</title>\n<style>" + std::string(kReportStyle) +
-        "svg{width:200px;height:46px}svg rect{fill:var(--mean)}table{margin:12px 0;border-spacing:14px 4px}"
+        "th.number{text-align:right}svg{width:200px;height:46px}svg rect{fill:var(--mean)}table{margin:12px "
+        "0;border-spacing:14px 4px}"
         ".bar{display:inline-block;height:10px;background:var(--mean)}section{overflow-x:auto}"
         "</style></head><body>\n<header><p class=\"mark\">Tribo " +
         escaped(report.version) + "</p><h1>" + name + "</h1><p class=\"subtitle\">" +
