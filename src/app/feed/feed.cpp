@@ -255,6 +255,27 @@ FileResult<void> unroll(const FeedCall& call, readers::FeedLanguage language, Pr
     return {};
 }
 
+// Lowers the feed of each block whose load is above its limit though a lower feed would help. False: none is.
+bool lower_feeds_over(FeedAnswer& answer) {
+    bool lowered = false;
+    for (std::size_t n = 0; n < answer.after.blocks.size(); ++n) {
+        session::BlockFeed& block = answer.before.blocks[n];
+        const double ratio = answer.after.blocks[n].ratio;
+        if (!is_over(ratio) || session::may_stay_over(block.reason)) continue;
+        // Along the line through the loads at the old feed and at this one: the edge force does not depend on
+        // the feed. At least a half is left.
+        const double now = block.new_mm_per_min, slope = (block.ratio - ratio) / (block.old_mm_per_min - now);
+        const double wanted = slope > 0 ? now - (ratio - 1) / slope : now / ratio;
+        block.new_mm_per_min = std::clamp(wanted, 0.5 * now, now / ratio);
+        // What is nearly the old feed would stay.
+        if (readers::keeps_feed(block.factor()))
+            block.new_mm_per_min = 0.999 * readers::kFeedKeptBelow * block.old_mm_per_min;
+        block.reason = session::FeedReason::load;
+        lowered = true;
+    }
+    return lowered;
+}
+
 FileResult<void> make(const FeedCall& call, PreparedJob& loaded, std::string text, FeedAnswer& answer,
                       bool& stopped) {
     const std::string& file = loaded.job.path.file;
@@ -272,12 +293,19 @@ FileResult<void> make(const FeedCall& call, PreparedJob& loaded, std::string tex
     session::MillSession session(std::move(loaded.setup), parallel);
     if (stopped = !run(session, model, options, progress, "milling", answer.before); stopped) return {};
 
-    auto written = rewrite(call, session.setup(), text, *language, answer);
-    if (!written) return std::unexpected(written.error());
-    session::MillSession again(std::move(written->setup), parallel);
+    // With other feeds short moves join into other rows, whose load may be a little larger.
+    constexpr int kMostPasses = 4;
     options.solve = false;
-    if (stopped = !run(again, model, options, progress, "milling again", answer.after); stopped) return {};
-    return files::write_file(answer.file, written->text);
+    for (int pass = 1;; ++pass) {
+        auto written = rewrite(call, session.setup(), text, *language, answer);
+        if (!written) return std::unexpected(written.error());
+        session::MillSession again(std::move(written->setup), parallel);
+        answer.after = {};
+        if (stopped = !run(again, model, options, progress, "milling again", answer.after); stopped)
+            return {};
+        if (pass == kMostPasses || !lower_feeds_over(answer))
+            return files::write_file(answer.file, written->text);
+    }
 }
 
 }  // namespace

@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::size_t kShownLines = 10;
 constexpr double kLeastForce = 1e-3, kStep = 1.01;
-// The grid rounds: a load this much over its limit is at its limit.
-constexpr double kRounding = 1.01;
 
 double worst(const FeedRun& run) {
     double most = 0;
@@ -62,7 +60,7 @@ double ForceShares::quantile(double share) const {
 std::vector<LineOver> lines_over(const FeedAnswer& answer) {
     std::vector<LineOver> lines;
     for (std::size_t n = 0; n < answer.after.blocks.size(); ++n)
-        if (answer.after.blocks[n].ratio > kRounding)
+        if (is_over(answer.after.blocks[n].ratio))
             lines.push_back(
                 {answer.before.blocks[n].line, answer.after.blocks[n].ratio, answer.before.blocks[n].reason});
     return lines;

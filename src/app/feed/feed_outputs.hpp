@@ -30,6 +30,12 @@ struct FeedRun {
     ForceShares forces;
 };
 
+// The grid rounds: a load that is a hundredth over its limit is at its limit.
+inline bool is_over(double ratio) {
+    constexpr double kRounding = 1.01;
+    return ratio > kRounding;
+}
+
 struct FeedAnswer {
     FeedRun before, after;
     std::string program, file;  // that was written
