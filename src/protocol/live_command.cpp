@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/text/decimal.hpp"
-#include "base/text/json_string.hpp"
+#include "base/text/json_writer.hpp"
 #include "base/text/limit_text.hpp"
 
 namespace tribo::protocol {
@@ -79,27 +79,13 @@ std::unexpected<Error> live_operation_needs(const LiveOperation& operation, cons
 }
 
 std::string live_settings(const LiveSettings& settings) {
-    std::string json = R"({"op":"settings")";
-    const auto key = [&](std::string_view name) {
-        json += ',';
-        append_json_string(json, name);
-        json += ':';
-    };
-    const auto flag = [&](std::string_view name, bool on) {
-        key(name);
-        json += on ? "true" : "false";
-    };
-    for (const LiveNumber& n : kLiveNumbers) {
-        key(n.key);
-        append_decimal(json, settings.*n.member);
-    }
-    key("material");
-    append_json_string(json, settings.material);
-    key("mode");
-    append_json_string(json, settings.cut_mode ? "cut" : "inspect");
-    flag("force", settings.cutting_force);
-    flag("stopped", settings.stopped);
-    return json + '}';
+    JsonWriter json;
+    json.begin_object().set("op", "settings");
+    for (const LiveNumber& n : kLiveNumbers) json.set(n.key, settings.*n.member);
+    json.set("material", settings.material);
+    json.set("mode", settings.cut_mode ? "cut" : "inspect");
+    json.set("force", settings.cutting_force).set("stopped", settings.stopped).end_object();
+    return json.text();
 }
 
 }  // namespace tribo::protocol
