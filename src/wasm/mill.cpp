@@ -11,6 +11,7 @@
 
 #include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
+#include "session/live/live_audit.hpp"
 #include "session/live/single_threaded_touch.hpp"
 #include "wasm/mill_job.hpp"
 
@@ -27,6 +28,7 @@ struct Mill {
     std::unique_ptr<session::LiveController> controller;
     std::unique_ptr<session::SingleThreadedTouch> touch;
     std::string text;
+    std::vector<double> audit_lines;
     std::vector<std::uint8_t> frames;  // each: u32 length, u32 0, its bytes, zeros to a multiple of 8
 };
 
@@ -117,6 +119,20 @@ std::uint32_t mill_command(const char* op, std::uint32_t op_length, double value
 TRIBO_EXPORT(mill_settings) const char* mill_settings() {
     mill().text = protocol::live_settings(mill().controller->settings());
     return mill().text.c_str();
+}
+// Holds what is milled so far against its limits, with the settings of the open mill. Returns 1 on success:
+// mill_text() has the verdict and its reasons as JSON, and mill_audit_lines() the numbers of its "lines",
+// each kAuditColumns doubles (session/audit/audit_json.hpp). Returns 0 without a job.
+TRIBO_EXPORT(mill_audit) std::uint32_t mill_audit() {
+    if (!mill().live) return refuse(fail("no job is open", "call mill_open first").error());
+    mill().controller->apply();
+    session::LiveAudit audit = session::audit_of(*mill().live, serial_for);
+    mill().text = std::move(audit.json);
+    mill().audit_lines = std::move(audit.lines);
+    return true;
+}
+TRIBO_EXPORT(mill_audit_lines) const double* mill_audit_lines() {
+    return mill().audit_lines.data();
 }
 // Returns all known materials, one per line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {

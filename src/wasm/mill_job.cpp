@@ -45,6 +45,7 @@ Result<session::LiveInput> load_mill(const job::FileSource& files, const std::st
     if (!setup) return std::unexpected(setup.error());
     if (auto fits = check_memory(*setup, name); !fits) return std::unexpected(fits.error());
     told.material = loaded->job.material.name;
+    told.limits = session::cut_limits(loaded->job, *setup);
     told.listening = job::listening_to(loaded->job, setup->blank->bounds_mm());
     if (loaded->part) told.designed = std::make_shared<const TriangleMesh>(std::move(loaded->part->mesh));
     return session::LiveInput(*std::move(setup), std::move(told));

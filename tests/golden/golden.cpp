@@ -16,6 +16,7 @@ std::span<const Golden> goldens() {
                                           {"mill_three_axes", mill_three_axes},
                                           {"mill_five_axes", mill_five_axes},
                                           {"mill_profiles", mill_profiles},
+                                          {"audit", audit},
                                           {"surface", surface},
                                           {"haptics", haptics},
                                           {"learning", learning}};

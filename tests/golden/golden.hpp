@@ -31,5 +31,6 @@ std::uint64_t learning();
 std::uint64_t mill_three_axes();
 std::uint64_t mill_five_axes();
 std::uint64_t mill_profiles();
+std::uint64_t audit();
 
 }  // namespace tribo::golden

@@ -11,6 +11,7 @@
 #include "files/json/json.hpp"
 #include "job/words/tool_words.hpp"
 #include "report/audit/audit_page.hpp"
+#include "session/audit/audit_json.hpp"
 
 namespace tribo::app {
 namespace {
@@ -23,58 +24,6 @@ std::string digits(double value, int count = 4) {
 
 std::string tool_name(const milling::Cutter& cutter) {
     return cutter.number > 0 ? "T" + std::to_string(cutter.number) : "tool";
-}
-
-files::Json band_json(const session::RatioBand& band) {
-    return files::Json::array({band.low, band.value, band.high});
-}
-
-files::Json limit_json(const session::CutLimit& limit) {
-    files::Json json;
-    // The limits of a spindle follow its speed.
-    if (limit.value > 0) {
-        json["value"] = limit.value;
-        if (limit.low != limit.high) json["band"] = {limit.low, limit.high};
-    }
-    json["from"] = limit.source;
-    if (limit.rule_of_thumb) json["rule_of_thumb"] = true;
-    return json;
-}
-
-files::Json tally_json(const session::LoadTally& tally, const session::LoadModel& model,
-                       const session::MillSetup& setup) {
-    files::Json json;
-    if (tally.line > 0) json["line"] = tally.line;
-    json["tool"] = setup.cutters[tally.cutter].number;
-    json["t_s"] = tally.start_s;
-    json["feed_mm"] = tally.feed_mm;
-    json["feed_s"] = tally.feed_s;
-    json["cutting_s"] = tally.cutting_s;
-    json["removed_mm3"] = tally.removed_mm3;
-    for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
-        const session::PeakLoad& peak = tally.peaks[n];
-        if (!(peak.value > 0)) continue;
-        files::Json load{{"value", peak.value}};
-        if (peak.ratio > 0)
-            load["ratio"] =
-                band_json(model.band(tally.cutter, static_cast<session::LoadKind>(n), peak.ratio));
-        if (tally.line == 0) load["line"] = peak.line;
-        json[std::string(session::kLoadWords[n].key)] = std::move(load);
-    }
-    json["rubbing_s"] = tally.thin.below_value_s;
-    json["plunge_deg"] = tally.plunge_deg;
-    json["jump_n"] = tally.jump_n;
-    json["entries"] = tally.entries;
-    json["collisions"] = tally.collisions;
-    return json;
-}
-
-files::Json limits_json(const session::ToolLimits& limits) {
-    files::Json json;
-    for (std::size_t n = 0; n < session::kLoadKinds; ++n)
-        if (limits.most[n]) json[std::string(session::kLoadWords[n].key)] = limit_json(*limits.most[n]);
-    json["least_chip_mm"] = limit_json(limits.least_chip);
-    return json;
 }
 
 // The text of lines of a program file, where it can be read again.
@@ -160,56 +109,15 @@ void LoadCurve::add(double from_s, double to_s, double value) {
 
 std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const PreparedJob& loaded,
                        const session::LoadModel& model, const session::MillSession& session) {
-    const session::Audit& audit = answer.audit;
-    const session::MillSetup& setup = session.setup();
     files::Json json;
     json["schema"] = "tribo.audit/1";
     json["version"] = TRIBO_VERSION;
     json["job"] = call.job;
-    json["verdict"] = {{"outcome", name_of(answer.verdict.outcome)}, {"sentence", answer.verdict.sentence}};
-    files::Json& findings = json["verdict"]["findings"] = files::Json::array();
-    for (const session::Finding& f : answer.verdict.findings) {
-        files::Json finding{{"outcome", name_of(f.outcome)}, {"text", f.text}};
-        if (f.line > 0) finding["line"] = f.line;
-        if (f.ratio) finding["ratio"] = band_json(*f.ratio);
-        findings.push_back(std::move(finding));
-    }
-    files::set(json, "chatter_probability", answer.facts.chatter_probability);
     json["material"] = loaded.material.name;
-    json["force_band"] = {model.force_low_factor(), model.force_high_factor()};
-    json["duration_s"] = audit.duration_s;
-    json["feed_s"] = audit.feed_s;
-    json["cutting_s"] = audit.cutting_s;
-    json["air_share"] = audit.air_share();
-    json["lines"] = audit.line_count;
-    files::set(json, "tolerance_mm", model.limits().tolerance_mm);
-    files::set(json, "gouge_max_mm", answer.facts.gouge_mm);
+    json.update(
+        files::parse(session::audit_json(answer.audit, answer.verdict, answer.facts, model, session)));
     files::set(json, "rest_max_mm", answer.rest_mm);
     files::set(json, "scallop_max_mm", answer.scallop_mm);
-    files::set(json, "bending_leaves_mm", answer.facts.left_mm);
-    files::set(json, "bending_overcuts_mm", answer.facts.overcut_mm);
-    for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
-        const session::LineCounts& lines = audit.lines[n];
-        if (lines.over + lines.undecided == 0) continue;
-        json["lines_over"][std::string(session::kLoadWords[n].key)] = {{"over", lines.over},
-                                                                       {"undecided", lines.undecided}};
-    }
-    json["tools"] = files::Json::array();
-    for (const session::LoadTally& tool : audit.tools) {
-        files::Json of_tool = tally_json(tool, model, setup);
-        of_tool["cutter"] = job::tool_words(setup.cutters[tool.cutter]);
-        of_tool["limits"] = limits_json(model.limits().of_cutter[tool.cutter]);
-        json["tools"].push_back(std::move(of_tool));
-    }
-    json["worst"] = files::Json::array();
-    for (const session::LoadTally& line : audit.worst)
-        json["worst"].push_back(tally_json(line, model, setup));
-    json["collisions"] = files::Json::array();
-    for (const session::MillCollision& c : session.totals().collisions)
-        json["collisions"].push_back({{"line", c.line},
-                                      {"t_s", c.t_s},
-                                      {"kind", milling::name(c.kind)},
-                                      {"tip_mm", files::triple(c.tip_mm)}});
     json["warnings"] = files::Json::array();
     for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
     return files::pretty(json);

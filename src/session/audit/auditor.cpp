@@ -20,8 +20,13 @@ double plunge_deg(const milling::CutRow& row) {
 
 }  // namespace
 
-Auditor::Auditor(const LoadModel& model, const MillSession& session, LineSink sink)
-    : model_(model), session_(session), sink_(std::move(sink)), runs_(session.setup(), session.schedule()) {}
+Auditor::Auditor(const LoadModel& model, const MillSession& session, LineSink sink,
+                 std::optional<double> until_s)
+    : model_(model),
+      session_(session),
+      sink_(std::move(sink)),
+      until_s_(until_s.value_or(session.duration_s())),
+      runs_(session.setup(), session.schedule()) {}
 
 void Auditor::open_until(double t_s) {
     const MillSetup& setup = session_.setup();
@@ -31,11 +36,11 @@ void Auditor::open_until(double t_s) {
         open.tally.cutter = setup.cutter_of_move[run->first_move];
         open.tally.spindle_rpm = setup.rpm_of_move[run->first_move];
         open.tally.start_s = run->start_s;
-        open.tally.end_s = std::min(run->end_s, session_.duration_s());
+        open.tally.end_s = std::min(run->end_s, until_s_);
         for (std::size_t n = run->first_move; n < run->end_move; ++n) {
             if (setup.moves[n].kind != motion::MoveKind::feed) continue;
             const motion::MoveTiming& timing = session_.schedule().moves[n];
-            const double end = std::min(timing.end_s, session_.duration_s());
+            const double end = std::min(timing.end_s, until_s_);
             if (!(end > timing.start_s)) continue;
             open.tally.feed_s += end - timing.start_s;
             open.tally.feed_mm += timing.length_mm * timing.path_fraction(end);
@@ -118,9 +123,9 @@ void Auditor::count(const LoadTally& line) {
 }
 
 Audit Auditor::finish() {
-    open_until(session_.duration_s());
+    open_until(until_s_);
     while (!open_.empty()) close_front();
-    audit_.duration_s = session_.duration_s();
+    audit_.duration_s = until_s_;
     return std::move(audit_);
 }
 

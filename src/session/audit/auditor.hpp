@@ -37,8 +37,10 @@ class Auditor {
     // Called once for each line that moves, in the order of time; a line that runs again comes again.
     using LineSink = std::function<void(const LoadTally& line)>;
 
-    // Model and session must outlive this object. The session runs afterwards.
-    Auditor(const LoadModel& model, const MillSession& session, LineSink sink);
+    // Model and session must outlive this object. The session runs afterwards. `until_s`: of a session that
+    // is not milled to its end; later lines do not count.
+    Auditor(const LoadModel& model, const MillSession& session, LineSink sink,
+            std::optional<double> until_s = {});
 
     // The rows of MillSinks::row. `multiplier`: of a cut that may chatter, where it is known.
     void add(const milling::CutRow& row, const milling::RowForce& force, std::optional<double> multiplier);
@@ -57,6 +59,7 @@ class Auditor {
     const LoadModel& model_;
     const MillSession& session_;
     LineSink sink_;
+    double until_s_;
     LineRuns runs_;
     std::deque<Open> open_;
     Audit audit_;

@@ -37,9 +37,13 @@ class LoadModel {
     // The band of a ratio: that of the force and that of the limit.
     RatioBand band(std::size_t cutter, LoadKind kind, double ratio) const;
     const CutLimits& limits() const { return limits_; }
-    // Band of all forces: factors on them.
+    // Band of all forces: factors on them. By default that of the setup.
     double force_low_factor() const { return force_low_; }
     double force_high_factor() const { return force_high_; }
+    void set_force_band(double low_factor, double high_factor) {
+        force_low_ = low_factor;
+        force_high_ = high_factor;
+    }
 
   private:
     CutLimits limits_;

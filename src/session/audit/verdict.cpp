@@ -195,12 +195,15 @@ std::string in_words(const RatioBand& ratio) {
     return low == high ? low : low + " to " + high;
 }
 
-std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup) {
-    if (chatter.worst() == nullptr) return std::nullopt;
-    const SteadyCut cut = steady_cut_of(*chatter.worst(), setup, kRowBands);
+std::optional<double> chatter_probability(const SteadyCut& cut) {
     const std::vector<SteadyCut> cases = cases_of(cut);
     if (cases.empty()) return std::nullopt;
     return probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
+}
+
+std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup) {
+    if (chatter.worst() == nullptr) return std::nullopt;
+    return chatter_probability(steady_cut_of(*chatter.worst(), setup, kRowBands));
 }
 
 Verdict verdict(const Audit& audit, const LoadModel& model, const MillSession& session,

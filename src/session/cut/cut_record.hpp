@@ -28,6 +28,8 @@ class CutRecord {
 struct CutChange {
     double feed_factor = 1, speed_factor = 1;  // > 0: overrides of feed and spindle speed
     std::optional<milling::CuttingCoefficients> coefficients{};
+    // Band of the forces with these coefficients; factors, as in MillSetup.
+    double force_low_factor = 1, force_high_factor = 1;
     std::optional<double> helix_deg{};
 
     // Whether nothing is changed.

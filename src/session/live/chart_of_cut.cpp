@@ -47,7 +47,11 @@ SteadyCut changed_cut_of(const milling::CutRow& row, const MillSetup& setup, std
     SteadyCut cut = steady_cut_of(row, setup, most_bands);
     cut.spindle_rpm *= change.speed_factor;
     cut.feed_per_tooth_mm *= change.chip_factor();
-    if (change.coefficients) cut.coefficients = *change.coefficients;
+    if (change.coefficients) {
+        cut.coefficients = *change.coefficients;
+        cut.force_low_factor = change.force_low_factor;
+        cut.force_high_factor = change.force_high_factor;
+    }
     if (change.helix_deg) cut.cutter.helix_deg = *change.helix_deg;
     return cut;
 }

@@ -24,6 +24,11 @@ class LiveChatter {
 
     // Of the row that is cut at this time.
     std::optional<protocol::LiveChatterNow> now(const LiveCut& cut, double t_s) const;
+    // Of a row, above 0; absent where it has none, or is not computed yet.
+    std::optional<double> multiplier(std::size_t row) const {
+        if (row >= rows_.size() || !(rows_[row].multiplier > 0)) return std::nullopt;
+        return rows_[row].multiplier;
+    }
     // What bends, with the change.
     protocol::LiveBending bending() const;
 

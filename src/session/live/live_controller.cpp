@@ -118,8 +118,12 @@ CutChange LiveController::change() const {
     change.feed_factor = 0.01 * settings_.feed_percent;
     change.speed_factor = 0.01 * settings_.spindle_percent;
     if (settings_.helix_deg != job_settings_.helix_deg) change.helix_deg = settings_.helix_deg;
-    if (settings_.material != job_settings_.material)
-        change.coefficients = milling::find_material(settings_.material)->coefficients;
+    if (settings_.material != job_settings_.material) {
+        const auto material = milling::find_material(settings_.material);
+        change.coefficients = material->coefficients;
+        change.force_low_factor = material->spread_low;
+        change.force_high_factor = material->spread_high;
+    }
     return change;
 }
 

@@ -13,6 +13,7 @@
 #include "base/limits.hpp"
 #include "base/result.hpp"
 #include "protocol/live_frame.hpp"
+#include "session/audit/cut_limits.hpp"
 #include "session/cut/mill_session.hpp"
 #include "session/live/live_chatter.hpp"
 #include "session/live/live_cut.hpp"
@@ -27,6 +28,7 @@ struct LiveExtras {
     std::shared_ptr<const TriangleMesh> designed{};
     std::string material{};  // its name; empty: coefficients of the job's own
     Warnings warnings{};
+    std::optional<CutLimits> limits{};  // for an audit of the cut (live_audit.hpp)
 };
 
 // What the files of a job make.
@@ -58,6 +60,10 @@ class LiveMill {
     int sessions() const { return sessions_; }
     // The rows so far.
     const CutRecord& record() const { return cut_.record(); }
+    // That of LiveChatter.
+    std::optional<double> multiplier(std::size_t row) const {
+        return chatter_ ? chatter_->multiplier(row) : std::nullopt;
+    }
     // The error of the last call of MakeInput; none: it read the files.
     const std::optional<Error>& input_error() const { return input_error_; }
 

@@ -10,7 +10,7 @@
 
 #include "job/memory_source.hpp"
 #include "session/cut/mill_setup.hpp"
-#include "session/live/live_mill.hpp"
+#include "session/live/live_audit.hpp"
 
 namespace tribo::session {
 namespace {
@@ -67,6 +67,26 @@ TEST(LivePlate, IsTheSameInThePage) {
     std::uint64_t sum = 0;
     for (const auto& [at, hash] : chunks) sum += hash;
     EXPECT_EQ(hash_text(sum), file_text("tests/golden/plate.txt"));
+}
+
+TEST(LivePlate, IsAuditedTheSameInThePage) {
+    const auto loaded = loaded_plate();
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    const auto with_limits = [&]() -> Result<LiveInput> {
+        LiveInput input(*plate());
+        input.extras.limits = cut_limits(loaded->job, input.setup);
+        return input;
+    };
+    auto live = LiveMill::create(with_limits, serial_for);
+    ASSERT_TRUE(live) << live.error().text();
+    (*live)->set_clock((*live)->duration_s());
+    (*live)->tick(0, [] { return true; }, [](auto) {});
+    const LiveAudit audit = audit_of(**live, serial_for);
+    std::uint64_t hash = kHashBegin;
+    for (const char c : audit.json) hash = hash_of(std::bit_cast<std::array<std::uint8_t, 1>>(c), hash);
+    for (const double v : audit.lines)
+        hash = hash_of(std::bit_cast<std::array<std::uint8_t, sizeof v>>(v), hash);
+    EXPECT_EQ(hash_text(hash), file_text("tests/golden/plate_audit.txt"));
 }
 
 // The program tells its ear structs, a page decodes them from frames.

@@ -90,6 +90,13 @@ export interface MillExports extends CommonExports {
   ): number;
   /** The settings of the open mill as JSON, as sent by an engine. */
   mill_settings(): Address;
+  /**
+   * Audits what is milled so far, with the settings of the open mill. 1: mill_text() is an AuditOfMill as JSON and
+   * mill_audit_lines() has its lines; 0: mill_text() has the reason.
+   */
+  mill_audit(): number;
+  /** `lines` times AUDIT_COLUMNS.length doubles, in the order of time. */
+  mill_audit_lines(): Address;
   /** All known materials, one per line. */
   mill_materials(): Address;
   /** Number of bytes at mill_frames(). */

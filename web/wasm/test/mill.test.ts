@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { expect, test } from "vitest";
 import { BENDING_SLOT, SLOT_PROGRAM } from "../../testing/job.js";
 import { ROOT } from "../../tools/places.js";
+import { AUDIT_COLUMNS, auditOf, type AuditColumn } from "../src/audit.js";
 import type { MillExports, MillSoundExports } from "../src/exports.js";
 import { bytesAt, floatsAt, lend, lendText, textAt } from "../src/memory.js";
 import { obey, type MillCommand } from "../src/mill_command.js";
@@ -39,6 +40,9 @@ class Mill {
   }
   settings(): unknown {
     return JSON.parse(textAt(this.x, this.x.mill_settings()));
+  }
+  audit(): ReturnType<typeof auditOf> {
+    return auditOf(this.x);
   }
   /** Frames of a tick, as bytes. */
   tick(seconds: number, looks: number): Uint8Array[] {
@@ -113,6 +117,54 @@ test("the plate sounds in the modules as it does natively", async () => {
   }
   const golden = readFileSync(join(ROOT, "tests/golden/plate_sound.txt"), "utf8").trim();
   expect(hash.toString(16).padStart(16, "0")).toBe(golden);
+});
+
+test("the plate is audited in the module as it is natively", async () => {
+  const mill = await Mill.open();
+  for (const name of ["plate.toml", "plate.nc"]) mill.file(name, readFileSync(join(ROOT, "examples/plate", name)));
+  expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
+  mill.command({ op: "seek", t_s: 1e9 });
+  mill.tick(0, AS_MANY_AS_NEEDED);
+  const { text, lines } = mill.audit();
+  const hash = fnv(new Uint8Array(lines.buffer), fnv(new TextEncoder().encode(text)));
+  const golden = readFileSync(join(ROOT, "tests/golden/plate_audit.txt"), "utf8").trim();
+  expect(hash.toString(16).padStart(16, "0")).toBe(golden);
+});
+
+test("an audit follows limits, milling and overrides", async () => {
+  const mill = await Mill.open();
+  expect(() => mill.audit()).toThrow(/no job is open/);
+  mill.file("s.nc", SLOT);
+  const job = ["[stock]", "box_mm = [[0, -20, -10], [50, 20, 0]]", "[cutter]", 'kind = "flat"', "diameter_mm = 10"];
+  const limits = ["[material]", 'name = "al7075-t6"', "[path]", 'gcode = "s.nc"', "[limits]", "force_n = 10"];
+  mill.file("s.toml", [...job, ...limits].join("\n"));
+  expect(mill.take("s.toml", 0.5), mill.said()).toBe(true);
+  const before = mill.audit();
+  expect(before.audit.verdict.outcome).toBe("nothing cut");
+  mill.command({ op: "seek", t_s: 1e9 });
+  mill.tick(0, AS_MANY_AS_NEEDED);
+  const at = (name: AuditColumn, { lines }: { lines: Float64Array }) => {
+    const column = AUDIT_COLUMNS.indexOf(name);
+    return Math.max(...Array.from(lines).filter((_, n) => n % AUDIT_COLUMNS.length === column));
+  };
+  const after = mill.audit();
+  expect(after.lines.length).toBe(after.audit.lines * AUDIT_COLUMNS.length);
+  expect(after.audit.verdict.outcome).toBe("over");
+  expect(after.audit.verdict.sentence).toMatch(/^No: line 4, .*the force is too large/);
+  const [tool] = after.audit.tools;
+  expect(tool!.limits.peak_force_n).toEqual({ value: 10, from: "[limits] of the job" });
+  expect(tool!.peak_force_n!.line).toBe(4);
+  expect(after.audit.worst[0]!.line).toBe(4);
+  expect(at("peak_force_n", after)).toBe(tool!.peak_force_n!.value);
+  expect(at("peak_force_n_ratio", after)).toBeCloseTo(tool!.peak_force_n!.value / 10, 12);
+  expect(at("feed_mm", after)).toBeCloseTo(70, 9);
+  // Twice the feed: twice the chip, more than one and a half times the force.
+  expect(mill.command({ op: "set", key: "feed_percent", value: 200 })).toBe(true);
+  const faster = mill.audit();
+  expect(at("chip_mm", faster)).toBeCloseTo(2 * at("chip_mm", after), 9);
+  const ratio = at("peak_force_n", faster) / at("peak_force_n", after);
+  expect(ratio).toBeGreaterThan(1.5);
+  expect(ratio).toBeLessThan(2);
 });
 
 test("a second set-up mills on where the first one stopped", async () => {
