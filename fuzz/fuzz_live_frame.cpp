@@ -41,6 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check<protocol::LiveServo>(bytes);
     check<protocol::LiveTexture>(bytes);
     check<protocol::LivePath>(bytes);
+    check<protocol::LiveProgram>(bytes);
     check<protocol::LiveBending>(bytes);
     check<protocol::LiveMultipliers>(bytes);
     check<protocol::LiveChart>(bytes);

@@ -252,4 +252,9 @@ FileResult<motion::Program> read_program(const FileSource& files, const Job& job
     return *std::move(program);
 }
 
+std::string shown_program(const FileSource& files, const Job& job) {
+    FileResult<std::string> bytes = files.read(job.path.file, kLongestShownProgramBytes);
+    return bytes ? *std::move(bytes) : std::string();
+}
+
 }  // namespace tribo::job

@@ -58,4 +58,9 @@ FileResult<motion::Program> read_program(const FileSource& files, const Job& job
                                          std::size_t max_moves = readers::kMostMoves,
                                          const std::function<double()>& clock_s = {});
 
+// Longest program that is shown to a viewer as text.
+inline constexpr std::uint64_t kLongestShownProgramBytes = std::uint64_t{4} << 20;
+// The bytes of the program of a job, whose lines the moves count; empty if it is longer than that.
+std::string shown_program(const FileSource& files, const Job& job);
+
 }  // namespace tribo::job

@@ -80,7 +80,8 @@ void fields(Wire& wire, FrameOf<Wire, LiveChunk> chunk) {
     fields(wire, chunk.at);
     wire.mesh(chunk.mesh);
     wire.added();
-    wire.last_floats("deviations_mm", chunk.deviations_mm);
+    wire.numbers("deviations_mm", chunk.deviations_mm);
+    wire.u32("on_blank", chunk.on_blank);
 }
 
 template <>
@@ -148,6 +149,13 @@ void fields(Wire& wire, FrameOf<Wire, LiveRows> rows) {
     wire.each("of_rows", rows.rows, [](Wire& of, FrameOf<Wire, LiveRow> row) {
         of.f32("chip_mm", row.chip_mm);
         of.u32("chip_verdict", row.chip_verdict);
+    });
+    wire.f32("force_low_factor", rows.force_low_factor);
+    wire.f32("force_high_factor", rows.force_high_factor);
+    wire.each("tools_of_rows", rows.rows, [](Wire& of, FrameOf<Wire, LiveRow> row) {
+        of.f32("spindle_rpm", row.spindle_rpm);
+        of.vec3("axis", row.axis);
+        of.u32("cutter", row.cutter);
     });
 }
 
@@ -292,6 +300,17 @@ void fields(Wire& wire, FrameOf<Wire, LivePathPoint> point) {
 template <class Wire>
 void fields(Wire& wire, FrameOf<Wire, LivePath> path) {
     wire.list("points", path.points);
+    wire.added();
+    wire.each("lines_of_points", path.points,
+              [](Wire& of, FrameOf<Wire, LivePathPoint> point) { of.u32("line", point.line); });
+}
+
+template <>
+inline constexpr LiveFrame kKindOf<LiveProgram> = LiveFrame::program;
+template <class Wire>
+void fields(Wire& wire, FrameOf<Wire, LiveProgram> program) {
+    wire.text("name", program.name);
+    wire.text("text", program.text);
 }
 
 template <>

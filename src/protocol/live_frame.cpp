@@ -93,8 +93,10 @@ class Writer {
         }
     }
     // Of no values nothing is written, here and in the next two: the frame ends sooner.
-    void last_floats(const char* name, const std::vector<float>& values) {
-        if (!values.empty()) numbers(name, values);
+    void text(const char*, const std::string& text) {
+        u32("", text.size());
+        for (const char c : text) bits(static_cast<unsigned char>(c), 1);
+        pad();
     }
     template <class Item>
     void last_item(const char* name, const std::optional<Item>& item) {
@@ -231,7 +233,15 @@ class Reader {
             }
         }
     }
-    void last_floats(const char* name, std::vector<float>& values) { numbers(name, values); }
+    void text(const char*, std::string& text) {
+        std::uint32_t told = 0;
+        u32("", told);
+        whole_ = whole_ && has(told);
+        text.clear();
+        if (!whole_) return;
+        for (std::uint32_t n = 0; n < told; ++n) text += static_cast<char>(bits(1));
+        pad();
+    }
     template <class Item>
     void last_item(const char*, std::optional<Item>& item) {
         std::uint32_t told = 0;
@@ -352,6 +362,7 @@ TRIBO_FRAME(LiveServo);
 TRIBO_FRAME(LiveTexture);
 TRIBO_FRAME(job::Listening);
 TRIBO_FRAME(LivePath);
+TRIBO_FRAME(LiveProgram);
 TRIBO_FRAME(LiveBending);
 TRIBO_FRAME(LiveMultipliers);
 TRIBO_FRAME(LiveChart);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/mesh.hpp"
@@ -39,6 +40,7 @@ enum class LiveFrame : std::uint8_t {
     bending = 13,
     multipliers = 14,
     chart = 15,
+    program = 16,
 };
 
 // Takes one whole frame; the bytes are valid during the call only.
@@ -82,6 +84,9 @@ struct LiveChunk {
     // Of each vertex from the designed surface, + material left, - gouge; NaN far from it. Empty: there is
     // none.
     std::vector<float> deviations_mm;
+    // The first vertices of the mesh lie on the surface of the blank, so many; a triangle of them alone is
+    // untouched.
+    std::uint32_t on_blank = 0;
 };
 
 // A piece of the designed surface, as a chunk is written.
@@ -125,10 +130,15 @@ struct LiveRow {
     std::uint32_t line = 0;
     double chip_mm = 0;              // the thickest
     std::uint32_t chip_verdict = 0;  // as milling::ChipVerdict
+    double spindle_rpm = 0;          // as it turns
+    Vec3 axis{0, 0, 1};
+    std::uint32_t cutter = 0;  // of LiveJob
 };
 struct LiveRows {
     bool anew = false;  // all rows before are void
     std::vector<LiveRow> rows;
+    // Factors on their forces: the band in which the true ones lie. 0: not told.
+    double force_low_factor = 0, force_high_factor = 0;
 };
 
 struct LiveCollision {
@@ -232,10 +242,17 @@ struct LiveTexture {
 struct LivePathPoint {
     double t_s = 0;
     Vec3 tip_mm;
-    bool rapid = false;  // of the way that ends here
+    bool rapid = false;      // of the way that ends here
+    std::uint32_t line = 0;  // likewise
 };
 struct LivePath {
     std::vector<LivePathPoint> points;
+};
+
+// The text that the lines of rows and state count in.
+struct LiveProgram {
+    std::string name;  // of the file
+    std::string text;  // its bytes; empty: too long to be sent
 };
 
 // The kind of what begins like a frame of this version; none of anything else.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text/decimal.hpp"
+#include "job/program_file.hpp"
 #include "session/cut/memory_estimate.hpp"
 
 namespace tribo::wasm {
@@ -46,6 +47,7 @@ Result<session::LiveInput> load_mill(const job::FileSource& files, const std::st
     if (auto fits = check_memory(*setup, name); !fits) return std::unexpected(fits.error());
     told.material = loaded->job.material.name;
     told.limits = session::cut_limits(loaded->job, *setup);
+    told.program = {loaded->job.path.file, job::shown_program(files, loaded->job)};
     told.listening = job::listening_to(loaded->job, setup->blank->bounds_mm());
     if (loaded->part) told.designed = std::make_shared<const TriangleMesh>(std::move(loaded->part->mesh));
     return session::LiveInput(*std::move(setup), std::move(told));

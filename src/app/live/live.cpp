@@ -12,6 +12,7 @@
 #include "app/render/render_job.hpp"
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
+#include "job/program_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "tribo/threads.hpp"
 
@@ -44,6 +45,7 @@ session::LiveInput live_input(PreparedJob job) {
     extras.listening = job::listening_to(job.job, job.setup.blank->bounds_mm());
     if (job.part) extras.designed = std::make_shared<const TriangleMesh>(std::move(job.part->mesh));
     extras.material = job.material.name;
+    extras.program = {job.job.path.file, job::shown_program(files::DiskSource(), job.job)};
     extras.warnings = std::move(job.warnings);
     return {std::move(job.setup), std::move(extras)};
 }

@@ -79,6 +79,8 @@ void LiveCut::add(const milling::CutRow& row, const milling::RowForce& force) {
     told.t_s = row.start_s;
     told.end_s = row.end_s;
     told.tip_mm = row.pose.tip_mm;
+    told.axis = row.pose.frame.z;
+    told.cutter = static_cast<std::uint32_t>(row.cutter);
     told.entry_rad = hull.entry_rad;
     told.exit_rad = hull.exit_rad;
     told.axial_depth_mm = hull.axial_depth_mm;
@@ -152,6 +154,7 @@ void LiveCut::set_force(std::size_t n, const milling::RowForce& force, const Cut
     row.mean_force_n = length(states_[n].force_n);
     row.peak_force_n = force.peaks.peak_force_n;
     row.mean_torque_nm = 1e-3 * force.peaks.mean_torque_nmm;
+    row.spindle_rpm = change.speed_factor * cut.spindle_rpm;
     row.feed_per_tooth_mm = change.chip_factor() * cut.feed.across_mm;
     const milling::Cutter& cutter = setup_->cutters[cut.cutter];
     row.chip_mm = force.chip_mm;
@@ -177,12 +180,16 @@ void LiveCut::describe(protocol::LiveState& s) const {
 
 void LiveCut::show_rows(const protocol::FrameSink& frames) {
     std::vector<std::uint8_t> frame;
+    const bool changed = change_.coefficients.has_value();
+    const double low = changed ? change_.force_low_factor : setup_->force_low_factor;
+    const double high = changed ? change_.force_high_factor : setup_->force_high_factor;
     for (std::size_t n = 0; n < kMostFrames && sent_ < fresh_; ++n) {
         const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(sent_);
         const std::size_t now = std::min(kRowsPerFrame, fresh_ - sent_);
-        protocol::write_frame(protocol::LiveRows{std::exchange(anew_, false),
-                                                 {first, first + static_cast<std::ptrdiff_t>(now)}},
-                              frame);
+        protocol::write_frame(
+            protocol::LiveRows{
+                std::exchange(anew_, false), {first, first + static_cast<std::ptrdiff_t>(now)}, low, high},
+            frame);
         frames(frame);
         sent_ += now;
     }

@@ -29,13 +29,14 @@ protocol::LivePath path_of(const MillSession& session) {
         if (move.kind == motion::MoveKind::dwell) continue;
         const motion::MoveTiming& timing = session.schedule().moves[n];
         const bool rapid = move.kind == motion::MoveKind::rapid;
-        if (points.empty()) points.push_back({timing.start_s, move.start.tip_mm, rapid});
+        const auto line = static_cast<std::uint32_t>(move.line);
+        if (points.empty()) points.push_back({timing.start_s, move.start.tip_mm, rapid, line});
         const double wanted = std::ceil(motion::path_length_mm(move) / kCurvePointMm);
         const int count =
             move.arc || move.quadratic ? static_cast<int>(std::clamp(wanted, 1.0, kMostCurvePoints)) : 1;
         for (int k = 1; k <= count; ++k) {
             const double t = static_cast<double>(k) / count;
-            points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid});
+            points.push_back({timing.time_at_s(t), motion::pose_at(move, t).tip_mm, rapid, line});
         }
     }
     return path;
@@ -224,6 +225,10 @@ void LiveMill::show_job(const protocol::FrameSink& frames) {
     }
     protocol::write_frame(job, frame_);
     frames(frame_);
+    if (!extras_.program.name.empty()) {
+        protocol::write_frame(extras_.program, frame_);
+        frames(frame_);
+    }
     job::Listening listening = this->listening();
     protocol::write_frame(listening, frame_);
     frames(frame_);
@@ -285,11 +290,13 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
 }
 
 void LiveMill::show_part(const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
-    picture_->update(has_time, [&](ChunkCoord c, TriangleMesh mesh, std::vector<float> deviations_mm) {
-        protocol::write_frame(
-            protocol::LiveChunk{
-                session_->milled_s(), {c.i, c.j, c.k}, std::move(mesh), std::move(deviations_mm)},
-            frame_);
+    picture_->update(has_time, [&](ChunkCoord c, PartPicture::Piece piece) {
+        protocol::write_frame(protocol::LiveChunk{session_->milled_s(),
+                                                  {c.i, c.j, c.k},
+                                                  std::move(piece.mesh),
+                                                  std::move(piece.deviations_mm),
+                                                  piece.on_blank},
+                              frame_);
         frames(frame_);
     });
 }

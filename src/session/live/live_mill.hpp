@@ -26,7 +26,8 @@ namespace tribo::session {
 struct LiveExtras {
     std::optional<job::Listening> listening{};  // none: at the centre of the top of the blank
     std::shared_ptr<const TriangleMesh> designed{};
-    std::string material{};  // its name; empty: coefficients of the job's own
+    std::string material{};           // its name; empty: coefficients of the job's own
+    protocol::LiveProgram program{};  // without a name: none is told
     Warnings warnings{};
     std::optional<CutLimits> limits{};  // for an audit of the cut (live_audit.hpp)
 };

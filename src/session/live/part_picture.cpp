@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numeric>
 
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
@@ -15,6 +17,8 @@ using field::BrickCoord;
 
 // State of a chunk that was not examined yet.
 constexpr std::uint64_t kUnseen = 0;
+// A vertex this near to the surface of the blank is on it: the rounding of positions in single precision.
+constexpr double kOnBlankMm = 1e-3;
 // Chunks between two checks of the time: a few milliseconds each where deviations are searched.
 constexpr std::size_t kChunksAtOnce = 8;
 
@@ -24,6 +28,26 @@ ChunkCoord chunk_of(BrickCoord b) {
 
 BrickCoord first_brick(ChunkCoord c) {
     return {c.i * kChunkBricks, c.j * kChunkBricks, c.k * kChunkBricks};
+}
+
+// Puts the vertices on the surface of the blank before the others and returns their number.
+std::uint32_t put_first(TriangleMesh& mesh, const field::Shape& blank) {
+    const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+    std::vector<std::uint32_t> order(count), place(count);
+    std::iota(order.begin(), order.end(), 0U);
+    const auto others = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t v) {
+        return std::abs(blank.distance_mm(mesh.position(v))) <= kOnBlankMm;
+    });
+    std::vector<Point3f> positions(count);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        positions[n] = mesh.positions[order[n]];
+        place[order[n]] = n;
+    }
+    mesh.positions = std::move(positions);
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& v : t) v = place[v];
+    }
+    return static_cast<std::uint32_t>(others - order.begin());
 }
 
 }  // namespace
@@ -101,7 +125,7 @@ void PartPicture::update(const std::function<bool()>& has_time, const Show& show
             const std::uint64_t now = state(chunk);
             std::uint64_t& shown = shown_[number(chunk)];
             if (now == shown) continue;
-            changes_.push_back({chunk, shown != kUnseen, {}, {}});
+            changes_.push_back({chunk, shown != kUnseen, {}});
             shown = now;
         }
         show_changes(show);
@@ -112,14 +136,15 @@ void PartPicture::show_changes(const Show& show) {
     parallel_(changes_.size(), [&](std::size_t n) {
         Change& change = changes_[n];
         const BrickCoord from = first_brick(change.chunk);
-        change.mesh = field::contour_part(
+        Piece& piece = change.piece;
+        piece.mesh = field::contour_part(
             field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks});
+        piece.on_blank = put_first(piece.mesh, field_.blank());
         if (designed_)
-            change.deviations_mm = surface::deviations_of(change.mesh, *designed_, serial_for, kReachMm);
+            piece.deviations_mm = surface::deviations_of(piece.mesh, *designed_, serial_for, kReachMm);
     });
     for (Change& c : changes_) {
-        if (c.was_seen || !c.mesh.triangles.empty())
-            show(c.chunk, std::move(c.mesh), std::move(c.deviations_mm));
+        if (c.was_seen || !c.piece.mesh.triangles.empty()) show(c.chunk, std::move(c.piece));
     }
     changes_.clear();
 }

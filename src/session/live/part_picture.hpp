@@ -29,9 +29,14 @@ class PartPicture {
   public:
     // Largest distance at which deviations from the designed surface are searched.
     static constexpr double kReachMm = 3;
-    // Receives the surface of a chunk, and for each vertex its deviation from the designed surface
-    // (surface::deviations_of), if there is one.
-    using Show = std::function<void(ChunkCoord, TriangleMesh, std::vector<float> deviations_mm)>;
+    // The surface of a chunk. Its first vertices, `on_blank` of them, lie on the surface of the blank.
+    struct Piece {
+        TriangleMesh mesh;
+        // Of each vertex from the designed surface (surface::deviations_of), if there is one.
+        std::vector<float> deviations_mm;
+        std::uint32_t on_blank = 0;
+    };
+    using Show = std::function<void(ChunkCoord, Piece)>;
 
     // `field` must outlive this object.
     explicit PartPicture(const field::CarvedField& field, ParallelFor parallel = serial_for,
@@ -64,8 +69,7 @@ class PartPicture {
     struct Change {
         ChunkCoord chunk;
         bool was_seen = false;
-        TriangleMesh mesh;
-        std::vector<float> deviations_mm;
+        Piece piece;
     };
     std::vector<Change> changes_;
 };

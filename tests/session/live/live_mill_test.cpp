@@ -174,6 +174,79 @@ TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
     (*LiveMill::create(slot, serial_for))->tick(0, always, expect_none);
 }
 
+// A slot of 2 mm: its floor and walls are cut, the top beside it is not.
+TEST(LiveMill, TellsWhichVerticesLieOnTheBlank) {
+    auto live = *LiveMill::create(slot, serial_for);
+    const Box3 blank = live->session().stock().blank().bounds_mm();
+    std::map<protocol::LiveChunkPlace, protocol::LiveChunk> chunks;
+    live->set_clock(live->duration_s());
+    live->tick(0, always, [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveChunk chunk;
+        if (protocol::read_frame(frame, chunk)) chunks[chunk.at] = chunk;
+    });
+    std::size_t on = 0, off = 0;
+    for (const auto& [at, chunk] : chunks) {
+        for (std::uint32_t n = 0; n < chunk.mesh.positions.size(); ++n) {
+            const Vec3 p = chunk.mesh.position(n);
+            double away_mm = 1e9;
+            for (int axis = 0; axis < 3; ++axis) {
+                away_mm = std::min(
+                    {away_mm, std::abs(p[axis] - blank.min[axis]), std::abs(p[axis] - blank.max[axis])});
+            }
+            // Positions are rounded on their way.
+            if (n < chunk.on_blank) {
+                EXPECT_LT(away_mm, 3e-3);
+                ++on;
+            } else {
+                EXPECT_GT(away_mm, 5e-4);
+                ++off;
+            }
+        }
+    }
+    EXPECT_GT(on, 100u);
+    EXPECT_GT(off, 100u);
+}
+
+TEST(LiveMill, TellsTheProgramAndTheBandOfItsForces) {
+    LiveExtras told;
+    told.program = {"p.nc", "G0 X1\n"};
+    const auto make = [&] {
+        auto setup = *slot();
+        setup.force_low_factor = 0.75;
+        setup.force_high_factor = 1.5;
+        return Result<LiveInput>(LiveInput(std::move(setup), told));
+    };
+    auto live = *LiveMill::create(make, serial_for);
+    std::string text;
+    std::vector<protocol::LiveRows> rows;
+    const auto keep = [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveProgram program;
+        if (protocol::read_frame(frame, program)) text = program.name + ": " + program.text;
+        protocol::LiveRows some;
+        if (protocol::read_frame(frame, some)) rows.push_back(std::move(some));
+    };
+    live->set_clock(live->duration_s());
+    live->tick(0, always, keep);
+    EXPECT_EQ(text, "p.nc: G0 X1\n");
+    ASSERT_FALSE(rows.empty());
+    EXPECT_EQ(rows.front().force_low_factor, 0.75);
+    EXPECT_EQ(rows.front().force_high_factor, 1.5);
+    const auto rpm = live->session().setup().rpm_of_move.back();
+    EXPECT_EQ(rows.front().rows.front().spindle_rpm, rpm);
+    // Half the speed and another material with its own band.
+    CutChange change;
+    change.speed_factor = 0.5;
+    change.coefficients = live->session().setup().coefficients;
+    change.force_low_factor = 0.5;
+    change.force_high_factor = 2;
+    live->set_change(change);
+    rows.clear();
+    for (int n = 0; n < 100 && rows.empty(); ++n) live->tick(0.1, always, keep);
+    ASSERT_FALSE(rows.empty());
+    EXPECT_EQ(rows.back().force_high_factor, 2);
+    EXPECT_EQ(rows.back().rows.back().spindle_rpm, 0.5 * rpm);
+}
+
 TEST(LiveMill, TellsThatAPartIsAsItWasDesigned) {
     MillSession alone(*slot(), serial_for);
     ASSERT_TRUE(alone.run({}));

@@ -13,11 +13,11 @@ import { listenToKeys } from "./panels/keys.js";
 import { showLegend } from "./sight/legend.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { clock, recall, remember } from "./page.js";
-import { PALETTES } from "./sight/palette.js";
+import { listenToLook } from "./panels/look.js";
 import { Parameters } from "./panels/parameters.js";
 import { Plot } from "./panels/plot.js";
 import type { Plots } from "./panels/plots.js";
-import { LineList, showFileFault, showServo, showState, showWarnings } from "./panels/readout.js";
+import { Assumed, LineList, showFileFault, showServo, showState } from "./panels/readout.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { download, element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
@@ -35,7 +35,7 @@ const listener: Listener = {
     document.title = name ? `${name} - Tribo` : "Tribo: mill";
     if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
     element("job").textContent = name;
-    showWarnings(message.warnings);
+    assumed.tell(message.warnings);
     showFileFault(null);
     parameters.info(message);
     soundsHere = (message.audio ?? "browser") === "browser";
@@ -46,6 +46,7 @@ const listener: Listener = {
   settings(s: Settings) {
     parameters.show(s);
     spindlePercent = s.spindle_percent;
+    scene.setHelix(s.helix_deg);
     finger.enabled = true;
     element("feel").hidden = false;
     element("force-on").setAttribute("aria-pressed", String(s.force));
@@ -59,7 +60,7 @@ const listener: Listener = {
   },
   files({ wrong, warnings }) {
     showFileFault(wrong);
-    showWarnings(warnings);
+    assumed.tell(warnings);
   },
   refused: say,
 };
@@ -82,6 +83,7 @@ const collisions = new LineList<CollisionFrame>("collisions", ({ tip, time: at }
 });
 const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
+const assumed = new Assumed();
 const parameters = new Parameters((command) => source?.send(command));
 // In the limits of the command.
 const chatter = new ChatterPanel((rpm) => {
@@ -164,6 +166,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       history.begin(duration);
       plot.begin(duration);
       scene.begin(frame);
+      assumed.draw(frame);
       chatter.begin();
       element("chatter-colouring").hidden = true;
       element("designed-label").hidden = true;
@@ -235,6 +238,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
     case "state":
       show(frame);
       break;
+    case "program":
     case "listening":
     case "other":
       break;
@@ -324,21 +328,7 @@ sound.muted = recall("muted") === "true";
 if (!Sound.possible) element("sound").hidden = true;
 
 // ---- Look
-const root = document.documentElement;
-const theme = element<HTMLSelectElement>("theme");
-const safe = element<HTMLInputElement>("safe");
-theme.value = recall("theme");
-safe.checked = recall("safe") === "true";
-function look(): void {
-  if (theme.value) root.dataset.theme = theme.value;
-  else delete root.dataset.theme;
-  scene.setPalette(safe.checked ? PALETTES.safe : PALETTES.paper);
-  remember("theme", theme.value);
-  remember("safe", String(safe.checked));
-}
-theme.addEventListener("change", look);
-safe.addEventListener("change", look);
-look();
+listenToLook(scene);
 const colour = element<HTMLSelectElement>("colouring");
 const scale = element<HTMLInputElement>("scale");
 function paint(): void {
@@ -372,11 +362,6 @@ setInterval(() => {
   showLegend(colouring, scene.heatMap, scene.job?.chipLimits);
   listChips();
 }, 500);
-for (const what of ["path", "tool", "positions", "designed"] as const) {
-  const box = element<HTMLInputElement>(`show-${what}`);
-  box.addEventListener("change", () => scene.setVisible(what, box.checked));
-}
-element("fit").addEventListener("click", () => scene.fit());
 
 // ---- Measure
 const ruler = element<HTMLButtonElement>("measure");

@@ -84,6 +84,9 @@ describe("chip load", () => {
     chip: 0.1,
     chipVerdict: "" as const,
     multiplier: 0,
+    rpm: 6000,
+    axis: [0, 0, 1] as [number, number, number],
+    cutter: 0,
   };
   it("lists each line once for what it does wrong, by its worst chip", () => {
     const map = new HeatMap();
@@ -97,7 +100,7 @@ describe("chip load", () => {
       [4, 0.1, 5, ""],
       [4, 0.002, 6, "rubbing"],
     ] as const)
-      map.add({ ...row, line, chip, time, chipVerdict }, [0, 0, 1], ball);
+      map.add({ ...row, line, chip, time, chipVerdict });
     expect(map.chipMarks()).toEqual([
       { line: 4, verdict: "rubbing", chip: 0.002, time: 6 },
       { line: 7, verdict: "overload", chip: 0.4, time: 2 },
@@ -109,8 +112,8 @@ describe("chip load", () => {
     const map = new HeatMap();
     const ball = { number: 1, flutes: 2, radius: 3, corner: 3, length: 20, holder: [] };
     map.begin([ball]);
-    map.add({ ...row, peakForce: 10 }, [0, 0, 1], ball);
-    map.add({ ...row, tip: [0, 5, 0], peakForce: 20 }, [0, 0, 1], ball);
+    map.add({ ...row, peakForce: 10 });
+    map.add({ ...row, tip: [0, 5, 0], peakForce: 20 });
     // The lowest points of either ball, and one that neither made.
     expect(map.colour("force", [0, 0, 0], Number.NaN)).toEqual(heat(0.5));
     expect(map.colour("force", [0, 5, 0], Number.NaN)).toEqual(heat(1));
@@ -122,7 +125,7 @@ describe("chip load", () => {
     map.begin([ball]);
     const history = new History();
     history.addRows([{ ...row }]);
-    map.add(history.rows[0]!, [0, 0, 1], ball);
+    map.add(history.rows[0]!);
     expect(map.colour("chatter", [0, 0, 0], Number.NaN)).toBeUndefined();
     expect(history.addMultipliers(0, new Float32Array([1.25, 7]))).toHaveLength(1);
     expect(map.colour("chatter", [0, 0, 0], Number.NaN)).toEqual(growthColour(1.25));

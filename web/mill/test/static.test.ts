@@ -240,12 +240,20 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
   it(
     "looks different as it is told",
     async () => {
-      for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
+      const boxes = ["show-tool", "show-positions", "show-arrow"];
+      for (const id of boxes) await page.click(`#${id}`);
+      for (const [id, values] of [
+        ["palette", ["paper", "safe", "metal"]],
+        ["look", ["fine", "plain", "auto"]],
+        ["passes", ["all", "none", "pass"]],
+      ] as const) {
+        for (const value of values) await page.selectOption(`#${id}`, value);
+      }
       for (const theme of ["dark", "light"]) {
         await page.selectOption("#theme", theme);
         expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe(theme);
       }
-      for (const id of ["show-path", "show-tool", "show-positions", "safe"]) await page.click(`#${id}`);
+      for (const id of boxes) await page.click(`#${id}`);
       for (const by of ["force", "chip"]) {
         await page.selectOption("#colouring", by);
         expect(await page.isVisible("#legend")).toBe(true);

@@ -38,6 +38,8 @@ export interface PathFrame {
   times: Float32Array;
   points: Float32Array;
   rapid: Uint8Array;
+  // Of the way that ends at the point. Earlier engines do not send it: then 0.
+  lines: Uint32Array;
 }
 
 export interface ChunkFrame {
@@ -48,6 +50,9 @@ export interface ChunkFrame {
   // Distance of each vertex from the designed surface, mm, negative in a gouge; NaN far from it. Empty: no designed
   // surface.
   deviations: Float32Array;
+  // The first vertices lie on the surface of the blank, so many; a triangle of them alone is untouched. Undefined:
+  // earlier engines do not send it.
+  onBlank: number | undefined;
 }
 
 export interface StateFrame {
@@ -92,6 +97,17 @@ export interface Row {
   chipVerdict: ChipVerdict;
   // Of a MultipliersFrame; 0: none.
   multiplier: number;
+  // As the spindle turns. Earlier engines do not send it, nor the next two: then 0, upright, and the first.
+  rpm: number;
+  axis: Vec3;
+  // Index into JobFrame.cutters.
+  cutter: number;
+}
+
+// Factors on a force: the band in which the true one lies.
+export interface ForceBand {
+  low: number;
+  high: number;
 }
 
 export interface RowsFrame {
@@ -99,6 +115,15 @@ export interface RowsFrame {
   // All earlier rows are invalid.
   anew: boolean;
   rows: Row[];
+  // Of their forces. Earlier engines do not send it.
+  band: ForceBand | undefined;
+}
+
+// The text in whose lines rows and state count.
+export interface ProgramFrame {
+  kind: "program";
+  name: string;
+  text: string; // empty: too long to be sent
 }
 
 export interface CollisionFrame {
@@ -224,6 +249,7 @@ export type Frame =
   | BendingFrame
   | MultipliersFrame
   | ChartFrame
+  | ProgramFrame
   | OtherFrame;
 
 const COLLISIONS = ["rapid through stock", "shank in stock", "holder in stock", "tool in fixture", "holder in fixture"];
@@ -239,6 +265,15 @@ const FAULTS = [
 ];
 
 const CHIP_VERDICTS: ChipVerdict[] = ["", "rubbing", "overload"];
+
+// Programs are UTF-8 or, from older controls, Latin-1.
+function decodeText(bytes: Uint8Array): string {
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return new TextDecoder("windows-1252").decode(bytes);
+  }
+}
 
 class Reader {
   at = 16;
@@ -262,6 +297,13 @@ class Reader {
   vec3(): Vec3 {
     return [this.f32(), this.f32(), this.f32()];
   }
+  text(): string {
+    const length = this.u32();
+    if (length > this.left()) throw new RangeError("a text is cut off");
+    const bytes = new Uint8Array(this.view.buffer, this.view.byteOffset + this.at, length);
+    this.at += 4 * Math.ceil(length / 4);
+    return decodeText(bytes);
+  }
   left(): number {
     return this.view.byteLength - this.at;
   }
@@ -282,7 +324,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
     case 3:
       return decodeState(r, time);
     case 4:
-      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows: decodeRows(r) };
+      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, ...decodeRows(r) };
     case 5: {
       const what = COLLISIONS[r.i32()] ?? "collision";
       const line = r.i32();
@@ -314,6 +356,8 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       return decodeMultipliers(r);
     case 15:
       return decodeChart(r);
+    case 16:
+      return { kind: "program", name: r.text(), text: r.text() };
     default:
       return { kind: "other" };
   }
@@ -353,12 +397,14 @@ function decodePath(r: Reader): PathFrame {
     times: new Float32Array(count),
     points: new Float32Array(3 * count),
     rapid: new Uint8Array(count),
+    lines: new Uint32Array(count),
   };
   for (let n = 0; n < count; ++n) {
     path.times[n] = r.f32();
     path.points.set(r.vec3(), 3 * n);
     path.rapid[n] = r.u32();
   }
+  for (let n = 0; n < count && r.left() > 0; ++n) path.lines[n] = r.u32();
   return path;
 }
 
@@ -366,7 +412,9 @@ function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
   const chunk: Vec3 = [r.i32(), r.i32(), r.i32()];
   const mesh = decodeMesh(r, buffer);
   const compared = r.left() > 0 ? r.u32() : 0;
-  return { kind: "chunk", chunk, ...mesh, deviations: new Float32Array(buffer, r.at, compared) };
+  const deviations = new Float32Array(buffer, r.at, compared);
+  r.at += 4 * compared;
+  return { kind: "chunk", chunk, ...mesh, deviations, onBlank: r.left() > 0 ? r.u32() : undefined };
 }
 
 function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; indices: Uint16Array } {
@@ -464,15 +512,18 @@ function decodeState(r: Reader, time: number): StateFrame {
   return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0, chatter };
 }
 
-function decodeRows(r: Reader): Row[] {
+function decodeRows(r: Reader): Pick<RowsFrame, "rows" | "band"> {
   const rows: Row[] = [];
   for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
-  if (r.left() === 0) return rows;
+  if (r.left() === 0) return { rows, band: undefined };
   for (const row of rows) {
     row.chip = r.f32();
     row.chipVerdict = CHIP_VERDICTS[r.u32()] ?? "";
   }
-  return rows;
+  if (r.left() === 0) return { rows, band: undefined };
+  const band = { low: r.f32(), high: r.f32() };
+  for (const row of rows) Object.assign(row, { rpm: r.f32(), axis: r.vec3(), cutter: r.u32() });
+  return { rows, band: band.high > 0 ? band : undefined };
 }
 
 function decodeRow(r: Reader): Row {
@@ -491,5 +542,8 @@ function decodeRow(r: Reader): Row {
     chip: 0,
     chipVerdict: "",
     multiplier: 0,
+    rpm: 0,
+    axis: [0, 0, 1],
+    cutter: 0,
   };
 }

@@ -30,6 +30,10 @@ class Bytes {
     for (const v of values) this.view.setUint16((this.at += 2) - 2, v, true);
     return this;
   }
+  u8(...values: number[]): this {
+    for (const v of values) this.view.setUint8(this.at++, v);
+    return this;
+  }
   pad(): this {
     this.at = 4 * Math.ceil(this.at / 4);
     return this;
@@ -93,6 +97,21 @@ describe("decodeFrame", () => {
     if (compared.kind !== "chunk") throw new Error();
     expect([...compared.indices]).toEqual([0, 1, 2]);
     expect([...compared.deviations]).toEqual([0.25, Number.NaN, -0.5]);
+    expect(compared.onBlank).toBeUndefined();
+    expect(decodeFrame(bytes.u32(2).done())).toMatchObject({ onBlank: 2 });
+  });
+
+  it("reads a program in UTF-8 and in Latin-1, and refuses one that is cut off", () => {
+    const text = (...bytes: number[]) =>
+      new Bytes()
+        .header(16, 0)
+        .u32(4)
+        .u8(...Buffer.from("p.nc"))
+        .u32(bytes.length)
+        .u8(...bytes);
+    expect(decodeFrame(text(0x47, 0xc3, 0xa4).pad().done())).toEqual({ kind: "program", name: "p.nc", text: "Gä" });
+    expect(decodeFrame(text(0x47, 0xe4).pad().done())).toEqual({ kind: "program", name: "p.nc", text: "Gä" });
+    expect(() => decodeFrame(new Bytes().header(16, 0).u32(4000).done())).toThrow(RangeError);
   });
 
   it("reads a state", () => {
@@ -142,13 +161,20 @@ describe("decodeFrame", () => {
           chip: 0,
           chipVerdict: "",
           multiplier: 0,
+          rpm: 0,
+          axis: [0, 0, 1],
+          cutter: 0,
         },
       ],
+      band: undefined,
     });
     if (rows.kind !== "rows") throw new Error();
-    expect(decodeFrame(bytes.f32(0.125).u32(2).done())).toEqual({
+    const judged = { ...rows.rows[0], chip: 0.125, chipVerdict: "overload" };
+    expect(decodeFrame(bytes.f32(0.125).u32(2).done())).toEqual({ ...rows, rows: [judged] });
+    expect(decodeFrame(bytes.f32(0.75, 1.5, 6000, 0, 1, 0).u32(3).done())).toEqual({
       ...rows,
-      rows: [{ ...rows.rows[0], chip: 0.125, chipVerdict: "overload" }],
+      rows: [{ ...judged, rpm: 6000, axis: [0, 1, 0], cutter: 3 }],
+      band: { low: 0.75, high: 1.5 },
     });
     expect(decodeFrame(new Bytes().header(5, 4).u32(2, 17).f32(1, 2, 3).done())).toEqual({
       kind: "collision",

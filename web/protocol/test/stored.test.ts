@@ -66,6 +66,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     chunk: [told.i, told.j, told.k] as never,
     ...mesh(told),
     deviations: floats(told.deviations_mm),
+    onBlank: told.on_blank as number,
   }),
   designed: (told) => ({ kind: "designed", ...mesh(told) }),
   state: (told) => ({
@@ -107,7 +108,11 @@ const MEANING: Record<string, (told: Told) => Frame> = {
       chip: list(told.of_rows)[n]!.chip_mm as number,
       chipVerdict: (["", "rubbing", "overload"] as const)[list(told.of_rows)[n]!.chip_verdict as number]!,
       multiplier: 0,
+      rpm: list(told.tools_of_rows)[n]!.spindle_rpm as number,
+      axis: list(told.tools_of_rows)[n]!.axis as never,
+      cutter: list(told.tools_of_rows)[n]!.cutter as number,
     })),
+    band: bandOf(told.force_low_factor as number, told.force_high_factor as number),
   }),
   collision: (told) => ({
     kind: "collision",
@@ -168,7 +173,9 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     times: new Float32Array(list(told.points).map((point) => point.t_s as number)),
     points: new Float32Array(list(told.points).flatMap((point) => flat(point.tip_mm))),
     rapid: new Uint8Array(list(told.points).map((point) => Number(point.rapid))),
+    lines: new Uint32Array(list(told.lines_of_points).map((point) => point.line as number)),
   }),
+  program: (told) => ({ kind: "program", name: told.name as string, text: told.text as string }),
   bending: () => ({ kind: "bending" }),
   multipliers: (told) => ({
     kind: "multipliers",
@@ -189,6 +196,10 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     })),
   }),
 };
+
+function bandOf(low: number, high: number) {
+  return high > 0 ? { low, high } : undefined;
+}
 
 const names = readdirSync(FOLDER)
   .filter((file) => file.endsWith(".bin"))

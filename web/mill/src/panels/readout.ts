@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Current values of the tool, places to inspect, the state of the servo, and the assumptions.
 
-import type { ServoFrame, StateFrame } from "@tribo/protocol/frames";
+import type { JobFrame, ServoFrame, StateFrame } from "@tribo/protocol/frames";
 import type { FileFault } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
 
@@ -97,13 +97,33 @@ export function showFileFault(wrong: FileFault | null): void {
   element("file-fault").textContent = parts.filter(Boolean).join("; ");
 }
 
-export function showWarnings(warnings: string[]): void {
-  element("said").hidden = warnings.length === 0;
-  element("warnings").replaceChildren(
-    ...warnings.map((text) => {
-      const item = document.createElement("li");
-      item.textContent = text;
-      return item;
-    }),
-  );
+// What the engine assumed, and what the picture adds.
+export class Assumed {
+  private told: string[] = [];
+  private drawn: string[] = [];
+
+  tell(warnings: string[]): void {
+    this.told = warnings;
+    this.show();
+  }
+  draw(job: JobFrame): void {
+    const without = job.cutters.filter(({ holder }) => holder.length === 0).map(({ number }) => `T${number}`);
+    this.drawn =
+      without.length > 0
+        ? [`The job has no holder for ${without.join(", ")}: the one in the picture is not checked.`]
+        : [];
+    this.show();
+  }
+
+  private show(): void {
+    const all = [...this.told, ...this.drawn];
+    element("said").hidden = all.length === 0;
+    element("warnings").replaceChildren(
+      ...all.map((text) => {
+        const item = document.createElement("li");
+        item.textContent = text;
+        return item;
+      }),
+    );
+  }
 }

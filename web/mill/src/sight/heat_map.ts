@@ -30,7 +30,6 @@ export interface ChipMark {
 
 interface Cut {
   row: Row;
-  axis: Vec3;
   radius: number;
   corner: number;
 }
@@ -38,12 +37,14 @@ interface Cut {
 export class HeatMap {
   private cells = new Map<number, Cut[]>();
   private marks = new Map<string, ChipMark>();
+  private cutters: Cutter[] = [];
   private size = 1;
   largestForce = 1;
   largestChip = 1e-3;
   readonly scale = { deviation: 0.1 };
 
   begin(cutters: Cutter[]): void {
+    this.cutters = cutters;
     this.cells.clear();
     this.marks.clear();
     this.size = Math.max(...cutters.map((c) => c.radius), 0.1);
@@ -51,12 +52,14 @@ export class HeatMap {
     this.largestChip = 1e-3;
   }
 
-  add(row: Row, axis: Vec3, cutter: Cutter): void {
+  add(row: Row): void {
+    const cutter = this.cutters[row.cutter];
+    if (!cutter) return;
     this.largestForce = Math.max(this.largestForce, row.peakForce);
     this.largestChip = Math.max(this.largestChip, row.chip);
     this.mark(row);
     const key = this.key(row.tip);
-    const cut = { row, axis, radius: cutter.radius, corner: cutter.corner };
+    const cut = { row, radius: cutter.radius, corner: cutter.corner };
     const cell = this.cells.get(key);
     if (cell) cell.push(cut);
     else this.cells.set(key, [cut]);
@@ -122,8 +125,9 @@ export class HeatMap {
 
 // Returns the distance of a point to the cutter, negative inside. The cutter has no upper end.
 function clearance(cut: Cut, p: Vec3): number {
-  const d: Vec3 = [p[0] - cut.row.tip[0], p[1] - cut.row.tip[1], p[2] - cut.row.tip[2]];
-  const height = d[0] * cut.axis[0] + d[1] * cut.axis[1] + d[2] * cut.axis[2];
+  const { tip, axis } = cut.row;
+  const d: Vec3 = [p[0] - tip[0], p[1] - tip[1], p[2] - tip[2]];
+  const height = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
   const away = Math.sqrt(Math.max(d[0] ** 2 + d[1] ** 2 + d[2] ** 2 - height ** 2, 0));
   const out = away - (cut.radius - cut.corner);
   const below = cut.corner - height;

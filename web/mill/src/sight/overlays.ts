@@ -27,6 +27,7 @@ const UP = new Vector3(0, 0, 1);
 
 export class Overlays {
   readonly group = new Group();
+  arrowVisible = false;
   private size = 1;
   private largest = 1;
   private readonly force: Arrow;
@@ -83,7 +84,7 @@ export class Overlays {
   showForce(state: StateFrame): void {
     const size = Math.hypot(...state.force);
     this.largest = Math.max(this.largest, size);
-    this.force.visible = state.cutting && size > 0;
+    this.force.visible = this.arrowVisible && state.cutting && size > 0;
     if (this.force.visible) this.force.point(state.tip, state.force, 0.25 * this.size, this.largest);
   }
 

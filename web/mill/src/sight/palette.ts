@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Colours of the scene: those of the milling paper, and a set for colour-blind users (after Okabe and Ito 2008).
+// Colours of the scene: two metals, those of the milling paper, and a set for colour-blind users (after Okabe and Ito
+// 2008).
 
 export interface Palette {
+  // Machined and untouched shine as metal.
+  metal: boolean;
   machined: number;
   untouched: number;
   designed: number;
@@ -10,8 +13,18 @@ export interface Palette {
   force: number;
 }
 
-export const PALETTES: Record<"paper" | "safe", Palette> = {
+export const PALETTES = {
+  metal: {
+    metal: true,
+    machined: 0xcfd2d5,
+    untouched: 0x85898f,
+    designed: 0xf08ab4,
+    cutter: 0xb4b7bc,
+    finger: 0xd83a30,
+    force: 0xd0342c,
+  },
   paper: {
+    metal: false,
     machined: 0x4f86c6,
     untouched: 0xa9adb4,
     designed: 0xf08ab4,
@@ -20,6 +33,7 @@ export const PALETTES: Record<"paper" | "safe", Palette> = {
     force: 0xd0342c,
   },
   safe: {
+    metal: false,
     machined: 0x0072b2,
     untouched: 0xb4b7bc,
     designed: 0xcc79a7,
@@ -27,4 +41,4 @@ export const PALETTES: Record<"paper" | "safe", Palette> = {
     finger: 0xd55e00,
     force: 0xd55e00,
   },
-};
+} satisfies Record<string, Palette>;

@@ -7,13 +7,15 @@ import type { PathFrame, Row } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
 // Largest gap between consecutive rows, s.
-const SAME_CUT_S = 1e-6;
+export const SAME_CUT_S = 1e-6;
 
 export class PathLines {
   readonly group = new Group();
   private cut: LineSegments | undefined;
   private rows: Row[] = [];
   private drawn = 0;
+  private range: [number, number] = [0, 0];
+  private planned: Line[] = [];
   private largest = 0;
   private colourOf: (row: Row) => Vec3 = () => [0, 0, 0];
 
@@ -21,6 +23,7 @@ export class PathLines {
   begin(): void {
     for (const line of this.group.children as (Line | LineSegments)[]) line.geometry.dispose();
     this.group.clear();
+    this.planned = [];
     this.cut = undefined;
     this.forgetRows();
   }
@@ -28,7 +31,16 @@ export class PathLines {
   take(path: PathFrame): void {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(path.points, 3));
-    this.group.add(new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 })));
+    const line = new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 }));
+    this.planned.push(line);
+    this.group.add(line);
+  }
+
+  // Shows the rows [from, to), and the path without rows or not.
+  show(range: [number, number], planned: boolean): void {
+    this.range = range;
+    for (const line of this.planned) line.visible = planned;
+    this.cut?.geometry.setDrawRange(2 * range[0], 2 * (Math.min(range[1], this.drawn) - range[0]));
   }
 
   forgetRows(): void {
@@ -92,6 +104,6 @@ export class PathLines {
     this.drawn = needed;
     position.needsUpdate = true;
     colour.needsUpdate = true;
-    this.cut.geometry.setDrawRange(0, 2 * needed);
+    this.show(this.range, this.planned[0]?.visible ?? false);
   }
 }

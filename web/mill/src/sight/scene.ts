@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The scene: the stock in chunks, the designed surface, the tool and its latest positions, the path, and the overlays
-// (overlays.ts).
+// The scene: the part, the designed surface, the tool, the path, and the overlays (overlays.ts), with their light and the
+// camera.
 
 import {
   Box3,
-  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
-  Color,
-  DirectionalLight,
   DoubleSide,
   GreaterDepth,
   Group,
-  HemisphereLight,
   Mesh,
   MeshBasicMaterial,
   MeshStandardMaterial,
+  NeutralToneMapping,
+  NoToneMapping,
   PerspectiveCamera,
   Raycaster,
   Scene as ThreeScene,
@@ -26,80 +24,78 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
+import { Contact } from "./contact.js";
+import { centre, distanceTo, type Free } from "./framing.js";
 import { HeatMap, type Colouring } from "./heat_map.js";
+import { Light } from "./light.js";
+import { PartMaterial } from "./metal.js";
 import { Overlays } from "./overlays.js";
+import { Pace } from "./pace.js";
 import { PALETTES, type Palette } from "./palette.js";
-import { PathLines } from "./path_lines.js";
+import { Part, type Hit } from "./part.js";
+import { Pass, type PassShown } from "./pass.js";
 import { Tool } from "./tool.js";
-import { vec3, type Axis, type Vec3 } from "@tribo/protocol/vec3";
 
 const PIXEL_RATIO_CAP = 2;
-// A point closer to a side of the blank counts as on it; in cells.
-const ON_BLANK = 1e-3;
-// A large part is coloured in pieces, ms each, and drawn at intervals, ms.
-const COLOURING_MS = 8;
-const SHOWN_EVERY_MS = 200;
+// From the front right, a little from above.
+const VIEW = new Vector3(0.42, -0.95, 0.62).normalize();
+// Share of the free window that the part fills.
+const FILLED = 0.86;
+// Share of the part's size that the tool is above it.
+const TOOL_ABOVE = 0.25;
 
-export interface Hit {
-  point: Vec3;
-  normal: Vec3;
-}
+/** "auto": fine, until it is too slow. */
+export type Look = "auto" | "fine" | "plain";
 
 export class Scene {
   readonly renderer: WebGLRenderer;
   readonly three = new ThreeScene();
-  readonly camera = new PerspectiveCamera(40, 1, 0.1, 10000);
+  readonly camera = new PerspectiveCamera(34, 1, 0.1, 10000);
   readonly controls: OrbitControls;
   // All objects of the job, in its millimetres. VR places them on a bench.
   readonly world = new Group();
   readonly overlays: Overlays;
   readonly heatMap = new HeatMap();
+  readonly part: Part;
   job: JobFrame | undefined;
-  private palette: Palette = PALETTES.paper;
-  private readonly stock = new Group();
+  private palette: Palette = PALETTES.metal;
+  private readonly contact = new Contact();
+  private readonly material = new PartMaterial(this.palette, this.contact.uniforms);
+  private readonly light: Light;
   private readonly designed = new Group();
-  private readonly chunks = new Map<string, Mesh>();
-  // Of the vertices, by chunk.
-  private readonly deviations = new Map<string, Float32Array>();
-  private readonly material = new MeshStandardMaterial({
-    vertexColors: true,
-    flatShading: true,
-    metalness: 0.15,
-    roughness: 0.5,
-  });
+  // A film pushed away from the eye, so that it never flickers against a cut that lies on it.
   private readonly pink = new MeshStandardMaterial({
-    color: PALETTES.paper.designed,
+    color: this.palette.designed,
     transparent: true,
     opacity: 0.4,
     side: DoubleSide,
     roughness: 0.7,
     depthWrite: false,
     polygonOffset: true,
-    polygonOffsetFactor: 4,
-    polygonOffsetUnits: 64,
+    polygonOffsetFactor: 16,
+    polygonOffsetUnits: 4096,
   });
   // The part of the designed surface that is still inside the stock.
   private readonly hiddenPink = new MeshBasicMaterial({
-    color: PALETTES.paper.designed,
+    color: this.palette.designed,
     transparent: true,
     opacity: 0.16,
     side: DoubleSide,
     depthWrite: false,
     depthFunc: GreaterDepth,
+    polygonOffset: true,
+    polygonOffsetFactor: 16,
+    polygonOffsetUnits: 4096,
   });
-  // The box of the blank, shown until the part arrives. It uses the same material, so that one shader is enough.
-  private readonly box = new Mesh(new BoxGeometry(), this.material);
   private readonly tool: Tool;
-  private readonly path = new PathLines();
+  private readonly pass: Pass;
   private readonly rays = new Raycaster();
-  private axis: Vec3 = [0, 0, 1];
-  private cutter = 0;
+  private readonly pace = new Pace(() => this.setFine(false));
+  private look: Look = "auto";
   private colouring: Colouring = "plain";
-  private readonly uncoloured = new Set<string>();
-  private colouringOn = false;
-  private shown = 0;
   private wanted = false;
   private seen = false;
+  private free: (() => Free) | undefined;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -112,76 +108,53 @@ export class Scene {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
-    const sun = new DirectionalLight(0xffffff, 2.7);
-    sun.position.set(-0.6, 0.9, 1);
-    this.camera.add(sun);
+    this.light = new Light(this.renderer, this.three, this.camera);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);
-    const corners = this.box.geometry.getAttribute("position").count;
-    const grey = new Color(this.palette.untouched).toArray() as Vec3;
-    this.box.geometry.setAttribute(
-      "color",
-      new BufferAttribute(
-        Float32Array.from({ length: 3 * corners }, (_, n) => grey[(n % 3) as Axis]),
-        3,
-      ),
+    this.pass = new Pass();
+    this.part = new Part(this.material, this.heatMap, () => this.draw());
+    this.designed.visible = false;
+    this.world.add(
+      this.light.group,
+      this.part.group,
+      this.designed,
+      this.tool.group,
+      this.pass.group,
+      this.overlays.group,
     );
-    this.box.visible = false;
-    this.world.add(this.box, this.stock, this.designed, this.tool.group, this.path.group, this.overlays.group);
-    this.three.add(new HemisphereLight(0xffffff, 0x8f98a6, 2.3), this.camera, this.world);
+    this.three.add(this.camera, this.world);
     // Prepares graphics memory and shader while the job is loading.
     this.resize();
-    this.renderer.compile(this.box, this.camera, this.three);
+    this.renderer.compile(this.part.box, this.camera, this.three);
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
   get hasDesigned(): boolean {
     return this.designed.children.length > 0;
   }
+  get fine(): boolean {
+    return this.light.fine;
+  }
 
   begin(job: JobFrame): void {
     this.job = job;
-    for (const mesh of this.chunks.values()) mesh.geometry.dispose();
-    this.chunks.clear();
-    this.stock.clear();
     this.designed.clear();
-    this.uncoloured.clear();
-    this.deviations.clear();
-    const { min, max } = job.blank;
-    this.box.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
-    this.box.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
-    this.box.visible = true;
+    this.part.begin(job);
     this.heatMap.begin(job.cutters);
     this.tool.begin(job.cutters);
-    this.path.begin();
+    this.pass.begin(this.extent());
     this.overlays.begin(this.extent());
+    this.light.begin(this.blank(), Math.max(...job.cutters.map((c) => 2 * c.length), 0));
     this.draw();
   }
 
   take(chunk: ChunkFrame): void {
-    const key = chunk.chunk.join();
-    const old = this.chunks.get(key);
-    if (old) {
-      old.geometry.dispose();
-      this.stock.remove(old);
-      this.chunks.delete(key);
-      this.deviations.delete(key);
-    }
-    if (chunk.indices.length === 0 || !this.job) return;
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(chunk.positions, 3));
-    geometry.setAttribute("color", new BufferAttribute(this.plain(chunk.positions, this.job), 3));
-    geometry.setIndex(new BufferAttribute(chunk.indices, 1));
-    const mesh = new Mesh(geometry, this.material);
-    this.chunks.set(key, mesh);
-    this.deviations.set(key, chunk.deviations);
-    this.stock.add(mesh);
-    if (this.colouring !== "plain") this.colourLater([key]);
-    this.draw();
+    this.part.take(chunk);
+    this.moved();
   }
 
   addPath(frame: PathFrame): void {
-    this.path.take(frame);
+    this.pass.takePath(frame);
     this.draw();
   }
 
@@ -197,26 +170,16 @@ export class Scene {
   }
 
   addRows(rows: Row[]): void {
-    const cutter = this.job?.cutters[this.cutter];
-    if (!cutter) return;
-    for (const row of rows) this.heatMap.add(row, this.axis, cutter);
-    this.path.add(rows, (row) => this.heatMap.ofRow(this.colouring, row), this.heatMap.largestForce);
+    for (const row of rows) this.heatMap.add(row);
+    this.pass.add(rows, this.heatMap, this.colouring);
     this.draw();
   }
 
   // Multipliers of rows, from number `first` on, are known now, or others.
   showMultipliers(rows: Row[], first: number): void {
     if (this.colouring !== "chatter" || !this.job) return;
-    this.path.recolourFrom(first);
-    const reach = Math.max(...this.job.cutters.map((cutter) => cutter.length));
-    const box = new Box3();
-    for (const row of rows) box.expandByPoint(new Vector3(...row.tip));
-    box.expandByScalar(reach);
-    const touched = [...this.chunks].filter(([, { geometry }]) => {
-      if (!geometry.boundingBox) geometry.computeBoundingBox();
-      return box.intersectsBox(geometry.boundingBox!);
-    });
-    this.colourLater(touched.map(([key]) => key));
+    this.pass.recolourFrom(first);
+    this.part.recolourAround(rows);
     this.draw();
   }
 
@@ -224,26 +187,34 @@ export class Scene {
   forgetRows(): void {
     if (!this.job) return;
     this.heatMap.begin(this.job.cutters);
-    this.path.forgetRows();
+    this.pass.forgetRows();
     this.setColouring(this.colouring);
   }
 
   show(state: StateFrame): void {
     if (!this.job) return;
     // The state frame follows the frames of the part.
-    this.box.visible = false;
-    this.axis = state.axis;
-    this.cutter = state.cutter;
+    this.part.box.visible = false;
     this.tool.show(state);
+    this.pass.show(state.time, this.heatMap, this.colouring);
     this.overlays.showForce(state);
-    this.draw();
+    this.moved();
   }
 
-  setVisible(what: "path" | "tool" | "designed" | "positions", on: boolean): void {
-    if (what === "path") this.path.group.visible = on;
-    else if (what === "tool") this.tool.group.visible = on;
+  setHelix(degrees: number): void {
+    this.tool.setHelix(degrees);
+    this.moved();
+  }
+
+  setVisible(what: "tool" | "designed" | "positions" | "arrow", on: boolean): void {
+    if (what === "tool") this.tool.group.visible = on;
     else if (what === "positions") this.tool.positionsVisible = on;
+    else if (what === "arrow") this.overlays.arrowVisible = on;
     else this.designed.visible = on;
+    this.moved();
+  }
+  setPass(shown: PassShown): void {
+    this.pass.shown = shown;
     this.draw();
   }
 
@@ -251,28 +222,38 @@ export class Scene {
     this.palette = palette;
     this.pink.color.set(palette.designed);
     this.hiddenPink.color.set(palette.designed);
+    this.material.setPalette(palette);
     this.tool.setColour(palette.cutter);
     this.overlays.setPalette(palette);
-    this.setColouring(this.colouring);
+    this.draw();
   }
 
   setColouring(colouring: Colouring): void {
     this.colouring = colouring;
-    if (this.job) this.path.recolour((row) => this.heatMap.ofRow(colouring, row));
-    this.uncoloured.clear();
-    this.colourLater(this.chunks.keys());
+    if (this.job) this.pass.recolour(this.heatMap, colouring);
+    this.part.setColouring(colouring);
+  }
+
+  setLook(look: Look): void {
+    this.look = look;
+    this.pace.begin();
+    if (this.seen) this.setFine(look !== "plain");
+  }
+
+  private setFine(fine: boolean): void {
+    this.renderer.toneMapping = fine ? NeutralToneMapping : NoToneMapping;
+    this.light.setFine(fine);
+    this.contact.setFine(fine);
+    this.material.setFine(fine);
+    this.tool.setFine(fine);
+    this.draw();
   }
 
   // Returns the point of the part at a position of the canvas (CSS pixels from its corner).
   pick(x: number, y: number): Hit | undefined {
     const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
     this.rays.setFromCamera(at, this.camera);
-    return this.hit();
-  }
-  hit(rays = this.rays): Hit | undefined {
-    const [first] = rays.intersectObjects(this.stock.children, false);
-    if (!first?.face) return undefined;
-    return { point: this.world.worldToLocal(first.point.clone()).toArray(), normal: first.face.normal.toArray() };
+    return this.part.hit(this.rays);
   }
 
   // Returns the highest point of the part below a point, or undefined.
@@ -281,23 +262,32 @@ export class Scene {
     const from = this.world.localToWorld(new Vector3(x, y, this.job.blank.max[2] + this.extent()));
     const to = this.world.localToWorld(new Vector3(x, y, this.job.blank.min[2] - this.extent()));
     this.rays.set(from, to.sub(from).normalize());
-    return this.hit()?.point[2];
+    return this.part.hit(this.rays)?.point[2];
+  }
+
+  // The part of the window that fit() may use.
+  keepFree(free: () => Free): void {
+    this.free = free;
   }
 
   // Shows the whole part from the front right.
   fit(): void {
     if (!this.job) return;
-    const { min, max } = this.job.blank;
-    const centre = new Vector3(...min).add(new Vector3(...max)).multiplyScalar(0.5);
+    this.resize();
     const size = this.extent();
-    // A tall window shows less at the sides.
-    const narrow = Math.max(1, 1.05 / Math.max(this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1), 0.2));
-    // The tool is above the part.
-    centre.z += 0.12 * size;
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).add(new Vector3(0.4, -0.95, 0.8).multiplyScalar(1.22 * size * narrow));
-    this.camera.near = size / 1000;
-    this.camera.far = size * 100;
+    const box = this.blank();
+    box.max.z += TOOL_ABOVE * size;
+    const middle = box.getCenter(new Vector3());
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const free = this.free?.() ?? { x: 0, y: 0, width, height };
+    centre(this.camera, width, height, free);
+    const share = { width: (FILLED * free.width) / width, height: (FILLED * free.height) / height };
+    const distance = distanceTo(box, VIEW, this.camera, share);
+    this.controls.target.copy(middle);
+    this.camera.position.copy(middle).addScaledVector(VIEW, distance);
+    this.camera.near = size / 50;
+    this.camera.far = size * 60;
+    this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
   }
@@ -311,6 +301,12 @@ export class Scene {
     if (tilted.angleTo(this.camera.up) > 0.05 && tilted.angleTo(this.camera.up) < Math.PI - 0.05) offset.copy(tilted);
     this.camera.position.copy(this.controls.target).add(offset.multiplyScalar(nearer));
     this.controls.update();
+  }
+
+  // Something moved that throws a shadow.
+  private moved(): void {
+    this.light.changed();
+    this.draw();
   }
 
   // Draws with the next picture, once for any number of calls.
@@ -328,16 +324,26 @@ export class Scene {
 
   // Draws immediately. VR calls it for each of its pictures.
   render(): void {
-    if (!this.renderer.xr.isPresenting) this.resize();
+    if (this.renderer.xr.isPresenting) {
+      this.renderer.render(this.three, this.camera);
+      return;
+    }
+    this.resize();
     // Draw the part first. The shaders of the other objects are made for the next picture.
     const around = this.seen
       ? []
-      : this.world.children.filter((child) => child.visible && child !== this.box && child !== this.stock);
+      : this.world.children.filter(
+          (child) => child.visible && ![this.part.group, this.light.group].includes(child as Group),
+        );
     for (const child of around) child.visible = false;
+    this.contact.render(this.renderer, this.three, this.camera);
     this.renderer.render(this.three, this.camera);
     for (const child of around) child.visible = true;
+    if (this.look === "auto" && this.fine) this.pace.drawn(performance.now());
     if (this.seen) return;
     this.seen = true;
+    // Reflections and shadows come after the first picture.
+    setTimeout(() => this.setFine(this.look !== "plain"), 0);
     this.draw();
   }
 
@@ -347,68 +353,14 @@ export class Scene {
     if (now.x === width && now.y === height) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
+    if (this.free) centre(this.camera, width, height, this.free());
     this.camera.updateProjectionMatrix();
   }
 
   extent(): number {
-    if (!this.job) return 1;
-    const { min, max } = this.job.blank;
-    return Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+    return this.job ? this.blank().getSize(new Vector3()).length() : 1;
   }
-
-  private onBlank(positions: Float32Array, n: number, job: JobFrame): boolean {
-    const near = ON_BLANK * job.cell;
-    for (const axis of [0, 1, 2] as const) {
-      const p = positions[n + axis]!;
-      if (Math.abs(p - job.blank.min[axis]) < near || Math.abs(p - job.blank.max[axis]) < near) return true;
-    }
-    return false;
-  }
-
-  private plain(positions: Float32Array, job: JobFrame): Float32Array {
-    const machined = new Color(this.palette.machined);
-    const untouched = new Color(this.palette.untouched);
-    const colours = new Float32Array(positions.length);
-    for (let n = 0; n < positions.length; n += 3)
-      (this.onBlank(positions, n, job) ? untouched : machined).toArray(colours, n);
-    return colours;
-  }
-
-  private colourLater(keys: Iterable<string>): void {
-    for (const key of keys) this.uncoloured.add(key);
-    if (this.colouringOn) return;
-    this.colouringOn = true;
-    const go = () => {
-      this.colour();
-      const done = this.uncoloured.size === 0;
-      if (done || performance.now() - this.shown > SHOWN_EVERY_MS) {
-        this.shown = performance.now();
-        this.draw();
-      }
-      this.colouringOn = !done;
-      if (!done) setTimeout(go, 0);
-    };
-    setTimeout(go, 0);
-  }
-
-  private colour(): void {
-    if (!this.job) return this.uncoloured.clear();
-    const began = performance.now();
-    for (const key of this.uncoloured) {
-      if (performance.now() - began > COLOURING_MS) return;
-      this.uncoloured.delete(key);
-      const mesh = this.chunks.get(key);
-      if (!mesh) continue;
-      const positions = mesh.geometry.getAttribute("position").array as Float32Array;
-      const deviations = this.deviations.get(key);
-      const colours = this.plain(positions, this.job);
-      for (let n = 0; this.colouring !== "plain" && n < positions.length; n += 3) {
-        if (this.onBlank(positions, n, this.job)) continue;
-        const p = vec3((k) => positions[n + k]!);
-        const c = this.heatMap.colour(this.colouring, p, deviations?.[n / 3] ?? Number.NaN);
-        if (c) new Color().setRGB(...c, "srgb").toArray(colours, n);
-      }
-      mesh.geometry.setAttribute("color", new BufferAttribute(colours, 3));
-    }
+  private blank(): Box3 {
+    return new Box3(new Vector3(...this.job!.blank.min), new Vector3(...this.job!.blank.max));
   }
 }
