@@ -13,7 +13,7 @@ namespace {
 using Nodes = std::array<float, kLatticeNodes>;
 using Winners = std::array<std::uint16_t, kLatticeNodes>;
 
-constexpr float kCell = 0.25f, kNear = 0.45f;
+constexpr float kCell = 0.25f, kNear = 0.45f, kTie = 1e-4f;
 
 // Distances of a plane through the brick, sometimes far outside it.
 Nodes plane(float low) {
@@ -47,8 +47,8 @@ RC_GTEST_PROP(BrickKernels, carve_node_by_node, ()) {
     Winners winner;
     winner.fill(3);
     const CarveResult result =
-        brick_kernels().carve(after.data(), winner.data(), shape.data(), 7, kNear, kCell);
-    bool changed = false, won = false;
+        brick_kernels().carve(after.data(), winner.data(), shape.data(), 7, kNear, kCell, kTie);
+    bool changed = false, won = false, tied = false;
     float least = 1e30f;
     for (std::size_t n = 0; n < kLatticeNodes; ++n) {
         const bool rises = -shape[n] > before[n] + kTieCells * kCell && -shape[n] > -kNear;
@@ -57,10 +57,12 @@ RC_GTEST_PROP(BrickKernels, carve_node_by_node, ()) {
         RC_ASSERT(winner[n] == (wins ? 7 : rises ? Brick::kUnlisted : 3));
         changed |= rises;
         won |= wins;
+        tied |= std::abs(-shape[n] - before[n]) <= kTie && std::abs(before[n]) < kNear;
         least = std::min(least, after[n]);
     }
     RC_ASSERT(result.changed == changed);
     RC_ASSERT(result.won == won);
+    RC_ASSERT(result.tied == tied);
     RC_ASSERT(result.least_mm == least);
     RC_ASSERT(std::abs(result.removed_cells - (volume_cells(before) - volume_cells(after))) < 1e-3);
     RC_ASSERT(std::abs(brick_kernels().volume_cells(after.data(), kCell) - volume_cells(after)) < 1e-3);
@@ -86,9 +88,9 @@ RC_GTEST_PROP(BrickKernels, of_old_and_new_processors_give_the_same_bits, ()) {
         RC_ASSERT((old_both[n / 8] >> n % 8 & 1) == (both ? 1 : 0));
     }
     const CarveResult a =
-        brick_kernels_sse2()->carve(old_nodes.data(), old_winner.data(), shape.data(), 2, kNear, kCell);
+        brick_kernels_sse2()->carve(old_nodes.data(), old_winner.data(), shape.data(), 2, kNear, kCell, kTie);
     const CarveResult b =
-        brick_kernels_v3()->carve(new_nodes.data(), new_winner.data(), shape.data(), 2, kNear, kCell);
+        brick_kernels_v3()->carve(new_nodes.data(), new_winner.data(), shape.data(), 2, kNear, kCell, kTie);
     RC_ASSERT(old_nodes == new_nodes);
     RC_ASSERT(old_winner == new_winner);
     RC_ASSERT(a.removed_cells == b.removed_cells);

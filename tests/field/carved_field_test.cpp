@@ -125,6 +125,24 @@ TEST(CarvedField, stays_small_where_the_same_place_is_cut_again_and_again) {
     EXPECT_LE(f.brick(f.ref(b)).shapes.size(), 16u);
 }
 
+// A pocket in layers of a fifth of a cell: the layer below gives the walls of all layers above it.
+TEST(CarvedField, keeps_one_shape_for_a_wall_that_many_layers_share) {
+    auto f = block(0.25);
+    double depth = 0;
+    for (int n = 0; n < 120; ++n) {
+        depth += 0.05;
+        f.carve(std::make_unique<BoxShape>(Box3{{10, 5, -depth}, {20, 25, 5}}));
+    }
+    for (const double z : {-1.0, -2.5, -4.0, -5.5}) {
+        const BrickRef ref = f.ref(f.brick_at({10, 15, z}));
+        ASSERT_GE(ref, kFirstBrick) << z;
+        EXPECT_LE(f.brick(ref).shapes.size(), 2u) << z;
+        EXPECT_NEAR(f.distance_mm({10.05, 15, z}), 0.05, 1e-12);
+        EXPECT_NEAR(f.distance_mm({9.95, 15, z}), -0.05, 1e-12);
+    }
+    EXPECT_NEAR(f.removed_mm3(), 10 * 20 * depth, 0.5);
+}
+
 RC_GTEST_PROP(CarvedField, agrees_with_the_maximum_over_all_shapes_at_the_surface, ()) {
     auto f = block(0.5);
     std::vector<BallPass> passes;

@@ -2,6 +2,7 @@
 #include "field/carved/brick.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "field/carved/brick_kernels.hpp"
@@ -11,6 +12,8 @@ namespace {
 
 // Surfaces at one node are the two sides of a wall if the cosine between their normals is below this.
 constexpr float kOpposite = -0.7f;
+// A list holds at most one shape for each node, and the shapes since it was pruned.
+constexpr std::size_t kMostListed = kLatticeNodes + 16;
 
 // Returns how full of material the cell around a node is, as in brick_kernels.inl.
 float filled(float distance_mm, float cell_mm) {
@@ -97,23 +100,33 @@ double ThinWalls::update(Brick& brick, float cell) const {
 }
 
 // Without branches, because the shape that gives the distance at a node is hard to predict.
-void prune_shapes(Brick& brick, float near_mm) {
+void prune_shapes(Brick& brick, const float* newest_mm, float near_mm, float tie_mm) {
     const std::size_t count = brick.shapes.size();
-    // Two more places: one for unlisted nodes, one for nodes far from the surface.
-    std::vector<std::uint16_t> renamed(count + 2, Brick::kUnlisted);
+    const auto newest = static_cast<std::uint16_t>(count - 1);
+    // Bits: the shape gives the distance at some node near the surface; it does so where the newest does not.
+    // One more place for unlisted nodes.
+    constexpr std::uint8_t kNear = 1, kAlone = 2;
+    std::array<std::uint8_t, kMostListed> use;
+    assert(count < use.size());
+    std::fill_n(use.begin(), count + 1, std::uint8_t{0});
     const auto listed = [&](std::uint16_t w) { return std::min<std::size_t>(w, count); };
     for (std::size_t n = 0; n < kLatticeNodes; ++n) {
-        const std::size_t w = listed(brick.winner[n]);
-        renamed[std::abs(brick.distance_mm[n]) < near_mm ? w : count + 1] = 0;
+        const float d = brick.distance_mm[n];
+        const int near = std::abs(d) < near_mm ? 1 : 0, alone = std::abs(d + newest_mm[n]) > tie_mm ? 1 : 0;
+        use[listed(brick.winner[n])] |= static_cast<std::uint8_t>(near * (kNear | alone * kAlone));
     }
+    std::array<std::uint16_t, kMostListed> renamed;
     renamed[count] = Brick::kUnlisted;
     std::uint16_t kept = 0;
-    for (std::size_t s = 0; s < count; ++s) {
-        if (renamed[s] == Brick::kUnlisted) continue;
-        renamed[s] = kept;
-        brick.shapes[kept++] = brick.shapes[s];
+    for (std::uint16_t s = 0; s < count; ++s) {
+        const bool keeps = s == newest ? use[s] != 0 : (use[s] & kAlone) != 0;
+        if (keeps) brick.shapes[kept] = brick.shapes[s];
+        renamed[s] = keeps ? kept++ : Brick::kUnlisted;
     }
     brick.shapes.resize(kept);
+    for (std::uint16_t s = 0; s < newest; ++s) {
+        if (use[s] == kNear) renamed[s] = renamed[newest];
+    }
     for (std::uint16_t& w : brick.winner) w = renamed[listed(w)];
 }
 

@@ -54,6 +54,7 @@ constexpr int node_index(int a, int b, int c) {
 struct CarveResult {
     bool changed = false;  // some node near the surface moved
     bool won = false;      // the shape gives the distance at some node near the surface
+    bool tied = false;     // at some node near the surface it is as far as the shape that keeps the node
     float least_mm = 0;    // smallest distance left
     double removed_cells = 0;
 };
@@ -75,7 +76,9 @@ class ThinWalls {
     std::vector<Node> nodes_;
 };
 
-// Removes the shapes that give the distance at no node within `near_mm` of the surface.
-void prune_shapes(Brick& brick, float near_mm);
+// Removes the shapes that give the distance at no node within `near_mm` of the surface. The newest shape,
+// with distances `newest_mm` at the nodes, takes the place of each shape whose nodes it all gives too, within
+// `tie_mm`: a layer below takes over the walls of the layers above it.
+void prune_shapes(Brick& brick, const float* newest_mm, float near_mm, float tie_mm);
 
 }  // namespace tribo::field

@@ -16,9 +16,9 @@ inline constexpr float kTieCells = 1e-4f;
 struct BrickKernels {
     // Removes a shape from the material: distance = max(distance, -shape) where that is above -near_mm. At
     // the nodes that moved, `winner` becomes `index` if they are now within near_mm of the surface, else
-    // Brick::kUnlisted.
+    // Brick::kUnlisted. Nodes near the surface where both differ by at most `tie_mm` are tied.
     CarveResult (*carve)(float* distance_mm, std::uint16_t* winner, const float* shape_mm,
-                         std::uint16_t index, float near_mm, float cell_mm);
+                         std::uint16_t index, float near_mm, float cell_mm, float tie_mm);
     // Call this before carve. Finds the nodes that are less than half a cell from the surface of the material
     // and from the surface of the shape, if both are not the same surface. Node n is bit n % 8 of near_both[n
     // / 8]. Returns true if there are any.

@@ -24,16 +24,18 @@ TRIBO_LANES double sum(F8 v) {
 }
 
 CarveResult carve(float* distance, std::uint16_t* winner, const float* shape, std::uint16_t index,
-                  float near_mm, float cell) {
+                  float near_mm, float cell, float tie_mm) {
     const F8 near = splat(near_mm), deep = splat(-near_mm), tie = splat(kTieCells * cell);
+    const F8 alike = splat(tie_mm);
     const F8 per_cell = splat(1 / cell);
     F8 least = splat(1e30f), removed = splat(0.0f);
-    I8 changed{}, won{};
+    I8 changed{}, won{}, tied{};
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b) {
             const int row = node_index(0, b, c);
             const F8 before = load(distance + row), carved = -load(shape + row);
             const I8 rises = both(carved > before + tie, carved > deep);
+            tied |= both(abs(carved - before) <= alike, abs(before) < near);
             if (any(rises)) {
                 const F8 after = select(rises, carved, before);
                 store(distance + row, after);
@@ -51,7 +53,7 @@ CarveResult carve(float* distance, std::uint16_t* winner, const float* shape, st
             }
         }
     }
-    CarveResult result{any(changed), any(won), least[0], sum(removed * kShareOfRow)};
+    CarveResult result{any(changed), any(won), any(tied), least[0], sum(removed * kShareOfRow)};
     for (int n = 1; n < kLatticeEdge; ++n) result.least_mm = min(result.least_mm, least[n]);
     return result;
 }

@@ -20,6 +20,8 @@ static_assert(CarvedField::kMostAtOnce == std::size_t{1} << (kBrickShift - 1));
 // A brick's list is pruned when it has grown by this many shapes. Pruning takes about as long as carving a
 // brick with a shape without search; it takes little beside a shape with search.
 constexpr std::size_t kPruneEvery = 8, kPruneEverySearched = 1;
+// Error of the distances of a shape with search at the nodes, mm.
+constexpr double kSearchedError = 5e-5;
 
 // Number of bricks along each axis. Whole numbers as doubles, because the requested cell may be finer than
 // any possible grid.
@@ -180,11 +182,14 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         Brick& brick = tables_->pool[u.ref];
         const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
         shapes[number]->sample_near(lattice(u.coord), near_, carved.data());
+        const bool searched = shapes[number]->is_searched();
+        const auto tie_mm =
+            static_cast<float>(static_cast<double>(kTieCells) * cell_ + (searched ? kSearchedError : 0));
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
         walls.find(brick, carved.data(), static_cast<float>(cell_));
         const CarveResult result =
             brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
-                                  static_cast<float>(near_), static_cast<float>(cell_));
+                                  static_cast<float>(near_), static_cast<float>(cell_), tie_mm);
         if (!result.changed) continue;
         u.drop = false;
         if (result.least_mm > FieldQuery::kClearCells * cell_) {
@@ -197,8 +202,9 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         brick.volume_mm3 -= removed_by_cut_[n];
         if (!result.won) continue;
         brick.shapes.push_back(static_cast<ShapeId>(tables_->shapes.size() + number));
-        const std::size_t every = shapes[number]->is_searched() ? kPruneEverySearched : kPruneEvery;
-        if (brick.shapes.size() % every == 0) prune_shapes(brick, static_cast<float>(near_));
+        const std::size_t every = searched ? kPruneEverySearched : kPruneEvery;
+        if (result.tied || brick.shapes.size() % every == 0)
+            prune_shapes(brick, carved.data(), static_cast<float>(near_), tie_mm);
     }
 }
 
