@@ -189,17 +189,22 @@ class ArcSweep final : public field::Shape {
 class CurvedSweep final : public field::Shape {
   public:
     CurvedSweep(const ToolProfile& tool, const motion::Move& move)
-        : tool_(tool), start_(move.start.tip_mm), line_(curved_line(move)), instants_(line_) {}
+        : tool_(tool),
+          start_(move.start.tip_mm),
+          line_(curved_line(move)),
+          instants_(line_),
+          box_(curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_)) {}
 
-    Box3 bounds_mm() const override { return curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_); }
+    Box3 bounds_mm() const override { return box_; }
 
     double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
 
     double distance_below(Vec3 point, double bound) const override {
         const Vec3 d = point - start_;
-        // On a longer travel too many instants matter: one instant alone gives no useful bound.
-        constexpr double kShort = 0.25;
-        if (bound < kNever && line_.bounds.speed < kShort * tool_.radius_mm) {
+        if (bound < kNever) {
+            // On a grid that is coarse beside the moves a brick has hundreds of shapes, most of them far. At
+            // an edge the mitred distance is at most the square root of 2 shorter than the distance.
+            if (beyond(box_, point) > 1.4143 * std::max(bound, 0.0)) return bound;
             const Profile<double> p(tool_);
             const double least =
                 by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });
@@ -240,6 +245,12 @@ class CurvedSweep final : public field::Shape {
     }
 
   private:
+    // Returns how far the point is outside the box, along the axis along which it is farthest.
+    static double beyond(const Box3& box, Vec3 p) {
+        const auto along = [](double low, double at, double high) { return std::max(low - at, at - high); };
+        return std::max({along(box.min.x, p.x, box.max.x), along(box.min.y, p.y, box.max.y),
+                         along(box.min.z, p.z, box.max.z)});
+    }
     Least<double> nearest(const Floors& floors, Vec3 d, double bound) const {
         const Profile<double> p(tool_);
         return by_kind(tool_.kind,
@@ -250,6 +261,7 @@ class CurvedSweep final : public field::Shape {
     Vec3 start_;
     CurvedLine line_;
     CurvedInstants instants_;
+    Box3 box_;
 };
 
 // Returns the number of stretches. A stretch must be short enough that each part of the tool comes nearest at
