@@ -31,8 +31,9 @@ struct BrickTable {
     std::size_t chunks_i = 0, chunks_j = 0;
     const BrickChunk* const* chunks = nullptr;  // null: untouched
 
-    bool contains(BrickCoord b) const {
-        return b.i >= 0 && b.j >= 0 && b.k >= 0 && b.i < size.i && b.j < size.j && b.k < size.k;
+    bool contains(BrickCoord b) const {  // coordinates below 0 become large numbers
+        const auto along = [](int n) { return static_cast<unsigned>(n); };
+        return along(b.i) < along(size.i) && along(b.j) < along(size.j) && along(b.k) < along(size.k);
     }
     // b must be contained.
     BrickRef get(BrickCoord b) const {
@@ -41,14 +42,14 @@ struct BrickTable {
     }
     bool is_untouched_chunk(BrickCoord b) const { return !chunks[chunk_number(b)]; }
     std::size_t chunk_number(BrickCoord b) const {
-        return static_cast<std::size_t>(b.i / kChunkEdge) +
-               chunks_i * (static_cast<std::size_t>(b.j / kChunkEdge) +
-                           chunks_j * static_cast<std::size_t>(b.k / kChunkEdge));
+        const auto along = [](int n) { return static_cast<std::size_t>(static_cast<unsigned>(n) / kEdge); };
+        return along(b.i) + chunks_i * (along(b.j) + chunks_j * along(b.k));
     }
     static std::size_t place(BrickCoord b) {
-        return static_cast<std::size_t>(b.i % kChunkEdge +
-                                        kChunkEdge * (b.j % kChunkEdge + kChunkEdge * (b.k % kChunkEdge)));
+        const auto along = [](int n) { return static_cast<unsigned>(n) % kEdge; };
+        return along(b.i) + kEdge * (along(b.j) + kEdge * along(b.k));
     }
+    static constexpr unsigned kEdge = kChunkEdge;  // unsigned numbers are divided by a shift
 };
 
 class BrickIndex {

@@ -71,16 +71,6 @@ class NearBrick final : public contact::DistanceField {
 
 }  // namespace
 
-FieldQuery::NearNode FieldQuery::nearest_node(BrickCoord b, Vec3 p) const {
-    const Vec3 q = (p - lattice(b).node(0, 0, 0)) * per_cell;
-    const auto nearest = [](double v) {
-        return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
-    };
-    const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
-    return {node_index(i, j, k),
-            q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
-}
-
 FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
     if (ref == kUntouched) return {blank().distance_mm(p), 0};
     if (ref == kAir) return {kClearCells * cell_mm, 0};

@@ -3,6 +3,7 @@
 // while carving continues.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -40,7 +41,11 @@ struct FieldQuery {
     BrickCoord brick_at(Vec3 point_mm) const {
         const Vec3 q = (point_mm - origin_mm) * (per_cell / kBrickCells);
         // Far points are clamped first, because their conversion would overflow.
-        const auto whole = [](double v) { return static_cast<int>(std::floor(std::clamp(v, -1e9, 1e9))); };
+        const auto whole = [](double v) {
+            const double near = std::clamp(v, -1e9, 1e9);
+            const int down = static_cast<int>(near);
+            return down - (near < down ? 1 : 0);  // std::floor is a call on older processors
+        };
         return {whole(q.x), whole(q.y), whole(q.z)};
     }
     // The node of a brick that is nearest to a point, and the offset of the point from it.
@@ -48,7 +53,15 @@ struct FieldQuery {
         int index;
         Vec3 off_cells;
     };
-    NearNode nearest_node(BrickCoord b, Vec3 point_mm) const;
+    NearNode nearest_node(BrickCoord b, Vec3 point_mm) const {
+        const Vec3 q = (point_mm - lattice(b).node(0, 0, 0)) * per_cell;
+        const auto nearest = [](double v) {
+            return static_cast<int>(std::clamp(v + 0.5, 0.0, static_cast<double>(kBrickCells)));
+        };
+        const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
+        return {node_index(i, j, k),
+                q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+    }
 
     // The exact distance at `point_mm` in brick `ref`, and the shape that gives it. With `any_air` the search
     // stops at the first shape that leaves no material there; then its distance is a lower bound.
