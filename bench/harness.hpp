@@ -66,6 +66,7 @@ class Report {
 
 // The measurements, a file each.
 void measure_processes(Report& report, int repeats);  // first: see the function
+void measure_long_programs(Report& report);           // the same
 void measure_forces(Report& report, int repeats);
 void measure_stability(Report& report, int repeats);
 void measure_queries(Report& report);

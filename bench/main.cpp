@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
         std::function<void()> measure;
     } parts[] = {
         {"processes", [&] { measure_processes(report, repeats); }},
+        {"long", [&] { measure_long_programs(report); }},
         {"forces", [&] { measure_forces(report, repeats); }},
         {"stability", [&] { measure_stability(report, repeats); }},
         {"contact", [&] { measure_contact(report); }},
