@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/picture.hpp"
+#include "report/picture/picture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "files/model/gltf.hpp"
 #include "job/listening.hpp"
 #include "readers/mesh/stl.hpp"
-#include "report/picture.hpp"
+#include "report/picture/picture.hpp"
 #include "report/surface_csv.hpp"
 
 namespace tribo::app {

@@ -27,15 +27,14 @@
 #include "job/toml/machine_file.hpp"
 #include "material/material_json.hpp"
 #include "report/facts.hpp"
-#include "report/picture.hpp"
+#include "report/picture/path_lines.hpp"
+#include "report/picture/picture.hpp"
 
 namespace tribo::app {
 namespace {
 
 // Feed for programs that state none, so that they can be inspected without a job.
 constexpr double kAssumedFeedMmPerMin = 1000;
-// Points along a curved move in a picture.
-constexpr int kPicturePoints = 16;
 
 struct Call {
     std::string file;
@@ -55,37 +54,33 @@ struct Found {
 // Examines moves while they are read: a long program is never held in memory.
 class PathWatcher final : public readers::MoveSink {
   public:
-    explicit PathWatcher(bool draws) : draws_(draws) { line_.colours = {{0.12F, 0.44F, 0.55F}}; }
+    explicit PathWatcher(bool draws) : draws_(draws) {}
 
     void take(const motion::Move& move) override {
         meter.add(move);
-        if (!draws_ || move.kind != motion::MoveKind::feed) return;
-        const int points = move.arc || move.quadratic ? kPicturePoints : 1;
-        if (line_.points_mm.empty()) line_.points_mm.push_back(move.start.tip_mm);
-        for (int i = 1; i <= points; ++i) {
-            line_.points_mm.push_back(motion::pose_at(move, static_cast<double>(i) / points).tip_mm);
-        }
+        if (draws_) lines_.add(move);
     }
-    report::PictureLine take_line() { return std::move(line_); }
+    std::vector<report::PictureLine> take_lines() { return lines_.take(); }
 
     motion::ProgramMeter meter;
 
   private:
     bool draws_;
-    report::PictureLine line_;
+    report::PathLines lines_;
 };
 
 // Points without triangles: the picture leaves room for the lines through them.
-void make_room(TriangleMesh& mesh, const std::vector<Vec3>& points) {
-    for (const Vec3 p : points) {
-        mesh.positions.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    }
+void make_room(TriangleMesh& mesh, const std::vector<report::PictureLine>& lines) {
+    for (const report::PictureLine& line : lines)
+        for (const Vec3 p : line.points_mm)
+            mesh.positions.push_back(
+                {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
 }
 
 Found found_program(const motion::Program& program, PathWatcher& path, job::PathKind kind,
                     double rapid_mm_per_min) {
-    Found found{report::describe(program, path.meter, kind, rapid_mm_per_min), {}, {path.take_line()}};
-    make_room(found.mesh, found.lines[0].points_mm);
+    Found found{report::describe(program, path.meter, kind, rapid_mm_per_min), {}, path.take_lines()};
+    make_room(found.mesh, found.lines);
     return found;
 }
 
@@ -157,7 +152,7 @@ FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
         if (!model) return std::unexpected(model.error());
         part = report::describe(*model);
         found.mesh = std::move(model->mesh);
-        make_room(found.mesh, found.lines[0].points_mm);
+        make_room(found.mesh, found.lines);
     }
     found.facts = report::describe(*job, &found.facts, part ? &*part : nullptr, program->moves);
     return found;

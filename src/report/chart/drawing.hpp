@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "files/image/image.hpp"
-#include "report/picture.hpp"
+#include "report/picture/picture.hpp"
 
 namespace tribo::report {
 
