@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
 #include "report/picture/path_lines.hpp"
+
+#include <gtest/gtest.h>
 
 namespace tribo::report {
 namespace {
