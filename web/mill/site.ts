@@ -9,6 +9,11 @@ import { withPolicy } from "../tools/policy.js";
 const EXAMPLES = [
   { name: "Bowl", job: "bowl.toml", folder: "bowl", files: ["bowl.toml", "bowl.csv", "bowl.wrl"] },
   { name: "Plate", job: "plate.toml", folder: "plate", files: ["plate.toml", "plate.nc"] },
+  { name: "Pocket", job: "pocket.toml", folder: "pocket", files: ["pocket.toml", "pocket.nc"] },
+  { name: "Howl", job: "howl.toml", folder: "howl", files: ["howl.toml", "slot.nc"] },
+  { name: "Dome", job: "dome.toml", folder: "dome", files: ["dome.toml", "dome.nc"] },
+  { name: "Bracket", job: "bracket.toml", folder: "bracket", files: ["bracket.toml", "bracket.nc"] },
+  { name: "Blade", job: "blade.toml", folder: "blade", files: ["blade.toml", "blade.apt", "blade.wrl", "blank.wrl"] },
 ];
 
 const out = join(SITE, "mill");

@@ -6,18 +6,21 @@ import { canvas, context, hasEngine, line } from "./early.js";
 import { listed, order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
-import type { ChipMark, Colouring } from "./sight/heat_map.js";
+import type { ChipMark } from "./sight/heat_map.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
-import { showLegend } from "./sight/legend.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { clock, recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
 import { Parameters } from "./panels/parameters.js";
-import { Plot } from "./panels/plot.js";
+import { Lanes } from "./lanes/lanes.js";
+import { Now } from "./panels/now.js";
+import { Program } from "./panels/program.js";
+import { Verdict } from "./panels/verdict.js";
+import { Colours } from "./panels/colours.js";
 import type { Plots } from "./panels/plots.js";
-import { Assumed, LineList, showFileFault, showServo, showState } from "./panels/readout.js";
+import { Assumed, LineList, showFileFault, showServo } from "./panels/readout.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { download, element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
@@ -25,6 +28,7 @@ import { Scene } from "./sight/scene.js";
 import { Sound } from "./sound/sound.js";
 import type { ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
+import type { AuditOfMill } from "@tribo/wasm/audit";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 
@@ -62,6 +66,10 @@ const listener: Listener = {
     showFileFault(wrong);
     assumed.tell(warnings);
   },
+  audit(told, lines) {
+    audit = told;
+    numbers.audit(lines);
+  },
   refused: say,
 };
 
@@ -75,7 +83,14 @@ const sound = new Sound();
 // True when the page plays the sound, false when the engine does.
 let soundsHere = true;
 const seek = (t_s: number) => source?.send({ op: "seek", t_s });
-const plot = new Plot(element<HTMLCanvasElement>("plot"), seek);
+const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"));
+const program = new Program(seek);
+const numbers = new Now();
+const verdict = new Verdict(({ time: at, line: of }) => {
+  if (at === undefined) program.choose(of);
+  else seek(at);
+});
+const colours = new Colours(scene, say);
 const collisions = new LineList<CollisionFrame>("collisions", ({ tip, time: at }) => {
   scene.overlays.setMark(tip);
   scene.draw();
@@ -108,8 +123,10 @@ let felt = false;
 let first = true;
 let stopped = false;
 let forceLimit = 3;
-let colouring: Colouring = "plain";
 let duration = 0;
+let milled = 0;
+let hits: CollisionFrame[] = [];
+let audit: AuditOfMill | undefined;
 let measuring: Vec3[] | undefined;
 let spindlePercent = 100;
 let programmedRpm = 0;
@@ -138,7 +155,8 @@ function show(state: StateFrame): void {
   sound.state(state);
   programmedRpm = (100 * state.rpm) / spindlePercent;
   chatter.show(state, programmedRpm);
-  plot.setTime(state.time);
+  lanes.show(state.time, state.milled);
+  program.show(state.line);
   history.time = state.time;
   plots?.changed();
   showPlaying(state.playing);
@@ -150,7 +168,8 @@ function show(state: StateFrame): void {
   // Speeds are sent in single precision.
   const shown = [...speed.options].find((o) => Math.abs(Number(o.value) / state.speed - 1) < 1e-6);
   if (shown && document.activeElement !== speed) speed.value = shown.value;
-  showState(state);
+  numbers.show(state, history.rowAt(state.time), scene.heatMap.largestForce);
+  milled = state.milled;
   if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
 }
 
@@ -164,7 +183,11 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       time.max = String(duration);
       collisions.clear();
       history.begin(duration);
-      plot.begin(duration);
+      lanes.begin(duration);
+      program.begin();
+      numbers.begin();
+      hits = [];
+      audit = undefined;
       scene.begin(frame);
       assumed.draw(frame);
       chatter.begin();
@@ -178,6 +201,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
     case "path":
       scene.addPath(frame);
+      program.takePath(frame);
       break;
     case "designed":
       scene.addDesigned(frame);
@@ -185,35 +209,41 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
     case "rows":
       if (frame.anew) {
-        plot.begin(duration);
-        history.rows = [];
+        lanes.forgetRows();
+        program.forgetRows();
+        history.forgetRows();
         scene.forgetRows();
       }
-      plot.addRows(frame.rows);
+      lanes.addRows(frame.rows, frame.band);
+      program.addRows(frame.rows);
+      numbers.know(frame.band);
       history.addRows(frame.rows);
       scene.addRows(frame.rows);
       break;
     case "sound":
       history.addPieces(frame.pieces);
+      lanes.addPieces(frame.pieces);
       break;
     case "bending":
       history.bends = true;
       chatter.open();
       element("chatter-colouring").hidden = false;
-      if (!chatterOffered && colouring === "plain") {
-        colour.value = "chatter";
-        paint();
-      }
+      if (!chatterOffered && colours.now === "plain") colours.choose("chatter");
       chatterOffered = true;
       break;
-    case "multipliers":
-      scene.showMultipliers(history.addMultipliers(frame.first, frame.multipliers), frame.first);
+    case "multipliers": {
+      const rows = history.addMultipliers(frame.first, frame.multipliers);
+      scene.showMultipliers(rows, frame.first);
+      lanes.addMultipliers(rows);
       break;
+    }
     case "chart":
       chatter.take(frame);
       break;
     case "collision":
       collisions.add(frame, frame.what);
+      hits.push(frame);
+      lanes.addDamage(frame.time);
       break;
     case "finger":
       element("felt-row").hidden = !frame.present;
@@ -239,6 +269,10 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       show(frame);
       break;
     case "program":
+      program.take(frame);
+      // Its panel takes room.
+      scene.centre();
+      break;
     case "listening":
     case "other":
       break;
@@ -329,28 +363,9 @@ if (!Sound.possible) element("sound").hidden = true;
 
 // ---- Look
 listenToLook(scene);
-const colour = element<HTMLSelectElement>("colouring");
-const scale = element<HTMLInputElement>("scale");
-function paint(): void {
-  const wanted = colour.value as Colouring;
-  const needs = wanted === "deviation" || wanted === "scallop";
-  if (needs && !scene.hasDesigned) {
-    say("The job has no designed surface to compare with: drop its model, or name it under [part].");
-    colour.value = colouring;
-    return;
-  }
-  colouring = wanted;
-  element("scale-label").hidden = !needs;
-  const value = Number(scale.value);
-  if (value > 0) scene.heatMap.scale.deviation = value;
-  scene.setColouring(colouring);
-  showLegend(colouring, scene.heatMap, scene.job?.chipLimits);
-}
-colour.addEventListener("change", paint);
-scale.addEventListener("change", paint);
 let chipsListed = "";
 function listChips(): void {
-  const marks = colouring === "chip" ? scene.heatMap.chipMarks() : [];
+  const marks = colours.now === "chip" ? scene.heatMap.chipMarks() : [];
   const said = marks.map((m) => `${m.verdict === "rubbing" ? "rubs" : "overload"}, ${m.chip.toFixed(3)} mm`);
   const now = marks.map((m, n) => `${m.line} ${said[n]}`).join();
   if (now === chipsListed) return;
@@ -359,8 +374,15 @@ function listChips(): void {
   marks.forEach((mark, n) => chips.add(mark, said[n]!));
 }
 setInterval(() => {
-  showLegend(colouring, scene.heatMap, scene.job?.chipLimits);
   listChips();
+  verdict.show({
+    collisions: hits,
+    chips: scene.heatMap.chipMarks(),
+    strongest: history.strongest,
+    wildest: history.wildest,
+    audit,
+    whole: milled >= duration - 1e-3,
+  });
 }, 500);
 
 // ---- Measure
@@ -415,6 +437,21 @@ function toggles(button: string, panel: string, opened?: () => void): void {
   });
 }
 toggles("show-panel", "panel");
+element("show-program").addEventListener("click", () => {
+  const reads = document.body.classList.toggle("reading");
+  element("show-program").setAttribute("aria-expanded", String(reads));
+});
+element("more-lanes").addEventListener("click", () => {
+  const all = element("more-lanes").getAttribute("aria-pressed") !== "true";
+  element("more-lanes").setAttribute("aria-pressed", String(all));
+  lanes.showAll(all);
+});
+// Panels leave the rest of the window to the part.
+scene.keepFree(() => {
+  const { x, y, width, height } = element("stage").getBoundingClientRect();
+  return { x, y, width, height };
+});
+new ResizeObserver(() => scene.centre()).observe(element("stage"));
 toggles("show-plots", "plots", async () => {
   const loaded = await import("./panels/plots.js");
   plots ??= new loaded.Plots(element("plots"), history, sound, seek);

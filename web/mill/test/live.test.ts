@@ -125,10 +125,10 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
   it(
     "lets the part be felt, tells how the servo does, and stops it",
     async () => {
-      const box = (await page.locator("#scene").boundingBox())!;
-      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.6 * box.height);
+      const box = (await page.locator("#stage").boundingBox())!;
+      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.62 * box.height);
       await page.mouse.down();
-      await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.6 * box.height, { steps: 4 });
+      await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.62 * box.height, { steps: 4 });
       await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
         timeout: PATIENCE_MS,
       });
@@ -151,8 +151,8 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
   it(
     "is felt by a pen as hard as it presses, and by a gamepad",
     async () => {
-      const box = (await page.locator("#scene").boundingBox())!;
-      const at = { x: box.x + 0.5 * box.width, y: box.y + 0.6 * box.height };
+      const box = (await page.locator("#stage").boundingBox())!;
+      const at = { x: box.x + 0.5 * box.width, y: box.y + 0.62 * box.height };
       const hand = await page.context().newCDPSession(page);
       const pen = (type: "mousePressed" | "mouseMoved" | "mouseReleased", force: number, x = at.x) =>
         hand.send("Input.dispatchMouseEvent", {
@@ -211,7 +211,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
       const tablet = await context.newPage();
       await tablet.goto(page.url());
       await tablet.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
-      const box = (await tablet.locator("#scene").boundingBox())!;
+      const box = (await tablet.locator("#stage").boundingBox())!;
       const hand = await context.newCDPSession(tablet);
       const touch = (type: "touchStart" | "touchMove" | "touchEnd", x?: number) =>
         hand.send("Input.dispatchTouchEvent", {
@@ -219,7 +219,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
           touchPoints:
             x === undefined
               ? []
-              : [{ x: box.x + x * box.width, y: box.y + 0.6 * box.height, radiusX: 8, radiusY: 8, force: 0.5 }],
+              : [{ x: box.x + x * box.width, y: box.y + 0.62 * box.height, radiusX: 8, radiusY: 8, force: 0.5 }],
         });
       await touch("touchStart", 0.5);
       for (let n = 0; n < 8; ++n) {

@@ -152,6 +152,71 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
   );
 
   it(
+    "shows the program with the load of its lines, and goes to a line that is clicked",
+    async () => {
+      expect(await text("program-name")).toBe("p.nc");
+      expect(await text("program-line-4")).toBe("4G1 X35");
+      const bars = async (line: number) => page.locator(`#program-line-${line} i`).count();
+      expect([await bars(1), await bars(4), await bars(8)]).toEqual([0, 1, 1]);
+      await page.click("#program-line-4");
+      await page.waitForSelector('#program-line-4[aria-selected="true"]', { timeout: PATIENCE_MS });
+      await page.focus("#program-lines");
+      for (const key of ["ArrowDown", "ArrowDown", "ArrowDown", "ArrowUp", "Enter"]) await page.keyboard.press(key);
+      await page.waitForSelector('#program-line-6[aria-selected="true"]', { timeout: PATIENCE_MS });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "has one axis of time: a click on the lanes sets the clock",
+    async () => {
+      const seconds = (clock: string) => clock.split(":").reduce((sum, part) => 60 * sum + parseFloat(part), 0);
+      const box = (await page.locator("#time").boundingBox())!;
+      await page.mouse.click(box.x + 0.5 * box.width, box.y + 20);
+      const [, end] = (await text("clock")).split(" / ");
+      await expect
+        .poll(async () => Math.abs(seconds((await text("clock")).split(" / ")[0]!) - 0.5 * seconds(end!)), {
+          timeout: PATIENCE_MS,
+        })
+        .toBeLessThan(1.1);
+      const colours = await page.evaluate(() => {
+        const lanes = document.getElementById("lanes") as HTMLCanvasElement;
+        return new Set(lanes.getContext("2d")!.getImageData(0, 0, lanes.width, lanes.height).data).size;
+      });
+      expect(colours).toBeGreaterThan(40);
+      const few = (await page.locator("#lanes").boundingBox())!.height;
+      await page.click("#more-lanes");
+      expect((await page.locator("#lanes").boundingBox())!.height).toBeGreaterThan(1.5 * few);
+      await picture("lanes");
+      await page.click("#more-lanes");
+      expect((await page.locator("#lanes").boundingBox())!.height).toBe(few);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "has a verdict, with places to look at and the band of the force",
+    async () => {
+      // The clock was set back: the rapid is still to come.
+      await page.fill("#time", "1000");
+      await until("Play", "play");
+      await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
+      expect(await page.locator("#verdict-places li").count()).toBeGreaterThan(0);
+      await until("rapid through stock", "verdict-places");
+      expect(await text("verdict-sentence")).toMatch(/^(No|Yes|Not sure|So far)/);
+      const before = await text("clock");
+      await page.click("#verdict-places button[data-kind=damage]");
+      await expect.poll(() => text("clock"), { timeout: PATIENCE_MS }).not.toBe(before);
+      await page.fill("#time", "1.2");
+      await page.waitForSelector("#band-row:not([hidden])", { timeout: PATIENCE_MS });
+      await expect.poll(() => text("could-be"), { timeout: PATIENCE_MS }).toMatch(/^\d+ to \d+ N$/);
+      await page.waitForSelector("#share-row:not([hidden])", { timeout: PATIENCE_MS });
+      expect(await text("share")).toMatch(/^\d+ %$/);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "sounds at the tooth's frequency while it cuts, and not where it is paused",
     async () => {
       await page.selectOption("#speed", "0.1");
@@ -188,10 +253,10 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
   it(
     "is felt: what presses on the part is pushed back",
     async () => {
-      const box = (await page.locator("#scene").boundingBox())!;
-      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.55 * box.height);
+      const box = (await page.locator("#stage").boundingBox())!;
+      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.62 * box.height);
       await page.mouse.down();
-      await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.55 * box.height, { steps: 4 });
+      await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.62 * box.height, { steps: 4 });
       await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
         timeout: PATIENCE_MS,
       });
@@ -260,6 +325,17 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
         await page.waitForTimeout(500);
         await picture(`colour-${by}`);
       }
+      // The value under the pointer, wherever it meets the slot.
+      const box = (await page.locator("#stage").boundingBox())!;
+      let said = "";
+      for (let n = 0; n < 60 && !/chip \d/.test(said); ++n) {
+        await page.mouse.move(
+          box.x + (0.25 + 0.02 * (n % 20)) * box.width,
+          box.y + (0.45 + 0.1 * Math.floor(n / 20)) * box.height,
+        );
+        said = await text("pointed");
+      }
+      expect(said).toMatch(/^chip \d\.\d{3} mm.*, line \d+$/);
       await until("rubs", "legend-marks");
       await page.selectOption("#colouring", "deviation");
       await until("no designed surface", "notice");
@@ -273,9 +349,9 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
     "measures between two places",
     async () => {
       await page.click("#measure");
-      const box = (await page.locator("#scene").boundingBox())!;
-      await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.6 * box.height);
-      await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.6 * box.height);
+      const box = (await page.locator("#stage").boundingBox())!;
+      await page.mouse.click(box.x + 0.45 * box.width, box.y + 0.62 * box.height);
+      await page.mouse.click(box.x + 0.55 * box.width, box.y + 0.62 * box.height);
       await page.waitForFunction(() => /^\d+\.\d{3} mm/.test(document.getElementById("measured")?.textContent ?? ""));
       const length = parseFloat(await text("measured"));
       expect(length).toBeGreaterThan(0.5);
@@ -356,6 +432,30 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
   );
 
   it(
+    "opens every example of the site",
+    async () => {
+      const visitor = await browser.newPage({ viewport: { width: 1000, height: 700 } });
+      watch(visitor);
+      await visitor.goto(`${server.root}/mill/`);
+      await visitor.waitForSelector("#examples button", { timeout: PATIENCE_MS });
+      const names = await visitor.locator("#examples button").allTextContents();
+      expect(names.length).toBeGreaterThan(4);
+      for (const name of names) {
+        await visitor.click(`#examples button:text-is("${name}")`);
+        await visitor.waitForFunction(
+          (want) => document.getElementById("job")?.textContent === `${want.toLowerCase()}.toml`,
+          name,
+          { timeout: PATIENCE_MS },
+        );
+        await visitor.waitForSelector("#program-lines [data-line]", { timeout: PATIENCE_MS });
+        expect(await visitor.isVisible("#notice-box")).toBe(false);
+      }
+      await visitor.close();
+    },
+    2 * PATIENCE_MS,
+  );
+
+  it(
     "takes a drop, a program alone and a surface after it",
     async () => {
       await page.evaluate(
@@ -380,6 +480,11 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
         await page.waitForTimeout(400);
         await picture(`colour-${by}`);
       }
+      await page.selectOption("#colouring", "deviation");
+      await page.fill("#tolerance", "3");
+      await page.dispatchEvent("#tolerance", "change");
+      await until("within ± 3 mm", "within");
+      expect(await page.isVisible("#histogram")).toBe(true);
       await page.selectOption("#colouring", "plain");
       await page.click("#show-designed");
       await page.click("#show-designed");
@@ -446,7 +551,13 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
       await page.waitForTimeout(300);
       await picture("phone-panel");
       await page.click("#show-panel");
-      await page.click("#fit", { force: true }).catch(() => undefined);
+      await page.click("#show-program");
+      await page.waitForSelector("#program-lines [data-line]");
+      expect(await page.isVisible("#program")).toBe(true);
+      expect(await violations(page)).toEqual([]);
+      await picture("phone-program");
+      await page.click("#show-program");
+      expect(await page.isVisible("#program")).toBe(false);
       await page.waitForTimeout(300);
       await picture("phone");
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);

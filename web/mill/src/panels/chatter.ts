@@ -160,7 +160,7 @@ export class ChatterPanel {
       c.fillText(String(Number(mm.toPrecision(3))), LEFT - 6, y(mm));
     }
     c.textAlign = "center";
-    c.fillText("spindle speed, rpm; depth, mm", LEFT + width / 2, TOP + height + 23);
+    c.fillText("speed, rpm; depth, mm", LEFT + width / 2, TOP + height + 23);
 
     c.strokeStyle = ink!;
     c.lineWidth = 2;

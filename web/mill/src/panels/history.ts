@@ -2,11 +2,15 @@
 // Data of the plots: the rows, and the newest pieces of the cut.
 
 import type { Piece, Row } from "@tribo/protocol/frames";
+import { begunAt } from "../rows.js";
 
 const KEPT_PIECES = 4096;
 
 export class History {
   rows: Row[] = [];
+  // The rows with the largest force and the largest multiplier.
+  strongest: Row | undefined;
+  wildest: Row | undefined;
   private pieces: Piece[] = [];
   // Rows have multipliers.
   bends = false;
@@ -14,18 +18,34 @@ export class History {
   duration = 1;
 
   begin(duration: number): void {
-    this.rows = [];
+    this.forgetRows();
     this.pieces = [];
     this.bends = false;
     this.duration = duration;
   }
   addRows(rows: Row[]): void {
-    for (const row of rows) this.rows.push(row);
+    for (const row of rows) {
+      this.rows.push(row);
+      if (!(row.peakForce <= (this.strongest?.peakForce ?? 0))) this.strongest = row;
+    }
+  }
+  // All rows are sent again.
+  forgetRows(): void {
+    this.rows = [];
+    this.strongest = this.wildest = undefined;
+  }
+  // The row that is cut at a time.
+  rowAt(time: number): Row | undefined {
+    const row = this.rows[begunAt(this.rows, time) - 1];
+    return row && time <= row.time + row.duration ? row : undefined;
   }
   // Returns the rows from the `first` on.
   addMultipliers(first: number, multipliers: Float32Array): Row[] {
     const rows = this.rows.slice(first, first + multipliers.length);
-    rows.forEach((row, n) => (row.multiplier = multipliers[n]!));
+    rows.forEach((row, n) => {
+      row.multiplier = multipliers[n]!;
+      if (row.multiplier > (this.wildest?.multiplier ?? 0)) this.wildest = row;
+    });
     return rows;
   }
   addPieces(pieces: Piece[]): void {

@@ -1,25 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Current values of the tool, places to inspect, the state of the servo, and the assumptions.
+// Places to inspect, the state of the servo, and the assumptions.
 
-import type { JobFrame, ServoFrame, StateFrame } from "@tribo/protocol/frames";
+import type { JobFrame, ServoFrame } from "@tribo/protocol/frames";
 import type { FileFault } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
-
-export function showState(state: StateFrame): void {
-  const text: Record<string, string> = {
-    force: `${Math.hypot(...state.force).toFixed(0)} N`,
-    peak: `${state.peakForce.toFixed(0)} N`,
-    torque: `${state.torque.toFixed(2)} Nm`,
-    spindle: `${state.rpm.toFixed(0)} rpm`,
-    feed: state.rapid ? "rapid" : `${state.feed.toFixed(0)} mm/min`,
-    removed: `${(state.removed / 1000).toFixed(2)} cm³`,
-    line: String(state.line),
-  };
-  for (const [id, value] of Object.entries(text)) {
-    const place = element(id);
-    if (place.textContent !== value) place.textContent = value;
-  }
-}
 
 const MOST_LISTED = 100;
 

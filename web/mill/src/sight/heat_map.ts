@@ -65,6 +65,11 @@ export class HeatMap {
     else this.cells.set(key, [cut]);
   }
 
+  // The cut that made a point of the part.
+  rowAt(p: Vec3): Row | undefined {
+    return this.cutAt(p)?.row;
+  }
+
   // Sorted by line.
   chipMarks(): ChipMark[] {
     return [...this.marks.values()].sort((a, b) => a.line - b.line);

@@ -8,7 +8,7 @@ import { element } from "@tribo/ui/dom";
 import type { ChipLimits } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
-function css(c: Vec3): string {
+export function css(c: Vec3): string {
   return `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
 }
 

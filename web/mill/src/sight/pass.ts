@@ -5,6 +5,7 @@
 import { Group } from "three";
 
 import type { PathFrame, Row } from "@tribo/protocol/frames";
+import { begunAt } from "../rows.js";
 import { Curtain } from "./curtain.js";
 import type { Colouring, HeatMap } from "./heat_map.js";
 import { PathLines, SAME_CUT_S } from "./path_lines.js";
@@ -16,20 +17,15 @@ const HEIGHT = 0.22;
 
 /** The rows [from, to) that are cut without a gap up to a time; none in the air. Rows are in the order of time. */
 export function passAt(rows: readonly Row[], time: number): [number, number] {
-  let [low, high] = [0, rows.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (rows[middle]!.time <= time) low = middle + 1;
-    else high = middle;
-  }
-  let from = low;
-  const last = rows[low - 1];
-  if (!last || time > last.time + last.duration + SAME_CUT_S) return [low, low];
-  for (--from; from > 0; --from) {
+  const to = begunAt(rows, time);
+  const last = rows[to - 1];
+  if (!last || time > last.time + last.duration + SAME_CUT_S) return [to, to];
+  let from = to - 1;
+  for (; from > 0; --from) {
     const before = rows[from - 1]!;
     if (rows[from]!.time - before.time - before.duration > SAME_CUT_S) break;
   }
-  return [from, low];
+  return [from, to];
 }
 
 export class Pass {

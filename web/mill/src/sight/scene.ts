@@ -96,6 +96,8 @@ export class Scene {
   private wanted = false;
   private seen = false;
   private free: (() => Free) | undefined;
+  // The camera stands where fit() put it.
+  private fitted = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -108,6 +110,7 @@ export class Scene {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("start", () => (this.fitted = false));
     this.light = new Light(this.renderer, this.three, this.camera);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);
@@ -289,11 +292,13 @@ export class Scene {
     this.camera.far = size * 60;
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.fitted = true;
     this.draw();
   }
 
   // Turns the view about the part, rad, and moves it closer by a factor.
   orbit(right: number, up: number, nearer = 1): void {
+    this.fitted = false;
     const offset = this.camera.position.clone().sub(this.controls.target);
     offset.applyAxisAngle(this.camera.up, -right);
     const side = new Vector3().crossVectors(this.camera.up, offset).normalize();
@@ -344,6 +349,15 @@ export class Scene {
     this.seen = true;
     // Reflections and shadows come after the first picture.
     setTimeout(() => this.setFine(this.look !== "plain"), 0);
+    this.draw();
+  }
+
+  // The free part of the window has changed.
+  centre(): void {
+    if (!this.free) return;
+    if (this.fitted) return this.fit();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    centre(this.camera, width, height, this.free());
     this.draw();
   }
 

@@ -3,6 +3,7 @@
 
 import { decodeFrame } from "@tribo/protocol/frames";
 import type { Command, Settings } from "@tribo/protocol/messages";
+import type { AuditOfMill } from "@tribo/wasm/audit";
 import type { Listener, Source } from "./source.js";
 
 export interface JobFile {
@@ -25,6 +26,7 @@ export type FromWorker =
   | { kind: "no"; why: string }
   | { kind: "refused"; why: string }
   | { kind: "failed"; why: string }
+  | { kind: "audit"; audit: AuditOfMill; lines: Float64Array }
   | { kind: "frames"; frames: ArrayBuffer[] };
 
 export class Workshop implements Source {
@@ -80,6 +82,9 @@ export class Workshop implements Source {
         break;
       case "no":
         this.listener.refused(message.why);
+        break;
+      case "audit":
+        this.listener.audit(message.audit, message.lines);
         break;
       case "frames":
         for (const bytes of message.frames) this.listener.frame(decodeFrame(bytes), bytes);

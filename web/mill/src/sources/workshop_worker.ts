@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The worker of workshop.ts: the module, its clock, and its frames, which are passed on at once.
 
+import { auditOf } from "@tribo/wasm/audit";
 import type { MillExports } from "@tribo/wasm/exports";
 import { lend, lendText, textAt } from "@tribo/wasm/memory";
 import { obey } from "@tribo/wasm/mill_command";
@@ -14,6 +15,9 @@ const MILLING_MS = 12;
 // If a tick takes longer, the next one waits: half the number of pictures needs half the time.
 const BUSY_TICK_MS = 30;
 const MOST_LOOKS = 4096;
+// Least time between two audits, ms, and as a multiple of what the last one took.
+const AUDIT_MS = 1000;
+const AUDIT_REST = 20;
 // If the clock stood still for longer (a sleeping laptop), it advances by this only, s.
 const LONGEST_STEP_S = 0.1;
 
@@ -33,6 +37,8 @@ class Mill {
   private took = 0; // ms, in the last tick
   private before = performance.now();
   private told = ""; // settings sent last
+  private changed = false; // since the last audit
+  private auditAt = 0; // the next one, ms
 
   constructor(private readonly x: MillExports) {}
 
@@ -82,6 +88,17 @@ class Mill {
     if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
     else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
     if (length > 0) this.hand(length);
+    this.changed ||= length > 0;
+    if (this.changed && performance.now() >= this.auditAt) this.audit();
+  }
+
+  private audit(): void {
+    const began = performance.now();
+    const { audit, lines } = auditOf(this.x);
+    post({ kind: "audit", audit, lines }, [lines.buffer]);
+    this.changed = false;
+    const now = performance.now();
+    this.auditAt = now + Math.max(AUDIT_MS, AUDIT_REST * (now - began));
   }
 
   private hand(length: number): void {

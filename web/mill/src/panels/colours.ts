@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// What the part is coloured by: choice, scale, legend, the value under the pointer, and for deviations a tolerance and a
+// histogram.
+
+import { fitToScreen } from "@tribo/ui/canvas";
+import { element } from "@tribo/ui/dom";
+import { diverging, type Colouring } from "../sight/heat_map.js";
+import { css, showLegend } from "../sight/legend.js";
+import type { Hit } from "../sight/part.js";
+import type { Scene } from "../sight/scene.js";
+
+const HISTOGRAM_BARS = 41;
+const RENEWED_MS = 500;
+
+export interface Spread {
+  // Shares of the vertices per bar from -range to range; those beyond are in the last ones.
+  bars: Float32Array;
+  within: number; // share inside of the tolerance
+  count: number;
+}
+
+/** How many deviations are how large. */
+export function spreadOf(deviations: Iterable<number>, range: number, tolerance: number): Spread {
+  const bars = new Float32Array(HISTOGRAM_BARS);
+  let [count, good] = [0, 0];
+  for (const off of deviations) {
+    const bar = Math.round(((off / range + 1) / 2) * (HISTOGRAM_BARS - 1));
+    bars[Math.min(Math.max(bar, 0), HISTOGRAM_BARS - 1)]! += 1;
+    if (Math.abs(off) <= tolerance) ++good;
+    ++count;
+  }
+  if (count > 0) bars.forEach((n, k) => (bars[k] = n / count));
+  return { bars, within: count > 0 ? good / count : 0, count };
+}
+
+export class Colours {
+  readonly choice = element<HTMLSelectElement>("colouring");
+  private readonly scale = element<HTMLInputElement>("scale");
+  private readonly tolerance = element<HTMLInputElement>("tolerance");
+  private readonly histogram = element<HTMLCanvasElement>("histogram");
+  private readonly pointed = element("pointed");
+  now: Colouring = "plain";
+
+  constructor(
+    private readonly scene: Scene,
+    private readonly say: (text: string) => void,
+  ) {
+    for (const input of [this.choice, this.scale, this.tolerance])
+      input.addEventListener("change", () => this.choose(this.choice.value as Colouring));
+    scene.canvas.addEventListener("pointermove", (event) => this.point(event));
+    scene.canvas.addEventListener("pointerleave", () => (this.pointed.hidden = true));
+    setInterval(() => this.renew(), RENEWED_MS);
+  }
+
+  choose(wanted: Colouring): void {
+    const compares = wanted === "deviation" || wanted === "scallop";
+    if (compares && !this.scene.hasDesigned) {
+      this.say("The job has no designed surface to compare with: drop its model, or name it under [part].");
+      this.choice.value = this.now;
+      return;
+    }
+    this.choice.value = this.now = wanted;
+    element("scale-label").hidden = !compares;
+    element("tolerance-label").hidden = wanted !== "deviation";
+    const full = Number(this.scale.value);
+    if (full > 0) this.scene.heatMap.scale.deviation = full;
+    this.scene.setColouring(wanted);
+    this.renew();
+  }
+
+  private renew(): void {
+    const { heatMap, job } = this.scene;
+    showLegend(this.now, heatMap, job?.chipLimits);
+    const compares = this.now === "deviation";
+    this.histogram.hidden = element("within").hidden = !compares;
+    if (compares) this.showSpread();
+  }
+
+  private showSpread(): void {
+    const range = this.scene.heatMap.scale.deviation;
+    const tolerance = Number(this.tolerance.value);
+    const { bars, within, count } = spreadOf(this.scene.part.deviations(), range, tolerance);
+    element("within").textContent =
+      count > 0
+        ? `${(100 * within).toFixed(1)} % of the machined points within ± ${tolerance} mm`
+        : "nothing is machined yet";
+    const c = this.histogram.getContext("2d");
+    const { clientWidth: width, clientHeight: height } = this.histogram;
+    if (!c || width === 0) return;
+    const ratio = fitToScreen(this.histogram, 2);
+    c.setTransform(ratio, 0, 0, ratio, 0, 0);
+    c.clearRect(0, 0, width, height);
+    const style = getComputedStyle(this.histogram);
+    const band = Math.min(tolerance / range, 1) * (width / 2);
+    c.fillStyle = style.getPropertyValue("--band");
+    c.fillRect(width / 2 - band, 0, 2 * band, height);
+    const most = Math.max(...bars, 1e-9);
+    bars.forEach((share, n) => {
+      c.fillStyle = css(diverging((2 * n) / (HISTOGRAM_BARS - 1) - 1));
+      c.strokeStyle = style.getPropertyValue("--quiet");
+      c.lineWidth = 0.5;
+      const [x, wide, tall] = [(n * width) / HISTOGRAM_BARS, width / HISTOGRAM_BARS, (share / most) * (height - 2)];
+      c.fillRect(x, height - tall, wide, tall);
+      if (share > 0) c.strokeRect(x, height - tall, wide, tall);
+    });
+  }
+
+  private point({ offsetX, offsetY, buttons, pointerType }: PointerEvent): void {
+    const hit = buttons === 0 && pointerType !== "touch" ? this.scene.pick(offsetX, offsetY) : undefined;
+    const words = hit ? this.words(hit) : "";
+    this.pointed.hidden = words === "";
+    if (words === "") return;
+    this.pointed.textContent = words;
+    this.pointed.style.left = `${offsetX + 14}px`;
+    this.pointed.style.top = `${offsetY + 14}px`;
+  }
+
+  private words(hit: Hit): string {
+    if (this.now === "deviation" || this.now === "scallop") {
+      if (Number.isNaN(hit.deviation)) return "over 3 mm from the designed surface";
+      const size = Math.abs(hit.deviation).toFixed(3);
+      return hit.deviation < 0 ? `gouge ${size} mm` : `${size} mm left`;
+    }
+    if (this.now === "plain") return "";
+    if (hit.untouched) return "untouched";
+    const row = this.scene.heatMap.rowAt(hit.point);
+    if (!row) return "";
+    if (this.now === "force") return `${row.peakForce.toFixed(0)} N, line ${row.line}`;
+    if (this.now === "chip")
+      return `chip ${row.chip.toFixed(3)} mm${row.chipVerdict ? `, ${row.chipVerdict}` : ""}, line ${row.line}`;
+    return row.multiplier > 0 ? `multiplier ${row.multiplier.toFixed(2)}, line ${row.line}` : `line ${row.line}`;
+  }
+}

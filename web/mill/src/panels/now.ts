@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The cut at the clock: one large number with its band, and what stands beside it.
+
+import type { ForceBand, Row, StateFrame } from "@tribo/protocol/frames";
+import { AUDIT_COLUMNS, LOADS, type Load } from "@tribo/wasm/audit";
+import { element } from "@tribo/ui/dom";
+
+function write(id: string, value: string, unit = ""): void {
+  const place = element(id);
+  const text = unit ? `${value} ${unit}` : value;
+  if (place.textContent === text) return;
+  place.textContent = unit ? `${value} ` : value;
+  if (!unit) return;
+  const small = document.createElement("small");
+  small.textContent = unit;
+  place.append(small);
+}
+
+/** Two values that mean a band: no more digits than the band is wide. */
+export function bandWords(low: number, high: number): string {
+  const digits = Math.max(0, Math.floor(Math.log10(Math.max(high - low, 1))) - 1);
+  const round = (v: number) => (Math.round(v / 10 ** digits) * 10 ** digits).toFixed(0);
+  return `${round(low)} to ${round(high)}`;
+}
+
+/** Power at the spindle, W. */
+export const powerOf = ({ torque, rpm }: { torque: number; rpm: number }): number => torque * rpm * (Math.PI / 30);
+
+const LOAD_WORDS: Record<Load, string> = {
+  peak_force_n: "force",
+  peak_torque_nm: "torque",
+  power_w: "power",
+  stress_n_per_mm2: "strength",
+  deflection_mm: "bending",
+  chip_mm: "chip",
+  multiplier: "chatter",
+};
+
+export interface Share {
+  load: Load;
+  ratio: number;
+}
+
+/** The load of each line that is nearest to its limit. */
+export function sharesOf(lines: Float64Array): Map<number, Share> {
+  const shares = new Map<number, Share>();
+  const columns = LOADS.map((load) => AUDIT_COLUMNS.indexOf(`${load}_ratio`));
+  for (let row = 0; row + AUDIT_COLUMNS.length <= lines.length; row += AUDIT_COLUMNS.length) {
+    const line = lines[row]!;
+    columns.forEach((column, k) => {
+      const ratio = lines[row + column]!;
+      if (ratio > (shares.get(line)?.ratio ?? 0)) shares.set(line, { load: LOADS[k]!, ratio });
+    });
+  }
+  return shares;
+}
+
+export class Now {
+  private shares = new Map<number, Share>();
+  private band: ForceBand | undefined;
+  private again: (() => void) | undefined;
+
+  begin(): void {
+    this.band = this.again = undefined;
+    this.shares.clear();
+  }
+  audit(lines: Float64Array): void {
+    this.shares = sharesOf(lines);
+    this.again?.();
+  }
+  know(band: ForceBand | undefined): void {
+    this.band = band ?? this.band;
+  }
+
+  // `row` is the cut at the clock; `largest` the largest force so far.
+  show(state: StateFrame, row: Row | undefined, largest: number): void {
+    const { band } = this;
+    this.again = () => this.show(state, row, largest);
+    write("peak", state.peakForce.toFixed(0), "N");
+    const spreads = band !== undefined && band.low < band.high;
+    element("band").hidden = element("band-row").hidden = !spreads;
+    if (spreads) {
+      const end = Math.max(largest * band.high, 1);
+      const at = (force: number) => `${Math.min((100 * force) / end, 100)}%`;
+      const range = element("band-range");
+      range.style.left = at(state.peakForce * band.low);
+      range.style.right = `calc(100% - ${at(state.peakForce * band.high)})`;
+      element("band-mark").style.left = at(state.peakForce);
+      const { low, high } = band;
+      write("could-be", state.cutting ? bandWords(state.peakForce * low, state.peakForce * high) : "0", "N");
+    }
+    const share = this.shares.get(state.line);
+    element("share-row").hidden = share === undefined;
+    if (share) {
+      write("share", `${(100 * share.ratio).toFixed(0)} %`);
+      element("share-row").title = "Of the whole line, at its worst";
+      element("share-of").textContent = `of the ${LOAD_WORDS[share.load]} limit`;
+    }
+    write("power", state.cutting ? powerOf(state).toFixed(0) : "0", "W");
+    write("depth", row ? row.depth.toFixed(2) : "0", "mm");
+    write("chip", row && row.chip > 0 ? row.chip.toFixed(3) : "0", "mm");
+    if (state.rapid) write("feed", "rapid");
+    else write("feed", state.feed.toFixed(0), "mm/min");
+    write("removed", (state.removed / 1000).toFixed(2), "cm³");
+    write("line", String(state.line));
+    write("force", Math.hypot(...state.force).toFixed(0), "N");
+    write("torque", state.torque.toFixed(2), "Nm");
+    write("spindle", state.rpm.toFixed(0), "rpm");
+  }
+}
