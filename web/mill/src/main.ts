@@ -523,16 +523,16 @@ engine?.listen(listener);
 if (!hasEngine) {
   void listed().then(async (examples) => {
     const box = element("examples");
-    const [example, ...others] = examples;
-    for (const other of others) {
+    for (const example of examples) {
       const button = document.createElement("button");
       button.type = "button";
-      button.textContent = other.name;
-      button.addEventListener("click", async () => mill(await orderOf(other)));
+      button.textContent = example.name;
+      button.addEventListener("click", async () => mill(await orderOf(example)));
       box.append(button);
     }
+    const [example] = examples;
     if (!example) return;
-    box.hidden = others.length === 0;
+    box.hidden = examples.length < 2;
     await mill(await orderOf(example));
   });
 }

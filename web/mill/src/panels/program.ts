@@ -161,6 +161,7 @@ export class Program {
         item.id = `program-line-${line}`;
         item.dataset.line = String(line);
         item.style.top = `${(line - 1) * LINE_PX}px`;
+        item.classList.toggle("chosen", line === this.chosen);
         item.ariaSelected = String(line === this.now);
         item.ariaPosInSet = String(line);
         item.ariaSetSize = String(this.lines.length);

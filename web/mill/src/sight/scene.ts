@@ -90,8 +90,13 @@ export class Scene {
   private readonly tool: Tool;
   private readonly pass: Pass;
   private readonly rays = new Raycaster();
-  private readonly pace = new Pace(() => this.setFine(false));
+  private readonly pace = new Pace(() => {
+    this.slow = true;
+    this.choose();
+  });
   private look: Look = "auto";
+  private slow = false;
+  private headset = false;
   private colouring: Colouring = "plain";
   private wanted = false;
   private seen = false;
@@ -239,8 +244,14 @@ export class Scene {
 
   setLook(look: Look): void {
     this.look = look;
+    this.slow = false;
     this.pace.begin();
-    if (this.seen) this.setFine(look !== "plain");
+    if (this.seen) this.choose();
+  }
+
+  // A headset draws every picture twice, and without the depths of the contact shading.
+  private choose(): void {
+    this.setFine(this.look !== "plain" && !this.slow && !this.headset);
   }
 
   private setFine(fine: boolean): void {
@@ -329,7 +340,12 @@ export class Scene {
 
   // Draws immediately. VR calls it for each of its pictures.
   render(): void {
-    if (this.renderer.xr.isPresenting) {
+    const { isPresenting } = this.renderer.xr;
+    if (isPresenting !== this.headset) {
+      this.headset = isPresenting;
+      this.choose();
+    }
+    if (isPresenting) {
       this.renderer.render(this.three, this.camera);
       return;
     }
@@ -348,7 +364,7 @@ export class Scene {
     if (this.seen) return;
     this.seen = true;
     // Reflections and shadows come after the first picture.
-    setTimeout(() => this.setFine(this.look !== "plain"), 0);
+    setTimeout(() => this.choose(), 0);
     this.draw();
   }
 
