@@ -6,7 +6,7 @@ import { describe, expect, it } from "vitest";
 import type { Row } from "@tribo/protocol/frames";
 import { centre, distanceTo } from "../src/sight/framing.js";
 import { Pace } from "../src/sight/pace.js";
-import { passAt } from "../src/sight/pass.js";
+import { lastOf, passAt } from "../src/sight/pass.js";
 import { drawnHolder } from "../src/sight/tool.js";
 import { fluted, fluteSection, turned } from "../src/sight/turned.js";
 
@@ -79,6 +79,16 @@ describe("the pass at a time", () => {
       expect(to - from).toBe(0);
     }
     expect(passAt([], 1)).toEqual([0, 0]);
+  });
+});
+
+describe("a pass that never ends", () => {
+  it("is shown on its last piece", () => {
+    const rows = Array.from({ length: 50 }, (_, n) => ({ tip: [2 * n, 0, 0] }) as unknown as Row);
+    expect(lastOf(rows, [0, 50], 1000)).toEqual([0, 50]);
+    expect(lastOf(rows, [0, 50], 9)).toEqual([45, 50]);
+    expect(lastOf(rows, [48, 50], 9)).toEqual([48, 50]);
+    expect(lastOf(rows, [7, 7], 9)).toEqual([7, 7]);
   });
 });
 

@@ -14,6 +14,8 @@ export type PassShown = "pass" | "all" | "none";
 
 // Height of the curtain for the largest force, as a share of the size of the part.
 const HEIGHT = 0.22;
+// A cut that never leaves the part, as a spiral, is shown on its last piece; in sizes of the part.
+const LONGEST = 1.2;
 
 /** The rows [from, to) that are cut without a gap up to a time; none in the air. Rows are in the order of time. */
 export function passAt(rows: readonly Row[], time: number): [number, number] {
@@ -24,6 +26,17 @@ export function passAt(rows: readonly Row[], time: number): [number, number] {
   for (; from > 0; --from) {
     const before = rows[from - 1]!;
     if (rows[from]!.time - before.time - before.duration > SAME_CUT_S) break;
+  }
+  return [from, to];
+}
+
+/** The last rows of [from, to), on a way of at most `length` mm. */
+export function lastOf(rows: readonly Row[], [from, to]: [number, number], length: number): [number, number] {
+  let way = 0;
+  for (let n = to - 1; n > from; --n) {
+    const [a, b] = [rows[n - 1]!.tip, rows[n]!.tip];
+    way += Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    if (way > length) return [n, to];
   }
   return [from, to];
 }
@@ -74,7 +87,7 @@ export class Pass {
 
   show(time: number, map: HeatMap, colouring: Colouring): void {
     this.time = time;
-    this.at = passAt(this.rows, time);
+    this.at = lastOf(this.rows, passAt(this.rows, time), LONGEST * this.size);
     this.choose();
     if (this.now === "none") return;
     const rows = this.rows.slice(...this.at);
