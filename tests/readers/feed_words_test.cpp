@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/control/feed_words.hpp"
+#include "readers/rewrite/feed_words.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

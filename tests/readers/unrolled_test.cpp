@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/control/unrolled.hpp"
+#include "readers/rewrite/unrolled.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +48,19 @@ TEST(UnrolledGcode, is_the_same_path_block_by_block) {
     // Each line once, in order.
     for (std::size_t n = 1; n < again.moves.size(); ++n)
         EXPECT_GT(again.moves[n].line, again.moves[n - 1].line);
+}
+
+TEST(UnrolledGcode, has_no_exponents) {
+    // Half an inch up and half an inch back leaves a rest of 1e-15 mm; 1e-7 mm is a place.
+    const motion::Program program = program_of(
+        "G20 G90 S9000 M3\nG0 X0 Y0 Z.1\nG1 Z-.05 F12\nG2 X.5 Y.5 R.5\nX0 Y0 I-.25 J-.25\nG21\nG1 "
+        "X0.0000001\nX-0.000025\n");
+    const auto text = unrolled_gcode(program, {});
+    ASSERT_TRUE(text) << text.error().text();
+    EXPECT_EQ(text->find('e'), std::string::npos) << *text;
+    EXPECT_NE(text->find("X0.0000001"), std::string::npos) << *text;
+    EXPECT_NE(text->find("X-0.000025"), std::string::npos) << *text;
+    expect_same(program, program_of(*text));
 }
 
 TEST(UnrolledGcode, divides_long_lines_without_leaving_them) {

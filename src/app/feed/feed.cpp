@@ -17,8 +17,8 @@
 #include "files/machine_limits.hpp"
 #include "job/program_file.hpp"
 #include "motion/path/path.hpp"
-#include "readers/control/feed_words.hpp"
-#include "readers/control/unrolled.hpp"
+#include "readers/rewrite/feed_words.hpp"
+#include "readers/rewrite/unrolled.hpp"
 #include "tribo/threads.hpp"
 
 namespace tribo::app {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "readers/control/unrolled.hpp"
+#include "readers/rewrite/unrolled.hpp"
 
 #include <cmath>
 #include <span>
@@ -7,9 +7,35 @@
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
 #include "motion/path/path.hpp"
+#include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
 namespace {
+
+// All digits, without an exponent, which G-code does not have. A size below 1e-12 is 0.
+std::string word_number(double value) {
+    constexpr double kNothing = 1e-12;
+    if (std::abs(value) < kNothing) return "0";
+    const std::string text = format_decimal(value);
+    const std::size_t e = text.find('e');
+    if (e == text.npos) return text;
+    const std::string sign = value < 0 ? "-" : "";
+    std::string digits;
+    int point = 0;  // digits before the point
+    for (const char c : text.substr(0, e)) {
+        if (c == '.') point = static_cast<int>(digits.size());
+        if (is_digit(c)) digits += c;
+    }
+    if (point == 0) point = static_cast<int>(digits.size());
+    int shift = 0;
+    for (const char c : text.substr(e + 1))
+        if (is_digit(c)) shift = 10 * shift + (c - '0');
+    point += text[e + 1] == '-' ? -shift : shift;
+    if (point <= 0) return sign + "0." + std::string(static_cast<std::size_t>(-point), '0') + digits;
+    const auto whole = static_cast<std::size_t>(point);
+    if (digits.size() <= whole) return sign + digits + std::string(whole - digits.size(), '0');
+    return sign + digits.substr(0, whole) + "." + digits.substr(whole);
+}
 
 class Unroller {
   public:
@@ -23,8 +49,7 @@ class Unroller {
             write_tool(move);
             if (!at_) {
                 at_ = move.start.tip_mm;
-                block("G0 X" + format_decimal(at_->x) + " Y" + format_decimal(at_->y) + " Z" +
-                      format_decimal(at_->z));
+                block("G0 X" + word_number(at_->x) + " Y" + word_number(at_->y) + " Z" + word_number(at_->z));
             }
             if (move.kind == motion::MoveKind::feed && !move.arc &&
                 motion::path_length_mm(move) > options_.longest_mm) {
@@ -62,7 +87,7 @@ class Unroller {
     void write_tool(const motion::Move& move) {
         if (move.tool > 0 && move.tool != tool_) block("T" + std::to_string(tool_ = move.tool) + " M6");
         if (move.spindle_rpm > 0 && move.spindle_rpm != rpm_)
-            block("S" + format_decimal(rpm_ = move.spindle_rpm) + " M3");
+            block("S" + word_number(rpm_ = move.spindle_rpm) + " M3");
     }
 
     std::string feed_of(const motion::Move& move) {
@@ -70,20 +95,19 @@ class Unroller {
         const double feed =
             move.duration_s > 0 ? 60 * motion::path_length_mm(move) / move.duration_s : move.feed_mm_per_min;
         if (feed == feed_) return "";
-        return " F" + format_decimal(feed_ = feed);
+        return " F" + word_number(feed_ = feed);
     }
 
     void write_move(const motion::Move& move) {
         if (move.kind == motion::MoveKind::dwell) {
             const bool fanuc = options_.dialect == GcodeDialect::fanuc;  // milliseconds there
-            return block("G4 P" +
-                         format_decimal(fanuc ? std::round(1e3 * move.duration_s) : move.duration_s));
+            return block("G4 P" + word_number(fanuc ? std::round(1e3 * move.duration_s) : move.duration_s));
         }
         std::string words;
         const Vec3 &from = move.start.tip_mm, &to = move.end.tip_mm;
         for (int axis = 0; axis < 3; ++axis)
             if (to[axis] != from[axis] || to[axis] != (*at_)[axis] || move.arc)
-                words += std::string(" ") + "XYZ"[axis] + format_decimal(to[axis]);
+                words += std::string(" ") + "XYZ"[axis] + word_number(to[axis]);
         at_ = to;
         if (!move.arc) {
             if (words.empty()) return;
@@ -96,7 +120,7 @@ class Unroller {
         const bool clockwise = (n[normal] < 0) != (move.arc->turn_rad < 0);
         const Vec3 centre = move.arc->centre_mm - from;
         for (int axis = 0; axis < 3; ++axis)
-            if (axis != normal) words += std::string(" ") + "IJK"[axis] + format_decimal(centre[axis]);
+            if (axis != normal) words += std::string(" ") + "IJK"[axis] + word_number(centre[axis]);
         const int turns = static_cast<int>(std::ceil(std::abs(move.arc->turn_rad) / math::kTwoPi - 1e-9));
         if (turns > 1) words += " P" + std::to_string(turns);
         block((clockwise ? "G2" : "G3") + words + feed_of(move));

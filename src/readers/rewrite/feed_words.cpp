@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "readers/control/feed_words.hpp"
+#include "readers/rewrite/feed_words.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/text/decimal.hpp"
+#include "readers/rewrite/word_search.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
 namespace {
 
 constexpr std::size_t kNone = std::string_view::npos;
-
-// A feed in a line: where its number stands.
-struct FeedWord {
-    std::size_t at = 0, end = 0;
-    double value = 0;
-    bool computed = false;  // no number
-};
-
-std::optional<FeedWord> number_at(std::string_view line, std::size_t at) {
-    FeedWord word{at, at, 0, false};
-    word.end = at + parse_decimal(line.substr(at), word.value, DecimalExponent::none);
-    if (word.end == at) return std::nullopt;
-    // A decimal comma.
-    if (word.end + 1 < line.size() && line[word.end] == ',' && is_digit(line[word.end + 1])) {
-        std::string text(line.substr(at));
-        text[word.end - at] = '.';
-        word.end = at + parse_decimal(text, word.value, DecimalExponent::none);
-    }
-    return word;
-}
+constexpr WordName kFeedName{'F', "FEDRAT"};
 
 // Where comments begin, and words end.
 std::size_t code_end(std::string_view line, FeedLanguage language) {
@@ -41,62 +23,6 @@ std::size_t code_end(std::string_view line, FeedLanguage language) {
     end = std::min(end, line.size());
     while (end > 0 && (line[end - 1] == ' ' || line[end - 1] == '\t')) --end;
     return end;
-}
-
-// What stands behind an F.
-std::optional<FeedWord> feed_behind(std::string_view line, std::size_t at, FeedLanguage language) {
-    if (language == FeedLanguage::heidenhain && at < line.size()) {
-        if (to_upper(line[at]) == 'Z' || to_upper(line[at]) == 'U') ++at;  // per tooth, per turn
-        if (line.substr(at).starts_with("AUTO")) return FeedWord{at, at, 0, true};
-    }
-    while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
-    if (language == FeedLanguage::siemens && at < line.size() && line[at] == '=') ++at;
-    while (at < line.size() && line[at] == ' ') ++at;
-    if (at >= line.size()) return std::nullopt;
-    if (const auto number = number_at(line, at)) return number;
-    const char c = to_upper(line[at]);
-    const bool parameter =
-        (c == 'Q' && language == FeedLanguage::heidenhain) || (c == 'R' && language == FeedLanguage::siemens);
-    if (c == '#' || c == '[' || c == '(' || parameter) return FeedWord{at, at, 0, true};
-    return std::nullopt;
-}
-
-std::optional<FeedWord> feed_in_block(std::string_view line, FeedLanguage language) {
-    std::size_t depth = 0;
-    for (std::size_t n = 0; n < line.size(); ++n) {
-        const char c = line[n];
-        if (c == ';') return std::nullopt;
-        if (c == '"') {
-            n = std::min(line.find('"', n + 1), line.size());
-        } else if (c == '(' || c == '[') {
-            ++depth;
-        } else if (c == ')' || c == ']') {
-            if (depth > 0) --depth;
-        } else if (c == '<' && language == FeedLanguage::gcode) {
-            n = std::min(line.find('>', n + 1), line.size());
-        } else if (to_upper(c) == 'F' && depth == 0 &&
-                   (n == 0 || !(is_letter(line[n - 1]) || line[n - 1] == '_'))) {
-            if (auto word = feed_behind(line, n + 1, language)) return word;
-        }
-    }
-    return std::nullopt;
-}
-
-// FEDRAT/200,MMPM or FEDRAT/MMPM,200.
-std::optional<FeedWord> feed_in_statement(std::string_view line) {
-    std::string text(line);
-    std::ranges::transform(text, text.begin(), to_upper);
-    const std::size_t word = text.find_first_not_of(" \t");
-    if (word == kNone || text.compare(word, 6, "FEDRAT") != 0) return std::nullopt;
-    const std::size_t slash = text.find('/', word);
-    if (slash == kNone) return std::nullopt;
-    for (std::size_t at = slash + 1; at < line.size();) {
-        const std::size_t begin = line.find_first_not_of(" \t", at);
-        if (begin == kNone) break;
-        if (const auto number = number_at(line, begin)) return number;
-        at = std::min(line.find(',', begin), line.size() - 1) + 1;
-    }
-    return FeedWord{slash + 1, slash + 1, 0, true};
 }
 
 // How the numbers of the program's feeds are written.
@@ -182,8 +108,8 @@ class FeedWriter {
                 return;
         }
     }
-    std::optional<FeedWord> feed_in(std::string_view line) const {
-        return language_ == FeedLanguage::apt ? feed_in_statement(line) : feed_in_block(line, language_);
+    std::optional<NumberWord> feed_in(std::string_view line) const {
+        return word_in_line(line, language_, kFeedName);
     }
     std::string unrolled(const std::string& remedy) const {
         return language_ == FeedLanguage::gcode ? remedy + ", or add --unroll" : remedy;
@@ -217,7 +143,7 @@ class FeedWriter {
         if (language_ == FeedLanguage::apt) {
             if (!holds) {
                 // The statement that holds, with another number.
-                const FeedWord at = *feed_in_statement(statement_);
+                const NumberWord at = *feed_in(statement_);
                 std::string statement = statement_;
                 statement.replace(at.at, at.end - at.at, chosen);
                 out_ += statement + "\n";
