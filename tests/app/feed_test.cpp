@@ -69,6 +69,25 @@ TEST_F(FeedVerb, changes_nothing_the_second_time) {
     EXPECT_EQ(nlohmann::json::parse(again.out, nullptr, false)["changed"], 0);
 }
 
+TEST_F(FeedVerb, changes_nothing_the_second_time_where_short_moves_share_rows) {
+    // A wave of short moves over the edge of the block: each allows another feed.
+    std::string wave = "G21 G90 M3 S8000\nG0 X-8 Y-2 Z-1\nG1 X-4 F900\n";
+    for (int n = 0; n < 160; ++n) {
+        const double x = -4 + 0.3 * n;
+        wave += "X" + std::to_string(x) + " Y" + std::to_string(-2 + 3 * std::sin(0.35 * n)) + "\n";
+    }
+    const std::vector<std::string> flags{"--force-n", "40", "--chip-mm", "0.001:1"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), flags.begin(), flags.end());
+        return more;
+    };
+    ASSERT_EQ(run(with({"--out", "new.nc"}), wave + "M30\n").code, 0);
+    const std::string once = scratch.get("new.nc");
+    EXPECT_GT(std::ranges::count(once, 'F'), 20) << once;
+    ASSERT_EQ(run(with({"--out", "newer.nc"}), once).code, 0);
+    EXPECT_EQ(scratch.get("newer.nc"), once);
+}
+
 TEST_F(FeedVerb, writes_in_place_only_if_it_is_asked_to) {
     const Outcome refused = run({"--out", "slot.nc", "--force-n", "40"});
     EXPECT_EQ(refused.code, 2);

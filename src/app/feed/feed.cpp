@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/exit.hpp"
-#include "app/feed/edited_source.hpp"
+#include "app/feed/edited_program.hpp"
 #include "app/feed/feed_outputs.hpp"
 #include "app/interrupt.hpp"
 #include "app/outputs.hpp"
@@ -153,22 +153,6 @@ Result<std::vector<std::size_t>> compare(const session::MillSetup& before, const
     return stubborn;
 }
 
-FileResult<session::MillSetup> prepare_edited(const FeedCall& call, const std::string& file, std::string text,
-                                              double cell_mm) {
-    job::LoadOptions limits = files::machine_limits();
-    auto inputs = program_inputs(call.program);
-    if (!inputs) return std::unexpected(FileFailure(inputs.error()));
-    limits.program = *std::move(inputs);
-    auto loaded = job::load_job(EditedSource(file, std::move(text)), call.job, limits);
-    if (!loaded) return std::unexpected(loaded.error());
-    Warnings again;  // said already
-    session::MillOptions options{cell_mm, {}};
-    options.memory_bytes = limits.memory_bytes;
-    auto setup = session::prepare_mill(*loaded, options, again);
-    if (!setup) return std::unexpected(FileFailure(setup.error()));
-    return *std::move(setup);
-}
-
 std::vector<readers::LineFeed> line_feeds(const std::vector<session::BlockFeed>& blocks) {
     std::vector<readers::LineFeed> feeds;
     for (const session::BlockFeed& block : blocks) {
@@ -256,19 +240,17 @@ FileResult<void> unroll(const FeedCall& call, readers::FeedLanguage language, Pr
 }
 
 // Lowers the feed of each block whose load is above its limit though a lower feed would help. False: none is.
+// The result must not depend on the old feeds: then the feed of a feed is the same.
 bool lower_feeds_over(FeedAnswer& answer) {
     bool lowered = false;
     for (std::size_t n = 0; n < answer.after.blocks.size(); ++n) {
         session::BlockFeed& block = answer.before.blocks[n];
         const double ratio = answer.after.blocks[n].ratio;
         if (!is_over(ratio) || session::may_stay_over(block.reason)) continue;
-        // Along the line through the loads at the old feed and at this one: the edge force does not depend on
-        // the feed. At least a half is left.
-        const double now = block.new_mm_per_min, slope = (block.ratio - ratio) / (block.old_mm_per_min - now);
-        const double wanted = slope > 0 ? now - (ratio - 1) / slope : now / ratio;
-        block.new_mm_per_min = std::clamp(wanted, 0.5 * now, now / ratio);
+        const bool kept = readers::keeps_feed(block.factor());
+        block.new_mm_per_min /= ratio;
         // What is nearly the old feed would stay.
-        if (readers::keeps_feed(block.factor()))
+        if (kept && readers::keeps_feed(block.factor()))
             block.new_mm_per_min = 0.999 * readers::kFeedKeptBelow * block.old_mm_per_min;
         block.reason = session::FeedReason::load;
         lowered = true;
@@ -286,14 +268,16 @@ FileResult<void> make(const FeedCall& call, PreparedJob& loaded, std::string tex
     }
     if (auto good = check_order(loaded.setup, file, text); !good)
         return std::unexpected(FileFailure(good.error()));
-    const session::LoadModel model(loaded.setup, targets_of(call, loaded));
     const ParallelFor parallel = parallel_for_over(available_threads());
+    const session::LoadModel model(loaded.setup, targets_of(call, loaded));
     session::FeedPlanOptions options{call.sure, loaded.job.machine.rapid_mm_per_min, true};
     Progress progress;
+    // The rows must not depend on the feeds that the blocks have now.
+    loaded.setup.join_moves = false;
     session::MillSession session(std::move(loaded.setup), parallel);
     if (stopped = !run(session, model, options, progress, "milling", answer.before); stopped) return {};
 
-    // With other feeds short moves join into other rows, whose load may be a little larger.
+    // Here short moves share rows, as in a render: their load may be a little larger.
     constexpr int kMostPasses = 4;
     options.solve = false;
     for (int pass = 1;; ++pass) {

@@ -44,7 +44,8 @@ class MillSession::Run {
         joins_.reserve(setup_.moves.size());
         for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
             const motion::MoveTiming& timing = schedule_->moves[n];
-            joins_.push_back(joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
+            joins_.push_back(setup_.join_moves &&
+                             joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
                                         setup_.rpm_of_move[n], timing.end_s - timing.start_s));
         }
     }

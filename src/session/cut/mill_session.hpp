@@ -53,6 +53,8 @@ struct MillSetup {
     motion::TimingOptions timing;
     std::shared_ptr<const motion::Schedule> schedule;  // of the moves; null: schedule_of() computes it
     double cell_mm = 0.25;
+    // Short moves of one feed share rows. False: rows do not depend on the feeds, and there are more of them.
+    bool join_moves = true;
     std::optional<double> until_s;
     int harmonics =
         16;  // multiples of the tooth passing frequency; if teeth differ: of the spindle's, times flutes
