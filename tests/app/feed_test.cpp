@@ -151,6 +151,35 @@ TEST_F(FeedVerb, unrolls_a_loop_and_divides_its_blocks) {
     EXPECT_EQ(run({"--out", "new.nc", "--split", "7"}, loop).code, 2);
 }
 
+TEST_F(FeedVerb, writes_speeds_without_chatter_and_keeps_the_chips) {
+    const std::vector<std::string> flags{"feed",      "job.toml",  "--stable", "--force-n", "2000",
+                                         "--chip-mm", "0.001:0.1", "--json",   "--out"};
+    const auto feed = [&](const char* out, const std::string& program) {
+        scratch.put("slot.nc", program);
+        scratch.put("job.toml", kBenchmarkSlot + benchmark_mode("1, 0, 0"));
+        std::vector<std::string> call = flags;
+        call.emplace_back(out);
+        return run_tribo(call, scratch.path());
+    };
+    const Outcome outcome = feed("new.nc", kSlots);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto speed = nlohmann::json::parse(outcome.out, nullptr, false)["speeds"][0];
+    EXPECT_EQ(speed["old_rpm"], 8000);
+    EXPECT_GT(speed["old_multiplier"], 1);
+    EXPECT_LT(speed["new_multiplier"], 1);
+    const std::string once = scratch.get("new.nc");
+    const double rpm = std::stod(once.substr(once.find('S') + 1));
+    EXPECT_EQ(rpm, speed["new_rpm"].get<double>());
+    // The chip of 0.1 mm stays.
+    EXPECT_NEAR(std::stod(once.substr(once.find('F') + 1)), 0.2 * rpm, 2e-3 * rpm) << once;
+    ASSERT_EQ(feed("newer.nc", once).code, 0);
+    EXPECT_EQ(scratch.get("newer.nc"), once);
+    // Without modes nothing is known about chatter.
+    const Outcome refused = run({"--out", "new.nc", "--stable"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("what bends"), std::string::npos) << refused.err;
+}
+
 TEST_F(FeedVerb, refuses_wrong_targets) {
     EXPECT_EQ(run({"--out", "new.nc", "--force-n", "-1"}).code, 2);
     EXPECT_EQ(run({"--out", "new.nc", "--chip-mm", "0.1:0.01"}).code, 2);

@@ -68,6 +68,9 @@ int audit(const AuditCall& call) {
     session::MillOptions options{call.resolution_mm, {}};
     auto loaded = prepare_job(call.job, call.program, options);
     if (!loaded) return report(loaded.error());
+    if (call.stable) {
+        if (auto good = check_bends(loaded->job); !good) return report(good.error());
+    }
     const bool bends = loaded->job.can_vibrate(),
                records_surface = bends && loaded->job.limits.tolerance_mm.has_value();
     const RunOutputs made{.chatter_bytes =
@@ -91,6 +94,11 @@ int audit(const AuditCall& call) {
     }
     const session::LoadModel model(loaded->setup, session::cut_limits(loaded->job, loaded->setup));
     append(model.limits().assumptions, loaded->warnings);
+    if (loaded->job.limits.tolerance_mm && !bends)
+        loaded->warnings.push_back(
+            {call.job, 0,
+             "the tolerance is not held against bending: the job does not say what bends; "
+             "write [[mode]], or [dynamics] estimate = true with stickout_mm"});
     report(loaded->warnings);
 
     const ParallelFor parallel = parallel_for_over(available_threads());
@@ -115,11 +123,13 @@ int audit(const AuditCall& call) {
     };
     session::MillSinks sinks;
     std::optional<session::ProgramChatter> chatter;
+    session::StableSpeedSearch speeds(session.setup());
     if (bends) {
         chatter.emplace(
             session.setup(), session::ProgramChatter::Options{false, records_surface}, parallel,
             [&](const milling::CutRow& row, const milling::RowForce& force,
                 const session::RowChatter& of_row) {
+                if (call.stable && of_row.stability) speeds.add(row, of_row.stability->multiplier);
                 take(row, force,
                      of_row.stability ? std::optional(of_row.stability->multiplier) : std::nullopt);
             });
@@ -135,6 +145,7 @@ int audit(const AuditCall& call) {
     answer.audit = auditor.finish();
     progress.reset();
 
+    if (call.stable) answer.speeds = advise_speeds(speeds, *loaded, session.setup(), parallel);
     Warnings found = session::warnings_of(session.totals(), call.job, loaded->job.path.file);
     if (chatter) {
         append(session::warnings_of(chatter->totals(), loaded->job.path.file), found);

@@ -15,6 +15,7 @@ struct AuditCall {
     std::optional<double> resolution_mm;
     std::optional<double> fail_over;  // a ratio to a limit
     bool json = false;
+    bool stable = false;  // propose spindle speeds without chatter
 };
 
 // Returns the exit code.

@@ -118,6 +118,7 @@ std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const P
         files::parse(session::audit_json(answer.audit, answer.verdict, answer.facts, model, session)));
     files::set(json, "rest_max_mm", answer.rest_mm);
     files::set(json, "scallop_max_mm", answer.scallop_mm);
+    if (call.stable) json["speeds"] = speeds_json(answer.speeds);
     json["warnings"] = files::Json::array();
     for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
     return files::pretty(json);
@@ -184,6 +185,14 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
              digits(line.plunge_deg, 3), digits(line.jump_n, 3)});
     }
     page.tables = {std::move(tools), std::move(worst), std::move(limits)};
+    if (call.stable) {
+        report::AuditTable speeds{"Spindle speeds",
+                                  "Speeds without chatter; feeds follow them, so that the chips stay.",
+                                  {"Speed"},
+                                  {}};
+        for (std::string& text : in_words(answer.speeds)) speeds.rows.push_back({std::move(text)});
+        page.tables.push_back(std::move(speeds));
+    }
     const Box3 blank = session.stock().blank().bounds_mm();
     const Vec3 size = blank.size();
     page.facts = {
@@ -227,6 +236,8 @@ void print(const AuditAnswer& answer, const session::LoadModel& model, const ses
         std::printf("  %-14s %d entries into material, largest jump %.3g N, steepest plunge %.3g deg\n",
                     "way in", tool.entries, tool.jump_n, tool.plunge_deg);
     }
+    for (const std::string& text : in_words(answer.speeds))
+        std::printf("%-16s %s\n", "speed", printable(text).c_str());
     std::printf("%-16s %zu collisions, %zu warnings\n", "findings", session.totals().collisions.size(),
                 answer.warnings.size());
 }

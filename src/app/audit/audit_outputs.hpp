@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/audit/audit.hpp"
+#include "app/audit/speed_advice.hpp"
 #include "app/render/render_job.hpp"
 #include "files/files.hpp"
 #include "session/audit/verdict.hpp"
@@ -51,6 +52,7 @@ struct AuditAnswer {
     session::Verdict verdict;
     session::AuditFacts facts;
     std::optional<double> scallop_mm, rest_mm;
+    SpeedAdvice speeds;  // with --stable
     Warnings warnings;
     LoadCurve force_n, ratio;  // ratio: to the limit that is nearest
 };

@@ -8,6 +8,7 @@
 #include "app/exit.hpp"
 #include "app/feed/edited_program.hpp"
 #include "app/feed/feed_outputs.hpp"
+#include "app/feed/stable_speeds.hpp"
 #include "app/interrupt.hpp"
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
@@ -269,6 +270,10 @@ FileResult<void> make(const FeedCall& call, PreparedJob& loaded, std::string tex
     if (auto good = check_order(loaded.setup, file, text); !good)
         return std::unexpected(FileFailure(good.error()));
     const ParallelFor parallel = parallel_for_over(available_threads());
+    if (call.stable) {
+        auto done = use_stable_speeds(call, *language, parallel, loaded, text, answer);
+        if (stopped = interrupted(); stopped || !done) return done;
+    }
     const session::LoadModel model(loaded.setup, targets_of(call, loaded));
     session::FeedPlanOptions options{call.sure, loaded.job.machine.rapid_mm_per_min, true};
     Progress progress;

@@ -19,6 +19,7 @@ struct FeedCall {
     std::optional<double> force_n, power_w, stress_n_per_mm2, deflection_mm;
     std::optional<std::pair<double, double>> chip_mm;  // least and largest
     bool sure = false, in_place = false, json = false;
+    bool stable = false;             // first choose spindle speeds without chatter
     bool unroll = false;             // first write the program anew, a block for each move
     std::optional<double> split_mm;  // longest straight block then
 

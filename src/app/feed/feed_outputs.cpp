@@ -77,6 +77,7 @@ std::string feed_json(const FeedCall& call, const FeedAnswer& answer) {
     json["blocks"] = answer.before.blocks.size();
     json["changed"] = answer.changed;
     for (const auto& [reason, count] : reasons(answer)) json["reasons"][std::string(name_of(reason))] = count;
+    if (call.stable) json["speeds"] = speeds_json(answer.speeds);
     json["over"] = files::Json::array();
     for (const LineOver& line : lines_over(answer))
         json["over"].push_back(
@@ -92,6 +93,8 @@ void print(const FeedAnswer& answer) {
         const double median = run.forces.quantile(0.5);
         return median > 0 ? run.forces.quantile(0.95) / median : 0;
     };
+    for (const std::string& text : in_words(answer.speeds))
+        std::printf("%-16s %s\n", "speed", printable(text).c_str());
     std::printf("%-16s %zu of %zu blocks have another feed\n", "feeds", answer.changed, a.blocks.size());
     std::printf("%-16s %.1f s, was %.1f s\n", "time", b.totals.duration_s, a.totals.duration_s);
     std::printf("%-16s %.1f N, was %.1f N\n", "peak force", b.totals.peak_force_n, a.totals.peak_force_n);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/audit/speed_advice.hpp"
 #include "app/feed/feed.hpp"
 #include "session/cut/mill_session.hpp"
 #include "session/feed/feed_plan.hpp"
@@ -40,6 +41,7 @@ struct FeedAnswer {
     FeedRun before, after;
     std::string program, file;  // that was written
     std::size_t changed = 0;    // blocks with another feed
+    SpeedAdvice speeds;         // with --stable
     Warnings warnings;
 };
 

@@ -26,6 +26,7 @@ void add_audit(CLI::App& program, int& exit_code) {
                      "Exit with 4 if any load is more than this times its limit, or something collides")
         ->check(within(kLimits.fail_ratio))
         ->type_name("RATIO");
+    verb->add_flag("--stable", call->stable, "Propose spindle speeds at which the tools do not chatter");
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->callback([call, &exit_code] { exit_code = audit(*call); });
 }

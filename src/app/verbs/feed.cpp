@@ -64,6 +64,8 @@ void add_feed(CLI::App& program, int& exit_code) {
         ->type_name("LO:HI");
     verb->add_flag("--sure", call->sure,
                    "Stay within the limits at the worst end of the band of forces and limits");
+    verb->add_flag("--stable", call->stable,
+                   "First write spindle speeds at which the tools do not chatter; the chips stay");
     CLI::Option* unroll =
         verb->add_flag("--unroll", call->unroll,
                        "Write the program anew as plain G-code first: no loops, calls, cycles and variables");

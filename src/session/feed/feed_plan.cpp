@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kPerMinute = 60;
 
+}  // namespace
+
 double feed_of(const motion::Move& move) {
     return move.duration_s > 0 ? kPerMinute * motion::path_length_mm(move) / move.duration_s
                                : move.feed_mm_per_min;
 }
-
-}  // namespace
 
 std::string_view name_of(FeedReason reason) {
     switch (reason) {

@@ -28,6 +28,9 @@ std::string_view name_of(FeedReason reason);
 // Whether a load may stay above its limit for this reason.
 bool may_stay_over(FeedReason reason);
 
+// Of a feed move, mm/min, also where the program gives its time.
+double feed_of(const motion::Move& move);
+
 struct BlockFeed {
     int line = 0;
     std::size_t first_move = 0, end_move = 0;  // of the setup; one behind the last
