@@ -42,6 +42,7 @@ float sawMarks(vec3 p) {
   float fine = clamp(1.0 - 1.2 * fwidth(s) * 3.0, 0.0, 1.0), broad = clamp(1.0 - 1.2 * fwidth(s) * 0.7, 0.0, 1.0);
   return 0.65 * broad * noiseOf(0.7 * s) + 0.5 * fine * noiseOf(3.0 * s);
 }
+#ifdef CONTACT
 vec3 placeAt(vec2 pixel) {
   vec2 at = pixel / contactSize;
   float depth = texture2D(contactDepth, at).r;
@@ -66,7 +67,8 @@ float openness(vec3 p, vec3 n) {
     hidden += near * max(0.0, dot(v, n) - 0.3 * perPixel) / (d2 + 0.04 * radius * radius);
   }
   return clamp(1.0 - 1.1 * radius * hidden / float(samples), 0.25, 1.0);
-}`;
+}
+#endif`;
 
 const COLOUR = /* glsl */ `
   bool untouched = vBlank > 0.999;
@@ -79,7 +81,9 @@ const ROUGHNESS = /* glsl */ `
 const METALNESS = /* glsl */ `
   metalnessFactor = mix(untouched ? 0.4 : 1.0, 0.0, data) * shine + 0.12 * (1.0 - shine);`;
 const CONTACT = /* glsl */ `
-  if (contactOn > 0.0) outgoingLight *= openness(-vViewPosition, normal);`;
+#ifdef CONTACT
+  if (contactOn > 0.0) outgoingLight *= openness(-vViewPosition, normal);
+#endif`;
 
 export class PartMaterial extends MeshStandardMaterial {
   private readonly sawnColour = { value: new Color() };
@@ -109,6 +113,11 @@ export class PartMaterial extends MeshStandardMaterial {
   }
   setFine(fine: boolean): void {
     this.fine = fine;
+    // The shader of the first picture is short.
+    this.defines = { ...this.defines };
+    if (fine) this.defines.CONTACT = "";
+    else delete this.defines.CONTACT;
+    this.needsUpdate = true;
     this.choose();
   }
 
