@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
 #include <tuple>
 
 namespace tribo::app {
+namespace {
+
+constexpr std::size_t kMostOpen = 400;  // systems allow 1,024 files at a time
+
+}  // namespace
 
 FinishedCases::Key FinishedCases::key_of(const CaseId& id) {
     Key key{};
@@ -42,11 +46,19 @@ bool FinishedCases::has(const CaseId& id, bool and_died) const {
     return entry != nullptr && (and_died || !entry->died);
 }
 
+std::ifstream& FinishedCases::opened(std::uint32_t file) const {
+    open_.resize(std::min(files_.size(), kMostOpen));
+    OpenFile& open = open_[file % open_.size()];
+    if (!open.in.is_open() || open.file != file) open = {file, std::ifstream(files_[file], std::ios::binary)};
+    open.in.clear();
+    return open.in;
+}
+
 FileResult<std::optional<CaseResult>> FinishedCases::result(const CaseId& id) const {
     const Entry* entry = find(id);
     if (entry == nullptr) return std::nullopt;
     const std::string& path = files_[entry->file];
-    std::ifstream in(path, std::ios::binary);
+    std::ifstream& in = opened(entry->file);
     std::string line;
     in.seekg(static_cast<std::streamoff>(entry->offset));
     if (!in || !std::getline(in, line)) return files::system_failure(path, "read", errno);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ class FinishedCases {
     std::size_t repeated() const { return repeated_; }
     // True where the case has results or a reason; a case whose process died counts only with `and_died`.
     bool has(const CaseId& id, bool and_died = false) const;
-    // No value where the case is not finished. Of several results of one case the first is taken.
+    // No value where the case is not finished. Of several results of one case the first is taken. One thread.
     FileResult<std::optional<CaseResult>> result(const CaseId& id) const;
 
   private:
@@ -36,7 +37,15 @@ class FinishedCases {
     static Key key_of(const CaseId& id);
     const Entry* find(const CaseId& id) const;
 
+    // A file that stays open: cases of neighbouring numbers stand in the files of all tasks in turn.
+    struct OpenFile {
+        std::uint32_t file = 0;
+        std::ifstream in;
+    };
+    std::ifstream& opened(std::uint32_t file) const;
+
     std::vector<std::string> files_;
+    mutable std::vector<OpenFile> open_;
     std::vector<Entry> places_;  // sorted by key
     std::size_t repeated_ = 0;
 };
