@@ -58,10 +58,10 @@ fuzz_all() {
         printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds"
 }
 
-# Ten minutes of live play at full speed with clients that never read, ten with a crowd of viewers.
+# Ten minutes of live play at full speed with clients that never read, ten with a crowd of viewers; a sweep whose node dies.
 long_play() {
     configure_and_build release --target test_app &&
-        build/release/tests/test_app --gtest_also_run_disabled_tests --gtest_filter='Live*.DISABLED_*'
+        build/release/tests/test_app --gtest_also_run_disabled_tests --gtest_filter='Live*.DISABLED_*:SlurmSweep.DISABLED_*'
 }
 
 # Tests that are named DISABLED_, as they take minutes: the whole grid of strokes of a probe over milled stock, ten

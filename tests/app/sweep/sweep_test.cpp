@@ -9,6 +9,7 @@
 #include <set>
 #include <signal.h>
 #include <sstream>
+#include <sys/mount.h>
 #include <thread>
 
 #include "app/run/job_folder.hpp"
@@ -249,6 +250,45 @@ TEST_F(Sweep, runs_one_case_alone_and_foretells_all) {
     EXPECT_EQ(foretold.code, 0);
     EXPECT_NE(foretold.out.find("6, of which 6 have no result"), std::string::npos) << foretold.out;
     EXPECT_FALSE(fs::exists(path("cases_of")));
+}
+
+// The disk is full in the middle, then wide enough, then read-only.
+TEST_F(Sweep, loses_nothing_on_a_full_disk_and_says_what_is_wrong) {
+    fs::create_directory(path("disk"));
+    const std::string disk = path("disk");
+    const auto mount = [&](unsigned long flags, const char* options) {
+        return ::mount("tmpfs", disk.c_str(), "tmpfs", flags, options) == 0;
+    };
+    if (!mount(0, "size=16k")) GTEST_SKIP() << "only root may mount a small disk";
+    folder_.put("many.toml", R"(base = "job.toml"
+resolution_mm = 1
+[axes]
+process.spindle_rpm = {from = 5000, to = 8900, step = 100}
+)");
+    const Outcome full = sweep({"--out", "disk/o"}, "many.toml");
+    EXPECT_EQ(full.code, 3);
+    EXPECT_NE(full.err.find("No space left on device; free some space"), std::string::npos) << full.err;
+    std::set<std::string> finished;
+    for (const auto& [line, times] : lines("disk/o"))
+        if (line.ends_with('}')) finished.insert(line);
+    EXPECT_LT(finished.size(), 40u);
+
+    ASSERT_TRUE(mount(MS_REMOUNT, "size=4m"));
+    const Outcome wide = sweep({"--out", "disk/o"}, "many.toml");
+    EXPECT_EQ(wide.code, 0) << wide.err;
+    EXPECT_EQ(results("disk/o").size(), 40u);
+    auto all = lines("disk/o");
+    std::erase_if(all, [](const auto& line) { return !line.first.ends_with('}'); });
+    EXPECT_EQ(all.size(), 40u);
+    for (const std::string& line : finished) EXPECT_EQ(all.at(line), 1) << line;
+
+    ASSERT_TRUE(mount(MS_REMOUNT | MS_RDONLY, "size=4m"));
+    const Outcome read_only = sweep({"--out", "disk/p"}, "many.toml");
+    EXPECT_EQ(read_only.code, 3);
+    EXPECT_NE(read_only.err.find("Read-only file system; try a place that can be written to"),
+              std::string::npos)
+        << read_only.err;
+    EXPECT_EQ(::umount(disk.c_str()), 0);
 }
 
 TEST_F(Sweep, refuses_what_cannot_be_run) {
