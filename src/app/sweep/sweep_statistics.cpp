@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweep/band.hpp"
+
 namespace tribo::app {
 namespace {
 
@@ -87,15 +89,11 @@ std::vector<report::SweepOutput> SweepStatistics::outputs() const {
         to.mean = from.sum / static_cast<double>(from.count);
         to.least = from.least, to.most = from.most;
         to.least_case = from.least_case, to.most_case = from.most_case;
-        std::vector<double> sorted = from.values;
-        std::ranges::sort(sorted);
-        const auto at = [&](double below) {
-            return sorted[static_cast<std::size_t>(below * static_cast<double>(sorted.size() - 1) + 0.5)];
-        };
-        to.low = at(0.05), to.median = at(0.5), to.high = at(0.95);
+        std::vector<double> values = from.values;
+        to.band = sweep::band_of(values);
         to.histogram.resize(kColumns);
         const double width = (to.most - to.least) / static_cast<double>(kColumns);
-        for (const double value : sorted) {
+        for (const double value : values) {
             const double column = width > 0 ? (value - to.least) / width : 0;
             ++to.histogram[std::min(static_cast<std::size_t>(column), kColumns - 1)];
         }

@@ -76,7 +76,7 @@ std::string outputs_table(const SweepReport& report) {
     html += "<th>distribution</th></tr>\n";
     for (const SweepOutput& o : report.outputs) {
         html += "<tr><th scope=\"row\">" + escaped(o.name) + "</th>";
-        for (const double value : {o.low, o.median, o.high, o.mean})
+        for (const double value : {o.band.low, o.band.median, o.band.high, o.mean})
             html += "<td class=\"number\">" + number(value) + "</td>";
         html += "<td class=\"number\">" + number(o.least) + " (" + std::to_string(o.least_case) +
                 ")</td><td class=\"number\">" + number(o.most) + " (" + std::to_string(o.most_case) +

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sweep/band.hpp"
+
 namespace tribo::report {
 
 struct SweepInput {
@@ -17,7 +19,8 @@ struct SweepInput {
 struct SweepOutput {
     std::string name;
     std::uint64_t count = 0;
-    double mean = 0, low = 0, median = 0, high = 0;  // low and high: 5 % and 95 % of the cases
+    double mean = 0;
+    sweep::Band band;
     double least = 0, most = 0;
     std::uint64_t least_case = 0, most_case = 0;
     std::vector<std::uint64_t> histogram;  // from least to most, equal widths
