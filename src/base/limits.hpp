@@ -256,7 +256,8 @@ struct Limits {
         "spread",
         "",
         {0, 9},
-        "`frequency_spread`, `damping_spread` and `stiffness_spread` of a mode, `spread` of `[material]`",
+        "`frequency_spread`, `damping_spread` and `stiffness_spread` of a mode, `runout_spread` of a "
+        "cutter, `spread` of `[material]`",
         "A factor of ten to both sides; what is known less well is not known."};
     Limit fitted_modes{"modes to fit",
                        "",
@@ -317,6 +318,11 @@ struct Limits {
                      "`--resolution`",
                      "A coarser grid misses whole cuts; a finer one needs more memory than there is."};
     Limit until{"time of a run", "s", {1e-6, 1e9}, "`--until`, `--t`", "30 years; programs last hours."};
+    Limit uncertain_cases{"number of cases",
+                          "",
+                          {10, 100'000},
+                          "`--uncertain`",
+                          "Fewer say nothing of 1 in 20; more change no band by 0.5 %."};
     Limit turns{"turns to simulate",
                 "",
                 {1, 1e6},

@@ -53,16 +53,16 @@ std::string cards(const Summary& s) {
     const auto unit = [](double value, const char* name) {
         return number(value) + " <small>" + name + "</small>";
     };
-    const auto band = [&](double value) {
-        if (s.force_low_factor >= s.force_high_factor) return std::string();
-        return number(value * s.force_low_factor, 3) + " to " + number(value * s.force_high_factor, 3);
+    const auto band = [&](const ForceValue& value) {
+        if (!(value.low < value.high)) return std::string();
+        return number(value.low, 3) + " to " + number(value.high, 3);
     };
     const double cm3 = 1e-3;
     std::string html;
-    html += card("Largest force", unit(s.peak_force_n, "N"), band(s.peak_force_n));
-    html += card("Mean force", unit(s.mean_force_n, "N"), band(s.mean_force_n));
-    html += card("Largest torque", unit(s.peak_torque_nm, "N m"), band(s.peak_torque_nm));
-    html += card("Largest power", unit(s.peak_power_w, "W"), band(s.peak_power_w));
+    html += card("Largest force", unit(s.peak_force_n.value, "N"), band(s.peak_force_n));
+    html += card("Mean force", unit(s.mean_force_n.value, "N"), band(s.mean_force_n));
+    html += card("Largest torque", unit(s.peak_torque_nm.value, "N m"), band(s.peak_torque_nm));
+    html += card("Largest power", unit(s.peak_power_w.value, "W"), band(s.peak_power_w));
     if (s.tooth_passing_hz) html += card("Tooth passing", unit(*s.tooth_passing_hz, "Hz"));
     html += card("Duration", time_text(s.duration_s), "cutting " + time_text(s.cutting_s));
     html += card("Path", unit(s.path_mm * 1e-3, "m"), "feed moves");
@@ -208,6 +208,8 @@ std::string rows_json(const std::vector<ReportRow>& rows, bool chatter) {
         {"z", 6, [](R r) { return r.tip_mm.z; }},
         {"mean", 4, [](R r) { return r.mean_n; }},
         {"peak", 4, [](R r) { return r.peak_n; }},
+        {"low", 4, [](R r) { return r.peak_low_n; }},
+        {"high", 4, [](R r) { return r.peak_high_n; }},
         {"entry", 4, [](R r) { return r.entry_deg; }},
         {"exit", 4, [](R r) { return r.exit_deg; }},
         {"depth", 4, [](R r) { return r.depth_mm; }},
@@ -261,9 +263,8 @@ std::string sound_json(const ReportSound& sound) {
 }
 
 std::string data_json(const ReportData& data) {
-    std::string json = "{\"schema\":\"tribo.report/1\",\"band\":[" + number(data.summary.force_low_factor) +
-                       "," + number(data.summary.force_high_factor) +
-                       "],\"rows\":" + rows_json(thin_rows(data.rows, kMostRows), data.chatter.has_value());
+    std::string json = "{\"schema\":\"tribo.report/1\",\"rows\":" +
+                       rows_json(thin_rows(data.rows, kMostRows), data.chatter.has_value());
     if (data.turn && !data.turn->force_n.empty()) json += ",\"turn\":" + turn_json(*data.turn);
     if (data.chatter && !data.chatter->displacement_mm.empty())
         json += ",\"vibration\":" + vibration_json(*data.chatter);

@@ -22,7 +22,8 @@ struct ReportRow {
     double t_s = 0, duration_s = 0;
     int line = 0;
     Vec3 tip_mm;
-    double mean_n = 0, peak_n = 0;  // |mean force| over a turn, largest |F| in a turn
+    double mean_n = 0, peak_n = 0;           // |mean force| over a turn, largest |F| in a turn
+    double peak_low_n = 0, peak_high_n = 0;  // the latter as it may be in truth
     double entry_deg = 0, exit_deg = 0, depth_mm = 0;
     double rpm = 0, feed_mm_per_min = 0;
     // Of a job with modes; a multiplier of 0 is unknown.

@@ -6,11 +6,9 @@
 namespace tribo::report {
 namespace {
 
-void set_with_band(files::Json& json, const std::string& key, double value, const Summary& s) {
-    files::set(json, key.c_str(), value);
-    if (std::isfinite(value) && s.force_low_factor < s.force_high_factor) {
-        json[key + "_band"] = {value * s.force_low_factor, value * s.force_high_factor};
-    }
+void set_with_band(files::Json& json, const std::string& key, const ForceValue& force) {
+    files::set(json, key.c_str(), force.value);
+    if (std::isfinite(force.value) && force.low < force.high) json[key + "_band"] = {force.low, force.high};
 }
 
 // Sixteen hexadecimal digits: many readers store JSON numbers as doubles and would lose bits.
@@ -43,10 +41,11 @@ std::string summary_json(const Summary& s) {
     files::set(json, "path_mm", s.path_mm);
     files::set(json, "removed_mm3", s.removed_mm3);
     files::set(json, "remaining_mm3", s.remaining_mm3);
-    set_with_band(json, "mean_force_n", s.mean_force_n, s);
-    set_with_band(json, "peak_force_n", s.peak_force_n, s);
-    set_with_band(json, "peak_torque_nm", s.peak_torque_nm, s);
-    set_with_band(json, "peak_power_w", s.peak_power_w, s);
+    set_with_band(json, "mean_force_n", s.mean_force_n);
+    set_with_band(json, "peak_force_n", s.peak_force_n);
+    set_with_band(json, "peak_torque_nm", s.peak_torque_nm);
+    set_with_band(json, "peak_power_w", s.peak_power_w);
+    if (s.uncertain_cases) json["uncertain_cases"] = *s.uncertain_cases;
     files::set(json, "tooth_passing_hz", s.tooth_passing_hz);
     files::set(json, "work_j", s.work_j);
     files::set(json, "energy_balance", s.energy_balance);
@@ -77,6 +76,7 @@ std::string summary_json(const Summary& s) {
             json["chatter"].push_back(std::move(chatter));
         }
     }
+    files::set(json, "chatter_probability", s.chatter_probability);
     files::set(json, "largest_displacement_mm", s.largest_displacement_mm);
     if (s.form_error) {
         files::Json error;

@@ -34,16 +34,20 @@ struct SummaryFormError {
     int left_line = 0, overcut_line = 0;  // 0: none
 };
 
+// A force, torque or power, and the band in which the true one likely lies. Without one, all are equal.
+struct ForceValue {
+    double value = 0, low = 0, high = 0;
+};
+
 struct Summary {
     std::string job;      // name of the job file
     std::string version;  // of the program
     double duration_s = 0, cutting_s = 0, path_mm = 0;
     double removed_mm3 = 0, remaining_mm3 = 0;
-    double mean_force_n = 0, peak_force_n = 0, peak_torque_nm = 0, peak_power_w = 0;
-    // Published coefficients for one material differ. True forces, torque and power may be these factors
-    // times the values here.
-    double force_low_factor = 1, force_high_factor = 1;
-    std::optional<double> tooth_passing_hz;  // absent: nothing was cut
+    ForceValue mean_force_n, peak_force_n, peak_torque_nm, peak_power_w;
+    std::optional<std::size_t> uncertain_cases;  // of which the bands are; absent: of the spread of forces
+    std::optional<double> chatter_probability;   // of the worst row, in these cases
+    std::optional<double> tooth_passing_hz;      // absent: nothing was cut
     // Work of the spindle. The balance is the shear work over ktc times the cut volume; absent if the
     // engagement is prescribed or nothing was cut.
     double work_j = 0;

@@ -109,7 +109,7 @@ TEST(Docs, results_page_names_every_column_key_and_kind) {
     const auto named = [&](const std::string& name) {
         EXPECT_NE(text.find("`" + name + "`"), std::string::npos) << name;
     };
-    std::istringstream header(readers::forces_csv_header(true));
+    std::istringstream header(readers::forces_csv_header(true, true));
     std::string columns;
     std::getline(header, columns);
     std::istringstream names(columns);
@@ -119,6 +119,8 @@ TEST(Docs, results_page_names_every_column_key_and_kind) {
     all.triangles = 1;
     all.chatter.emplace();
     all.largest_displacement_mm = 0;
+    all.uncertain_cases = 1;
+    all.chatter_probability = 0.5;
     all.as_published = true;
     std::istringstream json(summary_json(all));
     for (std::string line; std::getline(json, line);) {

@@ -17,9 +17,7 @@ ReportData example() {
     ReportData data;
     data.title = "bowl";
     data.summary.version = "1.2.3";
-    data.summary.peak_force_n = 400;
-    data.summary.force_low_factor = 0.5;
-    data.summary.force_high_factor = 2;
+    data.summary.peak_force_n = {400, 200, 800};
     for (int i = 0; i < 10; ++i) {
         ReportRow row;
         row.t_s = 0.1 * i;
@@ -27,6 +25,8 @@ ReportData example() {
         row.line = 5 + i;
         row.tip_mm = {1.0 * i, 2, -3};
         row.peak_n = 100 + i;
+        row.peak_low_n = 0.5 * row.peak_n;
+        row.peak_high_n = 2 * row.peak_n;
         row.mean_n = 50;
         data.rows.push_back(row);
     }
@@ -51,7 +51,8 @@ Json embedded(const std::string& html) {
 TEST(Report, carries_the_data_of_its_plots) {
     const Json json = embedded(report_html(example()));
     EXPECT_EQ(json["schema"], "tribo.report/1");
-    EXPECT_EQ(json["band"], Json::parse("[0.5, 2]"));
+    EXPECT_EQ(json["rows"]["low"][0], 50);
+    EXPECT_EQ(json["rows"]["high"][9], 218);
     EXPECT_EQ(json["rows"]["line"], Json::parse("[5,6,7,8,9,10,11,12,13,14]"));
     EXPECT_EQ(json["rows"]["peak"][9], 109);
     EXPECT_EQ(json["rows"]["z"][0], -3);

@@ -19,12 +19,10 @@ Summary full() {
     s.path_mm = 120;
     s.removed_mm3 = 3000;
     s.remaining_mm3 = 247000;
-    s.mean_force_n = 100;
-    s.peak_force_n = 400;
-    s.peak_torque_nm = 2;
-    s.peak_power_w = 1000;
-    s.force_low_factor = 0.5;
-    s.force_high_factor = 2;
+    s.mean_force_n = {100, 50, 200};
+    s.peak_force_n = {400, 200, 800};
+    s.peak_torque_nm = {2, 1, 4};
+    s.peak_power_w = {1000, 500, 2000};
     s.tooth_passing_hz = 200;
     s.triangles = 12345;
     s.resolution_mm = 0.25;
@@ -68,13 +66,23 @@ TEST(SummaryJson, gives_every_force_its_band) {
     EXPECT_EQ(json["peak_power_w_band"], Json::parse("[500.0, 2000.0]"));
     EXPECT_FALSE(json.contains("removed_mm3_band"));
     Summary exact = full();
-    exact.force_low_factor = exact.force_high_factor = 1;
+    exact.peak_force_n = {400, 400, 400};
     EXPECT_FALSE(Json::parse(summary_json(exact)).contains("peak_force_n_band"));
+}
+
+TEST(SummaryJson, says_of_how_many_cases_a_band_is) {
+    EXPECT_FALSE(Json::parse(summary_json(full())).contains("uncertain_cases"));
+    Summary of_cases = full();
+    of_cases.uncertain_cases = 200;
+    of_cases.chatter_probability = 0.25;
+    const Json json = Json::parse(summary_json(of_cases));
+    EXPECT_EQ(json["uncertain_cases"], 200);
+    EXPECT_EQ(json["chatter_probability"], 0.25);
 }
 
 TEST(SummaryJson, leaves_out_what_is_absent_or_not_finite_and_never_writes_null) {
     Summary s;
-    s.peak_force_n = std::numeric_limits<double>::quiet_NaN();
+    s.peak_force_n.value = std::numeric_limits<double>::quiet_NaN();
     s.path_mm = std::numeric_limits<double>::infinity();
     const std::string text = summary_json(s);
     const Json json = Json::parse(text);

@@ -10,8 +10,10 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/render/part_deviation.hpp"
+#include "app/uncertain_flag.hpp"
 #include "base/text/printable.hpp"
 #include "files/output_folder.hpp"
+#include "session/chatter/probability.hpp"
 #include "session/chatter/surface_recorder.hpp"
 #include "session/cut/mill_warnings.hpp"
 #include "tribo/threads.hpp"
@@ -71,6 +73,9 @@ int audit(const AuditCall& call) {
     if (call.stable) {
         if (auto good = check_bends(loaded->job); !good) return report(good.error());
     }
+    if (auto spread = check_uncertain(call.job, call.uncertain, session::has_spread(loaded->setup)); !spread)
+        return report(spread.error());
+    const auto cases = static_cast<std::size_t>(call.uncertain.value_or(session::kCases));
     const bool bends = loaded->job.can_vibrate(),
                records_surface = bends && loaded->job.limits.tolerance_mm.has_value();
     const RunOutputs made{.chatter_bytes =
@@ -113,7 +118,9 @@ int audit(const AuditCall& call) {
     session::Auditor auditor(model, session, [&](const session::LoadTally& line) {
         if (csv) csv->add(line, model, session.setup());
     });
+    if (call.uncertain) auditor.use(session::ForceCases(session.setup(), cases, parallel));
     AuditAnswer answer(session.duration_s());
+    answer.uncertain = call.uncertain;
     const auto take = [&](const milling::CutRow& row, const milling::RowForce& force,
                           std::optional<double> multiplier) {
         auditor.add(row, force, multiplier);
@@ -149,7 +156,7 @@ int audit(const AuditCall& call) {
     Warnings found = session::warnings_of(session.totals(), call.job, loaded->job.path.file);
     if (chatter) {
         append(session::warnings_of(chatter->totals(), loaded->job.path.file), found);
-        answer.facts.chatter_probability = session::chatter_probability(*chatter, session.setup());
+        answer.facts.chatter_probability = session::chatter_probability(*chatter, session.setup(), cases);
     }
     report(found);
     answer.warnings = loaded->warnings;

@@ -14,6 +14,7 @@ struct AuditCall {
     ProgramFlags program;
     std::optional<double> resolution_mm;
     std::optional<double> fail_over;  // a ratio to a limit
+    std::optional<int> uncertain;     // cases of what is known with a spread only
     bool json = false;
     bool stable = false;  // propose spindle speeds without chatter
 };

@@ -50,7 +50,7 @@ class ProgramText {
 std::string ratio_text(const session::LoadTally& tally, session::LoadKind kind,
                        const session::LoadModel& model) {
     const session::PeakLoad& peak = tally.of(kind);
-    return peak.ratio > 0 ? in_words(model.band(tally.cutter, kind, peak.ratio)) : "";
+    return peak.ratio > 0 ? in_words(session::band_of(tally, kind, model)) : "";
 }
 
 std::string loads_text(const session::LoadTally& tally, session::LoadKind kind) {
@@ -89,8 +89,7 @@ void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& mod
         row.append(text.data(), static_cast<std::size_t>(n));
     }
     const auto worst = line.worst();
-    const session::RatioBand band =
-        worst ? model.band(line.cutter, *worst, line.of(*worst).ratio) : session::RatioBand{};
+    const session::RatioBand band = worst ? session::band_of(line, *worst, model) : session::RatioBand{};
     const std::string_view key = worst ? session::words_of(*worst).key : "";
     n = std::snprintf(text.data(), text.size(), ",%.6f,%.2f,%.3f,%d,%d,%.*s,%.4g,%.4g,%.4g\n",
                       line.thin.below_value_s, line.plunge_deg, line.jump_n, line.entries, line.collisions,
@@ -116,6 +115,7 @@ std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const P
     json["material"] = loaded.material.name;
     json.update(
         files::parse(session::audit_json(answer.audit, answer.verdict, answer.facts, model, session)));
+    if (answer.uncertain) json["uncertain_cases"] = *answer.uncertain;
     files::set(json, "rest_max_mm", answer.rest_mm);
     files::set(json, "scallop_max_mm", answer.scallop_mm);
     if (call.stable) json["speeds"] = speeds_json(answer.speeds);
@@ -202,6 +202,9 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
         {"Material", loaded.material.name + ": " + loaded.material.what},
         {"Forces", digits(model.force_low_factor(), 2) + " to " + digits(model.force_high_factor(), 2) +
                        " times what stands here; " + loaded.material.source},
+        {"Bands", answer.uncertain ? "9 of 10 of " + std::to_string(*answer.uncertain) +
+                                         " cases of forces, run-out and modes, over the band of each limit"
+                                   : "the factors of the forces over the band of each limit"},
         {"Feed without a chip", digits(100 * audit.air_share(), 2) + " % of the time of feed moves"},
         {"Resolution", digits(setup.cell_mm) + " mm"}};
     if (answer.facts.gouge_mm)
@@ -221,6 +224,7 @@ void print(const AuditAnswer& answer, const session::LoadModel& model, const ses
                 audit.feed_s, 100 * audit.air_share());
     std::printf("%-16s %.2g to %.2g times the computed ones\n", "true forces", model.force_low_factor(),
                 model.force_high_factor());
+    if (answer.uncertain) std::printf("%-16s 9 of 10 of %d cases\n", "bands", *answer.uncertain);
     for (const session::LoadTally& tool : audit.tools) {
         const milling::Cutter& cutter = session.setup().cutters[tool.cutter];
         std::printf("%-16s %s, cutting %.1f s\n", tool_name(cutter).c_str(), job::tool_words(cutter).c_str(),

@@ -52,7 +52,8 @@ struct AuditAnswer {
     session::Verdict verdict;
     session::AuditFacts facts;
     std::optional<double> scallop_mm, rest_mm;
-    SpeedAdvice speeds;  // with --stable
+    SpeedAdvice speeds;            // with --stable
+    std::optional<int> uncertain;  // cases of which the bands are
     Warnings warnings;
     LoadCurve force_n, ratio;  // ratio: to the limit that is nearest
 };

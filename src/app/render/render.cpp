@@ -11,6 +11,7 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/render/render_outputs.hpp"
+#include "app/uncertain_flag.hpp"
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
@@ -36,12 +37,6 @@ report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
     s.path_mm = t.path_mm;
     s.removed_mm3 = t.removed_mm3;
     s.remaining_mm3 = t.remaining_mm3;
-    s.mean_force_n = t.mean_force_n;
-    s.peak_force_n = t.peak_force_n;
-    s.peak_torque_nm = 1e-3 * t.peak_torque_nmm;
-    s.peak_power_w = t.peak_power_w;
-    s.force_low_factor = loaded.material.spread_low;
-    s.force_high_factor = loaded.material.spread_high;
     if (t.rows > 0) s.tooth_passing_hz = t.tooth_passing_hz;
     s.work_j = t.work_j;
     s.energy_balance = t.energy_balance;
@@ -83,9 +78,16 @@ void print(const report::Summary& s, const files::OutputFolder& folder) {
     std::printf("%-16s %.1f s, cutting %.1f s\n", "time", s.duration_s, s.cutting_s);
     std::printf("%-16s %.1f mm\n", "path", s.path_mm);
     std::printf("%-16s %.1f mm3 of %.1f mm3\n", "removed", s.removed_mm3, s.removed_mm3 + s.remaining_mm3);
-    std::printf("%-16s mean %.1f N, peak %.1f N (%.2g to %.2g times that)\n", "force", s.mean_force_n,
-                s.peak_force_n, s.force_low_factor, s.force_high_factor);
-    std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm, s.peak_power_w);
+    const report::ForceValue& peak = s.peak_force_n;
+    std::printf("%-16s mean %.1f N, peak %.1f N", "force", s.mean_force_n.value, peak.value);
+    if (s.uncertain_cases) {
+        std::printf(" (%.1f to %.1f N in 9 of 10 of %zu cases)\n", peak.low, peak.high, *s.uncertain_cases);
+    } else if (peak.value > 0) {
+        std::printf(" (%.2g to %.2g times that)\n", peak.low / peak.value, peak.high / peak.value);
+    } else {
+        std::printf("\n");
+    }
+    std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm.value, s.peak_power_w.value);
     if (s.tooth_passing_hz) std::printf("%-16s %.1f Hz\n", "tooth passing", *s.tooth_passing_hz);
     if (s.chatter) print_chatter(s);
     if (s.form_error)
@@ -113,6 +115,8 @@ int render(const RenderCall& call) {
     if (call.only.contains("surface")) {
         if (auto bends = session::check_modes(loaded->job); !bends) return report(bends.error());
     }
+    if (auto spread = check_uncertain(call.job, call.uncertain, session::has_spread(loaded->setup)); !spread)
+        return report(spread.error());
     const RunOutputs made{
         call.wants("mesh"), call.wants("report"), call.wants("sound"),
         loaded->job.can_vibrate() ? session::SurfaceRecorder::estimated_bytes(loaded->setup) : 0};
@@ -140,7 +144,7 @@ int render(const RenderCall& call) {
     };
     session::MillSession session(std::move(loaded->setup), parallel, milling("earlier jobs"));
     RenderOutputs outputs(call, *loaded, *folder, parallel);
-    if (auto open = outputs.open(session.duration_s(), blank); !open) return report(open.error());
+    if (auto open = outputs.open(session, blank); !open) return report(open.error());
     session::MillSinks sinks;
     std::optional<session::ProgramChatter> chatter;
     if (loaded->job.can_vibrate()) {

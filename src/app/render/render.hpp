@@ -18,6 +18,7 @@ struct RenderCall {
     int sample_rate_hz = 48000;
     std::set<std::string> only;  // of summary, forces, sound, mesh, report; empty: all
     std::optional<double> memory_mb;
+    std::optional<int> uncertain;  // cases of what is known with a spread only
     bool as_published = false;
     int threads = 0;  // 0: all
 

@@ -14,6 +14,7 @@
 #include "readers/mesh/stl.hpp"
 #include "report/picture/picture.hpp"
 #include "report/surface_csv.hpp"
+#include "session/chatter/probability.hpp"
 
 namespace tribo::app {
 namespace {
@@ -65,9 +66,12 @@ bool RenderOutputs::writes(const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
+FileResult<void> RenderOutputs::open(const session::MillSession& session, const Box3& blank) {
+    if (call_.uncertain)
+        bands_.emplace(session.setup(), static_cast<std::size_t>(*call_.uncertain), parallel_);
     if (call_.wants("forces")) {
-        auto file = ForceFile::create(folder_.file("forces.csv"), loaded_.job.can_vibrate());
+        auto file =
+            ForceFile::create(folder_.file("forces.csv"), loaded_.job.can_vibrate(), bands_.has_value());
         if (!file) return std::unexpected(file.error());
         forces_.emplace(std::move(*file));
         if (call_.as_published) {
@@ -83,7 +87,7 @@ FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
         options.format.bits = loaded_.job.sound.bits;
         job::apply(job::listening_to(loaded_.job, blank), options.track);
         options.track.as_published = call_.as_published;
-        auto file = SoundFile::create(folder_.file("sound.wav"), options, duration_s);
+        auto file = SoundFile::create(folder_.file("sound.wav"), options, session.duration_s());
         if (!file) return std::unexpected(file.error());
         sound_.emplace(std::move(*file));
     }
@@ -92,16 +96,20 @@ FileResult<void> RenderOutputs::open(double duration_s, const Box3& blank) {
 
 void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& force,
                         const session::MillSetup& setup, const session::RowChatter* chatter) {
-    if (forces_) forces_->add(row, force.peaks, chatter);
+    const double peak_n = force.peaks.peak_force_n;
+    sweep::Band band{setup.force_low_factor * peak_n, peak_n, setup.force_high_factor * peak_n};
+    if (bands_) band = bands_->add(row, force.peaks);
+    if (forces_) forces_->add(row, force.peaks, chatter, bands_ ? &band : nullptr);
     if (published_) published_->add(row, setup.cutters[row.cutter], setup.coefficients);
     const bool vibrates = chatter != nullptr && chatter->vibration;
     if (sound_)
         sound_->add(row, force, setup.cutters[row.cutter].flutes, vibrates ? &*chatter->vibration : nullptr);
-    if (call_.wants("report")) report_.add(row, force.peaks, chatter);
+    if (call_.wants("report")) report_.add(row, force.peaks, chatter, band);
 }
 
 FileResult<void> RenderOutputs::finish(const session::MillSession& session, session::ProgramChatter* chatter,
                                        report::Summary& summary) {
+    add_bands(session, chatter, summary);
     if (forces_) {
         if (auto done = forces_->finish(); !done) return done;
     }
@@ -128,6 +136,32 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session, sess
     }
     if (call_.wants("report")) return write_report(session, chatter, summary, std::move(mesh));
     return {};
+}
+
+void RenderOutputs::add_bands(const session::MillSession& session, const session::ProgramChatter* chatter,
+                              report::Summary& summary) const {
+    const session::MillTotals& t = session.totals();
+    const session::MillSetup& setup = session.setup();
+    constexpr double kMetres = 1e-3;
+    std::optional<session::ForceBands::Totals> bands;
+    if (bands_) bands = bands_->totals();
+    using Totals = session::ForceBands::Totals;
+    const auto with_band = [&](double value, sweep::Band Totals::* member, double unit = 1) {
+        if (!bands)
+            return report::ForceValue{unit * value, unit * value * setup.force_low_factor,
+                                      unit * value * setup.force_high_factor};
+        const sweep::Band& band = (*bands).*member;
+        return report::ForceValue{unit * value, unit * band.low, unit * band.high};
+    };
+    summary.mean_force_n = with_band(t.mean_force_n, &Totals::mean_force_n);
+    summary.peak_force_n = with_band(t.peak_force_n, &Totals::peak_force_n);
+    summary.peak_torque_nm = with_band(t.peak_torque_nmm, &Totals::peak_torque_nmm, kMetres);
+    summary.peak_power_w = with_band(t.peak_power_w, &Totals::peak_power_w);
+    if (!bands_) return;
+    const auto cases = static_cast<std::size_t>(*call_.uncertain);
+    summary.uncertain_cases = cases;
+    if (chatter != nullptr)
+        summary.chatter_probability = session::chatter_probability(*chatter, setup, cases);
 }
 
 FileResult<void> RenderOutputs::write_surface(report::Summary& summary) {

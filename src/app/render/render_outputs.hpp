@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "files/output_folder.hpp"
 #include "report/summary_json.hpp"
+#include "session/uncertain/force_bands.hpp"
 #include "surface/designed_surface.hpp"
 #include "surface/form_error.hpp"
 
@@ -26,17 +27,19 @@ class RenderOutputs {
     static bool writes(const std::string& name);
 
     // Call before the session runs.
-    FileResult<void> open(double duration_s, const Box3& blank);
-    bool needs_rows() const { return forces_ || sound_ || call_.wants("report"); }
+    FileResult<void> open(const session::MillSession& session, const Box3& blank);
+    bool needs_rows() const { return forces_ || sound_ || bands_ || call_.wants("report"); }
     // `chatter`: null without modes.
     void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup,
              const session::RowChatter* chatter);
-    // Call after it. Adds results to `summary`. Moves the mesh of the designed part out of the job.
+    // Call after it. Adds results and bands to `summary`. Moves the mesh of the designed part out of the job.
     // `chatter`: null without modes.
     FileResult<void> finish(const session::MillSession& session, session::ProgramChatter* chatter,
                             report::Summary& summary);
 
   private:
+    void add_bands(const session::MillSession& session, const session::ProgramChatter* chatter,
+                   report::Summary& summary) const;
     FileResult<void> write_surface(report::Summary& summary);
     FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
     FileResult<void> compare(const session::MillSession& session, report::Summary& summary);
@@ -53,6 +56,7 @@ class RenderOutputs {
     std::optional<PublishedForceFile> published_;
     std::optional<SoundFile> sound_;
     ReportRows report_;
+    std::optional<session::ForceBands> bands_;
     surface::FormError form_error_;                     // by bending of tool and part
     std::optional<surface::DesignedSurface> designed_;  // once compared
 };

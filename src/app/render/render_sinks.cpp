@@ -25,22 +25,25 @@ constexpr double kWaveS = 0.02;
 
 }  // namespace
 
-FileResult<ForceFile> ForceFile::create(const std::string& path, bool chatter) {
+FileResult<ForceFile> ForceFile::create(const std::string& path, bool chatter, bool band) {
     auto file = files::FileWriter::create(path);
     if (!file) return std::unexpected(file.error());
-    file->write(readers::forces_csv_header(chatter));
+    file->write(readers::forces_csv_header(chatter, band));
     return ForceFile(std::move(*file));
 }
 
 void ForceFile::add(const milling::CutRow& row, const milling::ForcePeaks& force,
-                    const session::RowChatter* chatter) {
+                    const session::RowChatter* chatter, const sweep::Band* band) {
     line_.clear();
     readers::ChatterColumns columns;
     if (chatter != nullptr) {
         if (chatter->stability) columns.multiplier = chatter->stability->multiplier;
         columns.peak_displacement_mm = chatter->peak_displacement_mm;
     }
-    readers::append_force_row(line_, row, force, chatter != nullptr ? &columns : nullptr);
+    readers::ForceBandColumns in_truth;
+    if (band != nullptr) in_truth = {band->low, band->high};
+    readers::append_force_row(line_, row, force, chatter != nullptr ? &columns : nullptr,
+                              band != nullptr ? &in_truth : nullptr);
     file_.write(line_);
 }
 
@@ -172,12 +175,13 @@ report::ReportSound SoundFile::for_report() const {
 }
 
 void ReportRows::add(const milling::CutRow& row, const milling::ForcePeaks& force,
-                     const session::RowChatter* chatter) {
+                     const session::RowChatter* chatter, const sweep::Band& band) {
     constexpr double kDegPerRad = 180 / math::kPi;
     const milling::EngagementHull hull = milling::hull(row.engagement);
     rows.push_back({row.start_s, row.duration_s(), row.line, row.pose.tip_mm, length(force.mean_n),
-                    force.peak_force_n, hull.entry_rad * kDegPerRad, hull.exit_rad * kDegPerRad,
-                    hull.axial_depth_mm, row.spindle_rpm, row.feed_mm_per_s() * 60});
+                    force.peak_force_n, band.low, band.high, hull.entry_rad * kDegPerRad,
+                    hull.exit_rad * kDegPerRad, hull.axial_depth_mm, row.spindle_rpm,
+                    row.feed_mm_per_s() * 60});
     if (chatter != nullptr) {
         if (chatter->stability) rows.back().multiplier = chatter->stability->multiplier;
         rows.back().displacement_mm = chatter->peak_displacement_mm.value_or(0);

@@ -15,6 +15,7 @@
 #include "session/cut/mill_session.hpp"
 #include "sound/cut/waveform.hpp"
 #include "sound/play/soundtrack.hpp"
+#include "sweep/band.hpp"
 
 namespace tribo::app {
 
@@ -22,10 +23,10 @@ namespace tribo::app {
 // PublishedForceFile writes the forces of the paper.
 class ForceFile {
   public:
-    static FileResult<ForceFile> create(const std::string& path, bool chatter);
-    // `chatter`: null without modes.
-    void add(const milling::CutRow& row, const milling::ForcePeaks& force,
-             const session::RowChatter* chatter);
+    static FileResult<ForceFile> create(const std::string& path, bool chatter, bool band);
+    // `chatter`: null without modes. `band`: of the largest force in a turn; null without cases.
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force, const session::RowChatter* chatter,
+             const sweep::Band* band);
     FileResult<void> finish();
 
   private:
@@ -84,9 +85,9 @@ class SoundFile {
 // Collects rows for the plots, and the turn with the largest force.
 class ReportRows {
   public:
-    // `chatter`: null without modes.
-    void add(const milling::CutRow& row, const milling::ForcePeaks& force,
-             const session::RowChatter* chatter);
+    // `chatter`: null without modes. `band`: of the largest force in a turn.
+    void add(const milling::CutRow& row, const milling::ForcePeaks& force, const session::RowChatter* chatter,
+             const sweep::Band& band);
     std::vector<report::ReportRow> rows;
     // Computes the turn with the largest force again, with all instants.
     std::optional<report::ReportTurn> turn(const session::MillSetup& setup) const;

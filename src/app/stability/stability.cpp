@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/render/render_job.hpp"
 #include "app/stability/stability_outputs.hpp"
+#include "app/uncertain_flag.hpp"
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -122,7 +123,9 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
         if (!found) return std::unexpected(found.error());
         range = *found;
     }
-    const std::vector<session::SteadyCut> cases = session::cases_of(cut);
+    const std::size_t count = call.uncertain ? static_cast<std::size_t>(*call.uncertain) : session::kCases;
+    const std::vector<session::SteadyCut> cases = session::cases_of(cut, count);
+    if (auto spread = check_uncertain(call.job, call.uncertain, !cases.empty()); !spread) return spread;
     for (StabilityPoint& p : answer.points) {
         if (interrupted()) return {};
         p.stability = cut.at(p.spindle_rpm, p.axial_depth_mm);
@@ -131,7 +134,8 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
     }
     for (const double rpm : speeds) {
         if (interrupted()) return {};
-        answer.limits.push_back({rpm, cut.limit(rpm)});
+        StabilityLimit& limit = answer.limits.emplace_back(rpm, cut.limit(rpm));
+        if (call.uncertain && !cases.empty()) limit.band_mm = session::limit_band_mm(cases, rpm, parallel);
     }
     if (!range) return {};
     const auto stage = [](const char* name) {
@@ -144,9 +148,9 @@ Result<void> compute(const StabilityCall& call, const ParallelFor& parallel, Sta
         *range, [&](double rpm, double depth_mm) { return cut.at(rpm, depth_mm); }, parallel, stage("chart"));
     // Several bands take several times as long.
     session::add_probability(cut, chart, parallel, stage("probability"),
-                             cut.bands.size() > 1 ? session::kFewCases : session::kCases);
+                             cut.bands.size() > 1 && !call.uncertain ? session::kFewCases : count);
     if (interrupted()) return {};
-    auto advice = session::advise(cut, chart, parallel);
+    auto advice = session::advise(cut, chart, parallel, count);
     answer.chart = {*range, std::move(chart), std::move(advice)};
     return {};
 }

@@ -10,6 +10,7 @@
 #include "session/chatter/advice.hpp"
 #include "session/chatter/critical_row.hpp"
 #include "session/chatter/simulated_cut.hpp"
+#include "sweep/band.hpp"
 
 namespace tribo::app {
 
@@ -22,6 +23,7 @@ struct StabilityPoint {
 struct StabilityLimit {
     double spindle_rpm = 0;
     dynamics::DepthLimit limit{};
+    std::optional<sweep::Band> band_mm{};  // of its depth in the cases of --uncertain
 };
 
 struct StabilityCall {
@@ -32,6 +34,7 @@ struct StabilityCall {
     std::optional<session::Simulation> simulation;
     session::CutPlace place;
     std::optional<double> resolution_mm;
+    std::optional<int> uncertain;  // cases of what is known with a spread only
     bool json = false;
 
     bool wants_chart() const { return speeds || (at.empty() && limit_rpm.empty() && !simulation); }

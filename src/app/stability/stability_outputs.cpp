@@ -231,7 +231,11 @@ std::string stability_json(const StabilityCall& call, const StabilityAnswer& ans
     json["points"] = files::Json::array();
     for (const StabilityPoint& p : answer.points) json["points"].push_back(json_of(p));
     json["limits"] = files::Json::array();
-    for (const StabilityLimit& l : answer.limits) json["limits"].push_back(json_of(l.spindle_rpm, l.limit));
+    for (const StabilityLimit& l : answer.limits) {
+        json["limits"].push_back(json_of(l.spindle_rpm, l.limit));
+        if (l.band_mm) json["limits"].back()["limit_mm_band"] = {nine(l.band_mm->low), nine(l.band_mm->high)};
+    }
+    if (call.uncertain) json["uncertain_cases"] = *call.uncertain;
     json["engagement"] = engagement_json(answer.cut);
     if (answer.chart) add_chart(answer.cut, *answer.chart, json);
     if (answer.simulated) json["simulation"] = simulation_json(*call.simulation, answer);
@@ -274,6 +278,9 @@ void print(const StabilityCall& call, const StabilityAnswer& answer) {
             std::printf("%g rpm: stable along the whole edge of %g mm\n", l.spindle_rpm,
                         answer.cut.cutter.length_mm);
         }
+        if (l.band_mm)
+            std::printf("  in 9 of 10 of %d cases up to %.4g to %.4g mm\n", *call.uncertain, l.band_mm->low,
+                        l.band_mm->high);
     }
     if (answer.simulated) {
         std::printf(

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/options.hpp"
+#include "app/uncertain_flag.hpp"
 #include "app/verbs/verbs.hpp"
 
 namespace tribo::app {
@@ -27,6 +28,7 @@ void add_audit(CLI::App& program, int& exit_code) {
         ->check(within(kLimits.fail_ratio))
         ->type_name("RATIO");
     verb->add_flag("--stable", call->stable, "Propose spindle speeds at which the tools do not chatter");
+    add_uncertain(*verb, call->uncertain);
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->callback([call, &exit_code] { exit_code = audit(*call); });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/options.hpp"
+#include "app/uncertain_flag.hpp"
 #include "app/verbs/verbs.hpp"
 #include "tribo/threads.hpp"
 
@@ -40,6 +41,7 @@ void add_render(CLI::App& program, int& exit_code) {
                      "Refuse a job that could take more; half of the machine's if absent")
         ->check(within(kLimits.memory))
         ->type_name("MB");
+    add_uncertain(*verb, call->uncertain);
     verb->add_flag(
         "--as-published", call->as_published,
         "Forces by the paper's equations 2 to 5 beside the corrected ones, sound by its equation 23");

@@ -9,6 +9,7 @@
 
 #include "app/exit.hpp"
 #include "app/options.hpp"
+#include "app/uncertain_flag.hpp"
 #include "app/verbs/verbs.hpp"
 #include "base/limits.hpp"
 #include "base/text/limit_text.hpp"
@@ -167,6 +168,7 @@ void add_stability(CLI::App& program, int& exit_code) {
         ->needs(simulate)
         ->capture_default_str()
         ->type_name("N");
+    add_uncertain(*verb, call->uncertain);
     verb->add_flag("--json", call->json, "Print one JSON object");
     verb->callback([call, flags, &exit_code] {
         const auto good = complete(*flags, *call);

@@ -11,11 +11,11 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kCutterKeys{"number"sv,    "kind"sv,      "diameter_mm"sv, "corner_mm"sv,  "flutes"sv,
-                                 "helix_deg"sv, "length_mm"sv, "runout_mm"sv,   "runout_deg"sv, "pitch_deg"sv,
-                                 "holder"sv,    "core_mm"sv,   "stickout_mm"sv, "shank_mm"sv,   "neck_mm"sv,
-                                 "reach_mm"sv,  "body"sv,      "tip_mm"sv,      "point_deg"sv,  "taper_deg"sv,
-                                 "side_mm"sv,   "height_mm"sv, "profile"sv};
+constexpr std::array kCutterKeys{
+    "number"sv,    "kind"sv,        "diameter_mm"sv, "corner_mm"sv,     "flutes"sv,    "helix_deg"sv,
+    "length_mm"sv, "runout_mm"sv,   "runout_deg"sv,  "runout_spread"sv, "pitch_deg"sv, "holder"sv,
+    "core_mm"sv,   "stickout_mm"sv, "shank_mm"sv,    "neck_mm"sv,       "reach_mm"sv,  "body"sv,
+    "tip_mm"sv,    "point_deg"sv,   "taper_deg"sv,   "side_mm"sv,       "height_mm"sv, "profile"sv};
 constexpr std::array kBodyWords{"carbide"sv, "hss"sv};  // in the order of CutterBody
 constexpr std::array kHolderKeys{"diameter_mm"sv, "length_mm"sv};
 constexpr std::size_t kMostHolderSteps = 100;  // each is followed through every move
@@ -132,6 +132,7 @@ milling::Cutter read_cutter(TomlFile& file, const toml::table& table, const std:
         section.number("helix_deg", kLimits.helix).value_or(milling::usual_helix_deg(cutter.kind));
     cutter.core_mm = section.number("core_mm", kLimits.core_diameter).value_or(0);
     cutter.runout_mm = section.number("runout_mm", kLimits.runout).value_or(0);
+    cutter.runout_spread = section.number("runout_spread", kLimits.spread).value_or(0);
     cutter.runout_deg = section.number("runout_deg", kLimits.runout_angle).value_or(0);
     cutter.pitch_deg = section.numbers("pitch_deg", kLimits.pitch).value_or(std::vector<double>());
     cutter.stickout_mm = section.number("stickout_mm", kLimits.stickout).value_or(0);

@@ -62,6 +62,7 @@ struct Cutter {
     double runout_mm = 0;   // offset of the tool axis from the spindle axis, >= 0
     double runout_deg =
         0;  // direction of that offset at the tip, from flute 0, clockwise seen from the shank
+    double runout_spread = 0;  // in 9 of 10 cases the true offset is 1 / (1 + it) to 1 + it times that one
     std::vector<double> pitch_deg{};  // angles from each flute to the next, sum 360; empty: uniform
     std::vector<HolderStep> holder{};
     // From the tip to the holder's face, >= length_mm; 0: not known, the holder follows the edges. In between

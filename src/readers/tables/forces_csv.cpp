@@ -25,17 +25,18 @@ void append(std::string& csv, Vec3 value, int decimals) {
 
 }  // namespace
 
-std::string forces_csv_header(bool chatter) {
+std::string forces_csv_header(bool chatter, bool band) {
     std::string header =
         "t_s,line,tip_x_mm,tip_y_mm,tip_z_mm,axis_i,axis_j,axis_k,spindle_rpm,feed_mm_per_min,entry_deg,exit_"
         "deg,axial_depth_mm,mean_fx_n,mean_fy_n,mean_fz_n,peak_fx_n,peak_fy_n,peak_fz_n,peak_fxy_n,"
         "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled";
     if (chatter) header += ",multiplier,peak_displacement_mm";
+    if (band) header += ",peak_force_low_n,peak_force_high_n";
     return header + '\n';
 }
 
 void append_force_row(std::string& csv, const milling::CutRow& row, const milling::ForcePeaks& force,
-                      const ChatterColumns* chatter) {
+                      const ChatterColumns* chatter, const ForceBandColumns* band) {
     constexpr double kDegPerRad = 180 / math::kPi;
     const milling::EngagementHull hull = milling::hull(row.engagement);
     append_fixed(csv, row.start_s, kTimeDecimals);
@@ -62,6 +63,10 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
         csv += ',';
         if (chatter->peak_displacement_mm)
             append_fixed(csv, *chatter->peak_displacement_mm, kDisplacementDecimals);
+    }
+    if (band != nullptr) {
+        append(csv, band->low_n, kForceDecimals);
+        append(csv, band->high_n, kForceDecimals);
     }
     csv += '\n';
 }

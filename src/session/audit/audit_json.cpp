@@ -45,8 +45,7 @@ void write_tally(JsonWriter& json, const LoadTally& tally, const LoadModel& mode
         const PeakLoad& peak = tally.peaks[n];
         if (!(peak.value > 0)) continue;
         json.key(kLoadWords[n].key).begin_object().set("value", peak.value);
-        if (peak.ratio > 0)
-            write_band(json.key("ratio"), model.band(tally.cutter, static_cast<LoadKind>(n), peak.ratio));
+        if (peak.ratio > 0) write_band(json.key("ratio"), band_of(tally, static_cast<LoadKind>(n), model));
         if (tally.line == 0) json.set("line", peak.line);
         json.end_object();
     }

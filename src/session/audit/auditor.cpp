@@ -54,6 +54,11 @@ void Auditor::add(const milling::CutRow& row, const milling::RowForce& force,
     const double middle = 0.5 * (row.start_s + row.end_s);
     RowLoads loads = model_.loads(row, force.peaks, force.chip_mm);
     if (multiplier) model_.add_multiplier(row.cutter, *multiplier, loads);
+    if (cases_) {
+        case_ratios_.clear();
+        for (const milling::ForcePeaks& peaks : cases_->peaks(row, force.peaks))
+            case_ratios_.push_back(model_.loads(row, peaks, force.chip_mm).ratio);
+    }
     const CutLimit& least = model_.limits().of_cutter[row.cutter].least_chip;
     const bool enters = row.start_s > last_end_s_ + kSameCutS;
     const double jump = force.peaks.peak_force_n - (enters ? 0 : last_peak_n_);
@@ -65,6 +70,7 @@ void Auditor::add(const milling::CutRow& row, const milling::RowForce& force,
         if (!(shared > 0)) continue;
         LoadTally& tally = open.tally;
         tally.add_peaks(loads, tally.line, std::max(row.start_s, tally.start_s));
+        if (cases_) tally.add_cases(case_ratios_);
         tally.cutting_s += shared;
         tally.removed_mm3 += row.removed_mm3 * shared / row.duration_s();
         if (force.chip_mm < least.low) tally.thin.below_low_s += shared;
@@ -103,7 +109,7 @@ void Auditor::count(const LoadTally& line) {
     }
     tool->add(line);
     for (std::size_t n = 0; n < kLoadKinds; ++n) {
-        const RatioBand band = model_.band(line.cutter, static_cast<LoadKind>(n), line.peaks[n].ratio);
+        const RatioBand band = band_of(line, static_cast<LoadKind>(n), model_);
         if (band.low > 1) {
             ++audit_.lines[n].over;
         } else if (band.high > 1) {

@@ -10,6 +10,7 @@
 #include "milling/force/row_force.hpp"
 #include "session/audit/line_runs.hpp"
 #include "session/audit/load_tally.hpp"
+#include "session/uncertain/force_bands.hpp"
 
 namespace tribo::session {
 
@@ -42,6 +43,8 @@ class Auditor {
     Auditor(const LoadModel& model, const MillSession& session, LineSink sink,
             std::optional<double> until_s = {});
 
+    // Bands come from the cases instead of the band of the force. Before the first row.
+    void use(ForceCases cases) { cases_.emplace(std::move(cases)); }
     // The rows of MillSinks::row. `multiplier`: of a cut that may chatter, where it is known.
     void add(const milling::CutRow& row, const milling::RowForce& force, std::optional<double> multiplier);
     // After the run.
@@ -62,6 +65,8 @@ class Auditor {
     double until_s_;
     LineRuns runs_;
     std::deque<Open> open_;
+    std::optional<ForceCases> cases_;
+    std::vector<std::array<double, kLoadKinds>> case_ratios_;  // of the row
     Audit audit_;
     double last_end_s_ = -1, last_peak_n_ = 0;
     std::size_t collision_ = 0;  // the next one to be counted

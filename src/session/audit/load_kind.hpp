@@ -32,6 +32,10 @@ inline constexpr std::array<LoadWords, kLoadKinds> kLoadWords{{
 constexpr std::size_t index_of(LoadKind kind) {
     return static_cast<std::size_t>(kind);
 }
+// A chip is as thick whatever the force; how a multiplier follows the force is another question.
+constexpr bool follows_force(LoadKind kind) {
+    return kind != LoadKind::chip && kind != LoadKind::multiplier;
+}
 constexpr const LoadWords& words_of(LoadKind kind) {
     return kLoadWords[index_of(kind)];
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sweep/band.hpp"
+
 namespace tribo::session {
 namespace {
 
@@ -29,6 +31,13 @@ void LoadTally::add_peaks(const RowLoads& loads, int at_line, double t_s) {
         raise(peaks[n], {loads.value[n], loads.ratio[n], at_line, t_s});
 }
 
+void LoadTally::add_cases(std::span<const std::array<double, kLoadKinds>> ratios) {
+    cases.resize(ratios.size());
+    for (std::size_t n = 0; n < ratios.size(); ++n)
+        for (std::size_t kind = 0; kind < kLoadKinds; ++kind)
+            cases[n][kind] = std::max(cases[n][kind], ratios[n][kind]);
+}
+
 void LoadTally::add(const LoadTally& other) {
     end_s = other.end_s;
     feed_mm += other.feed_mm;
@@ -43,6 +52,17 @@ void LoadTally::add(const LoadTally& other) {
     jump_n = std::max(jump_n, other.jump_n);
     entries += other.entries;
     collisions += other.collisions;
+    if (!other.cases.empty()) add_cases(other.cases);
+}
+
+RatioBand band_of(const LoadTally& tally, LoadKind kind, const LoadModel& model) {
+    const double ratio = tally.of(kind).ratio;
+    if (tally.cases.empty() || !follows_force(kind)) return model.band(tally.cutter, kind, ratio);
+    std::vector<double> ratios;
+    ratios.reserve(tally.cases.size());
+    for (const auto& of_case : tally.cases) ratios.push_back(of_case[index_of(kind)]);
+    const sweep::Band band = sweep::band_of(ratios);
+    return model.with_limit(tally.cutter, kind, {band.low, ratio, band.high});
 }
 
 }  // namespace tribo::session

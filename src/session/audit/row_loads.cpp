@@ -55,18 +55,17 @@ void LoadModel::add_multiplier(std::size_t cutter, double multiplier, RowLoads& 
 }
 
 RatioBand LoadModel::band(std::size_t cutter, LoadKind kind, double ratio) const {
+    if (!follows_force(kind)) return with_limit(cutter, kind, {ratio, ratio, ratio});
+    return with_limit(cutter, kind, {force_low_ * ratio, ratio, force_high_ * ratio});
+}
+
+RatioBand LoadModel::with_limit(std::size_t cutter, LoadKind kind, RatioBand ratio) const {
     const std::optional<CutLimit>& limit = limits_.of_cutter[cutter].of(kind);
-    double low = ratio, high = ratio;
-    // A chip is as thick whatever the force; how a multiplier follows the force is another question.
-    if (kind != LoadKind::chip && kind != LoadKind::multiplier) {
-        low *= force_low_;
-        high *= force_high_;
-    }
     if (limit && limit->value > 0) {
-        low *= limit->value / limit->high;
-        high *= limit->value / limit->low;
+        ratio.low *= limit->value / limit->high;
+        ratio.high *= limit->value / limit->low;
     }
-    return {low, ratio, high};
+    return ratio;
 }
 
 }  // namespace tribo::session

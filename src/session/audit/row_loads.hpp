@@ -36,6 +36,8 @@ class LoadModel {
 
     // The band of a ratio: that of the force and that of the limit.
     RatioBand band(std::size_t cutter, LoadKind kind, double ratio) const;
+    // The band of a load over the stated limit, widened by that of the limit.
+    RatioBand with_limit(std::size_t cutter, LoadKind kind, RatioBand ratio) const;
     const CutLimits& limits() const { return limits_; }
     // Band of all forces: factors on them. By default that of the setup.
     double force_low_factor() const { return force_low_; }

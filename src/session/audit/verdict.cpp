@@ -5,8 +5,6 @@
 #include <tuple>
 
 #include "base/text/decimal.hpp"
-#include "session/chatter/probability.hpp"
-#include "session/chatter/row_stability.hpp"
 
 namespace tribo::session {
 namespace {
@@ -82,7 +80,7 @@ class Judge {
             const auto ratio_of = [&](const LoadTally& tool) { return tool.peaks[n].ratio; };
             const auto tool = std::ranges::max_element(audit_.tools, {}, ratio_of);
             if (tool == audit_.tools.end() || !(ratio_of(*tool) > 0)) continue;
-            const RatioBand ratio = model_.band(tool->cutter, kind, ratio_of(*tool));
+            const RatioBand ratio = band_of(*tool, kind, model_);
             const bool unsure = kind == LoadKind::multiplier && facts_.chatter_probability.has_value();
             const Outcome outcome = unsure ? chatter_outcome() : outcome_of(ratio);
             if (outcome == Outcome::within) continue;
@@ -159,8 +157,8 @@ class Judge {
         if (worst == nullptr) return "Nothing is over a limit.";
         const PeakLoad& peak = worst->of(kind);
         return "Yes: nothing is over a limit. The " + std::string(words_of(kind).name) +
-               " is nearest to its own, " + in_words(model_.band(worst->cutter, kind, peak.ratio)) +
-               " of it, in line " + std::to_string(peak.line) + ".";
+               " is nearest to its own, " + in_words(band_of(*worst, kind, model_)) + " of it, in line " +
+               std::to_string(peak.line) + ".";
     }
 
     const Audit& audit_;
@@ -193,17 +191,6 @@ Outcome outcome_of(const RatioBand& ratio) {
 std::string in_words(const RatioBand& ratio) {
     const std::string low = two(ratio.low), high = two(ratio.high);
     return low == high ? low : low + " to " + high;
-}
-
-std::optional<double> chatter_probability(const SteadyCut& cut) {
-    const std::vector<SteadyCut> cases = cases_of(cut);
-    if (cases.empty()) return std::nullopt;
-    return probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
-}
-
-std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup) {
-    if (chatter.worst() == nullptr) return std::nullopt;
-    return chatter_probability(steady_cut_of(*chatter.worst(), setup, kRowBands));
 }
 
 Verdict verdict(const Audit& audit, const LoadModel& model, const MillSession& session,

@@ -41,11 +41,6 @@ struct AuditFacts {
     int left_line = 0, overcut_line = 0;
 };
 
-// Absent without a spread of modes or forces.
-std::optional<double> chatter_probability(const SteadyCut& cut);
-// Of the row that chatters most; absent likewise, or without such a row.
-std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup);
-
 // The run of the model's setup is finished.
 Verdict verdict(const Audit& audit, const LoadModel& model, const MillSession& session,
                 const AuditFacts& facts);

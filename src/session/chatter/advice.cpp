@@ -58,18 +58,20 @@ double chart_depth_mm(const SteadyCut& cut, std::vector<double> first) {
                     std::max(cut.cutter.length_mm, cut.axial_depth_mm));
 }
 
-Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel) {
+Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel,
+              std::size_t count) {
     Advice advice;
     advice.here = cut.at(cut.spindle_rpm, cut.axial_depth_mm);
     advice.limit = cut.limit(cut.spindle_rpm);
     advice.pockets = dynamics::safe_pockets(chart, kMostPockets);
-    const std::vector<SteadyCut> cases = cases_of(cut);
+    const std::vector<SteadyCut> cases = cases_of(cut, count);
     if (!cases.empty()) {
         advice.probability = probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
         std::vector<std::size_t> stable;
         stable.reserve(cases.size());
         for (const SteadyCut& c : cases) stable.push_back(stable_depths(c, cut.spindle_rpm, chart.depths_mm));
-        const auto rare = stable.begin() + static_cast<std::ptrdiff_t>(dynamics::kRarely * kCases);
+        const double rarely = dynamics::kRarely * static_cast<double>(cases.size());
+        const auto rare = stable.begin() + static_cast<std::ptrdiff_t>(rarely);
         std::nth_element(stable.begin(), rare, stable.end());
         advice.safe_mm = *rare > 0 ? chart.depths_mm[*rare - 1] : 0;
     }

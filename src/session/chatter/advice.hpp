@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/stability_chart.hpp"
+#include "session/chatter/probability.hpp"
 #include "session/chatter/steady_cut.hpp"
 
 namespace tribo::session {
@@ -32,7 +33,8 @@ struct Advice {
     std::optional<double> probability, safe_mm;
 };
 
-// The chart with its probabilities. `parallel` as in stability_chart().
-Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel);
+// The chart with its probabilities. `count`: of the cases of a spread. `parallel` as in stability_chart().
+Advice advise(const SteadyCut& cut, const dynamics::StabilityChart& chart, const ParallelFor& parallel,
+              std::size_t count = kCases);
 
 }  // namespace tribo::session

@@ -5,42 +5,11 @@
 #include <cassert>
 
 #include "base/limits.hpp"
-#include "base/math.hpp"
-#include "base/noise_hash.hpp"
 #include "session/chatter/row_stability.hpp"
-#include "sweep/distribution.hpp"
+#include "sweep/spread_factors.hpp"
 
 namespace tribo::session {
 namespace {
-
-// The factors of one value in all cases.
-class Factors {
-  public:
-    // 9 of 10 lie between `low` and `high`. `value`: a number for each value that is off by itself.
-    Factors(std::size_t count, std::size_t value, double low, double high)
-        : middle_(0.5 * (math::log(low) + math::log(high))), order_(count) {
-        constexpr double kNineOfTen = 1.6448536;  // standard deviations
-        sigma_ = 0.5 * (math::log(high) - math::log(low)) / kNineOfTen;
-        // The quantiles in an order of their own.
-        const CounterNoise noise(0x63686174746572 + value);
-        for (std::size_t n = 0; n < count; ++n) order_[n] = n;
-        std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-            return noise.bits(a) != noise.bits(b) ? noise.bits(a) < noise.bits(b) : a < b;
-        });
-    }
-    // 1 + spread to both sides.
-    Factors(std::size_t count, std::size_t value, double spread)
-        : Factors(count, value, 1 / (1 + spread), 1 + spread) {}
-
-    double at(std::size_t n) const {
-        const double below = (static_cast<double>(order_[n]) + 0.5) / static_cast<double>(order_.size());
-        return math::exp(middle_ + sigma_ * sweep::normal_quantile(below));
-    }
-
-  private:
-    double middle_, sigma_;
-    std::vector<std::size_t> order_;
-};
 
 milling::CuttingCoefficients times(double factor, const milling::CuttingCoefficients& k) {
     return {factor * k.ktc, factor * k.krc, factor * k.kac, factor * k.kte, factor * k.kre, factor * k.kae};
@@ -53,7 +22,7 @@ std::vector<SteadyCut> cases_of(const SteadyCut& cut, std::size_t count) {
     if (!some && cut.force_low_factor == cut.force_high_factor) return {};
     std::vector<SteadyCut> cases(count, cut);
     std::size_t value = 0;
-    const Factors force(count, value++, cut.force_low_factor, cut.force_high_factor);
+    const sweep::SpreadFactors force(count, value++, cut.force_low_factor, cut.force_high_factor);
     for (std::size_t n = 0; n < count; ++n) cases[n].coefficients = times(force.at(n), cut.coefficients);
     const double most_damping = kLimits.mode_damping.range.max;
     std::size_t estimate = 0;  // the first value of the estimated modes
@@ -66,7 +35,7 @@ std::vector<SteadyCut> cases_of(const SteadyCut& cut, std::size_t count) {
             value += 3;
             if (mode.estimated) estimate = first;
         }
-        const Factors frequency(count, first, mode.spread.frequency),
+        const sweep::SpreadFactors frequency(count, first, mode.spread.frequency),
             damping(count, first + 1, mode.spread.damping),
             stiffness(count, first + 2, mode.spread.stiffness);
         for (std::size_t n = 0; n < count; ++n) {
@@ -87,6 +56,18 @@ double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_r
     return static_cast<double>(std::ranges::count_if(cases, chatters)) / static_cast<double>(cases.size());
 }
 
+std::optional<double> chatter_probability(const SteadyCut& cut, std::size_t count) {
+    const std::vector<SteadyCut> cases = cases_of(cut, count);
+    if (cases.empty()) return std::nullopt;
+    return probability_of_chatter(cases, cut.spindle_rpm, cut.axial_depth_mm);
+}
+
+std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup,
+                                          std::size_t count) {
+    if (chatter.worst() == nullptr) return std::nullopt;
+    return chatter_probability(steady_cut_of(*chatter.worst(), setup, kRowBands), count);
+}
+
 std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm) {
     const auto is_stable = [&](std::size_t n) { return cut.at(spindle_rpm, depths_mm[n]).multiplier <= 1; };
     std::size_t stable = 0, step = 1;  // the first depths that are
@@ -105,6 +86,14 @@ std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<co
         break;
     }
     return stable;
+}
+
+sweep::Band limit_band_mm(std::span<const SteadyCut> cases, double spindle_rpm, const ParallelFor& parallel) {
+    std::vector<double> depths_mm(cases.size());
+    parallel(cases.size(), [&](std::size_t n) {
+        depths_mm[n] = cases[n].limit(spindle_rpm).depth_mm.value_or(cases[n].cutter.length_mm);
+    });
+    return sweep::band_of(depths_mm);
 }
 
 void add_probability(const SteadyCut& cut, dynamics::StabilityChart& chart, const ParallelFor& parallel,

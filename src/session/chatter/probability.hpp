@@ -3,12 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "dynamics/stability_chart.hpp"
+#include "session/chatter/program_chatter.hpp"
 #include "session/chatter/steady_cut.hpp"
+#include "sweep/band.hpp"
 
 namespace tribo::session {
 
@@ -24,9 +27,19 @@ std::vector<SteadyCut> cases_of(const SteadyCut& cut, std::size_t count = kCases
 // The share of the cases that chatter. There must be some.
 double probability_of_chatter(std::span<const SteadyCut> cases, double spindle_rpm, double axial_depth_mm);
 
+// At the cut's own speed and depth; absent without a spread of modes or forces.
+std::optional<double> chatter_probability(const SteadyCut& cut, std::size_t count = kCases);
+// Of the row of a program that chatters most; absent likewise, or without such a row.
+std::optional<double> chatter_probability(const ProgramChatter& chatter, const MillSetup& setup,
+                                          std::size_t count = kCases);
+
 // The number of depths, from the least one, before the first that chatters. Depths are asked in steps that
 // double: a narrower island of chatter may be missed.
 std::size_t stable_depths(const SteadyCut& cut, double spindle_rpm, std::span<const double> depths_mm);
+
+// The band of the least depth at which a case chatters; where it does not, the length of the cutting edges
+// counts. There must be cases.
+sweep::Band limit_band_mm(std::span<const SteadyCut> cases, double spindle_rpm, const ParallelFor& parallel);
 
 // Adds the probability to a chart of the cut: of each point the share of the cases whose first border lies
 // below, with its bands joined to at most kRowBands. Nothing where nothing has a spread. `parallel` and

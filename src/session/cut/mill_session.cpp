@@ -203,17 +203,12 @@ class MillSession::Run {
     void finish_row(const milling::CutRow& row, const milling::RowForce& force, const MillSinks& sinks) {
         const double seconds = row.duration_s();
         const milling::ForcePeaks& p = force.peaks;
-        totals_.cutting_s += seconds;
+        totals_.add(row, p);
         cutting_at_[row.cutter] += seconds;
-        force_seconds_ += length(p.mean_n) * seconds;
         const double turned_rad = row.spindle_rad_per_s() * seconds;
         totals_.work_j += 1e-3 * p.mean_torque_nmm * turned_rad;
         totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - force.edge_torque_nmm) * turned_rad;
         totals_.chip_mm3 += row.chip_mm3;
-        totals_.peak_force_n = std::max(totals_.peak_force_n, p.peak_force_n);
-        totals_.peak_torque_nmm = std::max(totals_.peak_torque_nmm, p.peak_torque_nmm);
-        totals_.peak_power_w =
-            std::max(totals_.peak_power_w, p.peak_torque_nmm * 1e-3 * row.spindle_rpm / 60 * math::kTwoPi);
         ++totals_.rows;
         totals_.chips.add(row, force.chip_mm, setup_.cutters[row.cutter]);
         if (sinks.row) sinks.row(row, force);
@@ -233,7 +228,6 @@ class MillSession::Run {
         if (totals_.fed_mm3 > 0 && !setup_.engagement)
             totals_.energy_balance =
                 totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);
-        totals_.mean_force_n = totals_.cutting_s > 0 ? force_seconds_ / totals_.cutting_s : 0;
         const auto longest = std::max_element(cutting_at_.begin(), cutting_at_.end()) - cutting_at_.begin();
         for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
             if (setup_.moves[n].kind == motion::MoveKind::feed &&
@@ -257,7 +251,7 @@ class MillSession::Run {
     std::vector<double> cutting_at_;  // seconds by cutter
     std::vector<char> joins_;         // per move: shares a row with the move before
     std::size_t next_move_ = 0;
-    double limit_s_ = 0, angle_rad_ = 0, turns_ = 0, force_seconds_ = 0;
+    double limit_s_ = 0, angle_rad_ = 0, turns_ = 0;
 };
 
 MillSession::MillSession(MillSetup setup, ParallelFor parallel,

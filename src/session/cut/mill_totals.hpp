@@ -2,13 +2,17 @@
 // Totals of a cut.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "base/math.hpp"
 #include "base/vec3.hpp"
 #include "milling/engagement/chip.hpp"
 #include "milling/engagement/collision.hpp"
+#include "milling/engagement/cut_row.hpp"
+#include "milling/force/force_peaks.hpp"
 
 namespace tribo::session {
 
@@ -19,14 +23,30 @@ struct MillCollision {
     Vec3 tip_mm;
 };
 
-struct MillTotals {
-    double duration_s = 0, cutting_s = 0;
+// Of the forces of all rows.
+struct ForceTotals {
+    double cutting_s = 0, impulse_n_s = 0;      // the latter: sum of |mean force| x time
+    double mean_force_n = 0, peak_force_n = 0;  // the former: over the time of cutting
+    double peak_torque_nmm = 0, peak_power_w = 0;
+
+    void add(const milling::CutRow& row, const milling::ForcePeaks& peaks) {
+        const double seconds = row.duration_s();
+        cutting_s += seconds;
+        impulse_n_s += length(peaks.mean_n) * seconds;
+        mean_force_n = cutting_s > 0 ? impulse_n_s / cutting_s : 0;
+        peak_force_n = std::max(peak_force_n, peaks.peak_force_n);
+        peak_torque_nmm = std::max(peak_torque_nmm, peaks.peak_torque_nmm);
+        peak_power_w =
+            std::max(peak_power_w, peaks.peak_torque_nmm * 1e-3 * row.spindle_rpm / 60 * math::kTwoPi);
+    }
+};
+
+struct MillTotals : ForceTotals {
+    double duration_s = 0;
     double path_mm = 0;                         // feed moves
     double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; at the end
     double chip_mm3 = 0;                        // measured, before reconciliation: should equal fed_mm3
     double fed_mm3 = 0;                         // removed by feed moves
-    double mean_force_n = 0, peak_force_n = 0;
-    double peak_torque_nmm = 0, peak_power_w = 0;
     // Work of the spindle, and the part from the shear coefficient: ktc times the volume of the chips. The
     // rest comes from the edge coefficients.
     double work_j = 0, shear_work_j = 0;

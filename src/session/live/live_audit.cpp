@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "session/audit/audit_json.hpp"
+#include "session/chatter/probability.hpp"
 #include "session/live/chart_of_cut.hpp"
 
 namespace tribo::session {

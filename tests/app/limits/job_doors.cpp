@@ -144,6 +144,7 @@ Doors job_doors() {
         door(l.helix, cutter, "helix_deg = "),
         door(l.pitch, cutter, "flutes = 1\npitch_deg = ", "\n", "does not add up"),
         door(l.runout, cutter, "runout_mm = "),
+        door(l.spread, cutter, "runout_spread = "),
         door(l.runout_angle, cutter, "runout_deg = "),
         door(l.holder, more, "[holder]\nlength_mm = 10\ndiameter_mm = "),
         door(l.holder, more, "[holder]\ndiameter_mm = 10\nlength_mm = "),

@@ -145,6 +145,7 @@ Doors flag_doors() {
         of_two(l.axial_depth, simulated, "--simulate", "8000:{}"),
         with(l.turns, simulated, "--turns"),
         with(l.memory, render, "--memory"),
+        with(l.uncertain_cases, render, "--uncertain"),
         with(l.resolution, audit, "--resolution"),
         with(l.fail_ratio, audit, "--fail-over"),
         with(l.resolution, feed, "--resolution"),

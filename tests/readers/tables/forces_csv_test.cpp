@@ -16,6 +16,7 @@ TEST(ForcesCsv, HasTheColumnsThatOthersReadInTheirOrder) {
         "mean_torque_nm,peak_torque_nm,removed_mm3,duration_s,reconciled";
     EXPECT_EQ(forces_csv_header(false), header + "\n");
     EXPECT_EQ(forces_csv_header(true), header + ",multiplier,peak_displacement_mm\n");
+    EXPECT_EQ(forces_csv_header(false, true), header + ",peak_force_low_n,peak_force_high_n\n");
 }
 
 TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
@@ -55,6 +56,10 @@ TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
     const ChatterColumns unknown;
     append_force_row(csv, row, force, &unknown);
     EXPECT_EQ(csv, rigid + ",,\n");
+    csv.clear();
+    const ForceBandColumns band{150.25, 300.5};
+    append_force_row(csv, row, force, &chatter, &band);
+    EXPECT_EQ(csv, rigid + ",1.250000,0.037500000,150.25000,300.50000\n");
 }
 
 }  // namespace

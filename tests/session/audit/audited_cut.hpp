@@ -30,8 +30,9 @@ struct AuditedCut {
     std::vector<LoadTally> lines;
 };
 
-// Multipliers are computed where the setup has modes.
-inline AuditedCut audited(MillSetup setup, const job::JobLimits& limits, const AuditFacts& facts = {}) {
+// Multipliers are computed where the setup has modes. `cases`: of the bands; 0: those of the force.
+inline AuditedCut audited(MillSetup setup, const job::JobLimits& limits, const AuditFacts& facts = {},
+                          std::size_t cases = 0) {
     job::Job job;
     job.limits = limits;
     for (const std::vector<dynamics::Mode>& modes : setup.modes_of_cutter) job.modes = modes;
@@ -39,6 +40,7 @@ inline AuditedCut audited(MillSetup setup, const job::JobLimits& limits, const A
     MillSession session(std::move(setup), serial_for);
     AuditedCut result;
     Auditor auditor(model, session, [&](const LoadTally& line) { result.lines.push_back(line); });
+    if (cases > 0) auditor.use(ForceCases(session.setup(), cases, serial_for));
     MillSinks sinks;
     sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
         std::optional<double> multiplier;

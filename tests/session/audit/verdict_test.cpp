@@ -128,5 +128,37 @@ TEST(Verdict, has_nothing_to_judge_where_nothing_is_cut) {
     EXPECT_EQ(outcome(std::move(setup), {}), Outcome::nothing_cut);
 }
 
+TEST(Verdict, has_the_bands_of_cases) {
+    MillSetup setup = slot_setup();
+    setup.force_low_factor = 0.7;
+    setup.force_high_factor = 3;
+    // The slot has 200 N.
+    const AuditedCut cut = audited(std::move(setup), {.force_n = 80}, {}, 1000);
+    ASSERT_EQ(cut.verdict.findings.size(), 1u) << cut.verdict.sentence;
+    const RatioBand& ratio = *cut.verdict.findings[0].ratio;
+    EXPECT_EQ(cut.verdict.findings[0].outcome, Outcome::over);
+    EXPECT_NEAR(ratio.low / (2.5 * 0.7), 1, 0.01);
+    EXPECT_NEAR(ratio.value, 2.5, 0.01);
+    EXPECT_NEAR(ratio.high / (2.5 * 3), 1, 0.01);
+    EXPECT_EQ(cut.audit.lines[index_of(LoadKind::force)].over, 1u);
+}
+
+// One tooth cuts the same chip whatever its run-out; two of them share it unevenly.
+TEST(Verdict, has_no_band_of_runout_where_one_tooth_cuts) {
+    for (const int flutes : {1, 2}) {
+        MillSetup setup = slot_setup();
+        setup.cutters[0].flutes = flutes;
+        setup.cutters[0].runout_mm = 0.02;
+        setup.cutters[0].runout_spread = 1;
+        const AuditedCut cut = audited(std::move(setup), {.force_n = 10}, {}, 200);
+        const RatioBand& ratio = *cut.verdict.findings[0].ratio;
+        if (flutes == 1) {
+            EXPECT_NEAR(ratio.high / ratio.low, 1, 1e-3);
+        } else {
+            EXPECT_GT(ratio.high / ratio.low, 1.1);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tribo::session

@@ -3,7 +3,6 @@
 
 import { element } from "@tribo/ui/dom";
 
-type Pair = [number, number];
 export type Triple = [number, number, number];
 
 /** Each list has one number per piece of the cut. Units: mm, N, s, degrees, rpm, mm/min. */
@@ -16,6 +15,9 @@ export interface Rows {
   z: number[];
   mean: number[];
   peak: number[];
+  /** The largest force as it may be in truth. */
+  low: number[];
+  high: number[];
   entry: number[];
   exit: number[];
   depth: number[];
@@ -72,8 +74,6 @@ export interface Part {
 
 interface ReportData {
   schema: "tribo.report/1";
-  /** Factors on the largest force, for its lower and upper estimate. */
-  band: Pair;
   rows: Rows;
   turn?: Turn;
   vibration?: Vibration;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Force over time, with the uncertainty band of the largest force. Drag to zoom, double-click to see all again.
 
-import { count, data, rows } from "./data.js";
+import { count, rows } from "./data.js";
 import { css, curve, legend, line } from "./draw.js";
 import { clamp } from "./numbers.js";
 import { Plot } from "./plot.js";
@@ -12,26 +12,25 @@ const LEAST_DRAG = 6;
 
 export function forcePlot(): void {
   const all: [number, number] = [rows.t[0]!, rows.t[count - 1]! + rows.dt[count - 1]!];
-  const [low, high] = data.band;
   let shown = all;
   let drag: [from: number, to: number] | undefined;
   const plot = new Plot("force-plot", {
     xLabel: "time, s",
     yLabel: "force, N",
     extent() {
-      const top = rows.peak.reduce(
+      const top = rows.high.reduce(
         (m, v, i) => (rows.t[i]! >= shown[0] && rows.t[i]! <= shown[1] ? Math.max(m, v) : m),
         0,
       );
-      return { x: shown, y: [0, 1.06 * top * high || 1] };
+      return { x: shown, y: [0, 1.06 * top || 1] };
     },
     paint(c) {
       for (const [first, end] of runs) {
         c.fillStyle = css("--peak");
         c.globalAlpha = 0.14;
         c.beginPath();
-        for (let i = first; i < end; ++i) c.lineTo(plot.x(rows.t[i]!), plot.y(rows.peak[i]! * high));
-        for (let i = end; i-- > first;) c.lineTo(plot.x(rows.t[i]!), plot.y(rows.peak[i]! * low));
+        for (let i = first; i < end; ++i) c.lineTo(plot.x(rows.t[i]!), plot.y(rows.high[i]!));
+        for (let i = end; i-- > first;) c.lineTo(plot.x(rows.t[i]!), plot.y(rows.low[i]!));
         c.fill();
         c.globalAlpha = 1;
         const xs = (i: number) => rows.t[first + i]!;

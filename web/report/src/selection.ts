@@ -2,7 +2,7 @@
 // The selected row, shared by all plots and the part.
 
 import { element } from "@tribo/ui/dom";
-import { count, data, rows } from "./data.js";
+import { count, rows } from "./data.js";
 import { short } from "./numbers.js";
 
 const slider = element<HTMLInputElement>("row");
@@ -26,11 +26,10 @@ export function select(i: number): void {
   if (i === selected || i < 0 || i >= count) return;
   selected = i;
   slider.value = String(i);
-  const s = (list: number[], factor = 1) => short(list[i]! * factor);
-  const [low, high] = data.band;
+  const s = (list: number[]) => short(list[i]!);
   element("readout").innerHTML =
     `line <b>${rows.line[i]}</b> at <b>${s(rows.t)} s</b>, tip (${s(rows.x)}, ${s(rows.y)}, ${s(rows.z)}) mm:` +
-    ` peak <b>${s(rows.peak)} N</b> (${s(rows.peak, low)} to ${s(rows.peak, high)}), mean <b>${s(rows.mean)} N</b>;` +
+    ` peak <b>${s(rows.peak)} N</b> (${s(rows.low)} to ${s(rows.high)}), mean <b>${s(rows.mean)} N</b>;` +
     ` engaged ${s(rows.entry)}° to ${s(rows.exit)}°, ${s(rows.depth)} mm deep, ${s(rows.rpm)} rpm, ${s(rows.feed)} mm/min${vibrates(i)}`;
   for (const redraw of linked) redraw();
 }
