@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
@@ -33,21 +32,24 @@ BrickCoord first_brick(ChunkCoord c) {
 // Puts the vertices on the surface of the blank before the others and returns their number.
 std::uint32_t put_first(TriangleMesh& mesh, const field::Shape& blank) {
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
-    std::vector<std::uint32_t> order(count), place(count);
-    std::iota(order.begin(), order.end(), 0U);
-    const auto others = std::stable_partition(order.begin(), order.end(), [&](std::uint32_t v) {
-        return std::abs(blank.distance_mm(mesh.position(v))) <= kOnBlankMm;
-    });
-    std::vector<Point3f> positions(count);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        positions[n] = mesh.positions[order[n]];
-        place[order[n]] = n;
+    std::vector<Point3f> positions, others;
+    std::vector<std::uint32_t> place(count);
+    std::vector<char> on_blank(count);
+    for (std::uint32_t v = 0; v < count; ++v) {
+        on_blank[v] = std::abs(blank.distance_mm(mesh.position(v))) <= kOnBlankMm;
+        std::vector<Point3f>& part = on_blank[v] ? positions : others;
+        place[v] = static_cast<std::uint32_t>(part.size());
+        part.push_back(mesh.positions[v]);
     }
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (std::uint32_t v = 0; v < count; ++v)
+        if (!on_blank[v]) place[v] += first;
+    positions.insert(positions.end(), others.begin(), others.end());
     mesh.positions = std::move(positions);
     for (Triangle& t : mesh.triangles) {
         for (std::uint32_t& v : t) v = place[v];
     }
-    return static_cast<std::uint32_t>(others - order.begin());
+    return first;
 }
 
 }  // namespace
