@@ -4,12 +4,24 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <sys/resource.h>
 #include <tuple>
 
 namespace tribo::app {
 namespace {
 
-constexpr std::size_t kMostOpen = 400;  // systems allow 1,024 files at a time
+// Files to keep open: more than an array of Slurm has tasks by default. Raises what the system lets this
+// process open, as far as it may: often 1,024.
+std::size_t most_open() {
+    constexpr rlim_t wanted = 2000, for_others = 100;
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return 1;
+    if (limit.rlim_cur < wanted + for_others) {
+        limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, wanted + for_others);
+        if (::setrlimit(RLIMIT_NOFILE, &limit) != 0) ::getrlimit(RLIMIT_NOFILE, &limit);
+    }
+    return limit.rlim_cur > for_others ? std::min(wanted, limit.rlim_cur - for_others) : 1;
+}
 
 }  // namespace
 
@@ -47,7 +59,7 @@ bool FinishedCases::has(const CaseId& id, bool and_died) const {
 }
 
 std::ifstream& FinishedCases::opened(std::uint32_t file) const {
-    open_.resize(std::min(files_.size(), kMostOpen));
+    if (open_.empty()) open_.resize(std::min(files_.size(), most_open()));
     OpenFile& open = open_[file % open_.size()];
     if (!open.in.is_open() || open.file != file) open = {file, std::ifstream(files_[file], std::ios::binary)};
     open.in.clear();
