@@ -7,7 +7,7 @@ namespace tribo::report {
 namespace {
 
 SweepReport report_of(double least, double most) {
-    SweepOutput output{"peak_force_n", 4, 100, least, 100, most, least, most, 2, 3, {1, 3}, {}};
+    SweepOutput output{"peak_force_n", 4, 100, {least, 100, most}, least, most, 2, 3, {1, 3}, {}};
     output.shares = {{0.1, 0.2}, {0.7, 0.8}};
     return {"a<b>.toml",         "1.0", 8, 7, {{"first", "1, 2"}, {"second", "3, 4"}}, {output},
             {{"no & way", 1, 5}}};
