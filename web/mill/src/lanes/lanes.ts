@@ -4,6 +4,7 @@
 
 import type { ForceBand, Piece, Row } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
+import { oncePerFrame } from "@tribo/ui/frame";
 import { clock } from "../page.js";
 import { growthColour } from "../sight/chatter_colours.js";
 import { heat } from "../sight/heat.js";
@@ -51,7 +52,7 @@ export class Lanes {
   private milled = 0;
   private pointed: number | undefined;
   private all = false;
-  private wanted = false;
+  private readonly draw = oncePerFrame(() => this.paint());
   private readonly ground = document.createElement("canvas");
   private groundLook = "";
   private groundAt = 0;
@@ -146,15 +147,6 @@ export class Lanes {
   private changed(): void {
     this.stale = true;
     this.draw();
-  }
-
-  private draw(): void {
-    if (this.wanted) return;
-    this.wanted = true;
-    requestAnimationFrame(() => {
-      this.wanted = false;
-      this.paint();
-    });
   }
 
   private paint(): void {

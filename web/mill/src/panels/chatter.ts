@@ -4,6 +4,7 @@
 
 import type { ChartFrame, StateFrame } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
+import { oncePerFrame } from "@tribo/ui/frame";
 import { element } from "@tribo/ui/dom";
 
 // As in stability.svg (src/report/chart): a vibration that grows by at most so much in a period.
@@ -43,7 +44,7 @@ export class ChatterPanel {
   // The pocket nearest to the speed of the program.
   private pocket: Pocket | undefined;
   private programmedRpm = 0;
-  private wanted = false;
+  private readonly paintNext = oncePerFrame(() => this.paint());
 
   constructor(private readonly turnAt: (rpm: number) => void) {
     this.canvas.addEventListener("click", (event) => {
@@ -113,12 +114,7 @@ export class ChatterPanel {
   }
 
   private draw(): void {
-    if (this.wanted || this.box.hidden) return;
-    this.wanted = true;
-    requestAnimationFrame(() => {
-      this.wanted = false;
-      this.paint();
-    });
+    if (!this.box.hidden) this.paintNext();
   }
 
   private paint(): void {

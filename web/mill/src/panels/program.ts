@@ -3,6 +3,7 @@
 
 import type { PathFrame, ProgramFrame, Row } from "@tribo/protocol/frames";
 import { element } from "@tribo/ui/dom";
+import { oncePerFrame } from "@tribo/ui/frame";
 import { heat } from "../sight/heat.js";
 import { css } from "../sight/legend.js";
 
@@ -55,7 +56,7 @@ export class Program {
   private times = new Map<number, number>();
   private now = 0;
   private chosen = 0;
-  private wanted = false;
+  private readonly draw = oncePerFrame(() => this.paint());
   // Until then the user reads elsewhere, ms.
   private readsUntil = 0;
 
@@ -135,15 +136,6 @@ export class Program {
     const top = (line - 1) * LINE_PX;
     if (top < scrollTop + 2 * LINE_PX || top > scrollTop + clientHeight - 3 * LINE_PX)
       this.list.scrollTop = top - clientHeight / 2;
-  }
-
-  private draw(): void {
-    if (this.wanted) return;
-    this.wanted = true;
-    requestAnimationFrame(() => {
-      this.wanted = false;
-      this.paint();
-    });
   }
 
   private paint(): void {

@@ -2,6 +2,7 @@
 // The finger: mouse, touch or pen on the part, a gamepad, or keys. A press on the picture presses into the part; a
 // hovering pointer is above it.
 
+import { oncePerFrame } from "@tribo/ui/frame";
 import { rumble } from "@tribo/ui/gamepad";
 import type { Scene } from "../sight/scene.js";
 import type { Source } from "../sources/source.js";
@@ -20,7 +21,11 @@ export class Finger {
   private at: Vec3 | undefined;
   private keys = false;
   private padDown = false;
-  private telling = false;
+  private pressing = false;
+  // Pointers move more often than pictures come.
+  private readonly tellNext = oncePerFrame(() => {
+    if (this.at) this.source()?.send({ op: "finger", position_mm: this.at, down: this.pressing });
+  });
 
   constructor(
     private readonly scene: Scene,
@@ -140,15 +145,10 @@ export class Finger {
     this.tell(next, down);
   }
 
-  // Sends at most once per picture: pointers move more often.
   private tell(at: Vec3, down: boolean): void {
     this.at = at;
-    if (this.telling) return;
-    this.telling = true;
-    requestAnimationFrame(() => {
-      this.telling = false;
-      if (this.at) this.source()?.send({ op: "finger", position_mm: this.at, down });
-    });
+    this.pressing = down;
+    this.tellNext();
   }
 }
 

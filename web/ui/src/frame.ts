@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+
+/** Returns a function that asks for the work in the next picture: once, however often it is called until then. */
+export function oncePerFrame(work: () => void): () => void {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      work();
+    });
+  };
+}
