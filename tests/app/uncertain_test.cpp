@@ -47,6 +47,7 @@ TEST_F(Uncertain, render_gives_bands_of_the_run_and_of_each_row) {
     for (std::size_t n = 0; n < low.size(); ++n)
         EXPECT_NEAR(forces.at("peak_force_high_n")[n] / low[n], 4, 0.06) << n;
     EXPECT_NE(folder_.get("report.html").find("\"low\":["), std::string::npos);
+    EXPECT_NE(folder_.get("report.html").find("9 of 10 of 1000 cases"), std::string::npos);
 }
 
 TEST_F(Uncertain, the_same_call_gives_the_same_bands_with_any_number_of_threads) {

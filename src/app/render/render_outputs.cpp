@@ -8,6 +8,7 @@
 
 #include "app/render/part_deviation.hpp"
 #include "app/render/report_chatter.hpp"
+#include "base/text/decimal.hpp"
 #include "field/contour/contour.hpp"
 #include "files/model/gltf.hpp"
 #include "job/listening.hpp"
@@ -55,6 +56,16 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
                            ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
                            : "what vibration does to the forces above; heat, wear, chip evacuation");
     return facts;
+}
+
+// What the bands of the report are of.
+std::pair<std::string, std::string> fact_of_cases(const report::Summary& summary) {
+    std::string text = "bands hold 9 of 10 of " + std::to_string(*summary.uncertain_cases) +
+                       " cases of forces, run-out and modes";
+    if (summary.chatter_probability)
+        text += "; the worst row chatters in " + format_digits(100 * *summary.chatter_probability, 3) +
+                " % of them";
+    return {"Cases", text};
 }
 
 }  // namespace
@@ -269,6 +280,7 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
         data.sound->waves = report_.waves(session.setup(), sound_->options());
     }
     data.facts = facts_of(loaded_, call_.wants("sound") && !call_.as_published);
+    if (summary.uncertain_cases) data.facts.push_back(fact_of_cases(summary));
     return files::write_file(folder_.file("report.html"), report::report_html(data));
 }
 

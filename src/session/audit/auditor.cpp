@@ -96,7 +96,7 @@ void Auditor::close_front() {
     open_.pop_front();
 }
 
-void Auditor::count(const LoadTally& line) {
+void Auditor::count(LoadTally& line) {
     ++audit_.line_count;
     audit_.feed_s += line.feed_s;
     audit_.cutting_s += line.cutting_s;
@@ -108,6 +108,7 @@ void Auditor::count(const LoadTally& line) {
         tool->start_s = line.start_s;
     }
     tool->add(line);
+    line.close_cases();
     for (std::size_t n = 0; n < kLoadKinds; ++n) {
         const RatioBand band = band_of(line, static_cast<LoadKind>(n), model_);
         if (band.low > 1) {
@@ -131,6 +132,7 @@ void Auditor::count(const LoadTally& line) {
 Audit Auditor::finish() {
     open_until(until_s_);
     while (!open_.empty()) close_front();
+    for (LoadTally& tool : audit_.tools) tool.close_cases();
     audit_.duration_s = until_s_;
     return std::move(audit_);
 }

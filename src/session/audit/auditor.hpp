@@ -57,7 +57,7 @@ class Auditor {
     };
     void open_until(double t_s);
     void close_front();
-    void count(const LoadTally& line);
+    void count(LoadTally& line);
 
     const LoadModel& model_;
     const MillSession& session_;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "sweep/band.hpp"
-
 namespace tribo::session {
 namespace {
 
@@ -38,6 +36,17 @@ void LoadTally::add_cases(std::span<const std::array<double, kLoadKinds>> ratios
             cases[n][kind] = std::max(cases[n][kind], ratios[n][kind]);
 }
 
+void LoadTally::close_cases() {
+    if (cases.empty()) return;
+    std::vector<double> ratios(cases.size());
+    bands.emplace();
+    for (std::size_t kind = 0; kind < kLoadKinds; ++kind) {
+        for (std::size_t n = 0; n < cases.size(); ++n) ratios[n] = cases[n][kind];
+        (*bands)[kind] = sweep::band_of(ratios);
+    }
+    cases = {};
+}
+
 void LoadTally::add(const LoadTally& other) {
     end_s = other.end_s;
     feed_mm += other.feed_mm;
@@ -57,11 +66,8 @@ void LoadTally::add(const LoadTally& other) {
 
 RatioBand band_of(const LoadTally& tally, LoadKind kind, const LoadModel& model) {
     const double ratio = tally.of(kind).ratio;
-    if (tally.cases.empty() || !follows_force(kind)) return model.band(tally.cutter, kind, ratio);
-    std::vector<double> ratios;
-    ratios.reserve(tally.cases.size());
-    for (const auto& of_case : tally.cases) ratios.push_back(of_case[index_of(kind)]);
-    const sweep::Band band = sweep::band_of(ratios);
+    if (!tally.bands || !follows_force(kind)) return model.band(tally.cutter, kind, ratio);
+    const sweep::Band& band = (*tally.bands)[index_of(kind)];
     return model.with_limit(tally.cutter, kind, {band.low, ratio, band.high});
 }
 

@@ -2,7 +2,12 @@
 // The loads of a line of a program, or of all lines of a tool: largest values and sums.
 #pragma once
 
+#include <optional>
+#include <span>
+#include <vector>
+
 #include "session/audit/row_loads.hpp"
+#include "sweep/band.hpp"
 
 namespace tribo::session {
 
@@ -31,19 +36,22 @@ struct LoadTally {
     double jump_n = 0;      // largest rise of the peak force from a row to the next one
     int entries = 0;        // out of the air into material
     int collisions = 0;
-    // The ratios of the peaks in each case of ForceCases; empty: there are no cases.
+    // The ratios of the peaks in each case of ForceCases, until close_cases(); empty: there are no cases.
     std::vector<std::array<double, kLoadKinds>> cases;
+    std::optional<std::array<sweep::Band, kLoadKinds>> bands;  // of the ratios in the cases
 
     const PeakLoad& of(LoadKind kind) const { return peaks[index_of(kind)]; }
     // The load that is nearest to its limit; none if no load has a limit.
     std::optional<LoadKind> worst() const;
     void add_peaks(const RowLoads& loads, int line, double t_s);
     void add_cases(std::span<const std::array<double, kLoadKinds>> ratios);
+    // Keeps their bands alone. After the last one.
+    void close_cases();
     // Adds a line to the tally of a tool.
     void add(const LoadTally& line);
 };
 
-// The band of the ratio of a peak: from its cases, or without them from the band of the force.
+// The band of the ratio of a peak: that of its cases, or without them from the band of the force.
 RatioBand band_of(const LoadTally& tally, LoadKind kind, const LoadModel& model);
 
 }  // namespace tribo::session

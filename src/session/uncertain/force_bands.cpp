@@ -14,6 +14,10 @@ constexpr std::size_t kShares = 8;
 // A cutter must cut with its whole circumference (milling/tool/cutter.hpp: run-out below the radius).
 constexpr double kMostRunoutShare = 0.99;
 
+// Numbers of what is off by itself (sweep/spread_factors.hpp): the force has that of cases_of(), where modes
+// have those after it.
+constexpr std::size_t kForceValue = 0, kFirstRunoutValue = 1'000'000;
+
 bool has_uncertain_runout(const milling::Cutter& cutter) {
     return cutter.runout_mm > 0 && cutter.runout_spread > 0;
 }
@@ -45,15 +49,12 @@ ForceCases::ForceCases(const MillSetup& setup, std::size_t count, ParallelFor pa
       force_(count),
       runout_mm_(setup.cutters.size()),
       peaks_(count) {
-    std::size_t value = 0;
-    const sweep::SpreadFactors force(count, value++, setup.force_low_factor, setup.force_high_factor);
+    const sweep::SpreadFactors force(count, kForceValue, setup.force_low_factor, setup.force_high_factor);
     for (std::size_t n = 0; n < count; ++n) force_[n] = force.at(n);
-    // Modes come next in cases_of(); what is off by itself needs a number of its own.
-    value = 1'000'000;
     for (std::size_t c = 0; c < cutters_.size(); ++c) {
         const milling::Cutter& cutter = cutters_[c];
         if (!has_uncertain_runout(cutter)) continue;
-        const sweep::SpreadFactors factors(count, value + c, cutter.runout_spread);
+        const sweep::SpreadFactors factors(count, kFirstRunoutValue + c, cutter.runout_spread);
         for (std::size_t n = 0; n < count; ++n)
             runout_mm_[c].push_back(
                 std::min(cutter.runout_mm * factors.at(n), kMostRunoutShare * cutter.radius_mm()));

@@ -141,6 +141,9 @@ TEST(Verdict, has_the_bands_of_cases) {
     EXPECT_NEAR(ratio.value, 2.5, 0.01);
     EXPECT_NEAR(ratio.high / (2.5 * 3), 1, 0.01);
     EXPECT_EQ(cut.audit.lines[index_of(LoadKind::force)].over, 1u);
+    // What is kept of a line does not grow with the cases.
+    for (const auto& kept : {cut.audit.worst, cut.audit.tools, cut.lines})
+        for (const LoadTally& tally : kept) EXPECT_TRUE(tally.cases.empty() && tally.bands);
 }
 
 // One tooth cuts the same chip whatever its run-out; two of them share it unevenly.
