@@ -38,6 +38,7 @@ std::string without_feeds(std::string_view text) {
         if (at < text.size() && (readers::to_upper(text[at]) == 'U' || readers::to_upper(text[at]) == 'Z'))
             ++at;
         while (at < text.size() && (readers::is_blank(text[at]) || text[at] == '=')) ++at;
+        if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
         std::size_t end = at;
         while (end < text.size() && (readers::is_digit(text[end]) || text[end] == '.' || text[end] == ','))
             ++end;

@@ -68,7 +68,7 @@ TEST(FeedWords, of_apt_are_statements) {
               "FEDRAT/ 500.00,MMPM\nGOTO/1,0,0\nFEDRAT/ 250.00,MMPM\nGOTO/2,0,0\nGOTO/3,0,0\n");
 }
 
-TEST(FeedWords, that_are_computed_or_missing_are_refused_with_their_line) {
+TEST(FeedWords, that_are_computed_missing_or_absurd_are_refused_with_their_line) {
     struct Case {
         const char* text;
         FeedLanguage language;
@@ -82,6 +82,9 @@ TEST(FeedWords, that_are_computed_or_missing_are_refused_with_their_line) {
              Case{"1 L X+1 R0 FQ3\n", FeedLanguage::heidenhain, 1, "computed"},
              Case{"1 L X+1 R0 FAUTO\n", FeedLanguage::heidenhain, 1, "computed"},
              Case{"G1 X1\n", FeedLanguage::gcode, 1, "no feed word"},
+             Case{"G1 X1 F-5\n", FeedLanguage::gcode, 1, "-5"},
+             Case{"G1 X1 F0\nX2\n", FeedLanguage::gcode, 2, "no control follows"},
+             Case{"G1 X1 F99999999999999999999\n", FeedLanguage::gcode, 1, "no control follows"},
          }) {
         const LineFeed feed{line, 0.5};
         const auto written = with_feeds(text, language, {&feed, 1}, "p.nc");

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kNone = std::string_view::npos;
 constexpr WordName kFeedName{'F', "FEDRAT"};
+constexpr double kMostFeed = 1e6;  // in the units of the program
 
 // Where comments begin, and words end.
 std::size_t code_end(std::string_view line, FeedLanguage language) {
@@ -136,6 +137,9 @@ class FeedWriter {
             return refuse(number, "no feed word stands before this move",
                           unrolled("write the first feed into the program"));
         const double old = value_of(old_), wanted = old * feed->factor;
+        if (!(old > 0 && old <= kMostFeed))
+            return refuse(number, "the feed of this move is " + old_ + ", which no control follows",
+                          "write a feed above 0 and up to a million");
         const bool keeps = keeps_feed(feed->factor);
         const double now = now_.empty() ? 0 : value_of(now_);
         const bool holds = keeps ? now == old : now <= wanted && now >= (1 - kFeedReuse) * wanted;
