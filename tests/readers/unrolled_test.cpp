@@ -50,6 +50,15 @@ TEST(UnrolledGcode, is_the_same_path_block_by_block) {
         EXPECT_GT(again.moves[n].line, again.moves[n - 1].line);
 }
 
+TEST(UnrolledGcode, leaves_out_no_way_over_a_place_of_the_machine) {
+    const motion::Program program =
+        program_of("G21 G90 S9000 M3\nG0 X0 Y0 Z1\nG1 X20 F500\nG28 Z0\nG0 X10 Y3\nZ1\nG1 X5\n");
+    const auto text = unrolled_gcode(program, {});
+    ASSERT_FALSE(text) << *text;
+    EXPECT_EQ(text.error().line, 7);
+    EXPECT_NE(text.error().cause.find("only the machine knows"), std::string::npos) << text.error().cause;
+}
+
 TEST(UnrolledGcode, has_no_exponents) {
     // Half an inch up and half an inch back leaves a rest of 1e-15 mm; 1e-7 mm is a place.
     const motion::Program program = program_of(

@@ -37,6 +37,9 @@ std::string word_number(double value) {
     return sign + digits.substr(0, whole) + "." + digits.substr(whole);
 }
 
+// Rounding of a long program moves its places by less.
+constexpr double kSamePlaceMm = 1e-6;
+
 class Unroller {
   public:
     Unroller(const motion::Program& program, const UnrollOptions& options)
@@ -69,6 +72,12 @@ class Unroller {
                            std::string("this move cannot be written as plain G-code: ") + cause,
                            "let the CAM system write the program with lines and arcs alone");
         };
+        // The way over such a place keeps the tool off the part: it cannot be left out.
+        if (at_ && distance(*at_, move.start.tip_mm) > kSamePlaceMm)
+            return fail_at(program_.source, move.line, 0,
+                           "before this move the program goes to a place that only the machine knows, which "
+                           "the written-out program would leave out",
+                           "write that place with G0 in the frame of the part");
         const Vec3 up{0, 0, 1};
         if (!(move.start.axis == up) || !(move.end.axis == up)) return refuse("its tool is tilted");
         if (move.quadratic) return refuse("it is a curve, and no arc");
