@@ -66,6 +66,8 @@ TEST(FeedWords, of_apt_are_statements) {
     EXPECT_EQ(changed("FEDRAT/ 500.00,MMPM\nGOTO/1,0,0\nGOTO/2,0,0\nGOTO/3,0,0\n", FeedLanguage::apt,
                       {{2, 1}, {3, 0.5}, {4, 0.5}}),
               "FEDRAT/ 500.00,MMPM\nGOTO/1,0,0\nFEDRAT/ 250.00,MMPM\nGOTO/2,0,0\nGOTO/3,0,0\n");
+    EXPECT_EQ(changed("FEDRAT/500\nGOTO/1,0,0\n", FeedLanguage::apt, {{1, 0.5}, {2, 0.5}}),
+              "FEDRAT/500\nFEDRAT/250\nGOTO/1,0,0\n");
 }
 
 TEST(FeedWords, that_are_computed_missing_or_absurd_are_refused_with_their_line) {

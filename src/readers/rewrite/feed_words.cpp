@@ -124,12 +124,12 @@ class FeedWriter {
         if (word && word->computed)
             return refuse(number, "the feed of this line is computed by the program",
                           unrolled("write it as a number"));
+        const bool is_statement = word && language_ == FeedLanguage::apt;
         if (word) old_ = std::string(line.substr(word->at, word->end - word->at));
-        if (feed == nullptr) {
-            if (word) {
-                now_ = old_;
-                if (language_ == FeedLanguage::apt) statement_ = std::string(line);
-            }
+        if (is_statement) statement_ = std::string(line);
+        // A statement moves nothing.
+        if (feed == nullptr || is_statement) {
+            if (word) now_ = old_;
             out_ += line;
             return;
         }
