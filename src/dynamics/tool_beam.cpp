@@ -45,25 +45,36 @@ ToolBeam tool_beam(const milling::Cutter& cutter) {
 
 BendingByForce bending_by_force(const ToolBeam& beam, double height_mm) {
     BendingByForce bending;
-    double low = 0;
-    // The moment at the height z is (z - height) per newton; a unit force at the tip has the moment z there.
-    const auto add = [&](const BeamSection& section, bool is_body) {
-        const double d = section.diameter_mm, high = low + section.length_mm, from = std::max(low, height_mm);
-        low = high;
-        if (!(high > from)) return;
-        const double stiffness = section.material.young_n_per_mm2 * math::kPi / 64 * d * d * d * d;
-        bending.yield_mm +=
-            ((high * high * high - from * from * from) / 3 - height_mm * (high * high - from * from) / 2) /
-            stiffness;
-        const double stress = 32 * (high - height_mm) / (math::kPi * d * d * d);
-        if (is_body && stress > bending.stress_per_mm2) {
+    bending.yield_mm = yield_mm_per_n(beam, height_mm, 0);
+    double high = 0;
+    for (const BeamSection& section : beam.body) {
+        high += section.length_mm;
+        const double d = section.diameter_mm, stress = 32 * (high - height_mm) / (math::kPi * d * d * d);
+        if (stress > bending.stress_per_mm2) {
             bending.stress_per_mm2 = stress;
             bending.stress_height_mm = high;
         }
-    };
-    for (const BeamSection& section : beam.body) add(section, true);
-    for (const BeamSection& section : beam.holder) add(section, false);
+    }
     return bending;
+}
+
+double yield_mm_per_n(const ToolBeam& beam, double force_mm, double at_mm) {
+    double yield = 0, low = 0;
+    // Of a unit force the moment at the height z is z - force, and that of a unit force at the place z - at:
+    // the integral of their product over the stiffness is the displacement (Castigliano 1873).
+    const auto add = [&](const BeamSection& section) {
+        const double d = section.diameter_mm, high = low + section.length_mm;
+        const double from = std::max({low, force_mm, at_mm});
+        low = high;
+        if (!(high > from)) return;
+        const double stiffness = section.material.young_n_per_mm2 * math::kPi / 64 * d * d * d * d;
+        yield += ((high * high * high - from * from * from) / 3 -
+                  (force_mm + at_mm) * (high * high - from * from) / 2 + force_mm * at_mm * (high - from)) /
+                 stiffness;
+    };
+    for (const BeamSection& section : beam.body) add(section);
+    for (const BeamSection& section : beam.holder) add(section);
+    return yield;
 }
 
 }  // namespace tribo::dynamics

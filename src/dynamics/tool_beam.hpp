@@ -33,4 +33,7 @@ struct BendingByForce {
 // bends nothing. Any thread; does not allocate.
 BendingByForce bending_by_force(const ToolBeam& beam, double height_mm);
 
+// By how much the same beam moves at `at_mm` above the tip under a force of 1 N at `force_mm`, mm/N.
+double yield_mm_per_n(const ToolBeam& beam, double force_mm, double at_mm);
+
 }  // namespace tribo::dynamics

@@ -19,8 +19,8 @@ constexpr const char* kSlots =
 class AuditVerb : public testing::Test {
   protected:
     Outcome run(const std::string& more, std::vector<std::string> flags, const char* verb = "audit") const {
-        scratch.put("slot.nc", kSlots);
-        scratch.put("job.toml", kBenchmarkSlot + more);
+        scratch.put("slot.nc", program);
+        scratch.put("job.toml", job + more);
         flags.insert(flags.begin(), {verb, "job.toml"});
         return run_tribo(flags, scratch.path());
     }
@@ -44,6 +44,7 @@ class AuditVerb : public testing::Test {
         return all;
     }
     Scratch scratch;
+    std::string program = kSlots, job = kBenchmarkSlot;
 };
 
 TEST_F(AuditVerb, writes_the_same_peaks_as_render_line_by_line) {
@@ -106,6 +107,29 @@ TEST_F(AuditVerb, finds_chatter_where_the_tool_bends) {
     const Outcome chatters = run(benchmark_mode("1, 0, 0"), {});
     EXPECT_EQ(chatters.code, 0) << chatters.err;
     EXPECT_NE(chatters.out.find("the cut chatters"), std::string::npos) << chatters.out;
+}
+
+TEST_F(AuditVerb, holds_the_bending_of_the_tool_against_the_tolerance) {
+    // Climb milling along the edge of the block: 3 mm wide, with a helix, as an edge that leaves has no chip.
+    job.replace(job.find("helix_deg = 0"), 13, "helix_deg = 40");
+    program = "G21 G90 M3 S8000 F1600\nG0 X48 Y-2 Z5\nZ-3\nG1 X-8\nM30\n";
+    const Outcome fine = run("[limits]\ntolerance_mm = 1\n", {"--json"});
+    EXPECT_EQ(fine.code, 0) << fine.err;
+    EXPECT_NE(fine.err.find("bends as a beam and does not vibrate"), std::string::npos) << fine.err;
+    const auto json = nlohmann::json::parse(fine.out, nullptr, false);
+    const double leaves = json["bending_leaves_mm"], overcuts = json["bending_overcuts_mm"];
+    const double most = std::max(leaves, overcuts);
+    EXPECT_GT(most, 1e-5);
+    // The tip yields at most by the deflection under the largest force.
+    EXPECT_LE(most, json["tools"][0]["deflection_mm"]["value"].get<double>());
+    const Outcome over = run("[limits]\ntolerance_mm = " + std::to_string(0.3 * most) + "\n", {});
+    EXPECT_NE(over.out.find("times the tolerance"), std::string::npos) << over.out;
+    ASSERT_EQ(
+        run("[limits]\ntolerance_mm = 1\n", {"--out", "render", "--only", "summary,surface"}, "render").code,
+        0);
+    const auto summary = nlohmann::json::parse(scratch.get("render/summary.json"), nullptr, false);
+    EXPECT_NEAR(summary["form_error"]["left_max_mm"].get<double>(), leaves, 1e-9);
+    EXPECT_GT(rows("render/surface.csv").size(), 10u);
 }
 
 TEST_F(AuditVerb, takes_a_program_alone) {

@@ -106,6 +106,20 @@ RC_GTEST_PROP(ToolBeam, bends_less_the_nearer_the_force_is_to_the_holder, ()) {
     RC_ASSERT(of_high.stress_per_mm2 <= of_low.stress_per_mm2);
 }
 
+// Maxwell and Betti.
+RC_GTEST_PROP(ToolBeam, yields_at_one_height_by_a_force_at_another_as_the_other_way_round, ()) {
+    const auto between = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
+    milling::Cutter c = cutter(between(10, 5000), between(100, 10'000), 0);
+    c.stickout_mm = c.length_mm * between(100, 500);
+    const ToolBeam beam = tool_beam(c);
+    const double one = c.stickout_mm * between(0, 100), other = c.stickout_mm * between(0, 100);
+    const double yield = yield_mm_per_n(beam, one, other), back = yield_mm_per_n(beam, other, one);
+    RC_ASSERT(yield >= 0);
+    RC_ASSERT(std::abs(yield - back) <= 1e-9 * yield);
+    RC_ASSERT(std::abs(yield_mm_per_n(beam, one, 0) - bending_by_force(beam, one).yield_mm) <=
+              1e-12 * yield + 1e-15);
+}
+
 TEST(ToolBeam, is_not_bent_by_a_force_above_it) {
     const BendingByForce bending = bending_by_force(tool_beam(cutter(6, 10, 20)), 25);
     EXPECT_EQ(bending.yield_mm, 0);

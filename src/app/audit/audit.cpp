@@ -14,20 +14,20 @@
 #include "base/text/printable.hpp"
 #include "files/output_folder.hpp"
 #include "session/chatter/probability.hpp"
-#include "session/chatter/surface_recorder.hpp"
+#include "session/chatter/steady_bending.hpp"
 #include "session/cut/mill_warnings.hpp"
 #include "tribo/threads.hpp"
 
 namespace tribo::app {
 namespace {
 
-// The error of the finished part, as far as the job has a design, a tolerance or modes.
+// The error of the finished part, as far as the job has a design, and what its teeth left is recorded.
 FileResult<void> measure_part(PreparedJob& loaded, const session::MillSession& session,
-                              session::ProgramChatter* chatter, const ParallelFor& parallel,
+                              std::optional<surface::ToothTraces> traces, const ParallelFor& parallel,
                               AuditAnswer& answer) {
     surface::FormError form_error;
-    if (chatter != nullptr && loaded.job.limits.tolerance_mm) {
-        form_error = surface::FormError(chatter->take_surface(), session.stock(), parallel);
+    if (traces) {
+        form_error = surface::FormError(*std::move(traces), session.stock(), parallel);
         const surface::FormError::Extremes& e = form_error.extremes();
         if (!form_error.empty()) {
             answer.facts.left_mm = e.left_mm;
@@ -77,7 +77,7 @@ int audit(const AuditCall& call) {
         return report(spread.error());
     const auto cases = static_cast<std::size_t>(call.uncertain.value_or(session::kCases));
     const bool bends = loaded->job.can_vibrate(),
-               records_surface = bends && loaded->job.limits.tolerance_mm.has_value();
+               records_surface = loaded->job.limits.tolerance_mm.has_value();
     const RunOutputs made{.chatter_bytes =
                               records_surface ? session::SurfaceRecorder::estimated_bytes(loaded->setup) : 0};
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made); !fits)
@@ -99,11 +99,8 @@ int audit(const AuditCall& call) {
     }
     const session::LoadModel model(loaded->setup, session::cut_limits(loaded->job, loaded->setup));
     append(model.limits().assumptions, loaded->warnings);
-    if (loaded->job.limits.tolerance_mm && !bends)
-        loaded->warnings.push_back(
-            {call.job, 0,
-             "the tolerance is not held against bending: the job does not say what bends; "
-             "write [[mode]], or [dynamics] estimate = true with stickout_mm"});
+    const bool steady = session::bends_steadily(loaded->job);
+    if (steady) loaded->warnings.push_back(session::steady_bending_warning(call.job));
     report(loaded->warnings);
 
     const ParallelFor parallel = parallel_for_over(available_threads());
@@ -130,6 +127,7 @@ int audit(const AuditCall& call) {
     };
     session::MillSinks sinks;
     std::optional<session::ProgramChatter> chatter;
+    std::optional<session::SteadyBending> bending;
     session::StableSpeedSearch speeds(session.setup());
     if (bends) {
         chatter.emplace(
@@ -144,7 +142,11 @@ int audit(const AuditCall& call) {
             chatter->add(row, force);
         };
     } else {
-        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) { take(row, force, {}); };
+        if (steady) bending.emplace(session.setup());
+        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            if (bending) bending->add(row);
+            take(row, force, {});
+        };
     }
     sinks.progress = milling("milling");
     if (!session.run(sinks)) return interrupted_exit_code();
@@ -158,10 +160,17 @@ int audit(const AuditCall& call) {
         append(session::warnings_of(chatter->totals(), loaded->job.path.file), found);
         answer.facts.chatter_probability = session::chatter_probability(*chatter, session.setup(), cases);
     }
+    std::optional<surface::ToothTraces> traces;
+    if (bending) {
+        append(session::warnings_of(*bending, loaded->job.path.file), found);
+        traces = bending->take();
+    } else if (chatter && records_surface) {
+        traces = chatter->take_surface();
+    }
     report(found);
     answer.warnings = loaded->warnings;
     append(found, answer.warnings);
-    if (auto done = measure_part(*loaded, session, chatter ? &*chatter : nullptr, parallel, answer); !done)
+    if (auto done = measure_part(*loaded, session, std::move(traces), parallel, answer); !done)
         return report(done.error());
     answer.verdict = session::verdict(answer.audit, model, session, answer.facts);
     if (interrupted()) return interrupted_exit_code();

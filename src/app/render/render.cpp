@@ -15,8 +15,8 @@
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
+#include "session/chatter/steady_bending.hpp"
 #include "session/chatter/steady_cut.hpp"
-#include "session/chatter/surface_recorder.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/mill_warnings.hpp"
 #include "tribo/threads.hpp"
@@ -27,7 +27,8 @@ namespace {
 constexpr double kMegabyte = 1e6;
 
 report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
-                           const session::MillSession& session, const session::ChatterTotals* chatter) {
+                           const session::MillSession& session, const session::ChatterTotals* chatter,
+                           const session::SteadyBending* bending) {
     const session::MillTotals& t = session.totals();
     report::Summary s;
     s.job = call.job;
@@ -52,6 +53,10 @@ report::Summary summary_of(const RenderCall& call, const PreparedJob& loaded,
         s.largest_displacement_mm = chatter->largest_displacement_mm;
         const Warnings not_computed = session::warnings_of(*chatter, loaded.job.path.file);
         found.insert(found.end(), not_computed.begin(), not_computed.end());
+    }
+    if (bending != nullptr) {
+        const Warnings not_kept = session::warnings_of(*bending, loaded.job.path.file);
+        found.insert(found.end(), not_kept.begin(), not_kept.end());
     }
     report(found);
     s.warnings.insert(s.warnings.end(), found.begin(), found.end());
@@ -112,14 +117,16 @@ int render(const RenderCall& call) {
     options.memory_bytes = static_cast<std::uint64_t>(call.memory_mb.value_or(0) * kMegabyte);
     auto loaded = prepare_job(call.job, call.program, options, sound_rate_hz);
     if (!loaded) return report(loaded.error());
-    if (call.only.contains("surface")) {
+    const bool steady = session::bends_steadily(loaded->job),
+               records_surface = steady || loaded->job.can_vibrate();
+    if (call.only.contains("surface") && !steady) {
         if (auto bends = session::check_modes(loaded->job); !bends) return report(bends.error());
     }
     if (auto spread = check_uncertain(call.job, call.uncertain, session::has_spread(loaded->setup)); !spread)
         return report(spread.error());
-    const RunOutputs made{
-        call.wants("mesh"), call.wants("report"), call.wants("sound"),
-        loaded->job.can_vibrate() ? session::SurfaceRecorder::estimated_bytes(loaded->setup) : 0};
+    const RunOutputs made{call.wants("mesh"), call.wants("report"), call.wants("sound"),
+                          records_surface ? session::SurfaceRecorder::estimated_bytes(loaded->setup) : 0};
+    if (steady) loaded->warnings.push_back(session::steady_bending_warning(call.job));
     if (auto fits = check_memory(call.job, loaded->setup, loaded->part, made, call.memory_mb); !fits)
         return report(fits.error());
     auto folder = files::OutputFolder::open(call.out, RenderOutputs::writes);
@@ -147,6 +154,7 @@ int render(const RenderCall& call) {
     if (auto open = outputs.open(session, blank); !open) return report(open.error());
     session::MillSinks sinks;
     std::optional<session::ProgramChatter> chatter;
+    std::optional<session::SteadyBending> bending;
     if (loaded->job.can_vibrate()) {
         chatter.emplace(
             session.setup(),
@@ -156,8 +164,10 @@ int render(const RenderCall& call) {
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
             chatter->add(row, force);
         };
-    } else if (outputs.needs_rows()) {
+    } else if (outputs.needs_rows() || steady) {
+        if (steady) bending.emplace(session.setup());
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            if (bending) bending->add(row);
             outputs.add(row, force, session.setup(), nullptr);
         };
     }
@@ -165,7 +175,8 @@ int render(const RenderCall& call) {
     if (!session.run(sinks)) return interrupted_exit_code();
     if (chatter) chatter->finish();
     progress.reset();
-    report::Summary summary = summary_of(call, *loaded, session, chatter ? &chatter->totals() : nullptr);
+    report::Summary summary = summary_of(call, *loaded, session, chatter ? &chatter->totals() : nullptr,
+                                         bending ? &*bending : nullptr);
     // Only a job can be run again as it was.
     const std::string& record = loaded->is_program ? call.program.job_out : call.job;
     if (record.empty()) {
@@ -173,7 +184,10 @@ int render(const RenderCall& call) {
     } else {
         summary.stock_record->job = files::relative_to(folder->path(), record);
     }
-    if (auto done = outputs.finish(session, chatter ? &*chatter : nullptr, summary); !done)
+    std::optional<surface::ToothTraces> traces;
+    if (chatter) traces = chatter->take_surface();
+    if (bending) traces = bending->take();
+    if (auto done = outputs.finish(session, chatter ? &*chatter : nullptr, std::move(traces), summary); !done)
         return report(done.error());
     if (interrupted()) return interrupted_exit_code();
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

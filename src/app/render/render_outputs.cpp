@@ -16,6 +16,7 @@
 #include "report/picture/picture.hpp"
 #include "report/surface_csv.hpp"
 #include "session/chatter/probability.hpp"
+#include "session/chatter/steady_bending.hpp"
 
 namespace tribo::app {
 namespace {
@@ -52,7 +53,9 @@ std::vector<std::pair<std::string, std::string>> facts_of(const PreparedJob& loa
     if (!m.note.empty()) facts.emplace_back("Note", std::string(m.note));
     if (sound) facts.emplace_back("Sound", sound_of(loaded.job));
     facts.emplace_back("Not modelled",
-                       !loaded.job.can_vibrate()
+                       session::bends_steadily(loaded.job)
+                           ? "chatter, deflection of part and holder, heat, wear, chip evacuation"
+                       : !loaded.job.can_vibrate()
                            ? "chatter, deflection of tool and part, heat, wear, chip evacuation"
                            : "what vibration does to the forces above; heat, wear, chip evacuation");
     return facts;
@@ -118,8 +121,9 @@ void RenderOutputs::add(const milling::CutRow& row, const milling::RowForce& for
     if (call_.wants("report")) report_.add(row, force.peaks, chatter, band);
 }
 
-FileResult<void> RenderOutputs::finish(const session::MillSession& session, session::ProgramChatter* chatter,
-                                       report::Summary& summary) {
+FileResult<void> RenderOutputs::finish(const session::MillSession& session,
+                                       const session::ProgramChatter* chatter,
+                                       std::optional<surface::ToothTraces> traces, report::Summary& summary) {
     add_bands(session, chatter, summary);
     if (forces_) {
         if (auto done = forces_->finish(); !done) return done;
@@ -130,8 +134,8 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session, sess
     if (sound_) {
         if (auto done = sound_->finish(session.totals().duration_s); !done) return done;
     }
-    if (chatter != nullptr) {
-        form_error_ = surface::FormError(chatter->take_surface(), session.stock(), parallel_);
+    if (traces) {
+        form_error_ = surface::FormError(*std::move(traces), session.stock(), parallel_);
         if (auto done = write_surface(summary); !done) return done;
     }
     TriangleMesh mesh;
@@ -246,7 +250,8 @@ report::ReportPart RenderOutputs::report_part(const session::MillSession& sessio
     if (!designed_) {
         if (form_error_.empty()) return part;
         const surface::FormError::Extremes& e = form_error_.extremes();
-        part.deviation_from = "deviation by bending of tool and part";
+        part.deviation_from = session::bends_steadily(loaded_.job) ? "deviation by bending of the tool"
+                                                                   : "deviation by bending of tool and part";
         part.deviation_range_mm = std::max({e.left_mm, e.overcut_mm, kOnFaceMm});
         part.deviation_mm = std::move(bent_mm);
         return part;

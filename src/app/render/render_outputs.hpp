@@ -33,9 +33,9 @@ class RenderOutputs {
     void add(const milling::CutRow& row, const milling::RowForce& force, const session::MillSetup& setup,
              const session::RowChatter* chatter);
     // Call after it. Adds results and bands to `summary`. Moves the mesh of the designed part out of the job.
-    // `chatter`: null without modes.
-    FileResult<void> finish(const session::MillSession& session, session::ProgramChatter* chatter,
-                            report::Summary& summary);
+    // `chatter`: null without modes. `traces`: what the teeth left, if it was recorded.
+    FileResult<void> finish(const session::MillSession& session, const session::ProgramChatter* chatter,
+                            std::optional<surface::ToothTraces> traces, report::Summary& summary);
 
   private:
     void add_bands(const session::MillSession& session, const session::ProgramChatter* chatter,

@@ -10,7 +10,7 @@
 #include "session/audit/auditor.hpp"
 #include "session/chatter/critical_row.hpp"
 #include "session/chatter/program_chatter.hpp"
-#include "session/chatter/surface_recorder.hpp"
+#include "session/chatter/steady_bending.hpp"
 #include "session/cut/mill_setup.hpp"
 
 namespace tribo::app {
@@ -36,15 +36,17 @@ Result<session::MillSetup> prepare(const job::Sweep& sweep, const job::LoadedJob
     auto setup = session::prepare_mill(loaded, options, warnings);
     if (!setup) return setup;
     RunOutputs made;
-    if (loaded.job.can_vibrate()) made.chatter_bytes = session::SurfaceRecorder::estimated_bytes(*setup);
+    if (loaded.job.can_vibrate() || session::bends_steadily(loaded.job))
+        made.chatter_bytes = session::SurfaceRecorder::estimated_bytes(*setup);
     const auto budget_mb = memory_bytes > 0 ? std::optional(memory_bytes / kMegabyte) : std::nullopt;
     if (auto fits = check_memory(loaded.job.file, *setup, loaded.part, made, budget_mb); !fits)
         return std::unexpected(fits.error());
     return setup;
 }
 
-Result<void> add_summary(const session::MillSession& session, session::ProgramChatter* chatter,
-                         job::LoadedJob& loaded, Results& results) {
+Result<void> add_summary(const session::MillSession& session, const session::ProgramChatter* chatter,
+                         std::optional<surface::ToothTraces> traces, job::LoadedJob& loaded,
+                         Results& results) {
     const session::MillTotals& t = session.totals();
     results.insert(results.end(), {{"duration_s", t.duration_s},
                                    {"cutting_s", t.cutting_s},
@@ -59,11 +61,15 @@ Result<void> add_summary(const session::MillSession& session, session::ProgramCh
                                    {"collisions", static_cast<double>(t.collisions.size())}});
     if (t.rows > 0) results.emplace_back("tooth_passing_hz", t.tooth_passing_hz);
     if (t.energy_balance) results.emplace_back("energy_balance", *t.energy_balance);
-    surface::FormError form_error;
     if (chatter) {
         results.emplace_back("chatter_lines", static_cast<double>(chatter->totals().lines.size()));
         results.emplace_back("largest_displacement_mm", chatter->totals().largest_displacement_mm);
-        form_error = surface::FormError(chatter->take_surface(), session.stock(), serial_for);
+    }
+    surface::FormError form_error;
+    if (traces) form_error = surface::FormError(*std::move(traces), session.stock(), serial_for);
+    if (!form_error.empty()) {
+        results.emplace_back("bending_leaves_mm", form_error.extremes().left_mm);
+        results.emplace_back("bending_overcuts_mm", form_error.extremes().overcut_mm);
     }
     if (!loaded.part) return {};
     const auto designed = surface::DesignedSurface::make(std::move(loaded.part->mesh));
@@ -112,6 +118,7 @@ Result<void> add_run(const job::Sweep& sweep, job::LoadedJob& loaded, double mem
         };
     }
     std::optional<session::ProgramChatter> chatter;
+    std::optional<session::SteadyBending> bending;
     if (loaded.job.can_vibrate()) {
         chatter.emplace(session.setup(), session::ProgramChatter::Options{false, true}, serial_for,
                         [&](const milling::CutRow& row, const milling::RowForce& force,
@@ -124,12 +131,23 @@ Result<void> add_run(const job::Sweep& sweep, job::LoadedJob& loaded, double mem
         sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
             chatter->add(row, force);
         };
+    } else if (session::bends_steadily(loaded.job)) {
+        bending.emplace(session.setup());
+        sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+            bending->add(row);
+            if (auditor) auditor->add(row, force, {});
+        };
     }
     sinks.progress = [](double) { return !interrupted(); };
     if (!session.run(sinks)) return interrupted_run();
     if (chatter) chatter->finish();
     if (wants(sweep, job::SweepResult::summary)) {
-        if (auto done = add_summary(session, chatter ? &*chatter : nullptr, loaded, results); !done)
+        std::optional<surface::ToothTraces> traces;
+        if (chatter) traces = chatter->take_surface();
+        if (bending) traces = bending->take();
+        if (auto done =
+                add_summary(session, chatter ? &*chatter : nullptr, std::move(traces), loaded, results);
+            !done)
             return done;
     }
     if (auditor) add_loads(auditor->finish(), results);

@@ -32,9 +32,7 @@ Warnings warnings_of(const ChatterTotals& totals, const std::string& file) {
          "vibrate by more than a tenth of the tool's diameter, where the equations end: the tool is held "
          "there");
     if (totals.surface_full_at_line)
-        warnings.push_back({file, *totals.surface_full_at_line,
-                            "from here on no marks of teeth are kept: there are " +
-                                std::to_string(SurfaceRecorder::kMostMarks) + " before"});
+        warnings.push_back(SurfaceRecorder::full_warning(file, *totals.surface_full_at_line));
     return warnings;
 }
 

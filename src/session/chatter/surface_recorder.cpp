@@ -24,6 +24,8 @@ constexpr int kMostHeights = 16;
 constexpr double kAtEndRad = 1e-3;
 // Traces whose ends are nearer continue each other.
 constexpr double kJoinMm = 0.1;
+// Beyond a passage, so that rounding does not find it again.
+constexpr double kBeyondRad = 1e-9;
 // Of a row, to each side: the feed's direction at a place.
 constexpr double kDirectionShare = 0.02;
 
@@ -47,6 +49,11 @@ double SurfaceRecorder::estimated_bytes(const MillSetup& setup) {
                  setup.cutters[setup.cutter_of_move[n]].flutes;
     }
     return kMarkBytes * std::min(kMarksPerTooth * teeth, static_cast<double>(kMostMarks));
+}
+
+Warning SurfaceRecorder::full_warning(const std::string& program_file, int line) {
+    return {program_file, line,
+            "from here on no marks of teeth are kept: there are " + std::to_string(kMostMarks) + " before"};
 }
 
 SurfaceRecorder::Place SurfaceRecorder::place(const milling::CutRow& row, double t_s) const {
@@ -151,22 +158,37 @@ void SurfaceRecorder::add(double rotation_rad, Vec3 displacement_mm) {
     for (std::size_t n = 0; n < count_; ++n) {
         Watch& w = watches_[n];
         while (w.next_rad <= last_[2].rotation_rad) {
-            mark(w);
-            // A little beyond, so that rounding does not find it again.
-            constexpr double kBeyondRad = 1e-9;
+            mark(w, displacement_at(w.next_rad));
             find_next(w, w.next_rad + kBeyondRad);
         }
         next_rad_ = std::min(next_rad_, w.next_rad);
     }
 }
 
-// The displacement by a cubic through the samples.
-void SurfaceRecorder::mark(Watch& w) {
-    const double t = (w.next_rad - last_[1].rotation_rad) / (last_[2].rotation_rad - last_[1].rotation_rad);
+void SurfaceRecorder::add_steady(const milling::CutRow& row, double period_rad,
+                                 const Displacement& displacement_mm) {
+    begin(row, row.engagement.bands, row.pose.frame, row.phase_rad, row.start_s);
+    const double lasts_rad = std::min(row_rad_, period_rad);
+    const double from_rad = begin_rad_ + 0.5 * (row_rad_ - lasts_rad);
+    for (std::size_t n = 0; n < count_; ++n) {
+        Watch& w = watches_[n];
+        for (find_next(w, from_rad); w.next_rad < from_rad + lasts_rad; find_next(w, w.next_rad + kBeyondRad))
+            mark(w, displacement_mm(w.next_rad, w.height_mm));
+    }
+    end();
+}
+
+// By a cubic through the samples.
+Vec3 SurfaceRecorder::displacement_at(double rotation_rad) const {
+    const double t = (rotation_rad - last_[1].rotation_rad) / (last_[2].rotation_rad - last_[1].rotation_rad);
     const std::array<double, 4> weights = dynamics::cubic_weights(t);
     Vec3 displacement{};
     for (std::size_t k = 0; k < 4; ++k) displacement += weights[k] * last_[k].displacement_mm;
-    double displaced = -dot(displacement, w.normal);
+    return displacement;
+}
+
+void SurfaceRecorder::mark(Watch& w, Vec3 displacement_mm) {
+    double displaced = -dot(displacement_mm, w.normal);
     const milling::Cutter& cutter = setup_.cutters[cutter_];
     if (cutter.runout_mm != 0) {
         double farthest = -cutter.runout_mm, own = 0;

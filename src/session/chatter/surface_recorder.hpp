@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What the teeth of a vibrating tool leave on the surface, recorded while a program is simulated.
+// What the teeth of a tool that bends leave on the surface, recorded row by row.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,12 +36,18 @@ class SurfaceRecorder {
     // What comes next does not continue what was before.
     void interrupt();
 
+    // In place of all that: a row whose displacement is known at each rotation, and the same after
+    // `period_rad`. The teeth of one period in the middle of the row stand for all.
+    using Displacement = std::function<Vec3(double rotation_rad, double height_mm)>;
+    void add_steady(const milling::CutRow& row, double period_rad, const Displacement& displacement_mm);
+
     static constexpr std::size_t kMostMarks = 4'000'000;
     // Of a run of that setup, whose schedule is there: about 60 bytes a mark, with its trace, and four marks
     // for each tooth that passes in a feed move.
     static double estimated_bytes(const MillSetup& setup);
     // The line of the program from which on nothing is recorded: there are kMostMarks.
     std::optional<int> full_at_line() const { return full_at_line_; }
+    static Warning full_warning(const std::string& program_file, int line);
 
     surface::ToothTraces take() { return std::move(record_); }
 
@@ -70,7 +77,8 @@ class SurfaceRecorder {
     Place place(const milling::CutRow& row, double t_s) const;
     void watch(const milling::CutRow& row, const milling::EngagementBand& band, std::array<Place, 2> ends);
     void find_next(Watch& watch, double after_rad) const;
-    void mark(Watch& watch);
+    Vec3 displacement_at(double rotation_rad) const;
+    void mark(Watch& watch, Vec3 displacement_mm);
     bool continues(const Watch& watch, const Watch& before) const;
 
     const MillSetup& setup_;
