@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "app/run/benchmark_slot.hpp"
 #include "app/run/program.hpp"
@@ -57,6 +58,44 @@ TEST_F(FeedVerb, changes_the_feed_words_alone_and_reaches_the_target) {
     };
     EXPECT_NEAR(feed_behind("G1 X20 F"), 1011.9, 10) << text;
     EXPECT_NEAR(feed_behind("G1 X48 F"), 2023.9, 20) << text;
+}
+
+// Zigzags of random depths, widths and feeds. As the edges have no force of their own, the peak of a program
+// that is slowed evenly is in proportion to its feeds.
+TEST_F(FeedVerb, is_faster_than_slowing_the_whole_program_evenly_to_the_same_peak) {
+    std::mt19937 random(20'261'125);
+    const auto between = [&](int low, int high) {
+        return std::uniform_int_distribution<int>(low, high)(random);
+    };
+    const auto peak_of = [](const nlohmann::json& audited) {
+        return audited["tools"][0]["peak_force_n"]["value"].get<double>();
+    };
+    for (int round = 0; round < 6; ++round) {
+        struct Cut {
+            std::string words;
+            int feed;
+        };
+        std::vector<Cut> cuts;
+        double y = 0;
+        for (int n = 0; n < 8; ++n) {
+            y += between(1, 9);
+            cuts.push_back({"G1 X" + std::to_string(n % 2 > 0 ? -8 : 48), between(200, 2400)});
+            cuts.push_back(
+                {"G1 Y" + std::to_string(y) + " Z-" + std::to_string(between(1, 4)), between(200, 2400)});
+        }
+        const auto program = [&](double factor) {
+            std::string text = "G21 G90 M3 S8000\nG0 X-8 Y0 Z5\nZ-1\n";
+            for (const Cut& cut : cuts) text += cut.words + " F" + std::to_string(factor * cut.feed) + "\n";
+            return text + "M30\n";
+        };
+        const std::string old = program(1);
+        ASSERT_EQ(run({"--out", "new.nc", "--force-n", "150", "--chip-mm", "0.0001:5"}, old).code, 0);
+        const auto before = audit(old), after = audit(scratch.get("new.nc"));
+        ASSERT_LE(peak_of(after), 150 * 1.01);
+        const auto even = audit(program(peak_of(after) / peak_of(before)));
+        ASSERT_NEAR(peak_of(even), peak_of(after), 0.01 * peak_of(after));
+        EXPECT_LT(after["duration_s"].get<double>(), 0.99 * even["duration_s"].get<double>()) << old;
+    }
 }
 
 TEST_F(FeedVerb, changes_nothing_the_second_time) {
