@@ -50,6 +50,15 @@ TEST(UnrolledGcode, is_the_same_path_block_by_block) {
         EXPECT_GT(again.moves[n].line, again.moves[n - 1].line);
 }
 
+// Inches may be 0.0127 mm off, millimetres 0.005 mm.
+TEST(UnrolledGcode, refuses_an_arc_that_only_inches_allow) {
+    const std::string inches = "G20 G90 S9000 M3\nG0 X0 Y0 Z0\nG2 X.5004 Y0 I.25 J0 F10\n";
+    const auto text = unrolled_gcode(program_of(inches), {});
+    ASSERT_FALSE(text) << *text;
+    EXPECT_EQ(text.error().line, 3);
+    EXPECT_NE(text.error().cause.find("misses its end"), std::string::npos) << text.error().cause;
+}
+
 TEST(UnrolledGcode, leaves_out_no_way_over_a_place_of_the_machine) {
     const motion::Program program =
         program_of("G21 G90 S9000 M3\nG0 X0 Y0 Z1\nG1 X20 F500\nG28 Z0\nG0 X10 Y3\nZ1\nG1 X5\n");

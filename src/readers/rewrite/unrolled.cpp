@@ -7,6 +7,7 @@
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
 #include "motion/path/path.hpp"
+#include "readers/gcode/motion/arc.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -85,6 +86,12 @@ class Unroller {
         const Vec3& n = move.arc->normal;
         if (!(std::abs(n.x) == 1 || std::abs(n.y) == 1 || std::abs(n.z) == 1))
             return refuse("its arc lies in no plane of the axes");
+        gcode::ArcEnds ends;
+        ends.plane = n.z != 0 ? gcode::Plane::xy : n.y != 0 ? gcode::Plane::zx : gcode::Plane::yz;
+        ends.start_mm = move.start.tip_mm;
+        ends.end_mm = move.end.tip_mm;
+        if (!gcode::arc_about_centre(ends, move.arc->centre_mm, 1))
+            return refuse("its arc misses its end by more than a program in millimetres may");
         if (std::abs(move.arc->turn_rad) > math::kTwoPi * (1 + 1e-9) &&
             options_.dialect == GcodeDialect::fanuc)
             return refuse("it is a helix of more than a turn");
