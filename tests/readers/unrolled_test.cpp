@@ -30,7 +30,7 @@ void expect_same(const motion::Program& a, const motion::Program& b) {
 constexpr std::string_view kLoops =
     "G21 G90 T2 M6 S9000 M3\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 LT 3]\nG1 Z[-1-#1] F200\nG2 X10 Y0 I5 J0 "
     "F600\nG3 X0 Y0 I-5 J0 Z[-1.5-#1]\n"
-    "G18 G2 X4 Z[-1.5-#1] I2 K0\nG17\nG1 X0\nX0\n#1=[#1+1]\no1 endwhile\nG4 P0.5\nG20 G1 X1 F10\nG93 G1 X2 "
+    "G18 G2 X4 Z[-1.5-#1] I2 K0\nG17\nG1 X0\n#1=[#1+1]\no1 endwhile\nG4 P0.5\nG20 G1 X1 F10\nG93 G1 X2 "
     "F2\nM30\n";
 
 TEST(UnrolledGcode, is_the_same_path_block_by_block) {

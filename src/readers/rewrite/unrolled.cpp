@@ -126,7 +126,7 @@ class Unroller {
                 words += std::string(" ") + "XYZ"[axis] + word_number(to[axis]);
         at_ = to;
         if (!move.arc) {
-            if (words.empty()) words = " X" + word_number(to.x);  // a move of no length is one, too
+            if (words.empty()) return;
             return block((move.kind == motion::MoveKind::rapid ? "G0" : "G1") + words + feed_of(move));
         }
         const Vec3& n = move.arc->normal;
