@@ -190,6 +190,33 @@ TEST_F(FeedVerb, unrolls_a_loop_and_divides_its_blocks) {
     EXPECT_EQ(run({"--out", "new.nc", "--split", "7"}, loop).code, 2);
 }
 
+TEST_F(FeedVerb, unrolls_a_loop_in_the_language_of_its_control) {
+    const std::string klartext =
+        "BEGIN PGM SLOT MM\nTOOL CALL 1 Z S8000\nL X-8 Y+20 Z-1 R0 FMAX M3\nLBL 1\nL IX+7 R0 F900\nL "
+        "IX+7\nCALL LBL "
+        "1 "
+        "REP 3\nM30\nEND PGM SLOT MM\n";
+    const std::string siemens =
+        "DEF INT N\nG71 G90 G17\nS8000 M3\nG0 X-8 Y20 Z-1\nFOR N=1 TO 4\nG1 X=IC(7) "
+        "F900\nX=IC(7)\nENDFOR\nM30\n";
+    for (const std::string& loop : {klartext, siemens}) {
+        const std::vector<std::string> flags{"--out", "new.nc", "--force-n", "40", "--chip-mm", "0.001:1"};
+        const Outcome refused = run(flags, loop);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_NE(refused.err.find("--unroll"), std::string::npos) << refused.err;
+        std::vector<std::string> more = flags;
+        more.push_back("--unroll");
+        const Outcome outcome = run(more, loop);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const std::string text = scratch.get("new.nc");
+        EXPECT_EQ(text.find("LBL"), std::string::npos) << text;
+        EXPECT_EQ(text.find("FOR"), std::string::npos) << text;
+        const auto json = audit(text);
+        EXPECT_NEAR(json["tools"][0]["peak_force_n"]["value"].get<double>(), 40, 0.8) << text;
+        EXPECT_NEAR(json["tools"][0]["feed_mm"].get<double>(), 56, 1e-6);
+    }
+}
+
 TEST_F(FeedVerb, writes_speeds_without_chatter_and_keeps_the_chips) {
     const std::vector<std::string> flags{"feed",      "job.toml",  "--stable", "--force-n", "2000",
                                          "--chip-mm", "0.001:0.1", "--json",   "--out"};

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "motion/path/path.hpp"
+#include "readers/heidenhain/reader.hpp"
+#include "readers/siemens/reader.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -33,9 +35,9 @@ constexpr std::string_view kLoops =
     "G18 G2 X4 Z[-1.5-#1] I2 K0\nG17\nG1 X0\n#1=[#1+1]\no1 endwhile\nG4 P0.5\nG20 G1 X1 F10\nG93 G1 X2 "
     "F2\nM30\n";
 
-TEST(UnrolledGcode, is_the_same_path_block_by_block) {
+TEST(UnrolledProgram, is_the_same_path_block_by_block) {
     const motion::Program program = program_of(kLoops);
-    const auto text = unrolled_gcode(program, {});
+    const auto text = unrolled_program(program, {});
     ASSERT_TRUE(text) << text.error().text();
     for (const char* gone : {"#", "while", "G20", "G93"})
         EXPECT_EQ(text->find(gone), std::string::npos) << *text;
@@ -51,29 +53,29 @@ TEST(UnrolledGcode, is_the_same_path_block_by_block) {
 }
 
 // Inches may be 0.0127 mm off, millimetres 0.005 mm.
-TEST(UnrolledGcode, refuses_an_arc_that_only_inches_allow) {
+TEST(UnrolledProgram, refuses_an_arc_that_only_inches_allow) {
     const std::string inches = "G20 G90 S9000 M3\nG0 X0 Y0 Z0\nG2 X.5004 Y0 I.25 J0 F10\n";
-    const auto text = unrolled_gcode(program_of(inches), {});
+    const auto text = unrolled_program(program_of(inches), {});
     ASSERT_FALSE(text) << *text;
     EXPECT_EQ(text.error().line, 3);
     EXPECT_NE(text.error().cause.find("misses its end"), std::string::npos) << text.error().cause;
 }
 
-TEST(UnrolledGcode, leaves_out_no_way_over_a_place_of_the_machine) {
+TEST(UnrolledProgram, leaves_out_no_way_over_a_place_of_the_machine) {
     const motion::Program program =
         program_of("G21 G90 S9000 M3\nG0 X0 Y0 Z1\nG1 X20 F500\nG28 Z0\nG0 X10 Y3\nZ1\nG1 X5\n");
-    const auto text = unrolled_gcode(program, {});
+    const auto text = unrolled_program(program, {});
     ASSERT_FALSE(text) << *text;
     EXPECT_EQ(text.error().line, 7);
     EXPECT_NE(text.error().cause.find("only the machine knows"), std::string::npos) << text.error().cause;
 }
 
-TEST(UnrolledGcode, has_no_exponents) {
+TEST(UnrolledProgram, has_no_exponents) {
     // Half an inch up and half an inch back leaves a rest of 1e-15 mm; 1e-7 mm is a place.
     const motion::Program program = program_of(
         "G20 G90 S9000 M3\nG0 X0 Y0 Z.1\nG1 Z-.05 F12\nG2 X.5 Y.5 R.5\nX0 Y0 I-.25 J-.25\nG21\nG1 "
         "X0.0000001\nX-0.000025\n");
-    const auto text = unrolled_gcode(program, {});
+    const auto text = unrolled_program(program, {});
     ASSERT_TRUE(text) << text.error().text();
     EXPECT_EQ(text->find('e'), std::string::npos) << *text;
     EXPECT_NE(text->find("X0.0000001"), std::string::npos) << *text;
@@ -81,9 +83,9 @@ TEST(UnrolledGcode, has_no_exponents) {
     expect_same(program, program_of(*text));
 }
 
-TEST(UnrolledGcode, divides_long_lines_without_leaving_them) {
+TEST(UnrolledProgram, divides_long_lines_without_leaving_them) {
     const motion::Program program = program_of("G21 G90 G0 X0 Y0 Z0\nG1 X10 Y7 Z-3 F300\nX11\n");
-    const auto text = unrolled_gcode(program, {.longest_mm = 2});
+    const auto text = unrolled_program(program, {.longest_mm = 2});
     ASSERT_TRUE(text);
     const motion::Program again = program_of(*text);
     double length = 0;
@@ -94,17 +96,52 @@ TEST(UnrolledGcode, divides_long_lines_without_leaving_them) {
     EXPECT_NEAR(length, motion::path_length_mm(program.moves[0]) + 1, 1e-9);
 }
 
-TEST(UnrolledGcode, is_refused_for_what_plain_words_cannot_say) {
+// A hole circle in a loop, a helix of two and a half turns, an arc, a dwell, two tools.
+TEST(UnrolledProgram, is_the_same_path_in_siemens_words) {
+    const auto program = read_siemens(
+        "DEF INT N\nG71 G90 G17\nT2 M6\nS9000 M3\nG0 X0 Y0 Z5\nFOR N=0 TO 2\nG1 X=10*N Z-1 F300\nZ2 "
+        "F900\nENDFOR\nG2 X30 Y10 I5 J5\nG3 X20 Y10 Z-4 I=AC(25) J=AC(10) TURN=2\nG4 F0.5\nT3 M6\nS4000 "
+        "M3\nG18 G2 X24 Z-4 I2 K0\nG0 Z9\nM30\n");
+    ASSERT_TRUE(program) << program.error().text();
+    const auto text = unrolled_program(*program, {.language = FeedLanguage::siemens});
+    ASSERT_TRUE(text) << text.error().text();
+    EXPECT_EQ(text->find("FOR"), std::string::npos) << *text;
+    const auto again = read_siemens(*text);
+    ASSERT_TRUE(again) << again.error().text() << *text;
+    expect_same(*program, *again);
+}
+
+TEST(UnrolledProgram, is_the_same_path_in_klartext) {
+    const auto program = read_heidenhain(
+        "BEGIN PGM HOLES MM\nTOOL CALL 2 Z S9000\nL X+0 Y+0 Z+5 R0 FMAX M3\nLBL 1\nL IX+7 Z-1 R0 F300\nL Z+2 "
+        "R0 "
+        "F900\nCALL LBL 1 REP 3\nL X+28 Y+5\nCC X+30 Y+5\nC X+32 Y+5 DR-\nCP IPA-900 IZ-4 DR- F200\nCYCL DEF "
+        "9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 0.5\nTOOL CALL 3 Z S4000\nL X-3 R0 FMAX\nM30\nEND PGM HOLES "
+        "MM\n");
+    ASSERT_TRUE(program) << program.error().text();
+    const auto text = unrolled_program(*program, {.language = FeedLanguage::heidenhain});
+    ASSERT_TRUE(text) << text.error().text();
+    EXPECT_EQ(text->find("LBL"), std::string::npos) << *text;
+    const auto again = read_heidenhain(*text);
+    ASSERT_TRUE(again) << again.error().text() << *text;
+    expect_same(*program, *again);
+    const auto upright = unrolled_program(program_of("G21 G90 G18 G0 X0 Y0 Z0\nG2 X4 Z0 I2 K0 F100\n"),
+                                          {.language = FeedLanguage::heidenhain});
+    ASSERT_FALSE(upright);
+    EXPECT_NE(upright.error().cause.find("plane of x and y"), std::string::npos);
+}
+
+TEST(UnrolledProgram, is_refused_for_what_plain_words_cannot_say) {
     motion::Program program = program_of("G21 G90 G0 X0 Y0 Z0\nG1 X10 F300\n");
     program.source = "p.nc";
     program.moves[0].end.axis = {0, 0.6, 0.8};
-    const auto tilted = unrolled_gcode(program, {});
+    const auto tilted = unrolled_program(program, {});
     ASSERT_FALSE(tilted);
     EXPECT_EQ(tilted.error().line, 2);
     EXPECT_NE(tilted.error().cause.find("tilted"), std::string::npos);
     program = program_of("G21 G90 G0 X0 Y0 Z0\nG2 X0 Y0 Z-3 I5 P3 F300\n");
-    EXPECT_TRUE(unrolled_gcode(program, {}));
-    EXPECT_FALSE(unrolled_gcode(program, {.dialect = GcodeDialect::fanuc}));
+    EXPECT_TRUE(unrolled_program(program, {}));
+    EXPECT_FALSE(unrolled_program(program, {.dialect = GcodeDialect::fanuc}));
 }
 
 }  // namespace

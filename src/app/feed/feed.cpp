@@ -204,23 +204,23 @@ FileResult<Rewritten> rewrite(const FeedCall& call, const session::MillSetup& be
     }
 }
 
-// The program as plain G-code, in place of its text. It must read as the same moves.
+// The program in plain words, in place of its text. It must read as the same moves.
 FileResult<void> unroll(const FeedCall& call, readers::FeedLanguage language, PreparedJob& loaded,
                         std::string& text) {
     const std::string& file = loaded.job.path.file;
-    if (language != readers::FeedLanguage::gcode)
-        return std::unexpected(FileFailure(
-            Error{file, 0, 0, "--unroll writes G-code, and this program is written for another control",
-                  "let the CAM system write it without loops and calls"}));
+    if (language == readers::FeedLanguage::apt)
+        return std::unexpected(FileFailure(Error{file, 0, 0, "--unroll writes no APT",
+                                                 "let the CAM system write it without macros and copies"}));
     auto again = load_job(call.job, call.program, files::machine_limits());
     if (!again) return std::unexpected(again.error());
     readers::UnrollOptions options;
+    options.language = language;
     job::ProgramFileOptions told;
     told.dialect = loaded.job.path.dialect;
     if (job::dialect_of_program(text, file, told) == readers::Dialect::fanuc)
         options.dialect = readers::GcodeDialect::fanuc;
     if (call.split_mm) options.longest_mm = *call.split_mm;
-    auto unrolled = readers::unrolled_gcode(again->program, options);
+    auto unrolled = readers::unrolled_program(again->program, options);
     if (!unrolled) return std::unexpected(FileFailure(unrolled.error()));
     auto setup = prepare_edited(call, file, *unrolled, loaded.setup.cell_mm);
     if (!setup) return std::unexpected(setup.error());
@@ -234,7 +234,7 @@ FileResult<void> unroll(const FeedCall& call, readers::FeedLanguage language, Pr
     if (std::abs(length(*setup) - was) > kRounding * was + kRounding ||
         (!call.split_mm && setup->moves.size() != loaded.setup.moves.size()))
         return std::unexpected(FileFailure(Error{
-            file, 0, 0, "written as plain G-code the program would move otherwise", "leave --unroll out"}));
+            file, 0, 0, "written in plain words the program would move otherwise", "leave --unroll out"}));
     loaded.setup = *std::move(setup);
     text = *std::move(unrolled);
     return {};

@@ -68,7 +68,7 @@ void add_feed(CLI::App& program, int& exit_code) {
                    "First write spindle speeds at which the tools do not chatter; the chips stay");
     CLI::Option* unroll =
         verb->add_flag("--unroll", call->unroll,
-                       "Write the program anew as plain G-code first: no loops, calls, cycles and variables");
+                       "Write the program anew in plain words first: no loops, calls, cycles and variables");
     verb->add_option("--split", call->split_mm, "Longest straight block of a program that is written anew")
         ->check(within(kLimits.edge))
         ->needs(unroll)
