@@ -31,7 +31,7 @@ FormError::FormError(ToothTraces traces, const contact::DistanceField& machined,
     parallel((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         for (std::size_t n = chunk * kChunk; n < std::min(count, (chunk + 1) * kChunk); ++n) cut_beside(n);
     });
-    find_extremes();
+    extremes_ = extremes_of(kept_.traces);
     std::vector<Vec3> places;
     double reach = 0;
     places.reserve(count);
@@ -91,27 +91,35 @@ void FormError::cut_beside(std::size_t n) {
     if (next_[n]) cut_by(kept_.traces[*next_[n]], size);
 }
 
-void FormError::find_extremes() {
-    extremes_ = {kLeastErrorMm, kLeastErrorMm, kLeastErrorMm};
-    for (const ToothTrace& t : kept_.traces) {
+FormError::Extremes FormError::extremes_of(std::span<const ToothTrace> traces) const {
+    Extremes e{kLeastErrorMm, kLeastErrorMm, kLeastErrorMm};
+    for (const ToothTrace& t : traces) {
         double least = 0, most = 0;
         for (std::size_t k = t.first; k < t.first + t.count; ++k) {
             const double left = double{kept_.marks[k].left_mm};
             least = k == t.first ? left : std::min(least, left);
             most = k == t.first ? left : std::max(most, left);
         }
-        extremes_.wave_mm = std::max(extremes_.wave_mm, most - least);
-        if (most > extremes_.left_mm) {
-            extremes_.left_mm = most;
-            extremes_.left_line = t.line;
+        e.wave_mm = std::max(e.wave_mm, most - least);
+        if (most > e.left_mm) {
+            e.left_mm = most;
+            e.left_line = t.line;
         }
-        if (-least > extremes_.overcut_mm) {
-            extremes_.overcut_mm = -least;
-            extremes_.overcut_line = t.line;
+        if (-least > e.overcut_mm) {
+            e.overcut_mm = -least;
+            e.overcut_line = t.line;
         }
     }
-    for (double* mm : {&extremes_.left_mm, &extremes_.overcut_mm, &extremes_.wave_mm})
+    for (double* mm : {&e.left_mm, &e.overcut_mm, &e.wave_mm})
         if (*mm <= kLeastErrorMm) *mm = 0;
+    return e;
+}
+
+FormError::Extremes FormError::extremes_between(double from_s, double to_s) const {
+    const auto first_from = [&](double t_s) {
+        return std::ranges::lower_bound(kept_.traces, t_s, {}, &ToothTrace::start_s);
+    };
+    return extremes_of({first_from(from_s), first_from(to_s)});
 }
 
 // Linear between the marks, also from those of one trace to those of the next.

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/cell_index.hpp"
@@ -68,13 +69,15 @@ class FormError {
         int left_line = 0, overcut_line = 0;
     };
     const Extremes& extremes() const { return extremes_; }
+    // Of the traces that begin in that time.
+    Extremes extremes_between(double from_s, double to_s) const;
     bool empty() const { return kept_.traces.empty(); }
     const ToothTraces& kept() const { return kept_; }
 
   private:
     void keep(ToothTraces all, const contact::DistanceField& machined, const ParallelFor& parallel);
     void cut_beside(std::size_t trace);
-    void find_extremes();
+    Extremes extremes_of(std::span<const ToothTrace> traces) const;
     double left_at(std::uint32_t trace, double at) const;
 
     ToothTraces kept_;

@@ -130,6 +130,16 @@ TEST_F(AuditVerb, holds_the_bending_of_the_tool_against_the_tolerance) {
     const auto summary = nlohmann::json::parse(scratch.get("render/summary.json"), nullptr, false);
     EXPECT_NEAR(summary["form_error"]["left_max_mm"].get<double>(), leaves, 1e-9);
     EXPECT_GT(rows("render/surface.csv").size(), 10u);
+    ASSERT_EQ(run("[limits]\ntolerance_mm = 1\n", {"--out", "audit"}).code, 0);
+    double left = 0, overcut = 0;
+    for (auto& row : rows("audit/audit.csv")) {
+        left = std::max(left, std::stod(row.at("bending_leaves_mm")));
+        overcut = std::max(overcut, std::stod(row.at("bending_overcuts_mm")));
+        if (row["line"] == "4") continue;
+        EXPECT_EQ(row["bending_leaves_mm"] + row["bending_overcuts_mm"], "00");
+    }
+    EXPECT_NEAR(left, leaves, 1e-3 * most);
+    EXPECT_NEAR(overcut, overcuts, 1e-3 * most);
 }
 
 TEST_F(AuditVerb, takes_a_program_alone) {

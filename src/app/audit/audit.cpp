@@ -23,18 +23,14 @@ namespace {
 
 // The error of the finished part, as far as the job has a design, and what its teeth left is recorded.
 FileResult<void> measure_part(PreparedJob& loaded, const session::MillSession& session,
-                              std::optional<surface::ToothTraces> traces, const ParallelFor& parallel,
+                              const surface::FormError& form_error, const ParallelFor& parallel,
                               AuditAnswer& answer) {
-    surface::FormError form_error;
-    if (traces) {
-        form_error = surface::FormError(*std::move(traces), session.stock(), parallel);
+    if (!form_error.empty()) {
         const surface::FormError::Extremes& e = form_error.extremes();
-        if (!form_error.empty()) {
-            answer.facts.left_mm = e.left_mm;
-            answer.facts.overcut_mm = e.overcut_mm;
-            answer.facts.left_line = e.left_line;
-            answer.facts.overcut_line = e.overcut_line;
-        }
+        answer.facts.left_mm = e.left_mm;
+        answer.facts.overcut_mm = e.overcut_mm;
+        answer.facts.left_line = e.left_line;
+        answer.facts.overcut_line = e.overcut_line;
     }
     if (!loaded.part) return {};
     auto designed = surface::DesignedSurface::make(std::move(loaded.part->mesh));
@@ -93,7 +89,7 @@ int audit(const AuditCall& call) {
             return report(Error{call.out, 0, 0,
                                 "the job begins with the stock of this folder, which it would replace",
                                 "name another folder"});
-        auto file = AuditCsv::create(folder->file("audit.csv"));
+        auto file = AuditCsv::create(folder->file("audit.csv"), records_surface);
         if (!file) return report(file.error());
         csv.emplace(*std::move(file));
     }
@@ -170,14 +166,16 @@ int audit(const AuditCall& call) {
     report(found);
     answer.warnings = loaded->warnings;
     append(found, answer.warnings);
-    if (auto done = measure_part(*loaded, session, std::move(traces), parallel, answer); !done)
+    surface::FormError form_error;
+    if (traces) form_error = surface::FormError(*std::move(traces), session.stock(), parallel);
+    if (auto done = measure_part(*loaded, session, form_error, parallel, answer); !done)
         return report(done.error());
     answer.verdict = session::verdict(answer.audit, model, session, answer.facts);
     if (interrupted()) return interrupted_exit_code();
 
     const std::string json = folder || call.json ? audit_json(call, answer, *loaded, model, session) : "";
     if (folder) {
-        if (auto done = csv->finish(); !done) return report(done.error());
+        if (auto done = csv->finish(form_error); !done) return report(done.error());
         if (auto done = files::write_file(folder->file("audit.json"), json); !done)
             return report(done.error());
         const std::string page = audit_html(call, answer, *loaded, model, session);

@@ -66,14 +66,14 @@ bool is_audit_file(const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-FileResult<AuditCsv> AuditCsv::create(const std::string& path) {
+FileResult<AuditCsv> AuditCsv::create(const std::string& path, bool has_form_error) {
     auto file = files::FileWriter::create(path);
     if (!file) return std::unexpected(file.error());
     std::string header = "line,t_s,tool,spindle_rpm,duration_s,feed_mm,feed_s,cutting_s,removed_mm3";
     for (const session::LoadWords& words : session::kLoadWords) header += "," + std::string(words.key);
-    file->write(header +
-                ",rubbing_s,plunge_deg,jump_n,entries,collisions,worst,ratio_low,ratio,ratio_high\n");
-    return AuditCsv(std::move(*file));
+    header += ",rubbing_s,plunge_deg,jump_n,entries,collisions,worst,ratio_low,ratio,ratio_high";
+    file->write(header + (has_form_error ? ",bending_leaves_mm,bending_overcuts_mm\n" : "\n"));
+    return AuditCsv(std::move(*file), has_form_error);
 }
 
 void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& model,
@@ -91,10 +91,25 @@ void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& mod
     const auto worst = line.worst();
     const session::RatioBand band = worst ? session::band_of(line, *worst, model) : session::RatioBand{};
     const std::string_view key = worst ? session::words_of(*worst).key : "";
-    n = std::snprintf(text.data(), text.size(), ",%.6f,%.2f,%.3f,%d,%d,%.*s,%.4g,%.4g,%.4g\n",
+    n = std::snprintf(text.data(), text.size(), ",%.6f,%.2f,%.3f,%d,%d,%.*s,%.4g,%.4g,%.4g",
                       line.thin.below_value_s, line.plunge_deg, line.jump_n, line.entries, line.collisions,
                       static_cast<int>(key.size()), key.data(), band.low, band.value, band.high);
-    file_.write(row.append(text.data(), static_cast<std::size_t>(n)));
+    row.append(text.data(), static_cast<std::size_t>(n));
+    if (has_form_error_) {
+        rows_.push_back({line.start_s, line.end_s, std::move(row)});
+    } else {
+        file_.write(row + "\n");
+    }
+}
+
+FileResult<void> AuditCsv::finish(const surface::FormError& form_error) {
+    for (const Row& row : rows_) {
+        const surface::FormError::Extremes e = form_error.extremes_between(row.start_s, row.end_s);
+        std::array<char, 64> text{};
+        std::snprintf(text.data(), text.size(), ",%.4g,%.4g\n", e.left_mm, e.overcut_mm);
+        file_.write(row.text + text.data());
+    }
+    return file_.finish();
 }
 
 void LoadCurve::add(double from_s, double to_s, double value) {

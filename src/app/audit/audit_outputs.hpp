@@ -10,24 +10,33 @@
 #include "app/render/render_job.hpp"
 #include "files/files.hpp"
 #include "session/audit/verdict.hpp"
+#include "surface/form_error.hpp"
 
 namespace tribo::app {
 
 // True for the names of all files that an audit may write.
 bool is_audit_file(const std::string& name);
 
-// audit.csv: a line for each line of the program, while it is milled.
+// audit.csv: a line for each line of the program, while it is milled. With columns of the form error, which
+// is known only in the end, the lines are kept till then.
 class AuditCsv {
   public:
-    static FileResult<AuditCsv> create(const std::string& path);
+    static FileResult<AuditCsv> create(const std::string& path, bool has_form_error);
     void add(const session::LoadTally& line, const session::LoadModel& model,
              const session::MillSetup& setup);
-    FileResult<void> finish() { return file_.finish(); }
+    FileResult<void> finish(const surface::FormError& form_error);
 
   private:
-    explicit AuditCsv(files::FileWriter file) : file_(std::move(file)) {}
+    struct Row {
+        double start_s = 0, end_s = 0;
+        std::string text;
+    };
+    AuditCsv(files::FileWriter file, bool has_form_error)
+        : file_(std::move(file)), has_form_error_(has_form_error) {}
 
     files::FileWriter file_;
+    bool has_form_error_;
+    std::vector<Row> rows_;  // with a form error
 };
 
 // The largest value in each of many equal stretches of the program.
