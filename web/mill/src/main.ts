@@ -10,8 +10,9 @@ import type { ChipMark } from "./sight/heat_map.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
+import { listenToKeep } from "./keep/keep.js";
 import { FrameCache } from "./sources/frame_cache.js";
-import { clock, recall, remember } from "./page.js";
+import { recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
 import { Parameters } from "./panels/parameters.js";
 import { Lanes } from "./lanes/lanes.js";
@@ -26,6 +27,7 @@ import { download, element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
 import { Scene } from "./sight/scene.js";
 import { Sound } from "./sound/sound.js";
+import { Transport } from "./transport/transport.js";
 import type { ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
@@ -82,7 +84,14 @@ const frameCache = new FrameCache();
 const sound = new Sound();
 // True when the page plays the sound, false when the engine does.
 let soundsHere = true;
-const seek = (t_s: number) => source?.send({ op: "seek", t_s });
+const transport = new Transport(
+  (command) => source?.send(command),
+  () => {
+    if (!Sound.possible) element("sound").hidden = true;
+    void hear();
+  },
+);
+const seek = (t_s: number) => transport.seek(t_s);
 const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"));
 const program = new Program(seek);
 const numbers = new Now();
@@ -106,9 +115,6 @@ const chatter = new ChatterPanel((rpm) => {
   const percent = Math.min(Math.max((100 * rpm) / programmedRpm, 10), 300);
   source?.send({ op: "set", key: "spindle_percent", value: Number(percent.toPrecision(5)) });
 });
-const play = element<HTMLButtonElement>("play");
-const time = element<HTMLInputElement>("time");
-const speed = element<HTMLSelectElement>("speed");
 const notice = element("notice");
 const begin = element<HTMLButtonElement>("begin");
 const hint = element("hint");
@@ -116,8 +122,6 @@ const hint = element("hint");
 let order: Order | undefined;
 let plots: Plots | undefined;
 let recorder: Recorder | undefined;
-let playing = false;
-let scrubbing = false;
 let begun = false;
 let felt = false;
 let first = true;
@@ -143,13 +147,6 @@ function advise(text: string): void {
   hint.textContent = text;
 }
 
-function showPlaying(now: boolean): void {
-  if (now === playing) return;
-  playing = now;
-  play.textContent = playing ? "Pause" : "Play";
-  play.setAttribute("aria-pressed", String(playing));
-}
-
 function show(state: StateFrame): void {
   scene.show(state);
   sound.state(state);
@@ -159,15 +156,10 @@ function show(state: StateFrame): void {
   program.show(state.line);
   history.time = state.time;
   plots?.changed();
-  showPlaying(state.playing);
+  transport.show(state);
   if (state.playing) begun = true;
   begin.hidden = begun || duration === 0;
   element("examples").hidden ||= begun;
-  if (!scrubbing) time.value = String(state.time);
-  element("clock").textContent = `${clock(state.time)} / ${clock(duration)}`;
-  // Speeds are sent in single precision.
-  const shown = [...speed.options].find((o) => Math.abs(Number(o.value) / state.speed - 1) < 1e-6);
-  if (shown && document.activeElement !== speed) speed.value = shown.value;
   numbers.show(state, history.rowAt(state.time), scene.heatMap.largestForce);
   milled = state.milled;
   if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
@@ -180,7 +172,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
   switch (frame.kind) {
     case "job":
       duration = frame.duration;
-      time.max = String(duration);
+      transport.begin(duration);
       collisions.clear();
       history.begin(duration);
       lanes.begin(duration);
@@ -244,6 +236,10 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame, frame.what);
       hits.push(frame);
       lanes.addDamage(frame.time);
+      if (hits.length === 1 && transport.playing) {
+        transport.pause();
+        say(`Line ${frame.line}: ${frame.what}. The clock stands; Play goes on.`);
+      }
       break;
     case "finger":
       element("felt-row").hidden = !frame.present;
@@ -282,7 +278,6 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
 // Changes the source. The picture restarts with its first frames.
 function change(to: () => Source): void {
   source?.close();
-  showPlaying(false);
   begun = false;
   first = true;
   chatterOffered = false;
@@ -292,6 +287,7 @@ function change(to: () => Source): void {
   scene.overlays.hideFinger();
   parameters.clear();
   source = to();
+  transport.beginSource();
 }
 
 async function mill(wanted: Order): Promise<void> {
@@ -307,7 +303,6 @@ async function mill(wanted: Order): Promise<void> {
   }
   order = wanted;
   change(() => next);
-  if (speed.value !== "1") next.send({ op: "speed", value: Number(speed.value) });
 }
 
 function replay(file: JobFile): void {
@@ -329,19 +324,13 @@ async function open(files: { name: string; file: File }[]): Promise<void> {
   else await mill(wanted.order);
 }
 
-// ---- Play, time, speed
-play.addEventListener("click", () => {
-  if (!playing && !Sound.possible) element("sound").hidden = true;
-  if (!playing) void hear();
-  source?.send({ op: playing ? "pause" : "play" });
-});
-begin.addEventListener("click", () => play.click());
-speed.addEventListener("change", () => source?.send({ op: "speed", value: Number(speed.value) }));
-time.addEventListener("input", () => (scrubbing = true));
-time.addEventListener("change", () => {
-  scrubbing = false;
-  seek(Number(time.value));
-});
+// ---- Begin, problems
+begin.addEventListener("click", () => transport.toggle());
+function goToProblem(): void {
+  const next = lanes.problemAfter(history.time);
+  if (next) seek(next.time);
+}
+element("next-problem").addEventListener("click", goToProblem);
 
 // ---- Sound
 async function hear(): Promise<void> {
@@ -375,6 +364,7 @@ function listChips(): void {
 }
 setInterval(() => {
   listChips();
+  element("next-problem").hidden = lanes.problemAfter(history.time) === undefined;
   verdict.show({
     collisions: hits,
     chips: scene.heatMap.chipMarks(),
@@ -458,7 +448,8 @@ toggles("show-plots", "plots", async () => {
   plots.changed();
 });
 
-// ---- Record
+// ---- Keep
+listenToKeep(scene, history);
 const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {
@@ -499,15 +490,16 @@ void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
   button.addEventListener("click", async () => {
     void hear();
     const { Headset } = await import("./touch/xr.js");
-    xr ??= new Headset(scene, finger, () => play.click());
+    xr ??= new Headset(scene, finger, () => transport.toggle());
     await xr.enter();
   });
 });
 
 listenToKeys(scene, finger, {
-  play: () => play.click(),
+  play: () => transport.toggle(),
   mute: () => element("sound").click(),
-  seek: (by) => seek(Math.min(Math.max(Number(time.value) + by, 0), duration)),
+  seek: (by) => transport.seekBy(by),
+  nextProblem: goToProblem,
 });
 
 function eachPicture(): void {

@@ -11,6 +11,7 @@ import { diverging, HeatMap } from "../src/sight/heat_map.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { Replay } from "../src/sources/replay.js";
 import type { Listener } from "../src/sources/source.js";
+import { waysOf } from "../src/sight/path_lines.js";
 import { outline } from "../src/sight/tool.js";
 import { spectrum, turn } from "../src/panels/turn.js";
 import type { Vec3 } from "@tribo/protocol/vec3";
@@ -23,6 +24,15 @@ describe("heat", () => {
   it("stays on its scale", () => {
     expect(heat(-1)).toEqual(heat(0));
     expect(heat(2)).toEqual(heat(1));
+  });
+});
+
+describe("the drawn path", () => {
+  it("has each way once, as a rapid or as a feed", () => {
+    const rapid = new Uint8Array([1, 1, 0, 0, 1]);
+    expect(waysOf(rapid, true)).toEqual([0, 1, 3, 4]);
+    expect(waysOf(rapid, false)).toEqual([1, 2, 2, 3]);
+    expect(waysOf(new Uint8Array(1), true)).toEqual([]);
   });
 });
 

@@ -145,6 +145,12 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
       await until("Pause", "play");
       await removed(0.3);
       await until("rapid through stock", "collisions");
+      // The clock stops at the first collision.
+      await until("The clock stands", "notice");
+      await until("Play", "play");
+      await page.click("#dismiss");
+      await page.click("#play");
+      await until("Pause", "play");
       await until("Play", "play");
       await picture("job");
     },
@@ -406,6 +412,84 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
   );
 
   it(
+    "runs through air faster and faster, and as chosen in the cut",
+    async () => {
+      // Half a minute of air, then a cut.
+      const air = "G21 G90\nG0 X-8 Y20 Z5\nG1 X22 F60\nZ-1 F600\nX35 F60\nM30\n";
+      await choose(file("job.toml", JOB), file("p.nc", air));
+      await until("job.toml", "job");
+      await page.selectOption("#speed", "1");
+      await page.click("#skip-air");
+      expect(await page.getAttribute("#skip-air", "aria-pressed")).toBe("true");
+      const now = () => page.inputValue("#time").then(Number);
+      const began = Date.now();
+      await page.click("#begin");
+      await page.waitForFunction(() => Number((document.getElementById("time") as HTMLInputElement).value) > 25, null, {
+        timeout: PATIENCE_MS,
+      });
+      expect(Date.now() - began).toBeLessThan(20_000);
+      await removed(0.05);
+      await page.waitForTimeout(300);
+      const [from, at] = [await now(), Date.now()];
+      await page.waitForTimeout(1500);
+      expect((await now()) - from).toBeLessThan((1.6 * (Date.now() - at)) / 1000);
+      await page.click("#play");
+      await until("Play", "play");
+      await page.click("#skip-air");
+      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await until("job.toml", "job");
+      await page.fill("#time", "1000");
+      await page.waitForSelector("#next-problem:not([hidden])", { timeout: PATIENCE_MS });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "goes to the next problem, and shows its keys",
+    async () => {
+      await page.waitForSelector("#next-problem:not([hidden])", { timeout: PATIENCE_MS });
+      await page.fill("#time", "0.1");
+      await expect.poll(() => text("clock"), { timeout: PATIENCE_MS }).toMatch(/^0:00/);
+      await page.focus("#scene");
+      await page.keyboard.press("n");
+      await expect.poll(() => page.inputValue("#time").then(Number), { timeout: PATIENCE_MS }).toBeGreaterThan(0.2);
+      await page.keyboard.press("?");
+      await page.waitForSelector("#keys[open]");
+      expect(await violations(page)).toEqual([]);
+      await picture("keys");
+      await page.keyboard.press("Escape");
+      await page.waitForSelector("#keys", { state: "hidden" });
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "gives the picture, the part and the rows away",
+    async () => {
+      if (!(await page.isVisible("#panel"))) await page.click("#show-panel");
+      const got = async (id: string) => {
+        const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#${id}`)]);
+        const path = join(folder, download.suggestedFilename());
+        await download.saveAs(path);
+        return { name: download.suggestedFilename(), bytes: readFileSync(path) };
+      };
+      const shot = await got("keep-picture");
+      expect(shot.name).toMatch(/^job \d+-\d\d\.png$/);
+      expect(shot.bytes.subarray(1, 4).toString()).toBe("PNG");
+      // A picture of one colour is a few kB.
+      expect(shot.bytes.length).toBeGreaterThan(20_000);
+      const { bytes: part } = await got("keep-part");
+      const triangles = part.readUInt32LE(80);
+      expect(triangles).toBeGreaterThan(100);
+      expect(part.length).toBe(84 + 50 * triangles);
+      const rows = (await got("keep-rows")).bytes.toString().trim().split("\n");
+      expect(rows[0]).toContain("peak_force_n");
+      expect(rows.length).toBeGreaterThan(10);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "records, and plays the recording again",
     async () => {
       await page.click("#record");
@@ -502,6 +586,8 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
       await choose(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
       await until("job.toml", "job");
       await page.selectOption("#speed", "50");
+      await page.click("#play");
+      await until("The clock stands", "notice");
       await page.click("#play");
       await until("and 20 more", "collisions");
       expect(await page.locator("#collisions li").count()).toBe(100);

@@ -11,9 +11,9 @@ import { heat } from "../sight/heat.js";
 import { css } from "../sight/legend.js";
 import { Bins, roundUp, timeMarks } from "./bins.js";
 import { level } from "./level.js";
+import { nextProblem, type Event, type Happened } from "./problems.js";
 
 export type Quantity = "force" | "depth" | "chip" | "power" | "multiplier" | "sound";
-export type Event = "damage" | "overload" | "rubbing";
 
 interface Lane {
   name: string;
@@ -45,7 +45,7 @@ const GAP_PX = 5;
 
 export class Lanes {
   private readonly bins = Object.fromEntries(ORDER.map((name) => [name, new Bins()])) as Record<Quantity, Bins>;
-  private events: { time: number; what: Event }[] = [];
+  private events: Happened[] = [];
   private band: ForceBand | undefined;
   private duration = 1;
   private time = 0;
@@ -113,6 +113,10 @@ export class Lanes {
   addDamage(time: number): void {
     this.events.push({ time, what: "damage" });
     this.changed();
+  }
+
+  problemAfter(time: number): Happened | undefined {
+    return nextProblem(this.events, time);
   }
 
   show(time: number, milled: number): void {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Keyboard commands while the picture has the focus (space and M everywhere, unless another element uses them).
+// Keyboard commands while the picture has the focus, and their list.
 
+import { element } from "@tribo/ui/dom";
 import type { Finger } from "../touch/finger.js";
 import type { Scene } from "../sight/scene.js";
 
@@ -11,6 +12,7 @@ export interface KeyActions {
   play(): void;
   mute(): void;
   seek(seconds: number): void;
+  nextProblem(): void;
 }
 
 export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions): void {
@@ -27,6 +29,7 @@ export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions):
     else if (arrow) scene.orbit(TURN * arrow[0], TURN * arrow[1]);
     else if (event.key === " ") actions.play();
     else if (event.key === "m" || event.key === "M") actions.mute();
+    else if (event.key === "n" || event.key === "N") actions.nextProblem();
     else if (event.key === "+" || event.key === "=") scene.orbit(0, 0, NEARER);
     else if (event.key === "-") scene.orbit(0, 0, 1 / NEARER);
     else if (event.key === "," || event.key === "PageUp") actions.seek(-1);
@@ -39,4 +42,10 @@ export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions):
     if (event.key === "Shift") finger.lift();
   });
   scene.canvas.addEventListener("blur", () => finger.lift());
+  const keys = element<HTMLDialogElement>("keys");
+  element("show-keys").addEventListener("click", () => keys.showModal());
+  addEventListener("keydown", ({ key, target }) => {
+    const writes = target instanceof HTMLElement && target.matches("input, select, textarea");
+    if (key === "?" && !writes && !keys.open) keys.showModal();
+  });
 }

@@ -16,6 +16,7 @@ import {
 
 import type { ChunkFrame, JobFrame, Row } from "@tribo/protocol/frames";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
+import type { Triangles } from "../keep/stl.js";
 import { CONTACT_LAYER } from "./contact.js";
 import type { Colouring, HeatMap } from "./heat_map.js";
 
@@ -134,6 +135,13 @@ export class Part {
         if (isBlank[n] === 0 && !Number.isNaN(off)) yield off;
       }
     }
+  }
+
+  triangles(): Triangles[] {
+    return [...this.chunks.values()].map(({ mesh: { geometry } }) => ({
+      positions: geometry.getAttribute("position").array,
+      indices: geometry.getIndex()!.array,
+    }));
   }
 
   hit(rays: Raycaster): Hit | undefined {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tool path: thin where there are no rows yet, coloured where it was cut.
 
-import { BufferAttribute, BufferGeometry, Color, Group, Line, LineBasicMaterial, LineSegments } from "three";
+import { BufferAttribute, BufferGeometry, Color, Group, LineBasicMaterial, LineSegments } from "three";
 
 import type { PathFrame, Row } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
@@ -9,31 +9,47 @@ import type { Vec3 } from "@tribo/protocol/vec3";
 // Largest gap between consecutive rows, s.
 export const SAME_CUT_S = 1e-6;
 
+const FEED_OPACITY = 0.35;
+const RAPID_OPACITY = 0.12;
+
+/** The points of the ways that are rapid, or that are not, in pairs. `rapid`: of the way that ends at each point. */
+export function waysOf(rapid: Uint8Array, wanted: boolean): number[] {
+  const ways: number[] = [];
+  for (let n = 1; n < rapid.length; ++n) if (rapid[n] !== 0 === wanted) ways.push(n - 1, n);
+  return ways;
+}
+
 export class PathLines {
   readonly group = new Group();
   private cut: LineSegments | undefined;
   private rows: Row[] = [];
   private drawn = 0;
   private range: [number, number] = [0, 0];
-  private planned: Line[] = [];
+  private planned: LineSegments[] = [];
   private largest = 0;
   private colourOf: (row: Row) => Vec3 = () => [0, 0, 0];
 
   // A new job.
   begin(): void {
-    for (const line of this.group.children as (Line | LineSegments)[]) line.geometry.dispose();
+    for (const line of this.group.children as LineSegments[]) line.geometry.dispose();
     this.group.clear();
     this.planned = [];
     this.cut = undefined;
     this.forgetRows();
   }
 
+  // Rapids are fainter than feeds.
   take(path: PathFrame): void {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(path.points, 3));
-    const line = new Line(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity: 0.35 }));
-    this.planned.push(line);
-    this.group.add(line);
+    const points = new BufferAttribute(path.points, 3);
+    for (const rapid of [false, true]) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", points);
+      geometry.setIndex(waysOf(path.rapid, rapid));
+      const opacity = rapid ? RAPID_OPACITY : FEED_OPACITY;
+      const line = new LineSegments(geometry, new LineBasicMaterial({ color: 0x8a93a0, transparent: true, opacity }));
+      this.planned.push(line);
+      this.group.add(line);
+    }
   }
 
   // Shows the rows [from, to), and the path without rows or not.

@@ -24,6 +24,7 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
+import type { Triangles } from "../keep/stl.js";
 import { Contact } from "./contact.js";
 import { centre, distanceTo, type Free } from "./framing.js";
 import { HeatMap, type Colouring } from "./heat_map.js";
@@ -366,6 +367,26 @@ export class Scene {
     // Reflections and shadows come after the first picture.
     setTimeout(() => this.choose(), 0);
     this.draw();
+  }
+
+  /** What is seen, over the colour of the page. */
+  picture(): Promise<Blob> {
+    this.render();
+    const copy = document.createElement("canvas");
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    const c = copy.getContext("2d")!;
+    c.fillStyle = getComputedStyle(document.body).backgroundColor;
+    c.fillRect(0, 0, copy.width, copy.height);
+    // In the same task: afterwards the browser may have emptied it.
+    c.drawImage(this.canvas, 0, 0);
+    return new Promise((resolve, reject) =>
+      copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture is too large"))), "image/png"),
+    );
+  }
+  /** The surface of the part as it is shown, mm. */
+  triangles(): Triangles[] {
+    return this.part.triangles();
   }
 
   // The free part of the window has changed.

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Play and pause, speed and clock.
+
+import type { StateFrame } from "@tribo/protocol/frames";
+import type { Command } from "@tribo/protocol/messages";
+import { element } from "@tribo/ui/dom";
+import { clock, recall, remember } from "../page.js";
+import { chosenSpeed, Hurry, TrueSpeed, WHOLE } from "./speeds.js";
+
+// A speed that is nearer to the wanted one is not sent again.
+const SAME = 0.1;
+
+export class Transport {
+  playing = false;
+  private readonly play = element<HTMLButtonElement>("play");
+  private readonly time = element<HTMLInputElement>("time");
+  private readonly speed = element<HTMLSelectElement>("speed");
+  private readonly skip = element<HTMLButtonElement>("skip-air");
+  private readonly hurry = new Hurry();
+  private readonly trueSpeed = new TrueSpeed();
+  private duration = 0;
+  private scrubbing = false;
+  private skips = recall("skip-air") === "true";
+
+  /** `starts` is called before the clock starts by a click. */
+  constructor(
+    private readonly send: (command: Command) => void,
+    starts: () => void,
+  ) {
+    this.play.addEventListener("click", () => {
+      if (!this.playing) starts();
+      this.send({ op: this.playing ? "pause" : "play" });
+    });
+    this.speed.addEventListener("change", () => this.tell());
+    this.time.addEventListener("input", () => (this.scrubbing = true));
+    this.time.addEventListener("change", () => {
+      this.scrubbing = false;
+      this.seek(Number(this.time.value));
+    });
+    this.skip.setAttribute("aria-pressed", String(this.skips));
+    this.skip.addEventListener("click", () => {
+      this.skips = !this.skips;
+      remember("skip-air", String(this.skips));
+      this.skip.setAttribute("aria-pressed", String(this.skips));
+      if (!this.skips) this.tell();
+    });
+  }
+
+  begin(duration: number): void {
+    this.duration = duration;
+    this.time.max = String(duration);
+    if (this.speed.value === WHOLE) this.tell();
+  }
+  // A source without a speed of its own begins.
+  beginSource(): void {
+    this.showPlaying(false);
+    if (this.speed.value !== "1" && this.speed.value !== WHOLE) this.tell();
+  }
+
+  toggle(): void {
+    this.play.click();
+  }
+  seek(t_s: number): void {
+    this.send({ op: "seek", t_s: Math.min(Math.max(t_s, 0), this.duration) });
+  }
+  seekBy(seconds: number): void {
+    this.seek(Number(this.time.value) + seconds);
+  }
+  pause(): void {
+    if (this.playing) this.send({ op: "pause" });
+  }
+
+  show(state: StateFrame): void {
+    this.showPlaying(state.playing);
+    if (!this.scrubbing) this.time.value = String(state.time);
+    element("clock").textContent = `${clock(state.time)} / ${clock(this.duration)}`;
+    if (this.skips && state.playing) this.hurryOn(state);
+    else this.showSpeed(state.speed);
+    this.showTrueSpeed(state);
+  }
+
+  private tell(): void {
+    this.send({ op: "speed", value: chosenSpeed(this.speed.value, this.duration) });
+  }
+
+  private showPlaying(now: boolean): void {
+    if (now === this.playing) return;
+    this.playing = now;
+    this.trueSpeed.stand();
+    this.play.textContent = now ? "Pause" : "Play";
+    this.play.setAttribute("aria-pressed", String(now));
+    if (!now && this.skips) this.tell();
+  }
+
+  // Another viewer may have chosen it. Speeds are sent in single precision.
+  private showSpeed(speed: number): void {
+    if (document.activeElement === this.speed) return;
+    const shown = [...this.speed.options].find(
+      ({ value }) => Math.abs(chosenSpeed(value, this.duration) / speed - 1) < 1e-6,
+    );
+    if (shown && Math.abs(chosenSpeed(this.speed.value, this.duration) / speed - 1) > 1e-6)
+      this.speed.value = shown.value;
+  }
+
+  private hurryOn({ speed, cutting }: StateFrame): void {
+    const wanted = Math.min(
+      chosenSpeed(this.speed.value, this.duration) * this.hurry.factor(performance.now() / 1000, cutting),
+      chosenSpeed(WHOLE, Infinity),
+    );
+    if (Math.abs(speed / wanted - 1) > SAME) this.send({ op: "speed", value: wanted });
+  }
+
+  private showTrueSpeed({ playing, time, speed }: StateFrame): void {
+    const really = playing ? this.trueSpeed.add(performance.now() / 1000, time, speed) : undefined;
+    const place = element("true-speed");
+    place.hidden = really === undefined;
+    if (really !== undefined) place.textContent = `runs at ${really.toPrecision(2)}`;
+  }
+}

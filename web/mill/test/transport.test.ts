@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Speeds of the clock, problems along the program, and files to take away, without a browser.
+import { describe, expect, it } from "vitest";
+
+import type { Row } from "@tribo/protocol/frames";
+import { rowsCsv } from "../src/keep/rows_csv.js";
+import { stl } from "../src/keep/stl.js";
+import { nextProblem, type Happened } from "../src/lanes/problems.js";
+import { chosenSpeed, Hurry, TrueSpeed } from "../src/transport/speeds.js";
+
+describe("the speed", () => {
+  it("is as chosen, or shows all in half a minute, within what the engine takes", () => {
+    expect(chosenSpeed("0.5", 100)).toBe(0.5);
+    expect(chosenSpeed("whole", 600)).toBe(20);
+    expect(chosenSpeed("whole", 6)).toBe(0.2);
+    expect(chosenSpeed("whole", 1e9)).toBe(1000);
+    expect(chosenSpeed("whole", 0)).toBeGreaterThan(0);
+  });
+  it("doubles again and again through air, and is as chosen in the cut", () => {
+    const hurry = new Hurry();
+    expect(hurry.factor(5, true)).toBe(1);
+    expect([5, 5.25, 5.5, 6].map((now) => hurry.factor(now, false))).toEqual([1, 2, 4, 16]);
+    expect(hurry.factor(100, false)).toBe(64);
+    expect(hurry.factor(100.1, true)).toBe(1);
+    expect(hurry.factor(200, false)).toBe(1);
+  });
+  it("is said where the part cannot follow", () => {
+    const run = (share: number) => {
+      const speed = new TrueSpeed();
+      let said: number | undefined;
+      for (let n = 0; n <= 200; ++n) said = speed.add(n / 60, (share * 10 * n) / 60, 10);
+      return said;
+    };
+    expect(run(1)).toBeUndefined();
+    expect(run(0.9)).toBeUndefined();
+    expect(run(0.3)).toBeCloseTo(3, 6);
+    const speed = new TrueSpeed();
+    speed.add(0, 0, 10);
+    expect(speed.add(2, 1, 10)).toBe(0.5);
+    // The clock was set back.
+    expect(speed.add(3, 0.5, 10)).toBeUndefined();
+  });
+});
+
+describe("the next problem", () => {
+  const events: Happened[] = [
+    { time: 8, what: "rubbing" },
+    { time: 9, what: "overload" },
+    { time: 9.5, what: "overload" },
+    { time: 3, what: "damage" },
+    { time: 20, what: "overload" },
+  ];
+  it("is the begin of a stretch, and after the last one the first", () => {
+    const from = (time: number) => nextProblem(events, time)?.time;
+    expect([0, 3, 8, 9, 19, 25].map(from)).toEqual([3, 9, 9, 20, 20, 3]);
+  });
+  it("is where teeth rub if nothing is worse, and nowhere in a good cut", () => {
+    expect(nextProblem([{ time: 8, what: "rubbing" }], 0)?.time).toBe(8);
+    expect(nextProblem([], 0)).toBeUndefined();
+  });
+});
+
+describe("a file to take away", () => {
+  it("has all triangles, with their normals", () => {
+    const piece = { positions: [0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 5], indices: [0, 1, 2, 0, 2, 1, 0, 3, 1, 0, 0, 0] };
+    const view = new DataView(stl([piece, piece]));
+    expect(view.getUint32(80, true)).toBe(8);
+    expect(view.byteLength).toBe(84 + 8 * 50);
+    const floats = (triangle: number, first: number) =>
+      [0, 1, 2].map((k) => view.getFloat32(84 + 50 * triangle + 4 * (first + k), true));
+    expect(floats(0, 0)).toEqual([0, 0, 1]);
+    expect(floats(1, 0)).toEqual([0, 0, -1]);
+    expect(floats(6, 0)).toEqual([0, 1, 0]);
+    expect(floats(3, 0)).toEqual([0, 0, 0]);
+    expect([floats(0, 3), floats(0, 6), floats(0, 9)]).toEqual([
+      [0, 0, 0],
+      [2, 0, 0],
+      [0, 3, 0],
+    ]);
+  });
+  it("has a line for each row, in degrees and mm", () => {
+    const row = {
+      time: 1.5,
+      duration: 0.25,
+      line: 7,
+      tip: [1, 2, 3],
+      rpm: 6000,
+      meanForce: 10,
+      peakForce: Math.fround(20.1),
+      torque: 0.5,
+      depth: 2,
+      entry: 0,
+      exit: Math.PI,
+      feedPerTooth: 0.1,
+      chip: 0.08,
+      multiplier: 0,
+    } as unknown as Row;
+    const [head, first, ...rest] = rowsCsv([row]).split("\n");
+    expect(head!.split(",").length).toBe(first!.split(",").length);
+    expect(first).toBe("1.5,0.25,7,1,2,3,6000,10,20.1,0.5,2,0,180,0.1,0.08,");
+    expect(rest).toEqual([""]);
+  });
+});
