@@ -11,6 +11,7 @@
 
 #include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
+#include "motion/machine/machine.hpp"
 #include "session/live/live_audit.hpp"
 #include "session/live/single_threaded_touch.hpp"
 #include "wasm/mill_job.hpp"
@@ -100,6 +101,16 @@ TRIBO_EXPORT(mill_text) const char* mill_text() {
     return mill().text.c_str();
 }
 
+// Writes the job that stands for a program of the files, also for one that mill_open() refuses as its rotary
+// words have no machine. Returns 1 on success: mill_text() is the job file. Returns 0 if refused: mill_text()
+// has the error.
+TRIBO_EXPORT(mill_job_text) std::uint32_t mill_job_text(const char* name, std::uint32_t name_length) {
+    auto text = wasm::job_of_program(mill().files, text_of(name, name_length));
+    if (!text) return refuse(text.error());
+    mill().text = *std::move(text);
+    return true;
+}
+
 // Executes a command (protocol/live_command.hpp): its operation and its values. Returns 1 on success, 0 if
 // refused; mill_text() has the error.
 TRIBO_EXPORT(mill_command)
@@ -141,6 +152,12 @@ TRIBO_EXPORT(mill_materials) const char* mill_materials() {
         if (!mill().text.empty()) mill().text += "\n";
         mill().text += m.name;
     }
+    return mill().text.c_str();
+}
+
+// Returns the names of all known machines, separated by ", ".
+TRIBO_EXPORT(mill_machines) const char* mill_machines() {
+    mill().text = motion::machine_names();
     return mill().text.c_str();
 }
 

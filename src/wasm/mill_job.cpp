@@ -5,6 +5,7 @@
 
 #include "base/text/decimal.hpp"
 #include "job/program_file.hpp"
+#include "job/toml/job_writer.hpp"
 #include "session/cut/memory_estimate.hpp"
 
 namespace tribo::wasm {
@@ -51,6 +52,15 @@ Result<session::LiveInput> load_mill(const job::FileSource& files, const std::st
     told.listening = job::listening_to(loaded->job, setup->blank->bounds_mm());
     if (loaded->part) told.designed = std::make_shared<const TriangleMesh>(std::move(loaded->part->mesh));
     return session::LiveInput(*std::move(setup), std::move(told));
+}
+
+Result<std::string> job_of_program(const job::FileSource& files, const std::string& name) {
+    job::LoadOptions limits;
+    limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
+    auto loaded = job::load_job(files, name, limits);
+    if (!loaded) return std::unexpected(Error(loaded.error()));
+    if (!loaded->is_program) return fail_at(name, 0, 0, "this is a job already", "read the file itself");
+    return job::job_text(*loaded, [](const std::string& file) { return file; });
 }
 
 }  // namespace tribo::wasm

@@ -15,4 +15,8 @@ namespace tribo::wasm {
 Result<session::LiveInput> load_mill(const job::FileSource& files, const std::string& name,
                                      const std::string& part, std::optional<double> cell_mm);
 
+// The job file that stands for a program among the files, with all that is assumed; also of a program that
+// load_mill() refuses as its rotary words have no machine.
+Result<std::string> job_of_program(const job::FileSource& files, const std::string& name);
+
 }  // namespace tribo::wasm

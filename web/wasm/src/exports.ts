@@ -99,6 +99,10 @@ export interface MillExports extends CommonExports {
   mill_audit_lines(): Address;
   /** All known materials, one per line. */
   mill_materials(): Address;
+  /** All known machines, separated by ", ". */
+  mill_machines(): Address;
+  /** 1: mill_text() is the job that stands for a program; 0: mill_text() has the reason. */
+  mill_job_text(name: Address, nameLength: number): number;
   /** Number of bytes at mill_frames(). */
   mill_tick(seconds: number, looks: number): number;
   mill_frames(): Address;

@@ -38,6 +38,10 @@ class Mill {
   command(command: MillCommand): boolean {
     return obey(this.x, command);
   }
+  /** The job that stands for a program; undefined: said() tells why there is none. */
+  jobText(name: string): string | undefined {
+    return lendText(this.x, name, (...job) => this.x.mill_job_text(...job)) === 1 ? this.said() : undefined;
+  }
   settings(): unknown {
     return JSON.parse(textAt(this.x, this.x.mill_settings()));
   }
@@ -371,4 +375,24 @@ test("wrong files are refused with their place", async () => {
   refused("a.csv", "x,y,z,i,j,k\n1,2,3\n", /^a\.csv:2:/);
   refused("a.bin", "\0\0\0", /neither a job nor a program/);
   refused("a.apt", "GOTO/1,2\n", /^a\.apt:1:/);
+});
+
+test("a program has a job that stands for it, also before its machine is known", async () => {
+  const mill = await Mill.open();
+  mill.file("slot.nc", SLOT);
+  const text = mill.jobText("slot.nc")!;
+  expect(text).toContain('gcode = "slot.nc"');
+  mill.file("slot.toml", text);
+  expect(mill.take("slot.toml")).toBe(true);
+  mill.file("five.nc", "G21 G90 S8000 M3\nG0 X0 Y0 Z5 A0 C0\nG1 Z-1 A10 C20 F300\nX30 A20\n");
+  expect(mill.take("five.nc")).toBe(false);
+  // The page asks for the machine where it finds these words.
+  expect(mill.said()).toContain("without a machine");
+  const machines = textAt(mill.x, mill.x.mill_machines()).split(", ");
+  expect(machines.length).toBeGreaterThan(10);
+  expect(machines).toContain("xyzac-trt");
+  mill.file("five.toml", `${mill.jobText("five.nc")!}machine = "xyzac-trt"\n`);
+  expect(mill.take("five.toml"), mill.said()).toBe(true);
+  expect(mill.jobText("slot.toml")).toBeUndefined();
+  expect(mill.jobText("none.nc")).toBeUndefined();
 });

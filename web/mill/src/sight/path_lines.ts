@@ -15,7 +15,7 @@ const RAPID_OPACITY = 0.12;
 /** The points of the ways that are rapid, or that are not, in pairs. `rapid`: of the way that ends at each point. */
 export function waysOf(rapid: Uint8Array, wanted: boolean): number[] {
   const ways: number[] = [];
-  for (let n = 1; n < rapid.length; ++n) if (rapid[n] !== 0 === wanted) ways.push(n - 1, n);
+  for (let n = 1; n < rapid.length; ++n) if ((rapid[n] !== 0) === wanted) ways.push(n - 1, n);
   return ways;
 }
 
