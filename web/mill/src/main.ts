@@ -32,7 +32,9 @@ import type { ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
-import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
+import { Workshop, type JobFile, type Order, type SetUp } from "./sources/workshop.js";
+import { choice, SetUpCard } from "./setup/card.js";
+import { quoted, withKey } from "./setup/job_text.js";
 
 const listener: Listener = {
   frame: take,
@@ -236,10 +238,8 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame, frame.what);
       hits.push(frame);
       lanes.addDamage(frame.time);
-      if (hits.length === 1 && transport.playing) {
-        transport.pause();
+      if (hits.length === 1 && transport.pause())
         say(`Line ${frame.line}: ${frame.what}. The clock stands; Play goes on.`);
-      }
       break;
     case "finger":
       element("felt-row").hidden = !frame.present;
@@ -286,24 +286,65 @@ function change(to: () => Source): void {
   element("servo").hidden = true;
   scene.overlays.hideFinger();
   parameters.clear();
+  card.show(undefined);
   source = to();
   transport.beginSource();
 }
 
-async function mill(wanted: Order): Promise<void> {
+async function mill(wanted: Order): Promise<boolean> {
   say("");
   advise("Reading ...");
+  askMachine(undefined);
   const next = new Workshop(listener);
   const refusal = await next.open(wanted);
   advise("");
   if (refusal) {
     next.close();
-    say(refusal);
-    return;
+    if (refusal.lacksMachine) askMachine({ order: wanted, ...refusal.lacksMachine });
+    else say(refusal.why);
+    return false;
   }
   order = wanted;
   change(() => next);
+  if (!element("panel").hidden) void showSetUp();
+  return true;
 }
+
+// ---- Set-up, of what the page mills itself
+const jobName = (name: string) => name.replace(/^.*\//, "").replace(/\.\w+$/, "") + ".toml";
+const isJob = (name: string) => /\.toml$/i.test(name);
+const card = new SetUpCard((name, text) => (order ? mill(withJob(order, name, text)) : Promise.resolve(false)));
+
+function withJob(from: Order, name: string, text: string): Order {
+  const job = { name, bytes: new TextEncoder().encode(text).buffer };
+  return { ...from, files: [...from.files.filter((file) => file.name !== name), job], job: name };
+}
+
+async function showSetUp(): Promise<void> {
+  if (!(source instanceof Workshop) || !order) return card.show(undefined);
+  const name = isJob(order.job) ? order.job : jobName(order.job);
+  const setUp = await source.setUp();
+  card.show(setUp && { name, ...setUp });
+}
+
+let asked: (SetUp & { order: Order }) | undefined;
+let machineChosen = "";
+function askMachine(about: typeof asked): void {
+  asked = about;
+  element("ask-machine").hidden = about === undefined;
+  if (!about) return;
+  const before = recall("machine");
+  machineChosen = about.machines.includes(before) ? before : about.machines[0]!;
+  element("machine-choice").replaceChildren(choice(about.machines, machineChosen, (name) => (machineChosen = name)));
+}
+element("ask-machine").addEventListener("submit", (event) => {
+  event.preventDefault();
+  if (!asked) return;
+  remember("machine", machineChosen);
+  const { order: from, text } = asked;
+  const name = isJob(from.job) ? from.job : jobName(from.job);
+  void mill(withJob(from, name, withKey(text, "path", "machine", quoted(machineChosen))));
+});
 
 function replay(file: JobFile): void {
   try {
@@ -426,7 +467,7 @@ function toggles(button: string, panel: string, opened?: () => void): void {
     if (!box.hidden) opened?.();
   });
 }
-toggles("show-panel", "panel");
+toggles("show-panel", "panel", () => void showSetUp());
 element("show-program").addEventListener("click", () => {
   const reads = document.body.classList.toggle("reading");
   element("show-program").setAttribute("aria-expanded", String(reads));

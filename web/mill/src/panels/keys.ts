@@ -45,7 +45,7 @@ export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions):
   const keys = element<HTMLDialogElement>("keys");
   element("show-keys").addEventListener("click", () => keys.showModal());
   addEventListener("keydown", ({ key, target }) => {
-    const writes = target instanceof HTMLElement && target.matches("input, select, textarea");
+    const writes = target instanceof HTMLElement && target.matches("input[type=number], textarea");
     if (key === "?" && !writes && !keys.open) keys.showModal();
   });
 }

@@ -19,19 +19,34 @@ export interface Order {
   cell: number; // mm; 0: the default spacing of the job
 }
 
-export type ToWorker = { kind: "open"; order: Order } | { kind: "command"; command: Command };
+/** What a set-up is made of: the job as text, and the names that it may hold. */
+export interface SetUp {
+  text: string;
+  machines: string[];
+  materials: string[];
+}
+
+export type ToWorker = { kind: "open"; order: Order } | { kind: "command"; command: Command } | { kind: "set-up" };
 export type FromWorker =
   | { kind: "opened"; job: string; version: string; warnings: string[]; materials: string[] }
   | { kind: "settings"; settings: Settings }
   | { kind: "no"; why: string }
-  | { kind: "refused"; why: string }
+  // With a set-up: all that the program lacks is its machine.
+  | { kind: "refused"; why: string; lacksMachine?: SetUp }
+  | { kind: "set-up"; setUp: SetUp | undefined }
   | { kind: "failed"; why: string }
   | { kind: "audit"; audit: AuditOfMill; lines: Float64Array }
   | { kind: "frames"; frames: ArrayBuffer[] };
 
+export interface Refusal {
+  why: string;
+  lacksMachine?: SetUp;
+}
+
 export class Workshop implements Source {
   private readonly worker: Worker;
-  private readonly waiting: ((refusal: string) => void)[] = [];
+  private readonly waiting: ((refusal: Refusal | undefined) => void)[] = [];
+  private readonly asked: ((setUp: SetUp | undefined) => void)[] = [];
 
   constructor(private readonly listener: Listener) {
     this.worker = new Worker(new URL("./workshop_worker.ts", import.meta.url), { type: "module" });
@@ -40,9 +55,15 @@ export class Workshop implements Source {
   }
 
   // Returns the reason of a refusal, or undefined.
-  open(order: Order): Promise<string> {
+  open(order: Order): Promise<Refusal | undefined> {
     this.post({ kind: "open", order });
     return new Promise((resolve) => this.waiting.push(resolve));
+  }
+
+  /** The set-up of the open job; undefined: there is none. */
+  setUp(): Promise<SetUp | undefined> {
+    this.post({ kind: "set-up" });
+    return new Promise((resolve) => this.asked.push(resolve));
   }
 
   send(command: Command): void {
@@ -68,13 +89,16 @@ export class Workshop implements Source {
           warnings: message.warnings,
           materials: message.materials,
         });
-        this.waiting.shift()?.("");
+        this.waiting.shift()?.(undefined);
         break;
       case "refused":
-        this.waiting.shift()?.(message.why);
+        this.waiting.shift()?.(message);
+        break;
+      case "set-up":
+        this.asked.shift()?.(message.setUp);
         break;
       case "failed":
-        this.waiting.shift()?.(message.why);
+        this.waiting.shift()?.({ why: message.why });
         this.listener.line(false, message.why);
         break;
       case "settings":

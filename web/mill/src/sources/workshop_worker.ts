@@ -7,7 +7,7 @@ import { lend, lendText, textAt } from "@tribo/wasm/memory";
 import { obey } from "@tribo/wasm/mill_command";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Command, Settings } from "@tribo/protocol/messages";
-import type { FromWorker, JobFile, Order, ToWorker } from "./workshop.js";
+import type { FromWorker, JobFile, Order, SetUp, ToWorker } from "./workshop.js";
 
 const TICK_MS = 1000 / 60;
 // Largest part of a tick for milling.
@@ -18,6 +18,8 @@ const MOST_LOOKS = 4096;
 // Least time between two audits, ms, and as a multiple of what the last one took.
 const AUDIT_MS = 1000;
 const AUDIT_REST = 20;
+// How the reader says that rotary words have no machine.
+const LACKS_MACHINE = "without a machine";
 // If the clock stood still for longer (a sleeping laptop), it advances by this only, s.
 const LONGEST_STEP_S = 0.1;
 
@@ -39,6 +41,7 @@ class Mill {
   private told = ""; // settings sent last
   private changed = false; // since the last audit
   private auditAt = 0; // the next one, ms
+  private order: Order | undefined;
 
   constructor(private readonly x: MillExports) {}
 
@@ -57,12 +60,32 @@ class Mill {
       lendText(x, order.part, (...part) => x.mill_open(...job, ...part, order.cell)),
     );
     const said = textAt(x, x.mill_text());
-    if (!opened) return post({ kind: "refused", why: said });
+    this.order = order;
+    if (!opened) {
+      const lacksMachine = said.includes(LACKS_MACHINE) ? await this.setUp() : undefined;
+      return post({ kind: "refused", why: said, lacksMachine });
+    }
     const warnings = said.split("\n").filter(Boolean);
-    const materials = textAt(x, x.mill_materials()).split("\n");
+    const { materials } = this;
     post({ kind: "opened", job: order.job, version: this.version, warnings, materials });
     this.tellSettings();
     this.before = performance.now();
+  }
+
+  private get materials(): string[] {
+    return textAt(this.x, this.x.mill_materials()).split("\n");
+  }
+
+  // The file of a job, or the job that stands for a program.
+  async setUp(): Promise<SetUp | undefined> {
+    const { x, order } = this;
+    const job = order?.files.find(({ name }) => name === order.job);
+    if (!order || !job) return undefined;
+    let text: string | undefined;
+    if (/\.toml$/i.test(order.job)) text = new TextDecoder().decode(await unpacked(job));
+    else if (lendText(x, order.job, (...name) => x.mill_job_text(...name))) text = textAt(x, x.mill_text());
+    if (text === undefined) return undefined;
+    return { text, machines: textAt(x, x.mill_machines()).split(", "), materials: this.materials };
   }
 
   obey(command: Command): void {
@@ -142,6 +165,8 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
       mill = undefined;
       await next.open(data.order);
       mill = next;
+    } else if (data.kind === "set-up") {
+      post({ kind: "set-up", setUp: await mill?.setUp() });
     } else {
       mill?.obey(data.command);
     }

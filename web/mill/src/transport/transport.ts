@@ -12,6 +12,8 @@ const SAME = 0.1;
 
 export class Transport {
   playing = false;
+  // Play was pressed, and no state says so yet.
+  private starts = false;
   private readonly play = element<HTMLButtonElement>("play");
   private readonly time = element<HTMLInputElement>("time");
   private readonly speed = element<HTMLSelectElement>("speed");
@@ -29,6 +31,7 @@ export class Transport {
   ) {
     this.play.addEventListener("click", () => {
       if (!this.playing) starts();
+      this.starts = !this.playing;
       this.send({ op: this.playing ? "pause" : "play" });
     });
     this.speed.addEventListener("change", () => this.tell());
@@ -53,6 +56,7 @@ export class Transport {
   }
   // A source without a speed of its own begins.
   beginSource(): void {
+    this.starts = false;
     this.showPlaying(false);
     if (this.speed.value !== "1" && this.speed.value !== WHOLE) this.tell();
   }
@@ -66,8 +70,12 @@ export class Transport {
   seekBy(seconds: number): void {
     this.seek(Number(this.time.value) + seconds);
   }
-  pause(): void {
-    if (this.playing) this.send({ op: "pause" });
+  /** Pauses a clock that runs or is about to; returns whether it did. */
+  pause(): boolean {
+    if (!this.playing && !this.starts) return false;
+    this.starts = false;
+    this.send({ op: "pause" });
+    return true;
   }
 
   show(state: StateFrame): void {
@@ -84,6 +92,7 @@ export class Transport {
   }
 
   private showPlaying(now: boolean): void {
+    if (now) this.starts = false;
     if (now === this.playing) return;
     this.playing = now;
     this.trueSpeed.stand();
