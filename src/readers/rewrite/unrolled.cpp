@@ -57,7 +57,7 @@ class BlockWriter {
     virtual ~BlockWriter() = default;
     virtual void begin() = 0;
     virtual void end() = 0;
-    // The cutter with this number is loaded (0: none is named), the spindle turns.
+    // Loads the cutter with this number (absent: the one before stays) and starts the spindle (0: as before).
     virtual void start(std::optional<int> tool, double spindle_rpm) = 0;
     virtual void dwell(double seconds) = 0;
     // `axes`: to be written. `feed_mm_per_min`: absent where the feed holds on.
