@@ -69,9 +69,9 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("a cut t
       expect(await page.inputValue("#colouring")).toBe("chatter");
       await until("near the limit", "legend-marks");
       await page.waitForSelector("#chatter-best:not([hidden])", { timeout: PATIENCE_MS });
-      await page.waitForTimeout(300);
+      // The chart grows finer for a while.
+      await expect.poll(async () => (await chartPixels()).unstable, { timeout: PATIENCE_MS }).toBeGreaterThan(400);
       const seen = await chartPixels();
-      expect(seen.unstable).toBeGreaterThan(400);
       expect(seen.chatters).toBeGreaterThan(30);
       expect(seen.stable).toBe(0);
       await picture("chatter");
