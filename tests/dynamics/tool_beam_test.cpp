@@ -53,6 +53,15 @@ milling::Cutter cutter(double diameter_mm, double length_mm, double stickout_mm)
     return c;
 }
 
+double between(int low, int high) {
+    return *rc::gen::inRange(low, high) / 100.0;
+}
+milling::Cutter any_cutter() {
+    milling::Cutter c = cutter(between(10, 5000), between(100, 10'000), 0);
+    c.stickout_mm = c.length_mm * between(100, 500);
+    return c;
+}
+
 TEST(ToolBeam, of_one_section_bends_as_a_cantilever) {
     const ToolBeam beam = tool_beam(milling::Cutter{.diameter_mm = 10, .length_mm = 30});
     const BendingByForce bending = bending_by_force(beam, 0);
@@ -96,9 +105,7 @@ TEST(ToolBeam, agrees_with_the_integrated_bending_line_of_ten_stepped_tools) {
 }
 
 RC_GTEST_PROP(ToolBeam, bends_less_the_nearer_the_force_is_to_the_holder, ()) {
-    const auto between = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
-    milling::Cutter c = cutter(between(10, 5000), between(100, 10'000), 0);
-    c.stickout_mm = c.length_mm * between(100, 500);
+    const milling::Cutter c = any_cutter();
     const ToolBeam beam = tool_beam(c);
     const double low = c.stickout_mm * between(0, 50), high = c.stickout_mm * between(50, 100);
     const BendingByForce of_low = bending_by_force(beam, low), of_high = bending_by_force(beam, high);
@@ -108,9 +115,7 @@ RC_GTEST_PROP(ToolBeam, bends_less_the_nearer_the_force_is_to_the_holder, ()) {
 
 // Maxwell and Betti.
 RC_GTEST_PROP(ToolBeam, yields_at_one_height_by_a_force_at_another_as_the_other_way_round, ()) {
-    const auto between = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
-    milling::Cutter c = cutter(between(10, 5000), between(100, 10'000), 0);
-    c.stickout_mm = c.length_mm * between(100, 500);
+    const milling::Cutter c = any_cutter();
     const ToolBeam beam = tool_beam(c);
     const double one = c.stickout_mm * between(0, 100), other = c.stickout_mm * between(0, 100);
     const double yield = yield_mm_per_n(beam, one, other), back = yield_mm_per_n(beam, other, one);

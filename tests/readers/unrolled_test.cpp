@@ -29,6 +29,18 @@ void expect_same(const motion::Program& a, const motion::Program& b) {
     }
 }
 
+// Written out in a language it has no word of loops, and is read again as the same moves.
+template <class Read>
+void expect_same_written_out(const motion::Program& program, FeedLanguage language, Read read,
+                             const char* loop_word) {
+    const auto text = unrolled_program(program, {.language = language});
+    ASSERT_TRUE(text) << text.error().text();
+    EXPECT_EQ(text->find(loop_word), std::string::npos) << *text;
+    const auto again = read(*text);
+    ASSERT_TRUE(again) << again.error().text() << *text;
+    expect_same(program, *again);
+}
+
 constexpr std::string_view kLoops =
     "G21 G90 T2 M6 S9000 M3\nG0 X0 Y0 Z5\n#1=0\no1 while [#1 LT 3]\nG1 Z[-1-#1] F200\nG2 X10 Y0 I5 J0 "
     "F600\nG3 X0 Y0 I-5 J0 Z[-1.5-#1]\n"
@@ -103,12 +115,8 @@ TEST(UnrolledProgram, is_the_same_path_in_siemens_words) {
         "F900\nENDFOR\nG2 X30 Y10 I5 J5\nG3 X20 Y10 Z-4 I=AC(25) J=AC(10) TURN=2\nG4 F0.5\nT3 M6\nS4000 "
         "M3\nG18 G2 X24 Z-4 I2 K0\nG0 Z9\nM30\n");
     ASSERT_TRUE(program) << program.error().text();
-    const auto text = unrolled_program(*program, {.language = FeedLanguage::siemens});
-    ASSERT_TRUE(text) << text.error().text();
-    EXPECT_EQ(text->find("FOR"), std::string::npos) << *text;
-    const auto again = read_siemens(*text);
-    ASSERT_TRUE(again) << again.error().text() << *text;
-    expect_same(*program, *again);
+    expect_same_written_out(
+        *program, FeedLanguage::siemens, [](const std::string& text) { return read_siemens(text); }, "FOR");
 }
 
 TEST(UnrolledProgram, is_the_same_path_in_klartext) {
@@ -119,12 +127,9 @@ TEST(UnrolledProgram, is_the_same_path_in_klartext) {
         "9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 0.5\nTOOL CALL 3 Z S4000\nL X-3 R0 FMAX\nM30\nEND PGM HOLES "
         "MM\n");
     ASSERT_TRUE(program) << program.error().text();
-    const auto text = unrolled_program(*program, {.language = FeedLanguage::heidenhain});
-    ASSERT_TRUE(text) << text.error().text();
-    EXPECT_EQ(text->find("LBL"), std::string::npos) << *text;
-    const auto again = read_heidenhain(*text);
-    ASSERT_TRUE(again) << again.error().text() << *text;
-    expect_same(*program, *again);
+    expect_same_written_out(
+        *program, FeedLanguage::heidenhain, [](const std::string& text) { return read_heidenhain(text); },
+        "LBL");
     const auto upright = unrolled_program(program_of("G21 G90 G18 G0 X0 Y0 Z0\nG2 X4 Z0 I2 K0 F100\n"),
                                           {.language = FeedLanguage::heidenhain});
     ASSERT_FALSE(upright);

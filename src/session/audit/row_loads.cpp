@@ -4,17 +4,9 @@
 #include <cmath>
 #include <utility>
 
-namespace tribo::session {
+#include "milling/engagement/load_height.hpp"
 
-double load_height_mm(const milling::Engagement& engagement) {
-    double moment = 0, weight = 0;
-    for (const milling::EngagementBand& band : engagement.bands) {
-        const double area = (band.z1_mm - band.z0_mm) * (band.exit_rad - band.entry_rad);
-        weight += area;
-        moment += area * 0.5 * (band.z0_mm + band.z1_mm);
-    }
-    return weight > 0 ? moment / weight : 0;
-}
+namespace tribo::session {
 
 LoadModel::LoadModel(const MillSetup& setup, CutLimits limits)
     : limits_(std::move(limits)), force_low_(setup.force_low_factor), force_high_(setup.force_high_factor) {
@@ -26,7 +18,7 @@ RowLoads LoadModel::loads(const milling::CutRow& row, const milling::ForcePeaks&
     constexpr double kMetres = 1e-3;
     const ToolLimits& limits = limits_.of_cutter[row.cutter];
     const dynamics::BendingByForce bending =
-        dynamics::bending_by_force(beams_[row.cutter], load_height_mm(row.engagement));
+        dynamics::bending_by_force(beams_[row.cutter], milling::load_height_mm(row.engagement));
     RowLoads loads;
     const auto set = [&](LoadKind kind, double value, double limit) {
         loads.value[index_of(kind)] = value;

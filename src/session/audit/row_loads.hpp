@@ -53,8 +53,4 @@ class LoadModel {
     std::vector<dynamics::ToolBeam> beams_;  // one per cutter
 };
 
-// The height above the tip at which the force of an engagement acts: the mean of the heights in the cut,
-// weighted by their angle. 0 on the bottom.
-double load_height_mm(const milling::Engagement& engagement);
-
 }  // namespace tribo::session

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/chatter/steady_bending.hpp"
 
-#include "session/audit/row_loads.hpp"
+#include "milling/engagement/load_height.hpp"
 
 namespace tribo::session {
 
@@ -23,7 +23,7 @@ void SteadyBending::add(const milling::CutRow& row) {
     milling::ForceModel& force = forces_[row.cutter];
     force.engage(row.engagement, row.feed);
     const dynamics::ToolBeam& beam = beams_[row.cutter];
-    const double force_height_mm = load_height_mm(row.engagement);
+    const double force_height_mm = milling::load_height_mm(row.engagement);
     recorder_.add_steady(row, force.edges().period_rad(), [&](double rotation_rad, double height_mm) {
         const Vec3 force_n = force.at(rotation_rad - kBeforeRad).force_n;
         const double yield = dynamics::yield_mm_per_n(beam, force_height_mm, height_mm);
