@@ -32,9 +32,10 @@ import type { ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
-import { Workshop, type JobFile, type Order, type SetUp } from "./sources/workshop.js";
-import { choice, SetUpCard } from "./setup/card.js";
-import { quoted, withKey } from "./setup/job_text.js";
+import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
+import { SetUpCard } from "./setup/card.js";
+import { MachineQuestion } from "./setup/machine_question.js";
+import { jobNameOf, withJob } from "./setup/with_job.js";
 
 const listener: Listener = {
   frame: take,
@@ -294,13 +295,13 @@ function change(to: () => Source): void {
 async function mill(wanted: Order): Promise<boolean> {
   say("");
   advise("Reading ...");
-  askMachine(undefined);
+  question.close();
   const next = new Workshop(listener);
   const refusal = await next.open(wanted);
   advise("");
   if (refusal) {
     next.close();
-    if (refusal.lacksMachine) askMachine({ order: wanted, ...refusal.lacksMachine });
+    if (refusal.lacksMachine) question.ask(wanted, refusal.lacksMachine);
     else say(refusal.why);
     return false;
   }
@@ -311,40 +312,13 @@ async function mill(wanted: Order): Promise<boolean> {
 }
 
 // ---- Set-up, of what the page mills itself
-const jobName = (name: string) => name.replace(/^.*\//, "").replace(/\.\w+$/, "") + ".toml";
-const isJob = (name: string) => /\.toml$/i.test(name);
-const card = new SetUpCard((name, text) => (order ? mill(withJob(order, name, text)) : Promise.resolve(false)));
-
-function withJob(from: Order, name: string, text: string): Order {
-  const job = { name, bytes: new TextEncoder().encode(text).buffer };
-  return { ...from, files: [...from.files.filter((file) => file.name !== name), job], job: name };
-}
-
+const card = new SetUpCard((text) => (order ? mill(withJob(order, text)) : Promise.resolve(false)));
+const question = new MachineQuestion((answered) => void mill(answered));
 async function showSetUp(): Promise<void> {
   if (!(source instanceof Workshop) || !order) return card.show(undefined);
-  const name = isJob(order.job) ? order.job : jobName(order.job);
   const setUp = await source.setUp();
-  card.show(setUp && { name, ...setUp });
+  card.show(setUp && { name: jobNameOf(order), ...setUp });
 }
-
-let asked: (SetUp & { order: Order }) | undefined;
-let machineChosen = "";
-function askMachine(about: typeof asked): void {
-  asked = about;
-  element("ask-machine").hidden = about === undefined;
-  if (!about) return;
-  const before = recall("machine");
-  machineChosen = about.machines.includes(before) ? before : about.machines[0]!;
-  element("machine-choice").replaceChildren(choice(about.machines, machineChosen, (name) => (machineChosen = name)));
-}
-element("ask-machine").addEventListener("submit", (event) => {
-  event.preventDefault();
-  if (!asked) return;
-  remember("machine", machineChosen);
-  const { order: from, text } = asked;
-  const name = isJob(from.job) ? from.job : jobName(from.job);
-  void mill(withJob(from, name, withKey(text, "path", "machine", quoted(machineChosen))));
-});
 
 function replay(file: JobFile): void {
   try {
@@ -490,7 +464,7 @@ toggles("show-plots", "plots", async () => {
 });
 
 // ---- Keep
-listenToKeep(scene, history);
+listenToKeep(scene, history, say);
 const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {

@@ -2,7 +2,8 @@
 // Values in the text of a job are read and changed where they stand, and nothing else is.
 import { describe, expect, it } from "vitest";
 
-import { entriesOf, quoted, unquoted, withKey, withValue } from "../src/setup/job_text.js";
+import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue } from "../src/setup/job_text.js";
+import { withJob } from "../src/setup/with_job.js";
 
 const JOB = `# A job
 [stock]   # of it
@@ -23,6 +24,18 @@ name = "a # no comment \\" in it"   # but this is
 [path]
 gcode = 'p[1].nc'
 `;
+
+describe("an order with another job", () => {
+  const from = (job: string) => ({ files: [{ name: job, bytes: new ArrayBuffer(3) }], job, part: "", cell: 0 });
+  it("keeps the program beside the job that stands for it, and a job in its place", () => {
+    const program = withJob(from("folder/p 1.nc"), "x = 1");
+    expect(program.job).toBe("p 1.toml");
+    expect(program.files.map(({ name }) => name)).toEqual(["folder/p 1.nc", "p 1.toml"]);
+    expect(new TextDecoder().decode(program.files[1]!.bytes)).toBe("x = 1");
+    const job = withJob(withJob(from("a/job.TOML"), "y = 2"), "z = 3");
+    expect(job.files.map(({ name, bytes }) => [name, bytes.byteLength])).toEqual([["a/job.TOML", 5]]);
+  });
+});
 
 describe("the text of a job", () => {
   it("has the values that stand in one line, with their tables", () => {
@@ -50,6 +63,8 @@ describe("the text of a job", () => {
     const milled = withKey(JOB, "path", "machine", quoted("xyzac-trt"));
     expect(milled).toBe(JOB.replace("[path]\n", '[path]\nmachine = "xyzac-trt"\n'));
     expect(withKey(milled, "path", "machine", quoted("head-head"))).toBe(milled.replace("xyzac-trt", "head-head"));
+    const { line } = entriesOf(milled).find(({ key }) => key === "machine")!;
+    expect(withoutLine(milled, line)).toBe(JOB);
     expect(entriesOf(withKey(JOB, "process", "spindle_rpm", "9000")).at(-1)).toMatchObject({
       table: "process",
       raw: "9000",

@@ -2,7 +2,8 @@
 // The set-up of the cut, for the mill of the page: the job as a form and as text, milled again as it is changed.
 
 import { download, element } from "@tribo/ui/dom";
-import { entriesOf, quoted, unquoted, withKey, withValue, type Entry } from "./job_text.js";
+import type { SetUp } from "../sources/workshop.js";
+import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue, type Entry } from "./job_text.js";
 
 interface Field {
   table: string;
@@ -20,11 +21,8 @@ const NUMBERS: Field[] = [
 ];
 const BOX = /^\[\s*\[([^[\]]*)\]\s*,\s*\[([^[\]]*)\]\s*\]$/;
 
-export interface Known {
+export interface Known extends SetUp {
   name: string; // of the job file
-  text: string;
-  machines: string[];
-  materials: string[];
 }
 
 function labelled(label: string, input: HTMLElement, unit = ""): HTMLElement {
@@ -67,14 +65,11 @@ export class SetUpCard {
   private readonly text = element<HTMLTextAreaElement>("job-text");
   private readonly back = element<HTMLButtonElement>("setup-back");
 
-  /** `run` mills a job; it returns whether it was taken. */
-  constructor(private readonly run: (name: string, text: string) => Promise<boolean>) {
+  /** `run` mills this job in place of the one here; it returns whether it was taken. */
+  constructor(private readonly run: (text: string) => Promise<boolean>) {
     this.text.addEventListener("change", () => this.build());
     element("mill-again").addEventListener("click", () => void this.again());
-    this.back.addEventListener("click", () => {
-      const text = this.before.pop();
-      if (text !== undefined && this.known) void this.run(this.known.name, text);
-    });
+    this.back.addEventListener("click", () => void this.goBack());
     element("save-job").addEventListener("click", () => {
       if (this.known) download(new Blob([this.text.value], { type: "application/toml" }), this.known.name);
     });
@@ -95,7 +90,11 @@ export class SetUpCard {
   private async again(): Promise<void> {
     if (!this.known || this.text.value === this.known.text) return;
     this.before.push(this.known.text);
-    if (!(await this.run(this.known.name, this.text.value))) this.before.pop();
+    if (!(await this.run(this.text.value))) this.before.pop();
+  }
+  private async goBack(): Promise<void> {
+    const text = this.before.pop();
+    if (text !== undefined && !(await this.run(text))) this.before.push(text);
   }
 
   private set(text: string): void {
@@ -133,7 +132,11 @@ export class SetUpCard {
       fields.push(
         labelled(
           "machine",
-          choice(["", ...known.machines], now, (to) => this.change(withKey(text, "path", "machine", quoted(to)))),
+          choice(["", ...known.machines], now, (to) =>
+            this.change(
+              to || !machine ? withKey(text, "path", "machine", quoted(to)) : withoutLine(text, machine.line),
+            ),
+          ),
         ),
       );
     const box = find("stock", "box_mm");

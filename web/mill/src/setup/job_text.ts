@@ -68,6 +68,13 @@ export function withValue(text: string, line: number, raw: string): string {
   return lines.join("\n");
 }
 
+export function withoutLine(text: string, line: number): string {
+  return text
+    .split("\n")
+    .filter((_, n) => n !== line)
+    .join("\n");
+}
+
 /** With a value of the first table of this name, which may have none of this key yet. */
 export function withKey(text: string, table: string, key: string, raw: string): string {
   const entry = entriesOf(text).find((e) => e.table === table && e.key === key);
