@@ -133,6 +133,8 @@ let forceLimit = 3;
 let duration = 0;
 let milled = 0;
 let hits: CollisionFrame[] = [];
+// Frames before the first state of a job are of the past.
+let present = false;
 let audit: AuditOfMill | undefined;
 let measuring: Vec3[] | undefined;
 let spindlePercent = 100;
@@ -182,6 +184,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       program.begin();
       numbers.begin();
       hits = [];
+      present = false;
       audit = undefined;
       scene.begin(frame);
       assumed.draw(frame);
@@ -239,7 +242,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame, frame.what);
       hits.push(frame);
       lanes.addDamage(frame.time);
-      if (hits.length === 1 && transport.pause())
+      if (present && hits.length === 1 && transport.pause())
         say(`Line ${frame.line}: ${frame.what}. The clock stands; Play goes on.`);
       break;
     case "finger":
@@ -263,6 +266,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       scene.draw();
       break;
     case "state":
+      present = true;
       show(frame);
       break;
     case "program":
