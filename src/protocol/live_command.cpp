@@ -84,7 +84,9 @@ std::string live_settings(const LiveSettings& settings) {
     for (const LiveNumber& n : kLiveNumbers) json.set(n.key, settings.*n.member);
     json.set("material", settings.material);
     json.set("mode", settings.cut_mode ? "cut" : "inspect");
-    json.set("force", settings.cutting_force).set("stopped", settings.stopped).end_object();
+    json.set("force", settings.cutting_force).set("stopped", settings.stopped);
+    json.set("has_spread", settings.has_spread).set("cases", settings.cases ? settings.case_count : 0);
+    json.end_object();
     return json.text();
 }
 

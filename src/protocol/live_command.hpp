@@ -22,6 +22,7 @@ enum class LiveOp {
     finger,  // position_mm, on: whether there is a hand
     mode,    // word: cut or inspect
     force,   // on: whether the cutting force is felt
+    cases,   // on: whether bands come from cases
     stop,
     release,
     set,      // word: a key of kLiveNumbers, value
@@ -36,6 +37,9 @@ struct LiveCommand {
     std::string word = {};
 };
 
+// The number of cases from which bands come unless told.
+inline constexpr std::size_t kBandCases = 40;
+
 // What a page may set, and within which bounds.
 struct LiveSettings {
     double feed_percent = 100, spindle_percent = 100;  // overrides
@@ -44,6 +48,11 @@ struct LiveSettings {
     double jnd = 0.5;           // worst error of the force table
     std::string material;
     bool cut_mode = true, cutting_force = true, stopped = false;
+    // The job knows something with a spread only. A page cannot set it.
+    bool has_spread = false;
+    // Bands come from cases of what has a spread. A page cannot set their number.
+    bool cases = false;
+    std::size_t case_count = kBandCases;
     bool operator==(const LiveSettings&) const = default;
 };
 struct LiveNumber {
@@ -77,6 +86,7 @@ inline constexpr std::array kLiveOperations{
     LiveOperation{"finger", LiveOp::finger, LiveArgument::place, "position_mm"},
     LiveOperation{"mode", LiveOp::mode, LiveArgument::word},
     LiveOperation{"force", LiveOp::force, LiveArgument::flag},
+    LiveOperation{"cases", LiveOp::cases, LiveArgument::flag},
     LiveOperation{"stop", LiveOp::stop, LiveArgument::nothing},
     LiveOperation{"release", LiveOp::release, LiveArgument::nothing},
     LiveOperation{"set", LiveOp::set, LiveArgument::setting},

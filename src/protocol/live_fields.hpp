@@ -157,6 +157,12 @@ void fields(Wire& wire, FrameOf<Wire, LiveRows> rows) {
         of.vec3("axis", row.axis);
         of.u32("cutter", row.cutter);
     });
+    wire.last_each(
+        "bands_of_rows", rows.rows, [](const LiveRow& row) { return row.force_high_factor > 0; },
+        [](Wire& of, FrameOf<Wire, LiveRow> row) {
+            of.f32("force_low_factor", row.force_low_factor);
+            of.f32("force_high_factor", row.force_high_factor);
+        });
 }
 
 template <>

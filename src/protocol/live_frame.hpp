@@ -133,6 +133,8 @@ struct LiveRow {
     double spindle_rpm = 0;          // as it turns
     Vec3 axis{0, 0, 1};
     std::uint32_t cutter = 0;  // of LiveJob
+    // Of its peak force: the band from cases. 0: that of LiveRows.
+    double force_low_factor = 0, force_high_factor = 0;
 };
 struct LiveRows {
     bool anew = false;  // all rows before are void

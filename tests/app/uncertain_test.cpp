@@ -91,6 +91,10 @@ TEST_F(Uncertain, refuses_a_job_without_any_spread) {
         EXPECT_EQ(refused.code, 2);
         EXPECT_NE(refused.err.find("nothing in this job has a spread"), std::string::npos) << refused.err;
     }
+    const Outcome live = run({"live", "job.toml", "--port", "0", "--uncertain", "50"});
+    EXPECT_EQ(live.code, 2);
+    EXPECT_NE(live.err.find("nothing in this job has a spread"), std::string::npos) << live.err;
+    EXPECT_EQ(run({"live", "--uncertain", "50"}).code, 2);
     EXPECT_EQ(folder_.render({"--uncertain", "9"}).code, 2);
     EXPECT_EQ(folder_.render({"--uncertain", "20.5"}).code, 2);
 }

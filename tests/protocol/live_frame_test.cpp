@@ -190,11 +190,13 @@ TEST(LiveFrames, AreTheStoredBytes) {
     expect_as_stored(state, "state");
     state.chatter = {{1.5f, 907.5f}, 0.75f};
     expect_as_stored(state, "chattering_state");
-    const LiveRow row{2.25,  2.75, {1, 2, 3}, 10, 20,   0.25,           1, 2, 5,
-                      0.125, 9,    0.0625,    2,  6000, {0, 0.5, 0.75}, 1};
+    LiveRow row{2.25, 2.75, {1, 2, 3}, 10, 20, 0.25, 1, 2, 5, 0.125, 9, 0.0625, 2, 6000, {0, 0.5, 0.75}, 1};
     const LiveRow next{2.75, 3, {4, 5, 6}, 1, 2, 3, 4, 5, 6, 7, 8, 0.25, 1, 9000, {0, 0, 1}, 0};
     expect_as_stored(LiveRows{true, {row, next}, 0.75, 1.5}, "rows");
     expect_as_stored(LiveRows{}, "no_rows");
+    row.force_low_factor = 0.5;
+    row.force_high_factor = 2;
+    expect_as_stored(LiveRows{false, {row, next}, 0.75, 1.5}, "rows_in_cases");
     expect_as_stored(LiveCollision{4.5, 2, 17, {1, 2, 3}}, "collision");
     LiveSoundPiece piece{2.5, 0.5f, {1, 2, 3}, 0.25f, 628, 1.5f, 40, 2, {}, 3, 250, {}};
     piece.harmonics = {{1, 2, 3}, {std::complex{4.f, 5.f}, std::complex{6.f, 7.f}, std::complex{8.f, 9.f}}};

@@ -106,7 +106,10 @@ TEST(LiveMessage, TheSettingsAreSaid) {
     EXPECT_EQ(
         live_settings(settings),
         R"({"op":"settings","feed_percent":100,"spindle_percent":100,"helix_deg":45,"force_scale":0.01,)"
-        R"("jnd":0.5,"material":"al","mode":"inspect","force":true,"stopped":false})");
+        R"("jnd":0.5,"material":"al","mode":"inspect","force":true,"stopped":false,)"
+        R"("has_spread":false,"cases":0})");
+    settings.has_spread = settings.cases = true;
+    EXPECT_TRUE(live_settings(settings).ends_with(R"("has_spread":true,"cases":40})"));
 }
 
 }  // namespace

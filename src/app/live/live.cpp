@@ -10,10 +10,12 @@
 #include "app/live/live_server.hpp"
 #include "app/live/live_view.hpp"
 #include "app/render/render_job.hpp"
+#include "app/uncertain_flag.hpp"
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
+#include "session/uncertain/force_bands.hpp"
 #include "tribo/threads.hpp"
 
 namespace tribo::app {
@@ -58,6 +60,8 @@ LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
     options.profile = profile;
     options.settings.force_scale = loaded.job.haptics.force_scale;
     options.settings.jnd = contact::ForceTableOptions{}.most_jnd;
+    options.settings.cases = call.uncertain.has_value();
+    if (call.uncertain) options.settings.case_count = static_cast<std::size_t>(*call.uncertain);
     const job::JobHaptics& h = loaded.job.haptics;
     haptics::ContactOptions& contact = options.feel.contact;
     options.feel.delay_s = call.arm.delay_s();
@@ -75,12 +79,16 @@ int live(const LiveCall& call) {
     if (call.job.empty()) {
         if (auto good = refuse_flags(call.program, "", "none is named", "name the program"); !good)
             return report(good.error());
+        if (call.uncertain)
+            return report(fail("--uncertain is given, but no job is named", "name the job").error());
         return live_without_job(call);
     }
     const bool sounds = call.audio == "native";
     auto first =
         read_job(call, sounds ? std::optional(sound::SoundtrackOptions().sample_rate_hz) : std::nullopt);
     if (!first) return report(first.error());
+    if (auto spread = check_uncertain(call.job, call.uncertain, session::has_spread(first->setup)); !spread)
+        return report(spread.error());
     report(first->warnings);
 
     const auto files = live_page(call);

@@ -24,6 +24,7 @@ struct LiveCall {
     std::optional<double> resolution_mm;   // absent: as in render
     std::optional<double> memory_mb;       // absent: memory of the machine
     int threads = 0;                       // 0: all
+    std::optional<int> uncertain;          // cases of what is known with a spread only
     std::string audio = "browser";         // sound output: browser, native or off
     ArmCall arm;
     std::string device = "auto";  // "auto": first available arm, else the simulated hand; or a name

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/options.hpp"
+#include "app/uncertain_flag.hpp"
 #include "app/verbs/verbs.hpp"
 #include "net/addresses.hpp"
 #include "tribo/threads.hpp"
@@ -46,6 +47,7 @@ void add_live(CLI::App& program, int& exit_code) {
     verb->add_option("--threads", call->threads, "Threads to use; all processors if absent")
         ->check(CLI::Range(1, kMaxThreads))
         ->type_name("N");
+    add_uncertain(*verb, call->uncertain);
     verb->add_option("--device", call->device,
                      "auto, simulated, or the arm's name as `tribo devices` says it")
         ->capture_default_str();

@@ -20,6 +20,25 @@ void add(Hash& hash, const motion::ToolPose& pose) {
 
 }  // namespace
 
+std::vector<milling::Cutter> changed_cutters(const MillSetup& setup, const CutChange& change) {
+    std::vector<milling::Cutter> cutters = setup.cutters;
+    if (change.helix_deg) {
+        for (milling::Cutter& cutter : cutters) cutter.helix_deg = *change.helix_deg;
+    }
+    return cutters;
+}
+
+ForceBand force_band(const MillSetup& setup, const CutChange& change) {
+    if (change.coefficients) return {change.force_low_factor, change.force_high_factor};
+    return {setup.force_low_factor, setup.force_high_factor};
+}
+
+milling::CutRow changed_row(milling::CutRow row, const CutChange& change) {
+    row.spindle_rpm *= change.speed_factor;
+    row.feed = change.chip_factor() * row.feed;
+    return row;
+}
+
 double changed_phase_rad(const milling::CutRow& row, const CutChange& change) {
     const double factor = change.angle_factor();
     if (factor == 1) return row.phase_rad;
@@ -33,10 +52,7 @@ namespace {
 template <class Visit>
 void each_engaged(std::span<const milling::CutRow> rows, const MillSetup& setup, const CutChange& change,
                   const ParallelFor& parallel, const Visit& visit) {
-    std::vector<milling::Cutter> cutters = setup.cutters;
-    if (change.helix_deg) {
-        for (milling::Cutter& cutter : cutters) cutter.helix_deg = *change.helix_deg;
-    }
+    const std::vector<milling::Cutter> cutters = changed_cutters(setup, change);
     const milling::CuttingCoefficients coefficients = change.coefficients.value_or(setup.coefficients);
     parallel(kShares, [&](std::size_t share) {
         std::vector<milling::ForceModel> models;

@@ -31,8 +31,11 @@ struct CutChange {
     // Band of the forces with these coefficients; factors, as in MillSetup.
     double force_low_factor = 1, force_high_factor = 1;
     std::optional<double> helix_deg{};
+    // Cases of what has a spread, from which a live cut takes the band of each row; 0: the band is that of
+    // the coefficients. Changes no force.
+    std::size_t uncertain_cases = 0;
 
-    // Whether nothing is changed.
+    // Whether no force is changed.
     bool none() const {
         return feed_factor == 1 && speed_factor == 1 && !coefficients.has_value() && !helix_deg.has_value();
     }
@@ -40,6 +43,17 @@ struct CutChange {
     double angle_factor() const { return speed_factor / feed_factor; }
     double chip_factor() const { return feed_factor / speed_factor; }  // factor on the feed per tooth
 };
+
+// The cutters with the changed helix.
+std::vector<milling::Cutter> changed_cutters(const MillSetup& setup, const CutChange& change);
+// The band of the forces, from the spread of the coefficients; factors.
+struct ForceBand {
+    double low = 1, high = 1;
+};
+ForceBand force_band(const MillSetup& setup, const CutChange& change);
+
+// A row at the changed feed per tooth and spindle speed. Its times stay those of the program.
+milling::CutRow changed_row(milling::CutRow row, const CutChange& change);
 
 // Spindle angle at the start of a row with this change, without whole turns.
 double changed_phase_rad(const milling::CutRow& row, const CutChange& change);

@@ -14,16 +14,10 @@ namespace {
 // Rows whose forces are computed together.
 constexpr std::size_t kRowsAtOnce = 1024;
 
-// A row at the overridden speeds.
-milling::CutRow changed_row(milling::CutRow row, const CutChange& change) {
-    row.spindle_rpm *= change.speed_factor;
-    row.feed = change.chip_factor() * row.feed;
-    return row;
-}
-
 std::optional<double> chatter_probability_at(const milling::CutRow& row, const MillSetup& setup,
                                              const CutChange& change) {
-    return chatter_probability(changed_cut_of(row, setup, kRowBands, change));
+    return chatter_probability(changed_cut_of(row, setup, kRowBands, change),
+                               change.uncertain_cases > 0 ? change.uncertain_cases : kCases);
 }
 
 }  // namespace
@@ -39,6 +33,7 @@ LiveAudit audit_of(const LiveMill& mill, const ParallelFor& parallel) {
     LiveAudit result;
     const auto keep = [&](const LoadTally& line) { append_audit_line(line, setup, result.lines); };
     Auditor auditor(model, session, keep, std::clamp(session.milled_s(), 0.0, session.duration_s()));
+    if (change.uncertain_cases > 0) auditor.use(ForceCases(setup, change.uncertain_cases, parallel, change));
     const std::span<const milling::CutRow> rows = mill.record().rows();
     std::optional<std::size_t> worst;
     double most = 0;

@@ -5,14 +5,19 @@
 #include <utility>
 
 #include "milling/tool/materials.hpp"
+#include "session/chatter/probability.hpp"
+#include "session/uncertain/force_bands.hpp"
 
 namespace tribo::session {
 namespace {
 
-// The settings that change the cut.
+// The settings that change the forces of the cut.
 auto cut_of(const protocol::LiveSettings& s) {
     return std::tie(s.feed_percent, s.spindle_percent, s.helix_deg, s.material);
 }
+
+// Bands and probabilities are of the same cases.
+static_assert(protocol::kBandCases == kCases);
 
 }  // namespace
 
@@ -24,6 +29,7 @@ LiveController::LiveController(LiveMill& mill, const LiveForceOptions& options,
       applied_(settings_),
       finger_(options, std::move(arm), mill.session().stock().blank().bounds_mm().max) {
     follow_job();
+    if (settings_.cases) mill_.set_change(change());
     mill_.set_session_observer([this](MillSession* session) { finger_.force_source().set_session(session); });
 }
 
@@ -67,6 +73,9 @@ Result<void> LiveController::obey(const protocol::LiveCommand& command) {
         case LiveOp::force:
             wanted.cutting_force = command.on;
             break;
+        case LiveOp::cases:
+            wanted.cases = command.on;
+            break;
         case LiveOp::stop:
         case LiveOp::release:
             wanted.stopped = command.op == LiveOp::stop;
@@ -101,14 +110,16 @@ void LiveController::follow_job() {
     };
     follow(&protocol::LiveSettings::helix_deg, mill_.session().setup().cutters.front().helix_deg);
     follow(&protocol::LiveSettings::material, mill_.extras().material);
+    follow(&protocol::LiveSettings::has_spread, session::has_spread(mill_.session().setup()));
 }
 
 void LiveController::apply() {
     follow_job();
     const bool recut = cut_of(settings_) != cut_of(applied_);
     const bool rescaled = settings_.force_scale != applied_.force_scale || settings_.jnd != applied_.jnd;
+    const bool bands_anew = settings_.cases != applied_.cases;
     applied_ = settings_;
-    if (recut) mill_.set_change(change());
+    if (recut || bands_anew) mill_.set_change(change());
     if (recut || rescaled) ++force_changes_;
     if (rescaled) use_force();
 }
@@ -124,6 +135,7 @@ CutChange LiveController::change() const {
         change.force_low_factor = material->spread_low;
         change.force_high_factor = material->spread_high;
     }
+    if (settings_.cases) change.uncertain_cases = settings_.case_count;
     return change;
 }
 

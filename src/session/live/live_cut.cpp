@@ -11,7 +11,8 @@
 namespace tribo::session {
 namespace {
 
-// Rows in one slice of a pass: about three milliseconds on one thread.
+// Rows in one slice of a pass: about three milliseconds on one thread. In cases, a row is as much work as
+// there are cases.
 constexpr std::size_t kRowsPerSlice = 256;
 // Rows in one frame, and frames at one time: a viewer can process them without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096, kMostFrames = 2;
@@ -64,6 +65,7 @@ protocol::LiveTeeth live_teeth(const milling::CutRow& row, const MillSetup& setu
 void LiveCut::begin(const MillSetup& setup, bool bends) {
     setup_ = &setup;
     bends_ = bends;
+    use_cases();
     record_ = {};
     rows_.clear();
     states_.clear();
@@ -89,7 +91,7 @@ void LiveCut::add(const milling::CutRow& row, const milling::RowForce& force) {
     const double before = states_.empty() ? 0 : states_.back().removed_mm3;
     states_.push_back({{}, before + row.removed_mm3});
     record_.add(row);
-    if (!change_.none() || fresh_ + 1 < rows_.size()) return;
+    if (!change_.none() || cases_ || fresh_ + 1 < rows_.size()) return;
     set_force(fresh_++, force, change_);
 }
 
@@ -107,6 +109,7 @@ std::optional<std::size_t> LiveCut::row_cut_at(double t_s) const {
 
 void LiveCut::set_change(const CutChange& change, double clock_s) {
     change_ = change;
+    use_cases();
     clock_row_ = row_at(clock_s);
     fresh_ = std::min(fresh_, clock_row_);
     heard_ = clock_row_ + (!rows_.empty() && rows_[clock_row_].end_s <= clock_s ? 1 : 0);
@@ -129,7 +132,8 @@ void LiveCut::compute_slice() {
         pass_end_ = clock_row_;
         pass_change_ = change_;
     }
-    const std::size_t last = std::min(pass_next_ + kRowsPerSlice, pass_end_);
+    const std::size_t slice = std::max<std::size_t>(1, kRowsPerSlice / (1 + pass_change_.uncertain_cases));
+    const std::size_t last = std::min(pass_next_ + slice, pass_end_);
     compute(pass_next_, last, pass_change_, last);
     pass_next_ = last;
     if (pass_next_ < pass_end_) return;
@@ -143,7 +147,24 @@ void LiveCut::compute_slice() {
 void LiveCut::compute(std::size_t first, std::size_t last, const CutChange& change, std::size_t first_heard) {
     const auto forces = changed_forces(record_.rows().subspan(first, last - first), *setup_, change,
                                        std::max(first, first_heard) - first, parallel_);
-    for (std::size_t n = first; n < last; ++n) set_force(n, forces[n - first], change);
+    for (std::size_t n = first; n < last; ++n) {
+        set_force(n, forces[n - first], change);
+        set_band(n, forces[n - first].peaks, change);
+    }
+}
+
+void LiveCut::use_cases() {
+    cases_.reset();
+    if (change_.uncertain_cases > 0) cases_.emplace(*setup_, change_.uncertain_cases, parallel_, change_);
+}
+
+void LiveCut::set_band(std::size_t n, const milling::ForcePeaks& peaks, const CutChange& change) {
+    rows_[n].force_low_factor = rows_[n].force_high_factor = 0;
+    if (!cases_ || !(peaks.peak_force_n > 0)) return;
+    cases_->peaks(changed_row(record_.rows()[n], change), peaks);
+    const sweep::Band band = cases_->peak_force_n();
+    rows_[n].force_low_factor = band.low / peaks.peak_force_n;
+    rows_[n].force_high_factor = band.high / peaks.peak_force_n;
 }
 
 // Sets the values that depend on the force of a row. The row gets sound only if there is a spectrum.
@@ -180,9 +201,7 @@ void LiveCut::describe(protocol::LiveState& s) const {
 
 void LiveCut::show_rows(const protocol::FrameSink& frames) {
     std::vector<std::uint8_t> frame;
-    const bool changed = change_.coefficients.has_value();
-    const double low = changed ? change_.force_low_factor : setup_->force_low_factor;
-    const double high = changed ? change_.force_high_factor : setup_->force_high_factor;
+    const auto [low, high] = force_band(*setup_, change_);
     for (std::size_t n = 0; n < kMostFrames && sent_ < fresh_; ++n) {
         const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(sent_);
         const std::size_t now = std::min(kRowsPerFrame, fresh_ - sent_);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The rows of a live mill, with their forces as a viewer sees and hears them. A change of feed, spindle,
 // material or helix changes the forces of all rows. The rows at the clock get them at once, those before it
-// in slices, so that no picture waits for them. No threads and no clocks of its own.
+// in slices, so that no picture waits for them. Bands from cases are computed with the forces. No threads and
+// no clocks of its own.
 #pragma once
 
 #include <optional>
@@ -11,6 +12,7 @@
 #include "protocol/live_frame.hpp"
 #include "session/cut/cut_record.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/uncertain/force_bands.hpp"
 
 namespace tribo::session {
 
@@ -53,12 +55,15 @@ class LiveCut {
     static constexpr double kRestS = 0.25;
 
     void compute(std::size_t first, std::size_t last, const CutChange& change, std::size_t first_heard);
+    void use_cases();
+    void set_band(std::size_t row, const milling::ForcePeaks& peaks, const CutChange& change);
     void set_force(std::size_t row, const milling::RowForce& force, const CutChange& change);
 
     ParallelFor parallel_;
     const MillSetup* setup_ = nullptr;
     bool bends_ = false;
     CutChange change_;
+    std::optional<ForceCases> cases_;  // with this change
     CutRecord record_;
     std::vector<protocol::LiveRow> rows_;  // one per row of the record
     struct RowState {

@@ -42,14 +42,17 @@ bool has_spread(const MillSetup& setup) {
                [&](const auto& modes) { return std::ranges::any_of(modes, uncertain); });
 }
 
-ForceCases::ForceCases(const MillSetup& setup, std::size_t count, ParallelFor parallel)
-    : cutters_(setup.cutters),
-      coefficients_(setup.coefficients),
+ForceCases::ForceCases(const MillSetup& setup, std::size_t count, ParallelFor parallel,
+                       const CutChange& change)
+    : cutters_(changed_cutters(setup, change)),
+      coefficients_(change.coefficients.value_or(setup.coefficients)),
       parallel_(std::move(parallel)),
       force_(count),
       runout_mm_(setup.cutters.size()),
-      peaks_(count) {
-    const sweep::SpreadFactors force(count, kForceValue, setup.force_low_factor, setup.force_high_factor);
+      peaks_(count),
+      scratch_(count) {
+    const auto [low, high] = force_band(setup, change);
+    const sweep::SpreadFactors force(count, kForceValue, low, high);
     for (std::size_t n = 0; n < count; ++n) force_[n] = force.at(n);
     for (std::size_t c = 0; c < cutters_.size(); ++c) {
         const milling::Cutter& cutter = cutters_[c];
@@ -81,16 +84,18 @@ const std::vector<milling::ForcePeaks>& ForceCases::peaks(const milling::CutRow&
     return peaks_;
 }
 
+sweep::Band ForceCases::peak_force_n() {
+    std::ranges::transform(peaks_, scratch_.begin(), &milling::ForcePeaks::peak_force_n);
+    return sweep::band_of(scratch_);
+}
+
 ForceBands::ForceBands(const MillSetup& setup, std::size_t count, ParallelFor parallel)
-    : cases_(setup, count, std::move(parallel)), totals_(count), scratch_(count) {}
+    : cases_(setup, count, std::move(parallel)), totals_(count) {}
 
 sweep::Band ForceBands::add(const milling::CutRow& row, const milling::ForcePeaks& stated) {
     const std::vector<milling::ForcePeaks>& peaks = cases_.peaks(row, stated);
-    for (std::size_t n = 0; n < peaks.size(); ++n) {
-        totals_[n].add(row, peaks[n]);
-        scratch_[n] = peaks[n].peak_force_n;
-    }
-    return sweep::band_of(scratch_);
+    for (std::size_t n = 0; n < peaks.size(); ++n) totals_[n].add(row, peaks[n]);
+    return cases_.peak_force_n();
 }
 
 ForceBands::Totals ForceBands::totals() const {

@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "milling/force/force_peaks.hpp"
+#include "session/cut/cut_record.hpp"
 #include "session/cut/mill_session.hpp"
 #include "sweep/band.hpp"
 
@@ -18,13 +19,15 @@ namespace tribo::session {
 // cases_of() (session/chatter/probability.hpp).
 class ForceCases {
   public:
-    // Keeps a copy of the cutters. `count` > 0.
-    ForceCases(const MillSetup& setup, std::size_t count, ParallelFor parallel);
+    // Keeps a copy of the cutters. `count` > 0. With a change, `row` below must have its feed.
+    ForceCases(const MillSetup& setup, std::size_t count, ParallelFor parallel, const CutChange& change = {});
 
     std::size_t count() const { return force_.size(); }
     // `stated`: of the row with the stated values. Valid until the next call. One thread.
     const std::vector<milling::ForcePeaks>& peaks(const milling::CutRow& row,
                                                   const milling::ForcePeaks& stated);
+    // The band of the peak force in these cases.
+    sweep::Band peak_force_n();
 
   private:
     std::vector<milling::Cutter> cutters_;
@@ -33,6 +36,7 @@ class ForceCases {
     std::vector<double> force_;                   // factor of each case
     std::vector<std::vector<double>> runout_mm_;  // of each cutter in each case; empty: as stated
     std::vector<milling::ForcePeaks> peaks_;
+    std::vector<double> scratch_;
 };
 
 // True where the coefficients, the run-out of a cutter or a mode have a spread.
@@ -54,7 +58,6 @@ class ForceBands {
   private:
     ForceCases cases_;
     std::vector<ForceTotals> totals_;  // of each case
-    std::vector<double> scratch_;
 };
 
 }  // namespace tribo::session

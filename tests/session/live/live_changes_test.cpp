@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "session/live/live_viewer.hpp"
+#include "session/uncertain/force_bands.hpp"
 
 namespace tribo::session {
 namespace {
@@ -53,6 +54,74 @@ TEST(LiveChanges, TellsTheForcesOfAChangedCut) {
     Viewer latecomer;
     for (const FrameCache::Frame& frame : memory.replay()) latecomer.sink()(*frame);
     EXPECT_EQ(latecomer.row_forces, viewer.row_forces);
+}
+
+// The bands of the rows are those that `render --uncertain` gives.
+TEST(LiveChanges, TellsTheBandsFromCases) {
+    const auto uncertain = []() -> Result<MillSetup> {
+        auto s = slot();
+        s->force_low_factor = 0.75;
+        s->force_high_factor = 1.5;
+        s->cutters.front().runout_mm = 0.02;
+        s->cutters.front().runout_spread = 1;
+        return s;
+    };
+    constexpr std::size_t count = 30;
+    MillSession alone(*uncertain(), serial_for);
+    ForceBands bands(alone.setup(), count, serial_for);
+    std::vector<std::array<double, 2>> expected;
+    MillSinks sinks;
+    sinks.row = [&](const milling::CutRow& row, const milling::RowForce& force) {
+        const sweep::Band band = bands.add(row, force.peaks);
+        expected.push_back({band.low, band.high});
+    };
+    alone.run(sinks);
+
+    auto live = *LiveMill::create(uncertain, serial_for);
+    std::vector<protocol::LiveRow> rows;
+    const protocol::FrameSink keep = [&](std::span<const std::uint8_t> frame) {
+        protocol::LiveRows some;
+        if (!protocol::read_frame(frame, some)) return;
+        if (some.anew) rows.clear();
+        rows.insert(rows.end(), some.rows.begin(), some.rows.end());
+    };
+    // The first half is cut before the bands are asked for.
+    live->play(true);
+    while (live->clock_s() < 0.5 * live->duration_s()) live->tick(1.0 / 60, always, keep);
+    for (const protocol::LiveRow& row : rows) ASSERT_EQ(row.force_high_factor, 0);
+    CutChange change;
+    change.uncertain_cases = count;
+    live->set_change(change);
+    while (live->playing()) live->tick(1.0 / 60, always, keep);
+    for (int n = 0; n < 100; ++n) live->tick(1.0 / 60, always, keep);
+    ASSERT_EQ(rows.size(), expected.size());
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        ASSERT_NEAR(rows[n].force_low_factor * rows[n].peak_force_n, expected[n][0], 1e-5 * expected[n][0])
+            << n;
+        ASSERT_NEAR(rows[n].force_high_factor * rows[n].peak_force_n, expected[n][1], 1e-5 * expected[n][1])
+            << n;
+    }
+    // The same chip has the same band; of a thinner one the run-out is a larger share.
+    const std::vector<protocol::LiveRow> written = rows;
+    const auto width = [](const protocol::LiveRow& row) {
+        return row.force_high_factor / row.force_low_factor;
+    };
+    const std::size_t middle = rows.size() / 2;
+    for (const double feed : {2.0, 0.25}) {
+        change.feed_factor = feed;
+        change.speed_factor = feed == 2 ? 2 : 1;
+        live->set_change(change);
+        for (int n = 0; n < 200; ++n) live->tick(1.0 / 60, always, keep);
+        if (feed == 2) {
+            EXPECT_NEAR(width(rows[middle]) / width(written[middle]), 1, 1e-5);
+        } else {
+            EXPECT_GT(width(rows[middle]), 1.05 * width(written[middle]));
+        }
+    }
+    change = {};
+    live->set_change(change);
+    for (int n = 0; n < 200; ++n) live->tick(1.0 / 60, always, keep);
+    for (const protocol::LiveRow& row : rows) ASSERT_EQ(row.force_high_factor, 0);
 }
 
 // A slider that moves with every picture: each picture costs a slice of the rows, and all rows are sent four

@@ -60,6 +60,15 @@ TEST_F(Controlled, TheClockObeys) {
     EXPECT_EQ(controller.force_changes(), 0);
 }
 
+TEST_F(Controlled, BandsComeFromCasesAndNoForceIsBuiltAgain) {
+    ASSERT_TRUE(say(R"({"op":"cases","value":true})"));
+    EXPECT_EQ(mill->change().uncertain_cases, protocol::kBandCases);
+    EXPECT_EQ(controller.force_changes(), 0);
+    ASSERT_TRUE(say(R"({"op":"cases","value":false})"));
+    EXPECT_EQ(mill->change().uncertain_cases, 0u);
+    EXPECT_FALSE(say(R"({"op":"cases","value":40})"));
+}
+
 TEST_F(Controlled, TheCutIsChangedAgainstTheJobs) {
     ASSERT_TRUE(say(R"({"op":"set","key":"feed_percent","value":150})"));
     ASSERT_TRUE(say(R"({"op":"set","key":"spindle_percent","value":50})"));

@@ -133,8 +133,8 @@ let forceLimit = 3;
 let duration = 0;
 let milled = 0;
 let hits: CollisionFrame[] = [];
-// Frames before the first state of a job are of the past.
-let present = false;
+// The newest state of the job. Frames before the first one are of the past.
+let shown: StateFrame | undefined;
 let audit: AuditOfMill | undefined;
 let measuring: Vec3[] | undefined;
 let spindlePercent = 100;
@@ -165,7 +165,8 @@ function show(state: StateFrame): void {
   if (state.playing) begun = true;
   begin.hidden = begun || duration === 0;
   element("examples").hidden ||= begun;
-  numbers.show(state, history.rowAt(state.time), scene.heatMap.largestForce);
+  shown = state;
+  numbers.show(state, history.rowAt(state.time));
   milled = state.milled;
   if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
 }
@@ -184,7 +185,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       program.begin();
       numbers.begin();
       hits = [];
-      present = false;
+      shown = undefined;
       audit = undefined;
       scene.begin(frame);
       assumed.draw(frame);
@@ -208,15 +209,18 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
     case "rows":
       if (frame.anew) {
         lanes.forgetRows();
+        numbers.forgetRows();
         program.forgetRows();
         history.forgetRows();
         scene.forgetRows();
       }
-      lanes.addRows(frame.rows, frame.band);
+      lanes.addRows(frame.rows);
       program.addRows(frame.rows);
-      numbers.know(frame.band);
+      numbers.addRows(frame.rows);
       history.addRows(frame.rows);
       scene.addRows(frame.rows);
+      // That of the clock may be among them.
+      if (shown) numbers.show(shown, history.rowAt(shown.time));
       break;
     case "sound":
       history.addPieces(frame.pieces);
@@ -242,7 +246,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame, frame.what);
       hits.push(frame);
       lanes.addDamage(frame.time);
-      if (present && hits.length === 1 && transport.pause())
+      if (shown && hits.length === 1 && transport.pause())
         say(`Line ${frame.line}: ${frame.what}. The clock stands; Play goes on.`);
       break;
     case "finger":
@@ -266,7 +270,6 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       scene.draw();
       break;
     case "state":
-      present = true;
       show(frame);
       break;
     case "program":

@@ -58,6 +58,37 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
   );
 
   it(
+    "takes the bands from cases where the run-out has a spread",
+    async () => {
+      const coefficients = ["ktc", "krc", "kac"].map((k) => `${k}_n_per_mm2 = 500\n${k[0]}${k[1]}e_n_per_mm = 0`);
+      const job = JOB.replace('name = "al7075-t6"', coefficients.join("\n")).replace(
+        "helix",
+        "runout_mm = 0.02\nrunout_spread = 1\nhelix",
+      );
+      await choose(file("uneven.toml", job), file("p.nc", PROGRAM));
+      await until("uneven.toml", "job");
+      await page.fill("#time", "1.2");
+      await until("N", "peak");
+      await page.waitForSelector("#cases:visible", { timeout: PATIENCE_MS });
+      expect(await page.isVisible("#band-row")).toBe(false);
+      await page.check("#cases");
+      await until("40 cases", "case-count");
+      await page.waitForSelector("#band-row:visible", { timeout: PATIENCE_MS });
+      await expect.poll(() => text("could-be"), { timeout: PATIENCE_MS }).toMatch(/^\d+ to \d+ N$/);
+      await picture("cases");
+      await page.uncheck("#cases");
+      await page.waitForSelector("#band-row", { state: "hidden", timeout: PATIENCE_MS });
+      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await until("job.toml", "job");
+      expect(await page.isVisible("#cases")).toBe(true);
+      expect(await page.isChecked("#cases")).toBe(false);
+      await page.fill("#time", "1000");
+      await removed(0.3);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "records, and plays the recording again",
     async () => {
       await page.click("#record");

@@ -17,7 +17,7 @@ const JOB = jobText("[[0, 0, -8], [40, 20, 0]]");
 const PROGRAM_TEXT = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X45\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X45\nG0 Y16 X20\n";
 
 const start = (folder: string, port = "0") =>
-  startLive(join(folder, "job.toml"), "--port", port, "--resolution", "0.5");
+  startLive(join(folder, "job.toml"), "--port", port, "--resolution", "0.5", "--uncertain", "20");
 
 describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
   let folder: string;
@@ -62,6 +62,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
     "mills while it plays and stops where it is paused",
     async () => {
       expect(await removed()).toBe(0);
+      expect(await page.textContent("#case-count")).toBe("20 cases");
       await page.selectOption("#speed", "0.5");
       await page.click("#play");
       await until("Pause", "play");

@@ -97,6 +97,8 @@ describe("chip load", () => {
     rpm: 6000,
     axis: [0, 0, 1] as [number, number, number],
     cutter: 0,
+    peakLow: 0,
+    peakHigh: 0,
   };
   it("lists each line once for what it does wrong, by its worst chip", () => {
     const map = new HeatMap();

@@ -102,12 +102,9 @@ export interface Row {
   axis: Vec3;
   // Index into JobFrame.cutters.
   cutter: number;
-}
-
-// Factors on a force: the band in which the true one lies.
-export interface ForceBand {
-  low: number;
-  high: number;
+  // The band in which the true peak force lies, N. Earlier engines do not send it: then 0.
+  peakLow: number;
+  peakHigh: number;
 }
 
 export interface RowsFrame {
@@ -115,8 +112,6 @@ export interface RowsFrame {
   // All earlier rows are invalid.
   anew: boolean;
   rows: Row[];
-  // Of their forces. Earlier engines do not send it.
-  band: ForceBand | undefined;
 }
 
 // The text in whose lines rows and state count.
@@ -324,7 +319,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
     case 3:
       return decodeState(r, time);
     case 4:
-      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, ...decodeRows(r) };
+      return { kind: "rows", anew: (view.getUint8(2) & 1) !== 0, rows: decodeRows(r) };
     case 5: {
       const what = COLLISIONS[r.i32()] ?? "collision";
       const line = r.i32();
@@ -512,18 +507,30 @@ function decodeState(r: Reader, time: number): StateFrame {
   return { ...state, cutting: (flags & 1) !== 0, playing: (flags & 2) !== 0, rapid: (flags & 4) !== 0, chatter };
 }
 
-function decodeRows(r: Reader): Pick<RowsFrame, "rows" | "band"> {
+function decodeRows(r: Reader): Row[] {
   const rows: Row[] = [];
   for (let n = r.u32(); n > 0; --n) rows.push(decodeRow(r));
-  if (r.left() === 0) return { rows, band: undefined };
+  if (r.left() === 0) return rows;
   for (const row of rows) {
     row.chip = r.f32();
     row.chipVerdict = CHIP_VERDICTS[r.u32()] ?? "";
   }
-  if (r.left() === 0) return { rows, band: undefined };
-  const band = { low: r.f32(), high: r.f32() };
-  for (const row of rows) Object.assign(row, { rpm: r.f32(), axis: r.vec3(), cutter: r.u32() });
-  return { rows, band: band.high > 0 ? band : undefined };
+  if (r.left() === 0) return rows;
+  const low = r.f32();
+  const high = r.f32();
+  for (const row of rows) {
+    Object.assign(row, { rpm: r.f32(), axis: r.vec3(), cutter: r.u32() });
+    setBand(row, low, high);
+  }
+  // Those from cases, if there are: they replace that of all rows.
+  if (r.left() >= 4 && r.u32() === rows.length) for (const row of rows) setBand(row, r.f32(), r.f32());
+  return rows;
+}
+
+// By factors on the force.
+function setBand(row: Row, low: number, high: number): void {
+  row.peakLow = row.peakForce * low;
+  row.peakHigh = row.peakForce * high;
 }
 
 function decodeRow(r: Reader): Row {
@@ -545,5 +552,7 @@ function decodeRow(r: Reader): Row {
     rpm: 0,
     axis: [0, 0, 1],
     cutter: 0,
+    peakLow: 0,
+    peakHigh: 0,
   };
 }

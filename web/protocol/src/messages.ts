@@ -14,7 +14,7 @@ export type Command =
   | { op: "seek"; t_s: number }
   | { op: "finger"; position_mm: [number, number, number]; down: boolean }
   | { op: "mode"; value: Mode }
-  | { op: "force"; value: boolean }
+  | { op: "force" | "cases"; value: boolean }
   | { op: "set"; key: Setting; value: number }
   | { op: "material"; value: string };
 
@@ -39,6 +39,10 @@ export interface Settings extends Record<Setting, number> {
   mode: Mode;
   force: boolean;
   stopped: boolean;
+  /** Something of the job is known with a spread only. Earlier engines do not send it, nor the next. */
+  has_spread?: boolean;
+  /** The cases from which bands come; 0: the spread of the coefficients alone. */
+  cases?: number;
 }
 
 export interface Refused {

@@ -164,18 +164,20 @@ describe("decodeFrame", () => {
           rpm: 0,
           axis: [0, 0, 1],
           cutter: 0,
+          peakLow: 0,
+          peakHigh: 0,
         },
       ],
-      band: undefined,
     });
     if (rows.kind !== "rows") throw new Error();
     const judged = { ...rows.rows[0], chip: 0.125, chipVerdict: "overload" };
     expect(decodeFrame(bytes.f32(0.125).u32(2).done())).toEqual({ ...rows, rows: [judged] });
-    expect(decodeFrame(bytes.f32(0.75, 1.5, 6000, 0, 1, 0).u32(3).done())).toEqual({
-      ...rows,
-      rows: [{ ...judged, rpm: 6000, axis: [0, 1, 0], cutter: 3 }],
-      band: { low: 0.75, high: 1.5 },
-    });
+    const cut = { ...judged, rpm: 6000, axis: [0, 1, 0], cutter: 3 };
+    bytes.f32(0.75, 1.5, 6000, 0, 1, 0).u32(3);
+    expect(decodeFrame(bytes.done())).toEqual({ ...rows, rows: [{ ...cut, peakLow: 15, peakHigh: 30 }] });
+    // A band of its own, from cases.
+    bytes.u32(1).f32(0.5, 2);
+    expect(decodeFrame(bytes.done())).toEqual({ ...rows, rows: [{ ...cut, peakLow: 10, peakHigh: 40 }] });
     expect(decodeFrame(new Bytes().header(5, 4).u32(2, 17).f32(1, 2, 3).done())).toEqual({
       kind: "collision",
       time: 4,

@@ -111,8 +111,8 @@ const MEANING: Record<string, (told: Told) => Frame> = {
       rpm: list(told.tools_of_rows)[n]!.spindle_rpm as number,
       axis: list(told.tools_of_rows)[n]!.axis as never,
       cutter: list(told.tools_of_rows)[n]!.cutter as number,
+      ...peaksOf(row.peak_force_n as number, told.bands_of_rows ? list(told.bands_of_rows)[n]! : told),
     })),
-    band: bandOf(told.force_low_factor as number, told.force_high_factor as number),
   }),
   collision: (told) => ({
     kind: "collision",
@@ -197,8 +197,8 @@ const MEANING: Record<string, (told: Told) => Frame> = {
   }),
 };
 
-function bandOf(low: number, high: number) {
-  return high > 0 ? { low, high } : undefined;
+function peaksOf(force: number, { force_low_factor: low, force_high_factor: high }: Told) {
+  return { peakLow: force * (low as number), peakHigh: force * (high as number) };
 }
 
 const names = readdirSync(FOLDER)

@@ -2,7 +2,7 @@
 // Lanes of the cut on one axis of time, which is the slider of the program: force with its band, depth, chip, power,
 // vibration, sound, and events.
 
-import type { ForceBand, Piece, Row } from "@tribo/protocol/frames";
+import type { Piece, Row } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
 import { oncePerFrame } from "@tribo/ui/frame";
 import { clock } from "../page.js";
@@ -46,7 +46,9 @@ const GAP_PX = 5;
 export class Lanes {
   private readonly bins = Object.fromEntries(ORDER.map((name) => [name, new Bins()])) as Record<Quantity, Bins>;
   private events: Happened[] = [];
-  private band: ForceBand | undefined;
+  // The ends of the band of the force.
+  private readonly low = new Bins();
+  private readonly high = new Bins();
   private duration = 1;
   private time = 0;
   private milled = 0;
@@ -73,25 +75,27 @@ export class Lanes {
 
   begin(duration: number): void {
     this.duration = Math.max(duration, 1e-9);
-    for (const bins of Object.values(this.bins)) bins.begin(duration);
+    for (const bins of [...Object.values(this.bins), this.low, this.high]) bins.begin(duration);
     this.events = [];
-    this.band = undefined;
     this.milled = 0;
     this.lay();
   }
   // The rows before are void; what happened stays, and what was heard.
   forgetRows(): void {
     for (const [name, bins] of Object.entries(this.bins)) if (name !== "sound") bins.clear();
+    this.low.clear();
+    this.high.clear();
     this.events = this.events.filter(({ what }) => what === "damage");
     this.changed();
   }
 
-  addRows(rows: readonly Row[], band: ForceBand | undefined): void {
+  addRows(rows: readonly Row[]): void {
     const had = this.shown().length;
-    this.band = band ?? this.band;
     for (const row of rows) {
       const { time, duration } = row;
       this.bins.force.add(time, duration, row.peakForce);
+      this.low.add(time, duration, row.peakLow);
+      this.high.add(time, duration, row.peakHigh);
       this.bins.depth.add(time, duration, row.depth);
       this.bins.chip.add(time, duration, row.chip);
       this.bins.power.add(time, duration, row.torque * row.rpm * (Math.PI / 30));
@@ -234,8 +238,8 @@ export class Lanes {
 
   private paintLane(c: CanvasRenderingContext2D, name: Quantity, top: number, width: number, height: number): void {
     const bins = this.bins[name];
-    const band = name === "force" && this.band && this.band.low < this.band.high ? this.band : undefined;
     const columns = bins.columns(Math.round(width));
+    const [lows, highs] = name === "force" ? [this.low, this.high].map((end) => end.columns(columns.length)) : [];
     const most = this.end(name);
     const bottom = top + height;
     const y = (value: number) => bottom - Math.min(value / most, 1) * (height - 1);
@@ -243,17 +247,20 @@ export class Lanes {
     c.fillRect(0, bottom, width, 1);
     columns.forEach((value, n) => {
       if (Number.isNaN(value)) return;
-      if (band) {
+      const low = lows?.[n] ?? 0;
+      const high = highs?.[n] ?? 0;
+      const spreads = low < high;
+      if (spreads) {
         c.fillStyle = this.ink("--band");
-        c.fillRect(n, y(value * band.high), 1, y(value * band.low) - y(value * band.high));
+        c.fillRect(n, y(high), 1, y(low) - y(high));
       }
       c.fillStyle = css((name === "multiplier" ? growthColour(value) : undefined) ?? heat(value / bins.largest));
       c.globalAlpha = name === "force" ? 0.95 : 0.6;
       c.fillRect(n, y(value), 1, bottom - y(value));
       c.globalAlpha = 1;
-      if (!band) return;
+      if (!spreads) return;
       c.fillStyle = this.ink("--band-low");
-      c.fillRect(n, y(value * band.low), 1, 1);
+      c.fillRect(n, y(low), 1, 1);
     });
     if (name === "multiplier" && most > 1) {
       c.fillStyle = this.ink("--damage");
@@ -279,8 +286,8 @@ export class Lanes {
 
   // End of the axis. The band may leave the lane; the force may not.
   private end(name: Quantity): number {
-    const high = name === "force" ? Math.min(this.band?.high ?? 1, 1.8) : 1;
-    return roundUp(this.bins[name].largest * high);
+    const { largest } = this.bins[name];
+    return roundUp(name === "force" ? Math.min(Math.max(this.high.largest, largest), 1.8 * largest) : largest);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The cut at the clock: one large number with its band, and what stands beside it.
 
-import type { ForceBand, Row, StateFrame } from "@tribo/protocol/frames";
+import type { Row, StateFrame } from "@tribo/protocol/frames";
 import { AUDIT_COLUMNS, LOADS, type Load } from "@tribo/wasm/audit";
 import { element } from "@tribo/ui/dom";
 
@@ -57,37 +57,45 @@ export function sharesOf(lines: Float64Array): Map<number, Share> {
 
 export class Now {
   private shares = new Map<number, Share>();
-  private band: ForceBand | undefined;
+  private spreads = false;
+  // End of the axis, N.
+  private highest = 0;
   private again: (() => void) | undefined;
 
   begin(): void {
-    this.band = this.again = undefined;
+    this.again = undefined;
     this.shares.clear();
+    this.forgetRows();
+  }
+  forgetRows(): void {
+    this.spreads = false;
+    this.highest = 0;
   }
   audit(lines: Float64Array): void {
     this.shares = sharesOf(lines);
     this.again?.();
   }
-  know(band: ForceBand | undefined): void {
-    this.band = band ?? this.band;
+  addRows(rows: readonly Row[]): void {
+    for (const { peakForce, peakLow, peakHigh } of rows) {
+      this.spreads ||= peakLow < peakHigh;
+      this.highest = Math.max(this.highest, peakForce, peakHigh);
+    }
   }
 
-  // `row` is the cut at the clock; `largest` the largest force so far.
-  show(state: StateFrame, row: Row | undefined, largest: number): void {
-    const { band } = this;
-    this.again = () => this.show(state, row, largest);
+  // `row` is the cut at the clock.
+  show(state: StateFrame, row: Row | undefined): void {
+    this.again = () => this.show(state, row);
     write("peak", state.peakForce.toFixed(0), "N");
-    const spreads = band !== undefined && band.low < band.high;
-    element("band").hidden = element("band-row").hidden = !spreads;
-    if (spreads) {
-      const end = Math.max(largest * band.high, 1);
-      const at = (force: number) => `${Math.min((100 * force) / end, 100)}%`;
+    element("band").hidden = element("band-row").hidden = !this.spreads;
+    if (this.spreads) {
+      const low = row?.peakLow ?? 0;
+      const high = row?.peakHigh ?? 0;
+      const at = (force: number) => `${Math.min((100 * force) / Math.max(this.highest, 1), 100)}%`;
       const range = element("band-range");
-      range.style.left = at(state.peakForce * band.low);
-      range.style.right = `calc(100% - ${at(state.peakForce * band.high)})`;
+      range.style.left = at(low);
+      range.style.right = `calc(100% - ${at(high)})`;
       element("band-mark").style.left = at(state.peakForce);
-      const { low, high } = band;
-      write("could-be", state.cutting ? bandWords(state.peakForce * low, state.peakForce * high) : "0", "N");
+      write("could-be", state.cutting ? bandWords(low, high) : "0", "N");
     }
     const share = this.shares.get(state.line);
     element("share-row").hidden = share === undefined;

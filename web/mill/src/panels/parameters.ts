@@ -27,8 +27,11 @@ export class Parameters {
   private readonly shown = new Map<Setting, (value: number) => void>();
   private readonly material = element<HTMLSelectElement>("material");
 
+  private readonly cases = element<HTMLInputElement>("cases");
+
   constructor(private readonly send: (command: Command) => void) {
     this.material.addEventListener("change", () => this.send({ op: "material", value: this.material.value }));
+    this.cases.addEventListener("change", () => this.send({ op: "cases", value: this.cases.checked }));
     for (const p of PARAMETERS) element(p.box).append(this.slider(p));
   }
 
@@ -48,6 +51,9 @@ export class Parameters {
       this.material.prepend(new Option(settings.material || "the job's own", settings.material));
     }
     this.material.value = settings.material;
+    element("cases-label").hidden = !settings.has_spread;
+    this.cases.checked = (settings.cases ?? 0) > 0;
+    element("case-count").textContent = settings.cases ? `${settings.cases} cases` : "cases";
   }
 
   private slider(p: Parameter): HTMLElement {
