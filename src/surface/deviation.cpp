@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_set>
 
 #include "surface/height.hpp"
 #include "surface/nearest_height.hpp"
@@ -15,9 +16,11 @@ namespace {
 constexpr std::size_t kChunk = 256;     // samples that one task measures
 constexpr std::size_t kSharpened = 16;  // number of samples from which each extreme is refined
 constexpr double kOffBlank = 1e-3;      // a point less deep in the blank is on its surface, mm
-constexpr double kFlatScallop = 1e-4;   // lower rest is noise of the field, not a scallop, mm
-constexpr double kCrestFall = 0.75;     // largest height half way to a pass, as a share of the crest's height
-constexpr int kMostMoves = 200;         // limit of the rounds of a climb; twenty are enough
+// Less is noise of the field, mm.
+constexpr double kFlatScallop = 1e-4, kFlatGouge = 1e-4;
+constexpr double kCrestCube = 3;     // edge of a cube with one crest, in spacings
+constexpr double kCrestFall = 0.75;  // largest height half way to a pass, as a share of the crest's height
+constexpr int kMostMoves = 200;      // limit of the rounds of a climb; twenty are enough
 constexpr int kHistogramBins = 48;
 
 class Comparison {
@@ -38,11 +41,12 @@ class Comparison {
         summarise();
         report_.rest = sharpest(by_height(1), 1);
         report_.gouge = sharpest(by_height(-1), -1);
-        report_.scallop = sharpest(scallops(), 1);
+        report_.scallop = sharpest(scallops(parallel), 1);
         const MachinedExtremes other = farthest_machined(machined_, designed_, options_.blank,
                                                          options_.machined_mm, report_.spacing_mm, parallel);
         if (other.rest.mm > report_.rest.mm) report_.rest = other.rest;
         if (other.gouge.mm > report_.gouge.mm) report_.gouge = other.gouge;
+        if (options_.all_places) keep_places(other);
         return std::move(report_);
     }
 
@@ -66,6 +70,18 @@ class Comparison {
             report_.samples.push_back(samples[i]);
             report_.heights_mm.push_back(static_cast<float>(heights[i]));
         }
+    }
+
+    // The extremes themselves, and the gouged points of the machined side.
+    void keep_places(const MachinedExtremes& other) {
+        const Vec3 top = report_.scallop.machined_mm;
+        if (report_.scallop.mm > 0) report_.crests.push_back({report_.scallop.mm, {top, top, top}});
+        for (std::size_t i = 0; i < other.deviations_mm.size(); ++i) {
+            if (other.deviations_mm[i] < -kFlatGouge)
+                report_.gouges.push_back({-other.deviations_mm[i], options_.machined_mm[i]});
+        }
+        if (report_.gouge.mm > kFlatGouge)
+            report_.gouges.push_back({report_.gouge.mm, report_.gouge.machined_mm});
     }
 
     double height_of(std::size_t i) const { return static_cast<double>(report_.heights_mm[i]); }
@@ -131,7 +147,7 @@ class Comparison {
     }
 
     // Returns the highest samples on crests between passes.
-    std::vector<std::size_t> scallops() const {
+    std::vector<std::size_t> scallops(const ParallelFor& parallel) {
         const TouchedSamples touched(report_.samples, report_.heights_mm, options_.touch_mm,
                                      options_.pass_width_mm);
         std::vector<std::size_t> order, found;
@@ -143,22 +159,58 @@ class Comparison {
         });
         for (const std::size_t i : order) {
             if (found.size() == kSharpened) break;
-            const auto crossing = touched.around(report_.samples[i], height_of(i));
-            if (crossing && is_crest(i, *crossing) && !is_blank(i)) found.push_back(i);
+            if (crest_at(i, touched)) found.push_back(i);
         }
+        if (options_.all_places) keep_crests(std::move(order), touched, parallel);
         return found;
     }
 
-    // True if the surface falls on both sides. On a flank with a wall above it, one side rises.
-    bool is_crest(std::size_t i, const Crossing& crossing) const {
-        const SurfaceSample& s = report_.samples[i];
-        const double half_way = 0.5 * std::min(crossing.first_mm, crossing.second_mm);
-        for (const double way : {half_way, -half_way}) {
-            const field::MeshPoint at = designed_.closest(s.point_mm + way * crossing.way, s.triangle);
-            const auto h = height_.at(at.point_mm, at.normal, at.triangle);
-            if (!h || *h > kCrestFall * height_of(i)) return false;
+    void keep_crests(std::vector<std::size_t> highest_first, const TouchedSamples& touched,
+                     const ParallelFor& parallel) {
+        thin_out(highest_first);
+        std::vector<std::optional<Crest>> crests(highest_first.size());
+        parallel((crests.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+            const std::size_t end = std::min(crests.size(), (chunk + 1) * kChunk);
+            for (std::size_t n = chunk * kChunk; n < end; ++n)
+                crests[n] = crest_at(highest_first[n], touched);
+        });
+        for (const std::optional<Crest>& crest : crests) {
+            if (crest) report_.crests.push_back(*crest);
         }
-        return true;
+    }
+
+    // Keeps the first of the samples in each cube of kCrestCube spacings.
+    void thin_out(std::vector<std::size_t>& order) const {
+        const double edge = kCrestCube * report_.spacing_mm;
+        std::unordered_set<std::uint64_t> taken;
+        std::erase_if(order, [&](std::size_t i) {
+            std::uint64_t cube = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto place =
+                    static_cast<std::int64_t>(std::floor(report_.samples[i].point_mm[axis] / edge));
+                cube = (cube << 21) ^ (static_cast<std::uint64_t>(place) & 0x1fffff);
+            }
+            return !taken.insert(cube).second;
+        });
+    }
+
+    // The crest between two passes on which the sample is. On both sides of it the surface falls: on a flank
+    // with a wall above it, one side rises.
+    std::optional<Crest> crest_at(std::size_t i, const TouchedSamples& touched) const {
+        const SurfaceSample& s = report_.samples[i];
+        const auto crossing = touched.around(s, height_of(i));
+        if (!crossing) return std::nullopt;
+        Crest crest{height_of(i), {s.point_mm + height_of(i) * s.normal}};
+        const double half_way = 0.5 * std::min(crossing->first_mm, crossing->second_mm);
+        for (const std::size_t side : {1, 2}) {
+            const Vec3 way = (side == 1 ? half_way : -half_way) * crossing->way;
+            const field::MeshPoint at = designed_.closest(s.point_mm + way, s.triangle);
+            const auto h = height_.at(at.point_mm, at.normal, at.triangle);
+            if (!h || *h > kCrestFall * height_of(i)) return std::nullopt;
+            crest.machined_mm[side] = at.point_mm + *h * at.normal;
+        }
+        if (is_blank(i)) return std::nullopt;
+        return crest;
     }
 
     // True if the machined surface is still the surface of the blank: no cutter was there.
@@ -186,8 +238,11 @@ class Comparison {
         const double diagonal = std::sqrt(0.5);
         const Vec3 ways[] = {
             u, -u, v, -v, diagonal * (u + v), diagonal * (u - v), -diagonal * (u + v), diagonal * (v - u)};
-        DeviationExtreme best{side * height_.at(start.point_mm, start.normal, start.triangle).value_or(0),
-                              start.point_mm};
+        const auto extreme = [&](double h, Vec3 point, Vec3 normal) {
+            return DeviationExtreme{side * h, point, point + h * normal};
+        };
+        DeviationExtreme best = extreme(height_.at(start.point_mm, start.normal, start.triangle).value_or(0),
+                                        start.point_mm, start.normal);
         std::uint32_t triangle = start.triangle;
         int moves = 0;
         for (double step = report_.spacing_mm / 2; step > report_.spacing_mm / 65536 && moves < kMostMoves;) {
@@ -198,7 +253,7 @@ class Comparison {
                 if (distance(at.point_mm, start.point_mm) > report_.spacing_mm) continue;
                 const auto h = height_.at(at.point_mm, at.normal, at.triangle);
                 if (!h || side * *h <= best.mm) continue;
-                best = {side * *h, at.point_mm};
+                best = extreme(*h, at.point_mm, at.normal);
                 triangle = at.triangle;
                 climbed = true;
             }

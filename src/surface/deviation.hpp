@@ -2,6 +2,7 @@
 // Deviations of a machined part from the designed surface: + material left, - gouge.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <span>
@@ -29,6 +30,9 @@ struct DeviationOptions {
     // The blank of the part. With it, nothing outside it counts as gouged, and its remaining surface counts
     // as no scallop. Without it, samples without material below them are left out.
     const field::Shape* blank = nullptr;
+    // Keeps crests and gouged points from all over the part, not the extremes alone: of the samples on
+    // scallops the highest one in each cube of three spacings.
+    bool all_places = false;
     // Points of the machined surface (field/surface_points.hpp). With them, the extremes of rest and gouge
     // are also searched from the machined side.
     std::span<const Vec3> machined_mm = {};
@@ -38,6 +42,18 @@ struct DeviationOptions {
 struct DeviationHistogram {
     double first_mm = 0, bin_mm = 0;
     std::vector<double> shares;  // sum 1
+};
+
+// A sample on a scallop: points of the machined surface at it, and half way to the pass on each side.
+struct Crest {
+    double height_mm = 0;
+    std::array<Vec3, 3> machined_mm;
+};
+
+// A point of the machined surface inside the design, >= 0.
+struct GougedPoint {
+    double mm = 0;
+    Vec3 machined_mm;
 };
 
 struct DeviationReport {
@@ -56,6 +72,10 @@ struct DeviationReport {
     DeviationHistogram histogram;
     std::vector<SurfaceSample> samples;  // measured ones
     std::vector<float> heights_mm;       // one per sample, signed
+    // With all_places: the samples on scallops, and the gouged ones of the given points of the machined
+    // surface. The extremes are among them.
+    std::vector<Crest> crests;
+    std::vector<GougedPoint> gouges;
 };
 
 // Approximate number of samples of one comparison (10 us and 80 bytes each), and of points of the machined

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "field/shape/surface_points.hpp"
 
@@ -37,6 +37,7 @@ class MachinedSide {
         std::uint32_t triangle = 0;
         DeviationExtreme best;
         best.mm = std::max(0.0, side * measure(start, triangle, best.at_mm));
+        best.machined_mm = start;
         Vec3 at = start;
         const double diagonal = std::sqrt(0.5);
         int moves = 0;
@@ -57,7 +58,7 @@ class MachinedSide {
                 if (!next) continue;
                 const double d = side * measure(*next, triangle, foot);
                 if (d <= best.mm) continue;
-                best = {d, foot};
+                best = {d, foot, *next};
                 higher = *next;
             }
             if (higher == at) step /= 2;
@@ -106,7 +107,8 @@ MachinedExtremes farthest_machined(const contact::DistanceField& machined, const
         }
         return best;
     };
-    return {farthest(-1), farthest(1)};
+    const DeviationExtreme gouge = farthest(-1), rest = farthest(1);
+    return {gouge, rest, std::move(heights)};
 }
 
 }  // namespace tribo::surface

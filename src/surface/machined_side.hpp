@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "contact/distance_field.hpp"
@@ -12,12 +13,15 @@
 namespace tribo::surface {
 
 struct DeviationExtreme {
-    double mm = 0;  // >= 0; 0: none
-    Vec3 at_mm;     // on the designed surface
+    double mm = 0;     // >= 0; 0: none
+    Vec3 at_mm;        // on the designed surface
+    Vec3 machined_mm;  // on the machined one
 };
 
 struct MachinedExtremes {
     DeviationExtreme gouge, rest;
+    // The signed distance of each point to the design: + outside it. 0 where it has no meaning.
+    std::vector<double> deviations_mm;
 };
 
 // Finds the largest distances of the machined surface to the nearest point of the design, outside it (rest)

@@ -142,6 +142,26 @@ TEST_F(AuditVerb, holds_the_bending_of_the_tool_against_the_tolerance) {
     EXPECT_NEAR(overcut, overcuts, 1e-3 * most);
 }
 
+// The first slot is 0.2 mm deeper than the design, the second 0.3 mm above it.
+TEST_F(AuditVerb, names_the_line_that_cut_into_the_design) {
+    scratch.put("design.obj", "v 2 2 -0.8\nv 38 2 -0.8\nv 38 38 -0.8\nv 2 38 -0.8\nf 1 2 3 4\n");
+    const std::string part = "[part]\nsurface = \"design.obj\"\n[limits]\ntolerance_mm = 0.1\n";
+    const Outcome outcome = run(part, {"--resolution", "1", "--out", "audit"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("the part has a gouge of 0.2 mm"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(scratch.get("audit/audit.json"), nullptr, false);
+    EXPECT_NEAR(json["gouge_max_mm"].get<double>(), 0.2, 1e-6);
+    // Lines 4 and 5 are one slot: two feeds.
+    ASSERT_EQ(json["gouges"].size(), 2u);
+    for (auto& row : rows("audit/audit.csv")) {
+        const bool deep = row["line"] == "4" || row["line"] == "5";
+        EXPECT_NEAR(std::stod(row.at("gouge_mm")), deep ? 0.2 : 0, 1e-4) << row["line"];
+        EXPECT_EQ(row.at("scallop_mm"), "0") << row["line"];
+    }
+    EXPECT_NEAR(json["tools"][0]["gouge_mm"].get<double>(), 0.2, 1e-6);
+    EXPECT_NE(scratch.get("audit/audit.html").find("Gouges"), std::string::npos);
+}
+
 TEST_F(AuditVerb, takes_a_program_alone) {
     scratch.put("slot.nc", kSlots);
     const Outcome outcome = run_tribo({"audit", "slot.nc", "--tool", "flat 10 length 20"}, scratch.path());

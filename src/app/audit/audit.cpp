@@ -39,8 +39,11 @@ FileResult<void> measure_part(PreparedJob& loaded, const session::MillSession& s
         error.file = loaded.job.part->path;
         return std::unexpected(FileFailure(error));
     }
-    const surface::DeviationReport d = part_deviation(session, *designed, form_error, parallel);
+    const surface::DeviationReport d = part_deviation(session, *designed, form_error, parallel, true);
+    answer.errors.emplace(session, d);
+    answer.errors->describe(answer.audit);
     answer.facts.gouge_mm = d.gouge.mm;
+    answer.facts.gouge_line = answer.errors->gouge_line();
     answer.rest_mm = d.rest.mm;
     answer.scallop_mm = d.scallop.mm;
     return {};
@@ -89,7 +92,7 @@ int audit(const AuditCall& call) {
             return report(Error{call.out, 0, 0,
                                 "the job begins with the stock of this folder, which it would replace",
                                 "name another folder"});
-        auto file = AuditCsv::create(folder->file("audit.csv"), records_surface);
+        auto file = AuditCsv::create(folder->file("audit.csv"), records_surface, loaded->part.has_value());
         if (!file) return report(file.error());
         csv.emplace(*std::move(file));
     }
@@ -175,7 +178,7 @@ int audit(const AuditCall& call) {
 
     const std::string json = folder || call.json ? audit_json(call, answer, *loaded, model, session) : "";
     if (folder) {
-        if (auto done = csv->finish(form_error); !done) return report(done.error());
+        if (auto done = csv->finish(form_error, answer.errors); !done) return report(done.error());
         if (auto done = files::write_file(folder->file("audit.json"), json); !done)
             return report(done.error());
         const std::string page = audit_html(call, answer, *loaded, model, session);

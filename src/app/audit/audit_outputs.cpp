@@ -66,14 +66,16 @@ bool is_audit_file(const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-FileResult<AuditCsv> AuditCsv::create(const std::string& path, bool has_form_error) {
+FileResult<AuditCsv> AuditCsv::create(const std::string& path, bool has_form_error, bool has_design) {
     auto file = files::FileWriter::create(path);
     if (!file) return std::unexpected(file.error());
     std::string header = "line,t_s,tool,spindle_rpm,duration_s,feed_mm,feed_s,cutting_s,removed_mm3";
     for (const session::LoadWords& words : session::kLoadWords) header += "," + std::string(words.key);
     header += ",rubbing_s,plunge_deg,jump_n,entries,collisions,worst,ratio_low,ratio,ratio_high";
-    file->write(header + (has_form_error ? ",bending_leaves_mm,bending_overcuts_mm\n" : "\n"));
-    return AuditCsv(std::move(*file), has_form_error);
+    if (has_form_error) header += ",bending_leaves_mm,bending_overcuts_mm";
+    if (has_design) header += ",gouge_mm,scallop_mm";
+    file->write(header + "\n");
+    return AuditCsv(std::move(*file), has_form_error, has_design);
 }
 
 void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& model,
@@ -95,19 +97,31 @@ void AuditCsv::add(const session::LoadTally& line, const session::LoadModel& mod
                       line.thin.below_value_s, line.plunge_deg, line.jump_n, line.entries, line.collisions,
                       static_cast<int>(key.size()), key.data(), band.low, band.value, band.high);
     row.append(text.data(), static_cast<std::size_t>(n));
-    if (has_form_error_) {
+    if (has_form_error_ || has_design_) {
         rows_.push_back({line.start_s, line.end_s, std::move(row)});
     } else {
         file_.write(row + "\n");
     }
 }
 
-FileResult<void> AuditCsv::finish(const surface::FormError& form_error) {
-    for (const Row& row : rows_) {
-        const surface::FormError::Extremes e = form_error.extremes_between(row.start_s, row.end_s);
+FileResult<void> AuditCsv::finish(const surface::FormError& form_error,
+                                  const std::optional<session::PartErrors>& errors) {
+    const auto two = [](double first_mm, double second_mm) {
         std::array<char, 64> text{};
-        std::snprintf(text.data(), text.size(), ",%.4g,%.4g\n", e.left_mm, e.overcut_mm);
-        file_.write(row.text + text.data());
+        std::snprintf(text.data(), text.size(), ",%.4g,%.4g", first_mm, second_mm);
+        return std::string(text.data());
+    };
+    for (const Row& row : rows_) {
+        std::string text = row.text;
+        if (has_form_error_) {
+            const surface::FormError::Extremes e = form_error.extremes_between(row.start_s, row.end_s);
+            text += two(e.left_mm, e.overcut_mm);
+        }
+        if (errors) {
+            const session::PartErrors::Largest e = errors->between(row.start_s, row.end_s);
+            text += two(e.gouge_mm, e.scallop_mm);
+        }
+        file_.write(text + "\n");
     }
     return file_.finish();
 }
@@ -133,6 +147,11 @@ std::string audit_json(const AuditCall& call, const AuditAnswer& answer, const P
     if (answer.uncertain) json["uncertain_cases"] = *answer.uncertain;
     files::set(json, "rest_max_mm", answer.rest_mm);
     files::set(json, "scallop_max_mm", answer.scallop_mm);
+    if (answer.errors) {
+        json["gouges"] = files::Json::array();
+        for (const session::PartErrors::Gouge& gouge : answer.errors->gouges())
+            json["gouges"].push_back({{"line", gouge.line}, {"gouge_mm", gouge.mm}});
+    }
     if (call.stable) json["speeds"] = speeds_json(answer.speeds);
     json["warnings"] = files::Json::array();
     for (const Warning& w : answer.warnings) json["warnings"].push_back(w.message());
@@ -164,6 +183,13 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
                              {}};
     report::AuditTable limits{"Limits", "Where each limit is from.", {"Tool", "Load", "Limit", "From"}, {}};
     for (const session::LoadWords& words : session::kLoadWords) tools.header.emplace_back(words.name);
+    const std::array<std::string, 2> of_part{"Gouge, mm", "Scallop, mm"};
+    const auto add_errors = [](const session::LoadTally& tally, std::vector<std::string>& row) {
+        if (!tally.gouge_mm) return;
+        row.push_back(digits(*tally.gouge_mm, 3));
+        row.push_back(digits(tally.scallop_mm.value_or(0), 3));
+    };
+    if (answer.errors) tools.header.insert(tools.header.end(), of_part.begin(), of_part.end());
     for (const session::LoadTally& tool : audit.tools) {
         const milling::Cutter& cutter = setup.cutters[tool.cutter];
         std::vector<std::string> row{tool_name(cutter), job::tool_words(cutter), digits(tool.cutting_s),
@@ -181,6 +207,7 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
             limits.rows.push_back(
                 {tool_name(cutter), std::string(session::kLoadWords[n].name), value, limit->source});
         }
+        add_errors(tool, row);
         tools.rows.push_back(std::move(row));
         const session::CutLimit& least = model.limits().of_cutter[tool.cutter].least_chip;
         limits.rows.push_back({tool_name(cutter), "least chip", digits(least.value) + " mm", least.source});
@@ -190,6 +217,7 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
         "Those whose load is nearest to, or farthest over, its limit.",
         {"Line", "Text", "Tool", "Load", "Value", "Of its limit", "Plunge, deg", "Jump, N"},
         {}};
+    if (answer.errors) worst.header.insert(worst.header.end(), of_part.begin(), of_part.end());
     const ProgramText text(loaded.job.path.file);
     for (std::size_t n = 0; n < std::min(kShownLines, audit.worst.size()); ++n) {
         const session::LoadTally& line = audit.worst[n];
@@ -198,8 +226,19 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
             {std::to_string(line.line), text.line(line.line), tool_name(setup.cutters[line.cutter]),
              std::string(session::words_of(kind).name), loads_text(line, kind), ratio_text(line, kind, model),
              digits(line.plunge_deg, 3), digits(line.jump_n, 3)});
+        add_errors(line, worst.rows.back());
     }
-    page.tables = {std::move(tools), std::move(worst), std::move(limits)};
+    page.tables = {std::move(tools), std::move(worst)};
+    if (answer.errors && !answer.errors->gouges().empty()) {
+        report::AuditTable gouges{
+            "Gouges", "The lines that cut deepest into the design.", {"Line", "Text", "Gouge, mm"}, {}};
+        for (const session::PartErrors::Gouge& gouge : answer.errors->gouges()) {
+            if (gouges.rows.size() == kShownLines) break;
+            gouges.rows.push_back({std::to_string(gouge.line), text.line(gouge.line), digits(gouge.mm, 3)});
+        }
+        page.tables.push_back(std::move(gouges));
+    }
+    page.tables.push_back(std::move(limits));
     if (call.stable) {
         report::AuditTable speeds{"Spindle speeds",
                                   "Speeds without chatter; feeds follow them, so that the chips stay.",
@@ -254,6 +293,12 @@ void print(const AuditAnswer& answer, const session::LoadModel& model, const ses
         }
         std::printf("  %-14s %d entries into material, largest jump %.3g N, steepest plunge %.3g deg\n",
                     "way in", tool.entries, tool.jump_n, tool.plunge_deg);
+    }
+    if (answer.facts.gouge_mm) {
+        const int line = answer.facts.gouge_line;
+        std::printf("%-16s gouge %.3g mm%s, scallop %.3g mm\n", "part", *answer.facts.gouge_mm,
+                    line > 0 ? (" in line " + std::to_string(line)).c_str() : "",
+                    answer.scallop_mm.value_or(0));
     }
     for (const std::string& text : in_words(answer.speeds))
         std::printf("%-16s %s\n", "speed", printable(text).c_str());

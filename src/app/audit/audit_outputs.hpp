@@ -9,6 +9,7 @@
 #include "app/audit/speed_advice.hpp"
 #include "app/render/render_job.hpp"
 #include "files/files.hpp"
+#include "session/audit/part_errors.hpp"
 #include "session/audit/verdict.hpp"
 #include "surface/form_error.hpp"
 
@@ -17,26 +18,28 @@ namespace tribo::app {
 // True for the names of all files that an audit may write.
 bool is_audit_file(const std::string& name);
 
-// audit.csv: a line for each line of the program, while it is milled. With columns of the form error, which
-// is known only in the end, the lines are kept till then.
+// audit.csv: a line for each line of the program, while it is milled. With columns of the finished part,
+// which is known only in the end, the lines are kept till then.
 class AuditCsv {
   public:
-    static FileResult<AuditCsv> create(const std::string& path, bool has_form_error);
+    static FileResult<AuditCsv> create(const std::string& path, bool has_form_error, bool has_design);
     void add(const session::LoadTally& line, const session::LoadModel& model,
              const session::MillSetup& setup);
-    FileResult<void> finish(const surface::FormError& form_error);
+    // `errors`: with a design.
+    FileResult<void> finish(const surface::FormError& form_error,
+                            const std::optional<session::PartErrors>& errors);
 
   private:
     struct Row {
         double start_s = 0, end_s = 0;
         std::string text;
     };
-    AuditCsv(files::FileWriter file, bool has_form_error)
-        : file_(std::move(file)), has_form_error_(has_form_error) {}
+    AuditCsv(files::FileWriter file, bool has_form_error, bool has_design)
+        : file_(std::move(file)), has_form_error_(has_form_error), has_design_(has_design) {}
 
     files::FileWriter file_;
-    bool has_form_error_;
-    std::vector<Row> rows_;  // with a form error
+    bool has_form_error_, has_design_;
+    std::vector<Row> rows_;  // with either
 };
 
 // The largest value in each of many equal stretches of the program.
@@ -61,8 +64,9 @@ struct AuditAnswer {
     session::Verdict verdict;
     session::AuditFacts facts;
     std::optional<double> scallop_mm, rest_mm;
-    SpeedAdvice speeds;            // with --stable
-    std::optional<int> uncertain;  // cases of which the bands are
+    std::optional<session::PartErrors> errors;  // with a design
+    SpeedAdvice speeds;                         // with --stable
+    std::optional<int> uncertain;               // cases of which the bands are
     Warnings warnings;
     LoadCurve force_n, ratio;  // ratio: to the limit that is nearest
 };

@@ -10,7 +10,8 @@ namespace tribo::app {
 
 surface::DeviationReport part_deviation(const session::MillSession& session,
                                         const surface::DesignedSurface& designed,
-                                        const surface::FormError& form_error, const ParallelFor& parallel) {
+                                        const surface::FormError& form_error, const ParallelFor& parallel,
+                                        bool all_places) {
     surface::DeviationOptions options;
     options.pass_width_mm = 0;
     for (const milling::Cutter& c : session.setup().cutters) {
@@ -22,6 +23,7 @@ surface::DeviationReport part_deviation(const session::MillSession& session,
                                   std::sqrt(designed.area_mm2() / static_cast<double>(surface::kMaxSamples)));
     const std::vector<Vec3> points = field::surface_points(session.stock(), surface::kMaxSamples, parallel);
     options.machined_mm = points;
+    options.all_places = all_places;
     const surface::SurfaceWithFormError bent(session.stock(), form_error);
     const contact::DistanceField& machined =
         form_error.empty() ? session.stock() : static_cast<const contact::DistanceField&>(bent);

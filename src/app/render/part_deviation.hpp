@@ -10,9 +10,11 @@
 
 namespace tribo::app {
 
-// With what bending left on the part (`form_error` may be empty). The session has run.
+// With what bending left on the part (`form_error` may be empty). The session has run. `all_places`: as in
+// DeviationOptions.
 surface::DeviationReport part_deviation(const session::MillSession& session,
                                         const surface::DesignedSurface& designed,
-                                        const surface::FormError& form_error, const ParallelFor& parallel);
+                                        const surface::FormError& form_error, const ParallelFor& parallel,
+                                        bool all_places = false);
 
 }  // namespace tribo::app

@@ -54,6 +54,8 @@ void write_tally(JsonWriter& json, const LoadTally& tally, const LoadModel& mode
     json.set("jump_n", tally.jump_n);
     json.set("entries", tally.entries);
     json.set("collisions", tally.collisions);
+    if (tally.gouge_mm) json.set("gouge_mm", *tally.gouge_mm);
+    if (tally.scallop_mm) json.set("scallop_mm", *tally.scallop_mm);
 }
 
 void write_verdict(JsonWriter& json, const Verdict& verdict) {

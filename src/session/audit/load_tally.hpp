@@ -36,6 +36,8 @@ struct LoadTally {
     double jump_n = 0;      // largest rise of the peak force from a row to the next one
     int entries = 0;        // out of the air into material
     int collisions = 0;
+    // Of what it left of the finished part, where there is a design (part_errors.hpp), mm.
+    std::optional<double> gouge_mm{}, scallop_mm{};
     // The ratios of the peaks in each case of ForceCases, until close_cases(); empty: there are no cases.
     std::vector<std::array<double, kLoadKinds>> cases;
     std::optional<std::array<sweep::Band, kLoadKinds>> bands;  // of the ratios in the cases

@@ -140,7 +140,7 @@ class Judge {
             text += std::string(what) + two(*error_mm) + " mm, " + in_words(ratio) + " times the tolerance";
             findings_.push_back({outcome, std::move(text), line, ratio});
         };
-        add(facts_.gouge_mm, "the part has a gouge of ", 0, false);
+        add(facts_.gouge_mm, "the part has a gouge of ", facts_.gouge_line, false);
         add(facts_.left_mm, "bending leaves ", facts_.left_line, true);
         add(facts_.overcut_mm, "bending cuts too deep by ", facts_.overcut_line, true);
     }

@@ -38,7 +38,7 @@ struct AuditFacts {
     std::optional<double> chatter_probability{};  // of the worst row; absent: the modes are exact
     // Of the finished part, where they are known, mm.
     std::optional<double> gouge_mm{}, left_mm{}, overcut_mm{};  // the last two by bending
-    int left_line = 0, overcut_line = 0;
+    int gouge_line = 0, left_line = 0, overcut_line = 0;
 };
 
 // The run of the model's setup is finished.

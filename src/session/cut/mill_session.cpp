@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -38,6 +39,8 @@ class MillSession::Run {
         }
         stopped_ = !carve(stock_, setup_.earlier, progress);
         removed_earlier_mm3_ = stock_.removed_mm3();
+        pieces_ = earlier_pieces_ = static_cast<std::uint32_t>(stock_.shapes_carved());
+        last_piece_of_move_.reserve(setup_.moves.size());
         end_s_ = std::min(schedule_->duration_s, setup_.until_s.value_or(schedule_->duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
         milling::JoinedMoves joined;
@@ -72,6 +75,8 @@ class MillSession::Run {
     double end_s_ = 0, now_s_ = 0;
     double removed_earlier_mm3_ = 0;  // by jobs before this one
     bool stopped_ = false;            // during the carving of their cuts
+    std::uint32_t earlier_pieces_ = 0;
+    std::vector<std::uint32_t> last_piece_of_move_;  // of the milled moves
 
   private:
     // Offers the next moves to the cut, up to the end of time, and books the moves that it took.
@@ -107,6 +112,11 @@ class MillSession::Run {
             while (row < machined_.row_count && machined_.rows[row].step == step) ++row;
             finish_pass(step, last, first, row);
         }
+        for (std::size_t n = 0; n < count; ++n) {
+            if (steps_[n].move->kind != motion::MoveKind::dwell) ++pieces_;
+            last_piece_of_move_.push_back(pieces_);
+        }
+        assert(pieces_ == stock_.shapes_carved());
         next_move_ += count;
     }
 
@@ -251,6 +261,7 @@ class MillSession::Run {
     std::vector<double> cutting_at_;  // seconds by cutter
     std::vector<char> joins_;         // per move: shares a row with the move before
     std::size_t next_move_ = 0;
+    std::uint32_t pieces_ = 0;  // made so far, those of earlier jobs included
     double limit_s_ = 0, angle_rad_ = 0, turns_ = 0;
 };
 
@@ -276,6 +287,12 @@ const motion::Schedule& MillSession::schedule() const {
 }
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;
+}
+std::optional<std::size_t> MillSession::move_of_piece(std::uint32_t piece) const {
+    if (piece <= run_->earlier_pieces_) return std::nullopt;
+    const auto made = std::ranges::lower_bound(run_->last_piece_of_move_, piece);
+    if (made == run_->last_piece_of_move_.end()) return std::nullopt;
+    return static_cast<std::size_t>(made - run_->last_piece_of_move_.begin());
 }
 std::unique_ptr<field::FieldReader> MillSession::read_stock() {
     return std::make_unique<field::FieldReader>(run_->stock_);

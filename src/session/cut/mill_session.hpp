@@ -97,6 +97,9 @@ class MillSession {
     // The times of setup().moves.
     const motion::Schedule& schedule() const;
     const field::CarvedField& stock() const;
+    // The move of setup().moves that made a piece of the stock (contact::SurfaceSample::piece). None: the
+    // blank, or an earlier job.
+    std::optional<std::size_t> move_of_piece(std::uint32_t piece) const;
     // A reader of the stock for another thread while this one mills. At most one exists at a time. Created
     // and destroyed on the milling thread, before the session (field/carved/field_reader.hpp).
     std::unique_ptr<field::FieldReader> read_stock();
