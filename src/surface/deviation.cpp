@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_set>
+#include <utility>
 
 #include "surface/height.hpp"
 #include "surface/nearest_height.hpp"
@@ -182,16 +182,19 @@ class Comparison {
     // Keeps the first of the samples in each cube of kCrestCube spacings.
     void thin_out(std::vector<std::size_t>& order) const {
         const double edge = kCrestCube * report_.spacing_mm;
-        std::unordered_set<std::uint64_t> taken;
-        std::erase_if(order, [&](std::size_t i) {
-            std::uint64_t cube = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto place =
-                    static_cast<std::int64_t>(std::floor(report_.samples[i].point_mm[axis] / edge));
-                cube = (cube << 21) ^ (static_cast<std::uint64_t>(place) & 0x1fffff);
-            }
-            return !taken.insert(cube).second;
-        });
+        std::vector<std::pair<std::array<double, 3>, std::size_t>> cubes;  // with the place in the order
+        cubes.reserve(order.size());
+        for (std::size_t n = 0; n < order.size(); ++n) {
+            const Vec3 at = report_.samples[order[n]].point_mm / edge;
+            cubes.push_back({{std::floor(at.x), std::floor(at.y), std::floor(at.z)}, n});
+        }
+        std::ranges::sort(cubes);
+        const auto rest = std::ranges::unique(cubes, {}, [](const auto& cube) { return cube.first; });
+        cubes.erase(rest.begin(), rest.end());
+        std::ranges::sort(cubes, {}, [](const auto& cube) { return cube.second; });
+        std::vector<std::size_t> kept;
+        for (const auto& [cube, n] : cubes) kept.push_back(order[n]);
+        order = std::move(kept);
     }
 
     // The crest between two passes on which the sample is. On both sides of it the surface falls: on a flank
