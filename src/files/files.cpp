@@ -24,15 +24,26 @@ struct Closing {
     ~Closing() { ::close(descriptor); }
 };
 
-// The regular files that were read: device and number.
+// The regular files that were read: device and number, and their stamps.
 struct FilesRead {
     std::mutex mutex;
     std::set<std::pair<dev_t, ino_t>> files;
+    FileStamps stamps;
 };
+
+FileStamp stamp_of(const struct stat& status) {
+    return {status.st_dev, status.st_ino, static_cast<std::uint64_t>(status.st_size),
+            std::int64_t{1'000'000'000} * status.st_mtim.tv_sec + status.st_mtim.tv_nsec};
+}
 
 FilesRead& files_read() {
     static FilesRead& all = *new FilesRead;
     return all;
+}
+
+void remember(const std::string& path, const FileStamp& stamp) {
+    const std::lock_guard lock(files_read().mutex);
+    files_read().stamps[path] = stamp;
 }
 
 const char* remedy_for(int error_number, bool reading) {
@@ -124,10 +135,15 @@ FileResult<std::string> read_file(const std::string& path, std::uint64_t limit_b
     // Without O_NONBLOCK the opening of a pipe waits for its writer.
     const int descriptor =
         ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (pipes == Pipes::refuse ? O_NONBLOCK : 0));
-    if (descriptor < 0) return system_failure(path, "read", errno);
+    if (descriptor < 0) {
+        const int error = errno;
+        remember(path, {});
+        return system_failure(path, "read", error);
+    }
     const Closing closing{descriptor};
     struct stat status = {};
     if (::fstat(descriptor, &status) != 0) return system_failure(path, "read", errno);
+    remember(path, stamp_of(status));
     if (S_ISFIFO(status.st_mode) && pipes == Pipes::refuse) {
         return std::unexpected(
             FileFailure({path, 0, 0, "is a pipe, which cannot be read again", "name a file"}));
@@ -176,6 +192,19 @@ bool was_read(const std::string& path) {
     if (::stat(path.c_str(), &status) != 0) return false;
     const std::lock_guard lock(files_read().mutex);
     return files_read().files.contains({status.st_dev, status.st_ino});
+}
+
+FileStamps stamps_of_files_read() {
+    const std::lock_guard lock(files_read().mutex);
+    return files_read().stamps;
+}
+
+bool have_changed(const FileStamps& stamps) {
+    return std::ranges::any_of(stamps, [](const auto& named) {
+        struct stat status = {};
+        const bool there = ::stat(named.first.c_str(), &status) == 0;
+        return (there ? stamp_of(status) : FileStamp{}) != named.second;
+    });
 }
 
 FileWriter::FileWriter(std::string path, PendingFile file)

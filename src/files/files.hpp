@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -31,6 +32,19 @@ FileResult<std::string> first_bytes(const std::string& path, std::size_t most);
 
 // True if this process has read the regular file with read_file(), under whatever name. Any thread.
 bool was_read(const std::string& path);
+
+// How a file looked when it was read, to see later whether it has changed. All 0: it was not there.
+struct FileStamp {
+    std::uint64_t device = 0, number = 0, size = 0;
+    std::int64_t changed_ns = 0;
+    bool operator==(const FileStamp&) const = default;
+};
+using FileStamps = std::map<std::string, FileStamp>;  // by the name that was given
+
+// Of all that this process has given to read_file(), each at its last time. Any thread.
+FileStamps stamps_of_files_read();
+// True if one of them looks otherwise now, or has come or gone. Any thread.
+bool have_changed(const FileStamps& stamps);
 
 class PendingFile;
 

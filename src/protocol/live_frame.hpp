@@ -113,7 +113,7 @@ struct LiveState {
     double peak_force_n = 0, mean_torque_nm = 0;
     double spindle_rpm = 0, feed_mm_per_min = 0, spindle_angle_rad = 0;
     double removed_mm3 = 0;  // since the program began
-    double milled_s = 0;     // the part is milled up to here
+    double milled_s = 0;     // the cut is known up to here; the part is that of t_s
     double speed = 1;        // seconds of the program per second
     std::uint32_t line = 0, cutter = 0;
     bool cutting = false, playing = false, rapid = false;

@@ -205,7 +205,7 @@ class Comparison {
         if (!crossing) return std::nullopt;
         Crest crest{height_of(i), {s.point_mm + height_of(i) * s.normal}};
         const double half_way = 0.5 * std::min(crossing->first_mm, crossing->second_mm);
-        for (const std::size_t side : {1, 2}) {
+        for (const std::size_t side : {1U, 2U}) {
             const Vec3 way = (side == 1 ? half_way : -half_way) * crossing->way;
             const field::MeshPoint at = designed_.closest(s.point_mm + way, s.triangle);
             const auto h = height_.at(at.point_mm, at.normal, at.triangle);

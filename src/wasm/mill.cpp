@@ -28,6 +28,7 @@ struct Mill {
     std::unique_ptr<session::LiveMill> live;
     std::unique_ptr<session::LiveController> controller;
     std::unique_ptr<session::SingleThreadedTouch> touch;
+    bool files_changed = false;  // since the open job was read
     std::string text;
     std::vector<double> audit_lines;
     std::vector<std::uint8_t> frames;  // each: u32 length, u32 0, its bytes, zeros to a multiple of 8
@@ -61,9 +62,11 @@ void keep(std::span<const std::uint8_t> frame) {
 TRIBO_EXPORT(mill_put_file)
 void mill_put_file(const char* name, std::uint32_t name_length, const char* bytes, std::uint32_t length) {
     mill().files.put(text_of(name, name_length), text_of(bytes, length));
+    mill().files_changed = true;
 }
 TRIBO_EXPORT(mill_forget_files) void mill_forget_files() {
     mill().files.clear();
+    mill().files_changed = true;
 }
 
 // Opens a job or a program of the files. `part` names a model as its designed surface, or is empty. cell_mm
@@ -84,7 +87,9 @@ std::uint32_t mill_open(const char* name, std::uint32_t name_length, const char*
         if (*ready) return *std::exchange(*ready, std::nullopt);
         return wasm::load_mill(mill().files, job, surface, cell);
     };
-    auto live = session::LiveMill::create(make_input, serial_for);
+    mill().files_changed = false;
+    auto live = session::LiveMill::create(make_input, serial_for,
+                                          [] { return std::exchange(mill().files_changed, false); });
     if (!live) return refuse(live.error());
     mill().touch.reset();
     mill().controller.reset();

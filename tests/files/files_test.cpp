@@ -75,6 +75,45 @@ TEST(ReadFile, refuses_a_file_above_the_limit_before_taking_memory_for_it) {
     EXPECT_FALSE(read_file(scratch / "f"));
 }
 
+TEST(FileStamps, tell_whether_what_was_read_has_changed) {
+    const Scratch scratch;
+    scratch.put("f", "12345");
+    ASSERT_TRUE(read_file(scratch / "f"));
+    ASSERT_FALSE(read_file(scratch / "to come"));
+    const auto read = [&] {
+        FileStamps of_test;
+        for (const auto& [name, stamp] : stamps_of_files_read())
+            if (name.starts_with(scratch / "")) of_test[name] = stamp;
+        return of_test;
+    };
+    EXPECT_FALSE(have_changed(read()));
+    const FileStamps before = read();
+    EXPECT_EQ(before.size(), 2u);
+    const auto remake = [&] { scratch.put("f", "12345"); };
+    const struct {
+        const char* what;
+        std::function<void()> change;
+    } cases[] = {
+        {"another length", [&] { scratch.put("f", "123456"); }},
+        {"gone", [&] { std::filesystem::remove(scratch / "f"); }},
+        {"one that was missing is there", [&] { scratch.put("to come", ""); }},
+        {"another file of that name",
+         [&] {
+             scratch.put("g", "12345");
+             std::filesystem::rename(scratch / "g", scratch / "f");
+         }},
+    };
+    for (const auto& c : cases) {
+        std::filesystem::remove(scratch / "to come");
+        remake();
+        ASSERT_TRUE(read_file(scratch / "f")) << c.what;
+        const FileStamps stamps = read();
+        ASSERT_FALSE(have_changed(stamps)) << c.what;
+        c.change();
+        EXPECT_TRUE(have_changed(stamps)) << c.what;
+    }
+}
+
 TEST(FileWriter, writes_pieces_small_and_large_in_order) {
     const Scratch scratch;
     std::string all;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
@@ -13,6 +14,7 @@
 #include "app/uncertain_flag.hpp"
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
+#include "files/files.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "session/uncertain/force_bands.hpp"
@@ -73,6 +75,23 @@ LiveViewOptions show_options(const LiveCall& call, const PreparedJob& loaded,
     return options;
 }
 
+// How the files of a job looked, for two threads.
+class Stamps {
+  public:
+    void set(files::FileStamps stamps) {
+        const std::lock_guard lock(mutex_);
+        stamps_ = std::move(stamps);
+    }
+    bool have_changed() const {
+        const std::lock_guard lock(mutex_);
+        return files::have_changed(stamps_);
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    files::FileStamps stamps_;
+};
+
 }  // namespace
 
 int live(const LiveCall& call) {
@@ -129,18 +148,27 @@ int live(const LiveCall& call) {
         if (!read) return std::unexpected(Error(read.error()));
         return live_input(*std::move(read));
     };
+    // Of the files of the newest input, also of one that failed.
+    Stamps stamps;
+    stamps.set(files::stamps_of_files_read());
+    const auto reload = [load_again, &stamps] {
+        auto input = load_again();
+        stamps.set(files::stamps_of_files_read());
+        return input;
+    };
     show_how.make_setup = [load_again]() -> Result<session::MillSetup> {
         auto input = load_again();
         if (!input) return std::unexpected(input.error());
         return std::move(input->setup);
     };
     std::optional<session::LiveInput> ready = live_input(*std::move(first));
-    const auto make_input = [&ready, reader = std::make_shared<InputReader>(load_again)] {
+    const auto make_input = [&ready, reader = std::make_shared<InputReader>(reload)] {
         return ready ? std::optional(Result<session::LiveInput>(*std::exchange(ready, std::nullopt)))
                      : reader->poll();
     };
     auto mill = session::LiveMill::create(
-        make_input, parallel_for_over(call.threads > 0 ? call.threads : available_threads()));
+        make_input, parallel_for_over(call.threads > 0 ? call.threads : available_threads()),
+        [&stamps] { return stamps.have_changed(); });
     if (!mill) return report(mill.error());
 
     LiveView show(**mill, std::move(show_how), *std::move(arm), std::move(audio));

@@ -48,13 +48,26 @@ CarvedField::CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, Par
       parallel_(std::move(parallel)),
       tables_(std::make_unique<FieldTables>(grid_size(blank->bounds_mm(), cell_mm))) {
     assert(cell_mm > 0);
+    begin_with(std::move(blank));
+}
+
+void CarvedField::begin_with(std::unique_ptr<const Shape> blank) {
     const Vec3 corner = blank->bounds_mm().min;
-    const double margin = kMarginCells * cell_mm;
+    const double margin = kMarginCells * cell_;
     tables_->shapes.push_back(std::move(blank));
     tables_->query.origin_mm = {corner.x - margin, corner.y - margin, corner.z - margin};
-    tables_->query.cell_mm = cell_mm;
-    tables_->query.per_cell = 1 / cell_mm;
+    tables_->query.cell_mm = cell_;
+    tables_->query.per_cell = 1 / cell_;
     tables_->query.near_mm = near_;
+}
+
+void CarvedField::restart() {
+    assert(!showing_);
+    std::unique_ptr<const Shape> blank = release_blank();
+    show_.reset();
+    tables_ = std::make_unique<FieldTables>(tables_->index.size());
+    removed_ = 0;
+    begin_with(std::move(blank));
 }
 
 Vec3 CarvedField::centre(BrickCoord b) const {

@@ -38,6 +38,9 @@ class CarvedField final : public contact::DistanceField {
     // The same for one shape; returns the removed volume.
     double carve(std::unique_ptr<const Shape> shape);
 
+    // Puts the blank back, as if nothing had been carved. There must be no reader.
+    void restart();
+
     // Exact at the surface, clamped to about one cell away from it. Bounded time, no allocation.
     double distance_mm(Vec3 p) const override { return tables_->query.distance_mm(p); }
     Vec3 normal(Vec3 p) const override { return tables_->query.sample(p).normal; }
@@ -100,6 +103,7 @@ class CarvedField final : public contact::DistanceField {
         BrickRef shown = kUntouched;  // the brick that ref is a copy of, if a reader may see it
         bool drop = false, air = false;
     };
+    void begin_with(std::unique_ptr<const Shape> blank);
     void gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const;
     void gather_brick(const Shape& shape, std::size_t number, BrickCoord b, std::vector<Cut>& cuts) const;
     void plan_updates(std::size_t shapes);

@@ -8,6 +8,7 @@
 
 #include "base/math.hpp"
 #include "milling/engagement/joined_moves.hpp"
+#include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::session {
@@ -15,6 +16,8 @@ namespace {
 
 // Moves offered to the cut at once. The cut takes as many of them as it can process together.
 constexpr std::size_t kOfferedMoves = 64;
+// Moves carved again at once.
+constexpr std::size_t kCarvedAtOnce = 64;
 // Number of force models, so that several threads have their own.
 constexpr std::size_t kShares = 8;
 
@@ -56,6 +59,7 @@ class MillSession::Run {
     bool run_to(double to_s, const MillSinks& sinks) {
         if (stopped_) return false;
         limit_s_ = std::min(to_s, end_s_);
+        if (!carve_again(sinks)) return false;
         while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
             evaluate(static_cast<bool>(sinks.row));
@@ -65,6 +69,17 @@ class MillSession::Run {
         }
         finish();
         return true;
+    }
+
+    void set_back() {
+        stock_.restart();
+        (void)carve(stock_, setup_.earlier, {});
+        carved_moves_ = 0;
+    }
+
+    double milled_s() const {
+        if (carved_moves_ == next_move_) return now_s_;
+        return carved_moves_ > 0 ? schedule_->moves[carved_moves_ - 1].end_s : 0;
     }
 
     MillSetup setup_;
@@ -79,6 +94,27 @@ class MillSession::Run {
     std::vector<std::uint32_t> last_piece_of_move_;  // of the milled moves
 
   private:
+    // Carves moves that were milled before, up to the limit.
+    bool carve_again(const MillSinks& sinks) {
+        std::array<double, kCarvedAtOnce> removed_mm3;
+        const auto is_due = [&] {
+            return carved_moves_ < next_move_ && schedule_->moves[carved_moves_].start_s < limit_s_;
+        };
+        while (is_due()) {
+            std::vector<std::unique_ptr<const field::Shape>> shapes;
+            for (; is_due() && shapes.size() < kCarvedAtOnce; ++carved_moves_) {
+                const motion::Move& move = setup_.moves[carved_moves_];
+                if (move.kind == motion::MoveKind::dwell) continue;
+                shapes.push_back(
+                    milling::make_sweep(setup_.cutters[setup_.cutter_of_move[carved_moves_]],
+                                        schedule_->moves[carved_moves_].end_s > end_s_ ? last_move_ : move));
+            }
+            stock_.carve(shapes, std::span(removed_mm3).first(shapes.size()));
+            if (sinks.progress && !sinks.progress(std::min(1.0, milled_s() / end_s_))) return false;
+        }
+        return true;
+    }
+
     // Offers the next moves to the cut, up to the end of time, and books the moves that it took.
     void cut() {
         steps_.clear();
@@ -118,6 +154,7 @@ class MillSession::Run {
         }
         assert(pieces_ == stock_.shapes_carved());
         next_move_ += count;
+        carved_moves_ = next_move_;
     }
 
     // Finishes the steps of one pass and its machined rows, in the order of time.
@@ -261,7 +298,8 @@ class MillSession::Run {
     std::vector<double> cutting_at_;  // seconds by cutter
     std::vector<char> joins_;         // per move: shares a row with the move before
     std::size_t next_move_ = 0;
-    std::uint32_t pieces_ = 0;  // made so far, those of earlier jobs included
+    std::size_t carved_moves_ = 0;  // fewer than next_move_ after set_back()
+    std::uint32_t pieces_ = 0;      // made so far, those of earlier jobs included
     double limit_s_ = 0, angle_rad_ = 0, turns_ = 0;
 };
 
@@ -277,7 +315,13 @@ bool MillSession::run_to(double t_s, const MillSinks& sinks) {
     return run_->run_to(t_s, sinks);
 }
 double MillSession::milled_s() const {
+    return run_->milled_s();
+}
+double MillSession::known_s() const {
     return run_->now_s_;
+}
+void MillSession::set_back() {
+    run_->set_back();
 }
 double MillSession::duration_s() const {
     return run_->end_s_;

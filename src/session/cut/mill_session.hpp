@@ -91,6 +91,12 @@ class MillSession {
     bool run_to(double t_s, const MillSinks& sinks);
     // The program time up to which the stock is milled.
     double milled_s() const;
+    // The program time up to which rows and collisions are known: milled_s(), or later after set_back().
+    double known_s() const;
+    // Puts the stock back to the start of the program, at the cost of the earlier cuts. run_to() then carves
+    // what was milled again, with no row and no collision, in a tenth of the time, and mills on from there.
+    // The totals of volume are those of the stock. There must be no reader of the stock.
+    void set_back();
 
     // Duration of the program, or until_s if that is earlier.
     double duration_s() const;

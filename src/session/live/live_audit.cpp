@@ -32,7 +32,7 @@ LiveAudit audit_of(const LiveMill& mill, const ParallelFor& parallel) {
 
     LiveAudit result;
     const auto keep = [&](const LoadTally& line) { append_audit_line(line, setup, result.lines); };
-    Auditor auditor(model, session, keep, std::clamp(session.milled_s(), 0.0, session.duration_s()));
+    Auditor auditor(model, session, keep, std::clamp(session.known_s(), 0.0, session.duration_s()));
     if (change.uncertain_cases > 0) auditor.use(ForceCases(setup, change.uncertain_cases, parallel, change));
     const std::span<const milling::CutRow> rows = mill.record().rows();
     std::optional<std::size_t> worst;

@@ -14,6 +14,8 @@ namespace {
 // Rows in one slice of a pass: about three milliseconds on one thread. In cases, a row is as much work as
 // there are cases.
 constexpr std::size_t kRowsPerSlice = 256;
+// Known rows whose changed forces are computed at one time, from the clock on.
+constexpr std::size_t kRowsAtOnce = 1024;
 // Rows in one frame, and frames at one time: a viewer can process them without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096, kMostFrames = 2;
 
@@ -70,7 +72,7 @@ void LiveCut::begin(const MillSetup& setup, bool bends) {
     rows_.clear();
     states_.clear();
     sound_.pieces.clear();
-    sent_ = fresh_ = heard_ = 0;
+    sent_ = fresh_ = heard_ = hear_next_ = hear_end_ = known_ = 0;
     anew_ = outdated_ = passing_ = false;
     times_anew_ = 0;
 }
@@ -112,15 +114,32 @@ void LiveCut::set_change(const CutChange& change, double clock_s) {
     use_cases();
     clock_row_ = row_at(clock_s);
     fresh_ = std::min(fresh_, clock_row_);
-    heard_ = clock_row_ + (!rows_.empty() && rows_[clock_row_].end_s <= clock_s ? 1 : 0);
-    sound_.pieces.clear();
+    known_ = rows_.size();
+    hear_from(clock_s);
     outdated_ = !rows_.empty();
+}
+
+void LiveCut::hear_from(double t_s) {
+    sound_.pieces.clear();
+    const std::size_t row = row_at(t_s);
+    hear_next_ = row + (!rows_.empty() && rows_[row].end_s <= t_s ? 1 : 0);
+    heard_ = hear_end_ = rows_.size();
+}
+
+void LiveCut::hear_to(double t_s) {
+    std::size_t last = hear_next_;
+    while (last < hear_end_ && rows_[last].t_s < t_s) ++last;
+    if (last == hear_next_) return;
+    compute(hear_next_, last, change_, hear_next_);
+    hear_next_ = last;
 }
 
 void LiveCut::compute_new() {
     if (fresh_ == rows_.size()) return;
-    compute(fresh_, rows_.size(), change_, heard_);
-    fresh_ = rows_.size();
+    // Rows far ahead of the clock wait.
+    const std::size_t last = fresh_ < known_ ? std::min(fresh_ + kRowsAtOnce, known_) : rows_.size();
+    compute(fresh_, last, change_, heard_);
+    fresh_ = last;
 }
 
 void LiveCut::compute_slice() {

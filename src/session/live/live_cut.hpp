@@ -29,6 +29,11 @@ class LiveCut {
     // functions do the work. Of several changes at one time, the last one wins.
     void set_change(const CutChange& change, double clock_s);
     const CutChange& change() const { return change_; }
+    // The clock was set, so that rows from that time on are heard again, by hear_to(). Sound that was not
+    // taken is dropped.
+    void hear_from(double t_s);
+    // Makes the sound of the known rows up to that time.
+    void hear_to(double t_s);
     // The viewer's time passes: all rows are sent anew at most every kRestS.
     void pass(double dt_s) { rest_s_ -= dt_s; }
     // Computes the changed forces of the rows that are new or at the clock.
@@ -77,7 +82,9 @@ class LiveCut {
     int times_anew_ = 0;
     // Rows from here on have no force yet, or one of an older change.
     std::size_t fresh_ = 0;
-    std::size_t heard_ = 0;  // rows before this one get no sound
+    std::size_t heard_ = 0;                     // rows before this one get no sound as they are added
+    std::size_t hear_next_ = 0, hear_end_ = 0;  // known rows that are heard again
+    std::size_t known_ = 0;                     // rows at the newest change
     // The rows before the clock: a pass computes them for one change. A later change waits for its end.
     std::size_t clock_row_ = 0;  // at the time of the newest change
     bool outdated_ = false, passing_ = false;

@@ -77,24 +77,46 @@ protocol::LiveOutline live_outline(const milling::Cutter& cutter) {
 
 }  // namespace
 
-LiveMill::LiveMill(MakeInput make_input, ParallelFor parallel)
-    : make_input_(std::move(make_input)), parallel_(std::move(parallel)), cut_(parallel_) {}
+LiveMill::LiveMill(MakeInput make_input, ParallelFor parallel, std::function<bool()> files_changed)
+    : make_input_(std::move(make_input)),
+      files_changed_(std::move(files_changed)),
+      parallel_(std::move(parallel)),
+      cut_(parallel_) {}
 
-Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeInput make_input, ParallelFor parallel) {
-    std::unique_ptr<LiveMill> live(new LiveMill(std::move(make_input), std::move(parallel)));
+Result<std::unique_ptr<LiveMill>> LiveMill::create(MakeInput make_input, ParallelFor parallel,
+                                                   std::function<bool()> files_changed) {
+    std::unique_ptr<LiveMill> live(
+        new LiveMill(std::move(make_input), std::move(parallel), std::move(files_changed)));
     auto input = live->make_input_();
     assert(input);
     if (auto begun = live->begin(*std::move(input)); !begun) return std::unexpected(begun.error());
     return live;
 }
 
-// Begins a new session once the files are read.
+// Begins a new session once the files are read, or goes back in this one.
 void LiveMill::begin_again() {
+    if (!reads_ && files_changed_ && !files_changed_()) return go_back();
+    reads_ = true;
     auto input = make_input_();
     if (!input) return;
+    reads_ = false;
     // With a session this cannot fail: it mills again what it milled before.
     [[maybe_unused]] const auto begun = begin(*std::move(input));
     clock_s_ = std::min(clock_s_, duration_s());
+}
+
+void LiveMill::go_back() {
+    if (session_observer_) session_observer_(nullptr);
+    session_->set_back();
+    if (session_observer_) session_observer_(session_.get());
+    picture_->mark(picture_->all());
+    marked_s_ = 0;
+    last_state_.clear();
+    set_back_ = false;
+}
+
+bool LiveMill::catches_up() const {
+    return session_->milled_s() < std::min(clock_s_, session_->known_s());
 }
 
 Result<void> LiveMill::begin(Result<LiveInput> input) {
@@ -162,6 +184,7 @@ void LiveMill::set_clock(double t_s) {
     clock_s_ = std::max(set_back_ ? t_s : std::min(t_s, duration_s()), 0.0);
     // Removed material does not come back: milling starts again.
     set_back_ = set_back_ || clock_s_ < session_->milled_s();
+    cut_.hear_from(clock_s_);
 }
 
 void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
@@ -171,14 +194,16 @@ void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const pr
     const double target = set_back_ ? clock_s_ : std::min(clock_s_ + pace() * dt_s, duration_s());
     const bool begins = std::exchange(begun_anew_, false);
     if (begins) show_job(frames);
-    const bool waits = playing_ && picture_->is_behind();
+    const bool waits = playing_ && picture_->is_behind() && !catches_up();
     if (waits) show_part(has_time, frames);
     if (!set_back_ && !(waits && picture_->is_behind())) mill(target, has_time);
     cut_.compute_new();
+    cut_.hear_to(session_->milled_s());
     cut_.compute_slice();
     clock_s_ = playing_ ? std::min(target, std::max(clock_s_, session_->milled_s())) : clock_s_;
     if (!set_back_ && clock_s_ >= duration_s()) playing_ = false;
-    show_part(has_time, frames);
+    // The picture stays as it was until the part has reached the clock.
+    if (!catches_up()) show_part(has_time, frames);
     if (begins) {
         protocol::write_frame(path_, frame_);
         frames(frame_);
@@ -194,7 +219,7 @@ void LiveMill::tick(double dt_s, const std::function<bool()>& has_time, const pr
     }
     show_collisions(frames);
     show_sound(frames);
-    show_state(frames);
+    if (!catches_up()) show_state(frames);
 }
 
 void LiveMill::mill(double target_s, const std::function<bool()>& has_time) {
@@ -332,7 +357,7 @@ protocol::LiveState LiveMill::state() const {
     s.rapid = setup.moves[n].kind == motion::MoveKind::rapid;
     s.spindle_rpm = change().speed_factor * setup.rpm_of_move[n];
     s.feed_mm_per_min = change().feed_factor * 60 * schedule.moves[n].speed_mm_per_s(s.t_s);
-    s.milled_s = session_->milled_s();
+    s.milled_s = session_->known_s();
     s.speed = speed_;
     s.playing = playing_;
     cut_.describe(s);

@@ -41,15 +41,19 @@ struct LiveInput {
 
 class LiveMill {
   public:
-    // Reads the files. Called again, with each tick until it gives a value, when the clock is set back; the
-    // part stands still meanwhile. If it then fails, the input before is milled again (input_error()). The
-    // first call must give a value. Moves should be short (MillOptions::longest_piece_mm): the part is shown
-    // only between moves.
+    // Reads the files. Called again, with each tick until it gives a value, when the clock is set back and
+    // the files have changed; the part stands still meanwhile. If it then fails, the input before is milled
+    // again (input_error()). The first call must give a value. Moves should be short
+    // (MillOptions::longest_piece_mm): the part is shown only between moves.
     using MakeInput = std::function<std::optional<Result<LiveInput>>()>;
     static constexpr double kPieceMm = 2;
     static constexpr double kFastest = kLimits.play_speed.range.max;  // program seconds per second
 
-    static Result<std::unique_ptr<LiveMill>> create(MakeInput make_input, ParallelFor parallel);
+    // `files_changed`: whether MakeInput would read other files than the last time; empty: always. As long as
+    // they are the same, a clock that is set back keeps the rows and all that is known of them, and only the
+    // part is carved again.
+    static Result<std::unique_ptr<LiveMill>> create(MakeInput make_input, ParallelFor parallel,
+                                                    std::function<bool()> files_changed = {});
 
     double duration_s() const { return session_->duration_s(); }
     double clock_s() const { return clock_s_; }
@@ -57,7 +61,7 @@ class LiveMill {
     protocol::LiveState state() const;
     const MillSession& session() const { return *session_; }
     const LiveExtras& extras() const { return extras_; }
-    // Number of sessions so far: a new one begins after the clock was set back.
+    // Number of sessions so far: a new one begins when the files have changed.
     int sessions() const { return sessions_; }
     // The rows so far.
     const CutRecord& record() const { return cut_.record(); }
@@ -89,9 +93,12 @@ class LiveMill {
     void tick(double dt_s, const std::function<bool()>& has_time, const protocol::FrameSink& frames);
 
   private:
-    LiveMill(MakeInput make_input, ParallelFor parallel);
+    LiveMill(MakeInput make_input, ParallelFor parallel, std::function<bool()> files_changed);
     Result<void> begin(Result<LiveInput> input);
     void begin_again();
+    void go_back();
+    // The part is carved again and has not reached the clock.
+    bool catches_up() const;
     void take(LiveExtras extras);
     void mill(double target_s, const std::function<bool()>& has_time);
     void show_job(const protocol::FrameSink& frames);
@@ -104,6 +111,7 @@ class LiveMill {
     void show_state(const protocol::FrameSink& frames);
 
     MakeInput make_input_;
+    std::function<bool()> files_changed_;
     ParallelFor parallel_;
     LiveExtras extras_;
     // Null: there is no designed surface, or it has no area.
@@ -120,6 +128,7 @@ class LiveMill {
     std::size_t collisions_sent_ = 0;
     double clock_s_ = 0, speed_ = 1;
     double marked_s_ = 0;  // the picture knows of the cut up to this time
+    bool reads_ = false;   // the files, before a new session
     bool playing_ = false, set_back_ = false, begun_anew_ = false, designed_waits_ = false;
     std::vector<std::uint8_t> frame_, last_state_, last_bending_;
 };

@@ -133,8 +133,9 @@ let forceLimit = 3;
 let duration = 0;
 let milled = 0;
 let hits: CollisionFrame[] = [];
-// The newest state of the job. Frames before the first one are of the past.
+// The newest state of the job.
 let shown: StateFrame | undefined;
+let stoppedAtHit = false;
 let audit: AuditOfMill | undefined;
 let measuring: Vec3[] | undefined;
 let spindlePercent = 100;
@@ -152,7 +153,19 @@ function advise(text: string): void {
   hint.textContent = text;
 }
 
+// The clock stops at the first collision that it passes; after a step back again.
+function stopAtCollision(state: StateFrame): void {
+  if (!shown) return;
+  const before = shown.time;
+  if (state.time < before) stoppedAtHit = false;
+  const hit = hits.find(({ time }) => time > before && time <= state.time);
+  if (!hit || stoppedAtHit || !transport.pause()) return;
+  stoppedAtHit = true;
+  say(`Line ${hit.line}: ${hit.what}. The clock stands; Play goes on.`);
+}
+
 function show(state: StateFrame): void {
+  stopAtCollision(state);
   scene.show(state);
   sound.state(state);
   programmedRpm = (100 * state.rpm) / spindlePercent;
@@ -186,6 +199,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       numbers.begin();
       hits = [];
       shown = undefined;
+      stoppedAtHit = false;
       audit = undefined;
       scene.begin(frame);
       assumed.draw(frame);
@@ -246,8 +260,6 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       collisions.add(frame, frame.what);
       hits.push(frame);
       lanes.addDamage(frame.time);
-      if (shown && hits.length === 1 && transport.pause())
-        say(`Line ${frame.line}: ${frame.what}. The clock stands; Play goes on.`);
       break;
     case "finger":
       element("felt-row").hidden = !frame.present;
