@@ -14,6 +14,7 @@ import { listenToKeep } from "./keep/keep.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
+import { listenToMeasure } from "./panels/measure.js";
 import { Parameters } from "./panels/parameters.js";
 import { Lanes } from "./lanes/lanes.js";
 import { Now } from "./panels/now.js";
@@ -31,7 +32,6 @@ import { Transport } from "./transport/transport.js";
 import type { ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
-import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 import { SetUpCard } from "./setup/card.js";
 import { MachineQuestion } from "./setup/machine_question.js";
@@ -137,7 +137,6 @@ let hits: CollisionFrame[] = [];
 let shown: StateFrame | undefined;
 let stoppedAtHit = false;
 let audit: AuditOfMill | undefined;
-let measuring: Vec3[] | undefined;
 let spindlePercent = 100;
 let programmedRpm = 0;
 // A source whose tool bends is shown by its chatter, unless the user has chosen.
@@ -386,6 +385,7 @@ if (!Sound.possible) element("sound").hidden = true;
 
 // ---- Look
 listenToLook(scene);
+listenToMeasure(scene);
 let chipsListed = "";
 function listChips(): void {
   const marks = colours.now === "chip" ? scene.heatMap.chipMarks() : [];
@@ -408,38 +408,6 @@ setInterval(() => {
     whole: milled >= duration - 1e-3,
   });
 }, 500);
-
-// ---- Measure
-const ruler = element<HTMLButtonElement>("measure");
-function measure(on: boolean): void {
-  measuring = on ? [] : undefined;
-  ruler.setAttribute("aria-pressed", String(on));
-  scene.canvas.classList.toggle("measuring", on);
-  element("measured").hidden = !on;
-  element("measured").textContent = "Click two places on the part";
-  scene.overlays.setMeasure([]);
-  scene.draw();
-}
-ruler.addEventListener("click", () => measure(!measuring));
-scene.canvas.addEventListener(
-  "pointerdown",
-  (event) => {
-    if (!measuring) return;
-    const hit = scene.pick(event.offsetX, event.offsetY);
-    if (!hit) return;
-    event.stopImmediatePropagation();
-    if (measuring.length === 2) measuring = [];
-    measuring.push(hit.point);
-    scene.overlays.setMeasure(measuring);
-    scene.draw();
-    const [a, b] = measuring;
-    if (!a || !b) return;
-    const d = vec3((k) => b[k] - a[k]);
-    element("measured").textContent =
-      `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
-  },
-  { capture: true },
-);
 
 // ---- Feel
 element("force-on").addEventListener("click", () => {
