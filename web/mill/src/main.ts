@@ -3,14 +3,16 @@
 
 import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
-import { listed, order as orderOf } from "./sources/examples.js";
+import { fileBeside, listed, order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import type { ChipMark } from "./sight/heat_map.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
-import { listenToKeep } from "./keep/keep.js";
+import { fileName, listenToKeep } from "./keep/keep.js";
+import { changesOf, packedIn, unpack, type Moment } from "./keep/moment.js";
+import { listenToVideo } from "./keep/video.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
@@ -55,6 +57,8 @@ const listener: Listener = {
   settings(s: Settings) {
     parameters.show(s);
     spindlePercent = s.spindle_percent;
+    asWritten ??= s;
+    settings = s;
     scene.setHelix(s.helix_deg);
     finger.enabled = true;
     element("feel").hidden = false;
@@ -123,6 +127,11 @@ const begin = element<HTMLButtonElement>("begin");
 const hint = element("hint");
 
 let order: Order | undefined;
+// Settings as the job says, and now.
+let asWritten: Settings | undefined;
+let settings: Settings | undefined;
+// Opened, and not shown yet.
+let arriving: Moment | undefined;
 let plots: Plots | undefined;
 let recorder: Recorder | undefined;
 let begun = false;
@@ -205,7 +214,8 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       chatter.begin();
       element("chatter-colouring").hidden = true;
       element("designed-label").hidden = true;
-      if (first) scene.fit();
+      if (first && arriving) scene.view = arriving.view;
+      else if (first) scene.fit();
       first = false;
       break;
     case "chunk":
@@ -282,6 +292,8 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
       break;
     case "state":
       show(frame);
+      if (arriving) colours.choose(arriving.colouring);
+      arriving = undefined;
       break;
     case "program":
       program.take(frame);
@@ -300,6 +312,7 @@ function change(to: () => Source): void {
   begun = false;
   first = true;
   chatterOffered = false;
+  asWritten = undefined;
   finger.enabled = false;
   element("feel").hidden = true;
   element("servo").hidden = true;
@@ -307,6 +320,10 @@ function change(to: () => Source): void {
   parameters.clear();
   card.show(undefined);
   source = to();
+  // A link is of the job that it opened.
+  setFragment("");
+  element("keep-link").hidden = !(source instanceof Workshop);
+  element("link-box").hidden = true;
   transport.beginSource();
 }
 
@@ -338,6 +355,37 @@ async function showSetUp(): Promise<void> {
   card.show(setUp && { name: jobNameOf(order), ...setUp });
 }
 
+// ---- Moments
+function momentNow(): Moment | undefined {
+  if (!(source instanceof Workshop) || !order || !asWritten || !settings) return undefined;
+  const changes = changesOf(asWritten, settings);
+  return { order, t_s: history.time, changes, view: scene.view, colouring: colours.now };
+}
+async function openMoment(packed: BlobPart, what: string): Promise<boolean> {
+  try {
+    const moment = await unpack(packed, fileBeside);
+    if (!(await mill(moment.order))) return false;
+    arriving = moment;
+    for (const { key, value } of moment.changes)
+      source?.send(key === "material" ? { op: key, value } : { op: "set", key, value });
+    source?.send({ op: "seek", t_s: moment.t_s });
+    return true;
+  } catch (error) {
+    say(`${what} cannot be opened: ${wordsOf(error)}.`);
+    return false;
+  }
+}
+async function followLink(): Promise<boolean> {
+  const { hash } = location;
+  const packed = packedIn(hash);
+  if (packed === undefined || !(await openMoment(packed, "The link"))) return false;
+  setFragment(hash);
+  return true;
+}
+function setFragment(fragment: string): void {
+  window.history.replaceState(null, "", location.pathname + location.search + fragment);
+}
+
 function replay(file: JobFile): void {
   try {
     const frames = readRecording(file.bytes);
@@ -354,6 +402,7 @@ async function open(files: { name: string; file: File }[]): Promise<void> {
   const wanted = drop.sort(await drop.read(files), order);
   if ("refused" in wanted) say(wanted.refused);
   else if ("recording" in wanted) replay(wanted.recording);
+  else if ("moment" in wanted) await openMoment(wanted.moment.bytes, wanted.moment.name);
   else await mill(wanted.order);
 }
 
@@ -451,7 +500,8 @@ toggles("show-plots", "plots", async () => {
 });
 
 // ---- Keep
-listenToKeep(scene, history, say);
+listenToKeep(scene, history, say, momentNow);
+listenToVideo(scene, sound, hear, () => fileName(history, "webm"));
 const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {
@@ -527,6 +577,10 @@ if (!hasEngine) {
     const [example] = examples;
     if (!example) return;
     box.hidden = examples.length < 2;
+    if (await followLink()) return;
+    const why = notice.textContent;
     await mill(await orderOf(example));
+    if (why) say(why);
   });
+  addEventListener("hashchange", () => void followLink());
 }

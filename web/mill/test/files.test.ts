@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes into the page without an engine and what comes out: jobs, programs, drops, set-ups, recordings, pictures.
+// What goes into the page without an engine: jobs, programs, drops, set-ups, recordings.
 import { readFileSync, truncateSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -27,35 +27,6 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
   }, PATIENCE_MS);
 
   afterAll(() => mill?.close());
-
-  it(
-    "gives the picture, the part and the rows away",
-    async () => {
-      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await until("job.toml", "job");
-      await page.fill("#time", "1000");
-      await removed(0.3);
-      const got = async (id: string) => {
-        const [download] = await Promise.all([page.waitForEvent("download"), page.click(`#${id}`)]);
-        const path = join(folder, download.suggestedFilename());
-        await download.saveAs(path);
-        return { name: download.suggestedFilename(), bytes: readFileSync(path) };
-      };
-      const shot = await got("keep-picture");
-      expect(shot.name).toMatch(/^job \d+-\d\d\.png$/);
-      expect(shot.bytes.subarray(1, 4).toString()).toBe("PNG");
-      // A picture of one colour is a few kB.
-      expect(shot.bytes.length).toBeGreaterThan(20_000);
-      const { bytes: part } = await got("keep-part");
-      const triangles = part.readUInt32LE(80);
-      expect(triangles).toBeGreaterThan(100);
-      expect(part.length).toBe(84 + 50 * triangles);
-      const rows = (await got("keep-rows")).bytes.toString().trim().split("\n");
-      expect(rows[0]).toContain("peak_force_n");
-      expect(rows.length).toBeGreaterThan(10);
-    },
-    PATIENCE_MS,
-  );
 
   it(
     "takes the bands from cases where the run-out has a spread",

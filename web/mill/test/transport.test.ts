@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Speeds of the clock, problems along the program, and files to take away, without a browser.
+// Speeds of the clock and problems along the program, without a browser.
 import { describe, expect, it } from "vitest";
 
-import type { Row } from "@tribo/protocol/frames";
-import { rowsCsv } from "../src/keep/rows_csv.js";
-import { stl } from "../src/keep/stl.js";
 import { nextProblem, type Happened } from "../src/lanes/problems.js";
 import { chosenSpeed, Hurry, TrueSpeed } from "../src/transport/speeds.js";
 
@@ -57,47 +54,5 @@ describe("the next problem", () => {
   it("is where teeth rub if nothing is worse, and nowhere in a good cut", () => {
     expect(nextProblem([{ time: 8, what: "rubbing" }], 0)?.time).toBe(8);
     expect(nextProblem([], 0)).toBeUndefined();
-  });
-});
-
-describe("a file to take away", () => {
-  it("has all triangles, with their normals", () => {
-    const piece = { positions: [0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 5], indices: [0, 1, 2, 0, 2, 1, 0, 3, 1, 0, 0, 0] };
-    const view = new DataView(stl([piece, piece]));
-    expect(view.getUint32(80, true)).toBe(8);
-    expect(view.byteLength).toBe(84 + 8 * 50);
-    const floats = (triangle: number, first: number) =>
-      [0, 1, 2].map((k) => view.getFloat32(84 + 50 * triangle + 4 * (first + k), true));
-    expect(floats(0, 0)).toEqual([0, 0, 1]);
-    expect(floats(1, 0)).toEqual([0, 0, -1]);
-    expect(floats(6, 0)).toEqual([0, 1, 0]);
-    expect(floats(3, 0)).toEqual([0, 0, 0]);
-    expect([floats(0, 3), floats(0, 6), floats(0, 9)]).toEqual([
-      [0, 0, 0],
-      [2, 0, 0],
-      [0, 3, 0],
-    ]);
-  });
-  it("has a line for each row, in degrees and mm", () => {
-    const row = {
-      time: 1.5,
-      duration: 0.25,
-      line: 7,
-      tip: [1, 2, 3],
-      rpm: 6000,
-      meanForce: 10,
-      peakForce: Math.fround(20.1),
-      torque: 0.5,
-      depth: 2,
-      entry: 0,
-      exit: Math.PI,
-      feedPerTooth: 0.1,
-      chip: 0.08,
-      multiplier: 0,
-    } as unknown as Row;
-    const [head, first, ...rest] = rowsCsv([row]).split("\n");
-    expect(head!.split(",").length).toBe(first!.split(",").length);
-    expect(first).toBe("1.5,0.25,7,1,2,3,6000,10,20.1,0.5,2,0,180,0.1,0.08,");
-    expect(rest).toEqual([""]);
   });
 });

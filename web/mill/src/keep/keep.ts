@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: MIT
-// What a viewer takes away: the picture, the part, the rows of the cut.
+// What a viewer takes away: the picture, the part, the rows of the cut, and a link to the moment.
 
 import { download, element, wordsOf } from "@tribo/ui/dom";
+import { hasEngine } from "../early.js";
 import type { History } from "../panels/history.js";
 import type { Scene } from "../sight/scene.js";
 import { clock } from "../page.js";
+import { glb } from "./glb.js";
+import { ENDING, fragmentOf, LONGEST_FRAGMENT, pack, type Moment } from "./moment.js";
 import { rowsCsv } from "./rows_csv.js";
 import { stl } from "./stl.js";
 
-export function listenToKeep(scene: Scene, history: History, say: (text: string) => void): void {
-  // The moment of the program is in the name: the part changes.
-  const name = (ending: string) => {
-    const job = (element("job").textContent || "mill").replace(/\.\w+$/, "");
-    return `${job} ${clock(history.time).replace(":", "-")}.${ending}`;
-  };
+/** The moment of the program is in the name of a file: the part changes. */
+export function fileName(history: History, ending: string): string {
+  const job = (element("job").textContent || "mill").replace(/\.\w+$/, "");
+  return `${job} ${clock(history.time).replace(":", "-")}.${ending}`;
+}
+
+/** `momentNow` gives nothing where the page has not got the files of the job. */
+export function listenToKeep(
+  scene: Scene,
+  history: History,
+  say: (text: string) => void,
+  momentNow: () => Moment | undefined,
+): void {
+  const name = (ending: string) => fileName(history, ending);
   element("keep-picture").addEventListener("click", () => {
     scene.picture().then(
       (picture) => download(picture, name("png")),
@@ -23,7 +34,32 @@ export function listenToKeep(scene: Scene, history: History, say: (text: string)
   element("keep-part").addEventListener("click", () =>
     download(new Blob([stl(scene.triangles())], { type: "model/stl" }), name("stl")),
   );
+  element("keep-glb").addEventListener("click", () => download(glb(scene.triangles(), scene.colours), name("glb")));
   element("keep-rows").addEventListener("click", () =>
     download(new Blob([rowsCsv(history.rows)], { type: "text/csv" }), name("csv")),
   );
+  element("keep-link").addEventListener("click", async () => {
+    const moment = momentNow();
+    if (!moment) return;
+    // The page of an engine is at an address of its own machine, with a token.
+    const fragment = hasEngine ? undefined : fragmentOf(await pack(moment, false));
+    const link = element<HTMLInputElement>("link");
+    element("link-box").hidden = false;
+    link.hidden = fragment === undefined;
+    if (fragment === undefined) {
+      const ending = ENDING.slice(1);
+      download(new Blob([(await pack(moment, true)) as BlobPart]), name(ending));
+      element("link-said").textContent = hasEngine
+        ? "Saved as a file: open it here or on a page without an engine."
+        : `Too long for a link (${LONGEST_FRAGMENT} characters at most). Saved as a file: open it here.`;
+      return;
+    }
+    link.value = location.origin + location.pathname + fragment;
+    link.select();
+    const copied = await navigator.clipboard?.writeText(link.value).then(
+      () => true,
+      () => false,
+    );
+    element("link-said").textContent = `${copied ? "Copied" : "To copy"}: ${link.value.length} characters.`;
+  });
 }

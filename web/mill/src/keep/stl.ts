@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part as a binary STL file.
 
-/** Triangles by three indices each; positions in mm. */
-export interface Triangles {
-  positions: ArrayLike<number>;
-  indices: ArrayLike<number>;
-}
+import type { Triangles } from "./triangles.js";
 
 const HEADER = 80;
 const TRIANGLE = 50;

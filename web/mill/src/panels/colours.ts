@@ -46,13 +46,15 @@ export class Colours {
     private readonly say: (text: string) => void,
   ) {
     for (const input of [this.choice, this.scale, this.tolerance])
-      input.addEventListener("change", () => this.choose(this.choice.value as Colouring));
+      input.addEventListener("change", () => this.choose(this.choice.value));
     scene.canvas.addEventListener("pointermove", (event) => this.point(event));
     scene.canvas.addEventListener("pointerleave", () => (this.pointed.hidden = true));
     setInterval(() => this.renew(), RENEWED_MS);
   }
 
-  choose(wanted: Colouring): void {
+  choose(name: string): void {
+    const wanted = [...this.choice.options].find(({ value }) => value === name)?.value as Colouring | undefined;
+    if (!wanted) return;
     const compares = wanted === "deviation" || wanted === "scallop";
     if (compares && !this.scene.hasDesigned) {
       this.say("The job has no designed surface to compare with: drop its model, or name it under [part].");

@@ -16,7 +16,7 @@ import {
 
 import type { ChunkFrame, JobFrame, Row } from "@tribo/protocol/frames";
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
-import type { Triangles } from "../keep/stl.js";
+import type { Triangles } from "../keep/triangles.js";
 import { CONTACT_LAYER } from "./contact.js";
 import type { Colouring, HeatMap } from "./heat_map.js";
 
@@ -138,9 +138,10 @@ export class Part {
   }
 
   triangles(): Triangles[] {
-    return [...this.chunks.values()].map(({ mesh: { geometry } }) => ({
+    return [...this.chunks.values()].map(({ mesh: { geometry }, isBlank }) => ({
       positions: geometry.getAttribute("position").array,
       indices: geometry.getIndex()!.array,
+      onBlank: isBlank,
     }));
   }
 

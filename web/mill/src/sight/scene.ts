@@ -24,7 +24,9 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
-import type { Triangles } from "../keep/stl.js";
+import { vec3 } from "@tribo/protocol/vec3";
+import type { View } from "../keep/moment.js";
+import type { Triangles } from "../keep/triangles.js";
 import { Contact } from "./contact.js";
 import { centre, distanceTo, type Free } from "./framing.js";
 import { HeatMap, type Colouring } from "./heat_map.js";
@@ -59,6 +61,8 @@ export class Scene {
   readonly heatMap = new HeatMap();
   readonly part: Part;
   job: JobFrame | undefined;
+  /** Called after each picture, in its task. */
+  drawn: (() => void) | undefined;
   private palette: Palette = PALETTES.metal;
   private readonly contact = new Contact();
   private readonly material = new PartMaterial(this.palette, this.contact.uniforms);
@@ -140,6 +144,9 @@ export class Scene {
 
   get hasDesigned(): boolean {
     return this.designed.children.length > 0;
+  }
+  get colours(): Palette {
+    return this.palette;
   }
   get fine(): boolean {
     return this.light.fine;
@@ -300,12 +307,30 @@ export class Scene {
     const distance = distanceTo(box, VIEW, this.camera, share);
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).addScaledVector(VIEW, distance);
+    this.aim();
+    this.fitted = true;
+  }
+  private aim(): void {
+    const size = this.extent();
     this.camera.near = size / 50;
     this.camera.far = size * 60;
     this.camera.updateProjectionMatrix();
     this.controls.update();
-    this.fitted = true;
     this.draw();
+  }
+
+  /** In full 0.001 mm: the controls change the last digits. */
+  get view(): View {
+    const rounded = (place: Vector3) => vec3((k) => Number(place.getComponent(k).toFixed(3)));
+    return { position: rounded(this.camera.position), target: rounded(this.controls.target) };
+  }
+  set view({ position, target }: View) {
+    this.resize();
+    this.camera.position.set(...position);
+    this.controls.target.set(...target);
+    this.fitted = false;
+    this.aim();
+    this.centre();
   }
 
   // Turns the view about the part, rad, and moves it closer by a factor.
@@ -361,6 +386,7 @@ export class Scene {
     this.contact.render(this.renderer, this.three, this.camera);
     this.renderer.render(this.three, this.camera);
     for (const child of around) child.visible = true;
+    this.drawn?.();
     if (this.look === "auto" && this.fine) this.pace.drawn(performance.now());
     if (this.seen) return;
     this.seen = true;
@@ -375,14 +401,20 @@ export class Scene {
     const copy = document.createElement("canvas");
     copy.width = this.canvas.width;
     copy.height = this.canvas.height;
-    const c = copy.getContext("2d")!;
-    c.fillStyle = getComputedStyle(document.body).backgroundColor;
-    c.fillRect(0, 0, copy.width, copy.height);
-    // In the same task: afterwards the browser may have emptied it.
-    c.drawImage(this.canvas, 0, 0);
+    this.paint(copy.getContext("2d")!);
     return new Promise((resolve, reject) =>
       copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture is too large"))), "image/png"),
     );
+  }
+  /** Copies what was drawn in this task, as afterwards the browser may have emptied the canvas. */
+  paint(c: CanvasRenderingContext2D): void {
+    const { width, height } = c.canvas;
+    c.fillStyle = getComputedStyle(document.body).backgroundColor;
+    c.fillRect(0, 0, width, height);
+    // The window may have another shape by now.
+    const scale = Math.min(width / this.canvas.width, height / this.canvas.height);
+    const [wide, high] = [scale * this.canvas.width, scale * this.canvas.height];
+    c.drawImage(this.canvas, (width - wide) / 2, (height - high) / 2, wide, high);
   }
   /** The surface of the part as it is shown, mm. */
   triangles(): Triangles[] {

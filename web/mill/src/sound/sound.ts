@@ -49,6 +49,14 @@ export class Sound {
     return this.opening.then(() => this.context?.resume());
   }
 
+  /** What is heard, to be recorded. None before wake(). The caller stops them. */
+  tracks(): MediaStreamTrack[] {
+    if (!this.context || !this.gain) return [];
+    const to = new MediaStreamAudioDestinationNode(this.context);
+    this.gain.connect(to);
+    return to.stream.getAudioTracks();
+  }
+
   frame(kind: string, bytes: ArrayBuffer): void {
     if (kind === "job") {
       this.job = bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dropped or chosen files: returns what to mill, or the reason why nothing can be milled.
 
+import { ENDING } from "../keep/moment.js";
 import type { JobFile, Order } from "./workshop.js";
 
 // A page holds its input several times in memory; the program accepts longer files.
@@ -9,7 +10,7 @@ export const LARGEST_FILE = 64 << 20;
 const MODELS = /\.(wrl|vrml|stl|obj|ply)(\.gz)?$/i;
 const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|csv|txt)$/i;
 
-export type Wanted = { order: Order } | { recording: JobFile } | { refused: string };
+export type Wanted = { order: Order } | { recording: JobFile } | { moment: JobFile } | { refused: string };
 
 function megabytes(bytes: number): string {
   return `${(bytes / 1e6).toFixed(0)} MB`;
@@ -36,6 +37,8 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   if (!first) return { refused: "there was no file in it" };
   const recording = files.find((f) => f.name.endsWith(".tribo"));
   if (recording) return { recording };
+  const moment = files.find((f) => f.name.endsWith(ENDING));
+  if (moment) return { moment };
   const tables = files.filter((f) => f.name.endsWith(".toml"));
   const jobs = tables.length > 1 ? lastJobs(tables) : tables;
   const programs = files.filter((f) => PROGRAMS.test(f.name));

@@ -14,13 +14,13 @@ export async function listed(): Promise<Example[]> {
   return answer.ok ? ((await answer.json()) as Example[]) : [];
 }
 
+export async function fileBeside(name: string): Promise<JobFile> {
+  const answer = await fetch(new URL(`examples/${encodeURIComponent(name)}`, document.baseURI));
+  if (!answer.ok) throw new Error(`the example ${name} is not here (${answer.status})`);
+  return { name, bytes: await answer.arrayBuffer(), beside: true };
+}
+
 export async function order(example: Example): Promise<Order> {
-  const files = await Promise.all(
-    example.files.map(async (name): Promise<JobFile> => {
-      const answer = await fetch(new URL(`examples/${name}`, document.baseURI));
-      if (!answer.ok) throw new Error(`examples/${name} is not there (${answer.status})`);
-      return { name, bytes: await answer.arrayBuffer() };
-    }),
-  );
+  const files = await Promise.all(example.files.map(fileBeside));
   return { files, job: example.job, part: "", cell: 0 };
 }

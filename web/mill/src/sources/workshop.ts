@@ -9,6 +9,8 @@ import type { Listener, Source } from "./source.js";
 export interface JobFile {
   name: string;
   bytes: ArrayBuffer;
+  /** It is one of the examples beside the page. */
+  beside?: boolean;
 }
 
 // The job or program among the files, and optionally a model as its designed surface.

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// A video of what plays, with its sound, as the browser encodes it.
+
+import { download, element } from "@tribo/ui/dom";
+import { clock } from "../page.js";
+import type { Scene } from "../sight/scene.js";
+import type { Sound } from "../sound/sound.js";
+
+// A processor keeps up with VP8; VP9 is what other browsers offer.
+const TYPES = ["video/webm;codecs=vp8,opus", "video/webm"];
+// Of the longer side, pixels.
+const LARGEST_SIDE = 1280;
+const PICTURES_PER_S = 30;
+const BITS_PER_S = 6e6;
+// Length and size are shown so often, and a picture is drawn at least so often, ms.
+const TOLD_EVERY_MS = 500;
+// The browser keeps the video in memory: a longer one is saved by itself, bytes.
+const LARGEST_VIDEO = 500e6;
+
+/** Hides its button where the browser cannot make videos. `wake` makes the sound ready, in a gesture. */
+export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<void>, name: () => string): void {
+  const button = element<HTMLButtonElement>("keep-video");
+  const mimeType =
+    typeof MediaRecorder === "undefined" ? undefined : TYPES.find((type) => MediaRecorder.isTypeSupported(type));
+  if (!mimeType) return;
+  button.hidden = false;
+  const words = button.textContent;
+  let recorder: MediaRecorder | undefined;
+
+  function begin(): void {
+    const { width, height } = scene.canvas;
+    const scale = Math.min(1, LARGEST_SIDE / Math.max(width, height));
+    const copy = document.createElement("canvas");
+    // Encoders take even sizes.
+    copy.width = 2 * Math.round((scale * width) / 2);
+    copy.height = 2 * Math.round((scale * height) / 2);
+    const c = copy.getContext("2d")!;
+    scene.drawn = () => scene.paint(c);
+    const tracks = [...copy.captureStream(PICTURES_PER_S).getTracks(), ...sound.tracks()];
+    const video = new MediaRecorder(new MediaStream(tracks), { mimeType, videoBitsPerSecond: BITS_PER_S });
+    const parts: Blob[] = [];
+    const began = performance.now();
+    let bytes = 0;
+    video.addEventListener("dataavailable", ({ data }) => {
+      parts.push(data);
+      bytes += data.size;
+      if (video.state !== "recording") return;
+      button.textContent = `Stop and keep (${clock((performance.now() - began) / 1000)}, ${(bytes / 1e6).toFixed(1)} MB)`;
+      scene.draw();
+      if (bytes > LARGEST_VIDEO) video.stop();
+    });
+    video.addEventListener("stop", () => {
+      recorder = scene.drawn = undefined;
+      for (const track of tracks) track.stop();
+      button.textContent = words;
+      button.setAttribute("aria-pressed", "false");
+      download(new Blob(parts, { type: "video/webm" }), name());
+    });
+    scene.render();
+    video.start(TOLD_EVERY_MS);
+    recorder = video;
+    button.textContent = "Stop and keep";
+    button.setAttribute("aria-pressed", "true");
+  }
+
+  button.addEventListener("click", () => {
+    if (recorder) recorder.stop();
+    else void wake().then(begin);
+  });
+}
