@@ -9,11 +9,11 @@ import { ROOT } from "../../tools/places.js";
 import { AUDIT_COLUMNS, auditOf, type AuditColumn } from "../src/audit.js";
 import type { MillExports, MillSoundExports } from "../src/exports.js";
 import { bytesAt, floatsAt, lend, lendText, textAt } from "../src/memory.js";
+import { AS_MANY_AS_NEEDED, openMill, putFile, tickMill } from "../src/mill.js";
 import { obey, type MillCommand } from "../src/mill_command.js";
 import { load } from "./load.js";
 const SLOT = "G21 G90 S6000 F600\nG0 X-10 Y0 Z5\nG1 Z-2\nG1 X60\n";
 const RATE = 48000;
-const AS_MANY_AS_NEEDED = 0xffffffff;
 
 class Mill {
   static async open(): Promise<Mill> {
@@ -24,15 +24,11 @@ class Mill {
     return textAt(this.x, this.x.mill_text());
   }
   file(name: string, content: string | Uint8Array): void {
-    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
-    lendText(this.x, name, (...called) => lend(this.x, bytes, (...at) => this.x.mill_put_file(...called, ...at)));
+    putFile(this.x, name, content);
   }
   /** Whether it takes the job or the program; said() tells why not. */
   take(name: string, cell = 0): boolean {
-    return (
-      lendText(this.x, name, (...job) => lendText(this.x, "", (...part) => this.x.mill_open(...job, ...part, cell))) ===
-      1
-    );
+    return openMill(this.x, name, "", cell);
   }
   /** Whether it obeys; said() tells why not. */
   command(command: MillCommand): boolean {
@@ -50,16 +46,7 @@ class Mill {
   }
   /** Frames of a tick, as bytes. */
   tick(seconds: number, looks: number): Uint8Array[] {
-    const length = this.x.mill_tick(seconds, looks);
-    const at = this.x.mill_frames();
-    const view = new DataView(this.x.memory.buffer);
-    const frames: Uint8Array[] = [];
-    for (let n = 0; n < length;) {
-      const bytes = view.getUint32(at + n, true);
-      frames.push(bytesAt(this.x, at + n + 8, bytes).slice());
-      n += 8 + 8 * Math.ceil(bytes / 8);
-    }
-    return frames;
+    return tickMill(this.x, seconds, looks).map((frame) => new Uint8Array(frame));
   }
 }
 

@@ -3,7 +3,8 @@
 
 import { auditOf } from "@tribo/wasm/audit";
 import type { MillExports } from "@tribo/wasm/exports";
-import { lend, lendText, textAt } from "@tribo/wasm/memory";
+import { lendText, textAt } from "@tribo/wasm/memory";
+import { openMill, putFile, tickMill } from "@tribo/wasm/mill";
 import { obey } from "@tribo/wasm/mill_command";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Command, Settings } from "@tribo/protocol/messages";
@@ -53,12 +54,9 @@ class Mill {
     const { x } = this;
     x.mill_forget_files();
     for (const file of order.files) {
-      const bytes = await unpacked(file);
-      lendText(x, file.name, (...name) => lend(x, bytes, (...content) => x.mill_put_file(...name, ...content)));
+      putFile(x, file.name, await unpacked(file));
     }
-    const opened = lendText(x, order.job, (...job) =>
-      lendText(x, order.part, (...part) => x.mill_open(...job, ...part, order.cell)),
-    );
+    const opened = openMill(x, order.job, order.part, order.cell);
     const said = textAt(x, x.mill_text());
     this.order = order;
     if (!opened) {
@@ -106,12 +104,12 @@ class Mill {
     if (this.took > MILLING_MS && now - this.before < BUSY_TICK_MS) return;
     const seconds = Math.min((now - this.before) / 1000, LONGEST_STEP_S);
     this.before = now;
-    const length = this.x.mill_tick(seconds, this.looks);
+    const frames = tickMill(this.x, seconds, this.looks);
     const took = (this.took = performance.now() - now);
     if (took > MILLING_MS) this.looks = Math.max(1, Math.floor(this.looks * Math.max(0.5, MILLING_MS / took)));
     else this.looks = Math.min(MOST_LOOKS, Math.ceil(1.25 * this.looks));
-    if (length > 0) this.hand(length);
-    this.changed ||= length > 0;
+    if (frames.length > 0) post({ kind: "frames", frames }, frames);
+    this.changed ||= frames.length > 0;
     if (this.changed && performance.now() >= this.auditAt) this.audit();
   }
 
@@ -122,18 +120,6 @@ class Mill {
     this.changed = false;
     const now = performance.now();
     this.auditAt = now + Math.max(AUDIT_MS, AUDIT_REST * (now - began));
-  }
-
-  private hand(length: number): void {
-    const at = this.x.mill_frames();
-    const view = new DataView(this.x.memory.buffer, at, length);
-    const frames: ArrayBuffer[] = [];
-    for (let n = 0; n < length;) {
-      const bytes = view.getUint32(n, true);
-      frames.push(this.x.memory.buffer.slice(at + n + 8, at + n + 8 + bytes));
-      n += 8 + 8 * Math.ceil(bytes / 8);
-    }
-    post({ kind: "frames", frames }, frames);
   }
 }
 
