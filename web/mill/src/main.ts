@@ -44,7 +44,10 @@ const listener: Listener = {
   info(message: ServerInfo) {
     const name = (message.job ?? "").replace(/^.*\//, "");
     document.title = name ? `${name} - Tribo` : "Tribo: mill";
-    if (message.job === undefined) advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
+    if (message.job === undefined) {
+      advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
+      element("learn-begin").hidden = false;
+    }
     element("job").textContent = name;
     assumed.tell(message.warnings);
     showFileFault(null);
@@ -186,6 +189,7 @@ function show(state: StateFrame): void {
   if (state.playing) begun = true;
   begin.hidden = begun || duration === 0;
   element("examples").hidden ||= begun;
+  element("learn-begin").hidden ||= begun;
   shown = state;
   numbers.show(state, history.rowAt(state.time));
   milled = state.milled;
@@ -516,6 +520,20 @@ record.addEventListener("click", () => {
   record.setAttribute("aria-pressed", String(recorder !== undefined));
 });
 
+// ---- Learn by ear
+let learn: import("./learn/learn.js").Learn | undefined;
+async function openQuiz(): Promise<void> {
+  transport.pause();
+  try {
+    const { Learn } = await import("./learn/learn.js");
+    learn ??= new Learn((cut) => void mill(cut));
+    learn.open();
+  } catch (error) {
+    say(`The quiz does not open: ${wordsOf(error)}`);
+  }
+}
+for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
+
 // ---- Files
 const chooser = element<HTMLInputElement>("files");
 element("open").addEventListener("click", () => chooser.click());
@@ -565,6 +583,7 @@ engine?.listen(listener);
 
 // ---- Without an engine the page mills
 if (!hasEngine) {
+  element("learn-begin").hidden = false;
   void listed().then(async (examples) => {
     const box = element("examples");
     for (const example of examples) {

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The cuts of the quiz: one job, and the same job with one thing wrong.
+
+import { withKey } from "../setup/job_text.js";
+import type { Order } from "../sources/workshop.js";
+import type { Span } from "./clip.js";
+
+export const JOB_NAME = "cut.toml";
+const PROGRAM_NAME = "cut.nc";
+export const SPINDLE_RPM = 6000;
+export const FLUTES = 3;
+const FEED_MM_PER_MIN = 900;
+const STICKOUT_MM = 40;
+const DEPTH_MM = 4;
+// al7075-t6, written out: the forces of the edge, apart from those of the chip, are what a dull edge changes.
+const EDGE = { kte_n_per_mm: 27.7, kre_n_per_mm: 26.6, kae_n_per_mm: 0.7 };
+
+// The side of a block, 1 mm wide: climb milling, to the right. Machine and spindle are turned down and the chips up, so that the
+// cut is heard well; the listener is far in front, so that the place of the tool tells nothing.
+const JOB = `# The cut of "Learn by ear"
+[stock]
+box_mm = [[0, -20, -20], [220, 0, 0]]
+
+[[cutter]]
+number = 1
+kind = "flat"
+diameter_mm = 10
+flutes = ${FLUTES}
+helix_deg = 30
+length_mm = 22
+stickout_mm = ${STICKOUT_MM}
+
+[material]
+ktc_n_per_mm2 = 767
+krc_n_per_mm2 = 169
+kac_n_per_mm2 = 222
+${Object.entries(EDGE)
+  .map(([key, value]) => `${key} = ${value}\n`)
+  .join("")}
+[process]
+spindle_rpm = ${SPINDLE_RPM}
+feed_mm_per_min = ${FEED_MM_PER_MIN}
+
+[dynamics]
+estimate = true
+
+[sound]
+mode = "pan"
+listener_mm = [110, -800, 300]
+gain_db = 12
+cut_db = -12
+spindle_db = -12
+chips_db = 6
+
+[path]
+gcode = "${PROGRAM_NAME}"
+`;
+
+const program = (from: number, to: number, depth: number) =>
+  `G21 G90 M3\nG0 X${from} Y4 Z5\nG0 Z-${depth}\nG1 X${to}\nG0 Z5\n`;
+const [LEFT, RIGHT] = [-10, 230];
+// The whole cutter is in the cut, and stays there at three times the feed; s of the program at the right feed.
+const BEGINS_MM = 20;
+
+interface Parts {
+  job: string;
+  program: string;
+  feed: number; // mm/min
+}
+
+export interface Cut {
+  id: string;
+  /** What is wrong. */
+  name: string;
+  /** Why it sounds as it does. */
+  why: string;
+  parts: Parts;
+}
+
+const RIGHT_PARTS: Parts = { job: JOB, program: program(LEFT, RIGHT, DEPTH_MM), feed: FEED_MM_PER_MIN };
+const withFeed = (feed: number): Parts => ({
+  ...RIGHT_PARTS,
+  job: withKey(JOB, "process", "feed_mm_per_min", String(feed)),
+  feed,
+});
+const withCutter = (key: string, value: number): Parts => ({
+  ...RIGHT_PARTS,
+  job: withKey(JOB, "cutter", key, String(value)),
+});
+const withProgram = (text: string): Parts => ({ ...RIGHT_PARTS, program: text });
+
+export const RIGHT_CUT: Cut = {
+  id: "right",
+  name: "The right cut",
+  why: "Nothing is wrong with it.",
+  parts: RIGHT_PARTS,
+};
+
+/** In the order in which the answers are offered. */
+export const WRONG_CUTS: readonly Cut[] = [
+  {
+    id: "feed",
+    name: "Feed three times too high",
+    why: "Each tooth takes a chip that is three times as thick. The teeth are louder, and so is the hiss of the chips. The pitch stays, as it follows the spindle.",
+    parts: withFeed(3 * FEED_MM_PER_MIN),
+  },
+  {
+    id: "stickout",
+    name: "Tool sticks out half as far again",
+    why: "The longer tool bends more than three times as easily and swings by itself: a tone that is no multiple of the teeth's, and lower than that of a short tool.",
+    parts: withCutter("stickout_mm", 1.5 * STICKOUT_MM),
+  },
+  {
+    id: "rubbing",
+    name: "Edges rub: feed ten times too low",
+    why: "The chip is thinner than the edge is sharp. The edge slides more than it cuts: hum and hiss are weak. It sounds gentle and wears the edge out.",
+    parts: withFeed(FEED_MM_PER_MIN / 10),
+  },
+  {
+    id: "runout",
+    name: "Tool runs out of true",
+    why: "The tool is 0.06 mm beside the axis of the spindle, so one tooth takes most of the chip. Below the tone of the teeth stands one for each turn.",
+    parts: withCutter("runout_mm", 0.06),
+  },
+  {
+    id: "conventional",
+    name: "Conventional in place of climb milling",
+    why: "A tooth now begins with no chip, slides, and leaves at the thickest. The forces are as large, but the tone of the teeth is softer, and each sudden exit makes the tool ring.",
+    parts: withProgram(program(RIGHT, LEFT, DEPTH_MM)),
+  },
+  {
+    id: "chatter",
+    name: "Chatter: three times too deep",
+    why: "Each tooth cuts the wave that the tooth before has left, and the wave grows: a howl near the tool's own tone, louder than the teeth beside it.",
+    parts: withProgram(program(LEFT, RIGHT, 3 * DEPTH_MM)),
+  },
+  {
+    id: "dull",
+    name: "Dull edges",
+    why: "The edge pushes three times as hard and cuts no more. The teeth are much louder, and the hiss of the chips is not.",
+    parts: {
+      ...RIGHT_PARTS,
+      job: Object.entries(EDGE).reduce((text, [key, value]) => withKey(text, "material", key, String(3 * value)), JOB),
+    },
+  },
+];
+
+export function filesOf({ parts }: Cut): Record<string, string> {
+  return { [JOB_NAME]: parts.job, [PROGRAM_NAME]: parts.program };
+}
+
+/** For the mill of the page. */
+export function orderOf(cut: Cut): Order {
+  const files = Object.entries(filesOf(cut)).map(([name, text]) => ({
+    name,
+    bytes: new TextEncoder().encode(text).buffer,
+  }));
+  return { files, job: JOB_NAME, part: "", cell: 0 };
+}
+
+/** The part of the program that is heard. It lies within the block at every feed. */
+export function spanOf({ parts: { feed } }: Cut): Span {
+  return { from_s: (60 * (BEGINS_MM - LEFT)) / feed, skip_s: 0.6, seconds: 3 };
+}
