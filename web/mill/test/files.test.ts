@@ -62,6 +62,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
   it(
     "records, and plays the recording again",
     async () => {
+      await until("rapid through stock", "collisions");
       await page.click("#record");
       await page.click("#play");
       await until("Pause", "play");
