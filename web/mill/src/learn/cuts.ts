@@ -15,11 +15,11 @@ const DEPTH_MM = 4;
 // al7075-t6, written out: the forces of the edge, apart from those of the chip, are what a dull edge changes.
 const EDGE = { kte_n_per_mm: 27.7, kre_n_per_mm: 26.6, kae_n_per_mm: 0.7 };
 
-// The side of a block, 1 mm wide: climb milling, to the right. Machine and spindle are turned down and the chips up, so that the
-// cut is heard well; the listener is far in front, so that the place of the tool tells nothing.
+// The front of a block, 1 mm wide: climb milling, to the left. Machine and spindle are turned down and the chips up, so that the
+// cut is heard well; the listener is in front of its middle.
 const JOB = `# The cut of "Learn by ear"
 [stock]
-box_mm = [[0, -20, -20], [220, 0, 0]]
+box_mm = [[0, 0, -20], [220, 20, 0]]
 
 [[cutter]]
 number = 1
@@ -57,10 +57,8 @@ gcode = "${PROGRAM_NAME}"
 `;
 
 const program = (from: number, to: number, depth: number) =>
-  `G21 G90 M3\nG0 X${from} Y4 Z5\nG0 Z-${depth}\nG1 X${to}\nG0 Z5\n`;
-const [LEFT, RIGHT] = [-10, 230];
-// The whole cutter is in the cut, and stays there at three times the feed; s of the program at the right feed.
-const BEGINS_MM = 20;
+  `G21 G90 M3\nG0 X${from} Y-4 Z5\nG0 Z-${depth}\nG1 X${to}\nG0 Z5\n`;
+const [LEFT, RIGHT] = [-10, 230] as const;
 
 interface Parts {
   job: string;
@@ -77,7 +75,7 @@ export interface Cut {
   parts: Parts;
 }
 
-const RIGHT_PARTS: Parts = { job: JOB, program: program(LEFT, RIGHT, DEPTH_MM), feed: FEED_MM_PER_MIN };
+const RIGHT_PARTS: Parts = { job: JOB, program: program(RIGHT, LEFT, DEPTH_MM), feed: FEED_MM_PER_MIN };
 const withFeed = (feed: number): Parts => ({
   ...RIGHT_PARTS,
   job: withKey(JOB, "process", "feed_mm_per_min", String(feed)),
@@ -112,27 +110,27 @@ export const WRONG_CUTS: readonly Cut[] = [
   },
   {
     id: "rubbing",
-    name: "Edges rub: feed ten times too low",
+    name: "Edges rub, feed ten times too low",
     why: "The chip is thinner than the edge is sharp. The edge slides more than it cuts: hum and hiss are weak. It sounds gentle and wears the edge out.",
     parts: withFeed(FEED_MM_PER_MIN / 10),
   },
   {
     id: "runout",
     name: "Tool runs out of true",
-    why: "The tool is 0.06 mm beside the axis of the spindle, so one tooth takes most of the chip. Below the tone of the teeth stands one for each turn.",
+    why: "The tool is 0.06 mm beside the axis of the spindle, so one tooth takes most of the chip. Lower than the tone of the teeth is a new one, that of the turn.",
     parts: withCutter("runout_mm", 0.06),
   },
   {
     id: "conventional",
     name: "Conventional in place of climb milling",
-    why: "A tooth now begins with no chip, slides, and leaves at the thickest. The forces are as large, but the tone of the teeth is softer, and each sudden exit makes the tool ring.",
-    parts: withProgram(program(RIGHT, LEFT, DEPTH_MM)),
+    why: "A tooth now begins with no chip, slides, and leaves at the thickest. The forces are as large, but the tones of the teeth are softer, and the tool, thrown out of the cut, swings in high tones.",
+    parts: withProgram(program(LEFT, RIGHT, DEPTH_MM)),
   },
   {
     id: "chatter",
-    name: "Chatter: three times too deep",
-    why: "Each tooth cuts the wave that the tooth before has left, and the wave grows: a howl near the tool's own tone, louder than the teeth beside it.",
-    parts: withProgram(program(LEFT, RIGHT, 3 * DEPTH_MM)),
+    name: "Chatter, three times too deep",
+    why: "Each tooth cuts the wave that the tooth before has left, and the wave grows: a howl of high tones, near the tool's own, over those of the teeth.",
+    parts: withProgram(program(RIGHT, LEFT, 3 * DEPTH_MM)),
   },
   {
     id: "dull",
@@ -158,7 +156,11 @@ export function orderOf(cut: Cut): Order {
   return { files, job: JOB_NAME, part: "", cell: 0 };
 }
 
-/** The part of the program that is heard. It lies within the block at every feed. */
+const SKIP_S = 0.6;
+const HEARD_S = 3;
+
+/** What is heard: the middle of the block, in front of the listener, at every feed and in both directions. */
 export function spanOf({ parts: { feed } }: Cut): Span {
-  return { from_s: (60 * (BEGINS_MM - LEFT)) / feed, skip_s: 0.6, seconds: 3 };
+  const middle_s = (60 * (RIGHT - LEFT)) / 2 / feed;
+  return { from_s: middle_s - HEARD_S / 2 - SKIP_S, skip_s: SKIP_S, seconds: HEARD_S };
 }

@@ -29,12 +29,12 @@ const WINDOW = `
   <section id="quiz-told" aria-labelledby="quiz-verdict" hidden>
     <h3 id="quiz-verdict" tabindex="-1"></h3>
     <p id="quiz-why"></p>
-    <canvas id="quiz-spectra" role="img" aria-label="Levels over frequency: the right cut as a surface, this cut as a line"></canvas>
-    <div id="quiz-heard" class="quiz-table"></div>
     <div class="buttons">
       <button id="quiz-next" type="button"></button>
       <button id="quiz-mill" type="button" title="Opens this cut on the bench, to see and to feel it">Mill it here</button>
     </div>
+    <canvas id="quiz-spectra" role="img" aria-label="Levels over frequency: the right cut as a surface, this cut as a line"></canvas>
+    <div id="quiz-heard" class="quiz-table"></div>
   </section>
 </div>
 <section id="quiz-ends" aria-labelledby="quiz-score" hidden>

@@ -110,7 +110,7 @@ export function hear(samples: Float32Array, rate: number, spindleHz: number, flu
 const FAINT_DB = -42;
 
 /** The columns of a table of what is heard. */
-export const COLUMNS = ["all", "tones of the teeth", "tones of the turn", "strongest other tone", "hiss"] as const;
+export const COLUMNS = ["level", "tones of the teeth", "tones of the turn", "strongest other tone", "hiss"] as const;
 
 /** A cell for each column, dB. */
 export function cellsOf(heard: Heard): string[] {
