@@ -7,7 +7,7 @@ import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import { hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
+import { file, hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
 import { startLive } from "../../testing/live.js";
 import { PROGRAM } from "../../tools/places.js";
@@ -344,6 +344,31 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
       expect(tokens[2]).not.toBe(tokens[1]);
       await other.waitForSelector("#notice-box", { state: "hidden", timeout: PATIENCE_MS });
       expect(await removedThere()).toBe(before);
+      await other.close();
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "gives the moment of a dropped job as a file, and has the quiz",
+    async () => {
+      const other = await browser.newPage({ viewport: { width: 800, height: 600 } });
+      other.on("pageerror", (error) => problems.push(error.message));
+      await other.goto(page.url());
+      await other.waitForFunction(() => document.getElementById("clock")?.textContent?.includes("/ 0:"));
+      expect(await other.isVisible("#learn-begin")).toBe(false);
+      await other.click("#show-panel");
+      expect(await other.isVisible("#keep-link")).toBe(false);
+      await other.setInputFiles("#files", [file("mine.toml", JOB), file("p.nc", PROGRAM_TEXT)]);
+      await other.waitForSelector("#keep-link:visible", { timeout: PATIENCE_MS });
+      // The first picture of it tells the time.
+      await other.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
+      const [download] = await Promise.all([other.waitForEvent("download"), other.click("#keep-link")]);
+      expect(download.suggestedFilename()).toBe("mine 0-00.moment");
+      expect(await other.textContent("#link-said")).toContain("a page without an engine");
+      expect(await other.isVisible("#link")).toBe(false);
+      await other.click("#learn");
+      await other.waitForSelector("#quiz-this:not([disabled])", { timeout: PATIENCE_MS });
       await other.close();
     },
     PATIENCE_MS,
