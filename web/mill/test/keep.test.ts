@@ -14,6 +14,7 @@ import { glb } from "../src/keep/glb.js";
 import { changesOf, fragmentOf, LONGEST_FRAGMENT, pack, packedIn, unpack, type Moment } from "../src/keep/moment.js";
 import { rowsCsv } from "../src/keep/rows_csv.js";
 import { stl } from "../src/keep/stl.js";
+import { withLength } from "../src/keep/webm.js";
 import type { JobFile } from "../src/sources/workshop.js";
 
 const PIECE = {
@@ -90,6 +91,27 @@ describe("a file to take away", () => {
     const json = JSON.parse(new TextDecoder().decode(bytes.slice(20)));
     expect(json.nodes).toHaveLength(1);
     expect([json.meshes, json.nodes[0].mesh]).toEqual([undefined, undefined]);
+  });
+});
+
+describe("the head of a video", () => {
+  // An EBML head, a segment of unknown size with an information of a time scale, and a cluster.
+  const info = [0x2a, 0xd7, 0xb1, 0x83, 0x0f, 0x42, 0x40];
+  const segment = [0x18, 0x53, 0x80, 0x67, 0x01, 255, 255, 255, 255, 255, 255, 255];
+  const before = [0x1a, 0x45, 0xdf, 0xa3, 0x84, 0x42, 0x86, 0x81, 1, ...segment, 0x15, 0x49, 0xa9, 0x66];
+  const after = [0x1f, 0x43, 0xb6, 0x75, 0xff];
+
+  it("gets the length of the video, once", () => {
+    const told = withLength(new Uint8Array([...before, 0x80 + info.length, ...info, ...after]), 1500);
+    const duration = [0x44, 0x89, 0x88, 0x40, 0x97, 0x70, 0, 0, 0, 0, 0];
+    expect([...told]).toEqual([...before, 1, 0, 0, 0, 0, 0, 0, 18, ...info, ...duration, ...after]);
+    expect(withLength(told, 7)).toBe(told);
+  });
+  it("stays as it is where it is no such head", () => {
+    for (const bytes of [[], [0], [1, 2, 3], after, before, [...before, 0x90, ...info]]) {
+      const head = new Uint8Array(bytes);
+      expect(withLength(head, 1500)).toBe(head);
+    }
   });
 });
 
@@ -232,7 +254,16 @@ describe.runIf(hasMillPage)("taken away from the page without an engine", () => 
           video.onloadeddata = done;
           video.onerror = () => fail(new Error(video.error?.message));
         });
+        video.muted = true;
+        const shown = new Promise((done) => video.requestVideoFrameCallback(done));
+        await video.play();
+        await shown;
+        const canvas = new OffscreenCanvas(100, 70);
+        const c = canvas.getContext("2d")!;
+        c.drawImage(video, 0, 0, 100, 70);
         return {
+          colours: new Set(new Uint32Array(c.getImageData(0, 0, 100, 70).data.buffer)).size,
+          length: video.duration,
           seconds: sound.duration,
           level: samples.reduce((most, v) => Math.max(most, Math.abs(v)), 0),
           width: video.videoWidth,
@@ -240,6 +271,8 @@ describe.runIf(hasMillPage)("taken away from the page without an engine", () => 
         };
       }, bytes.toString("base64"));
       expect(seen.seconds).toBeGreaterThan(1);
+      expect(Math.abs(seen.length - seen.seconds)).toBeLessThan(1);
+      expect(seen.colours).toBeGreaterThan(100);
       expect(seen.level).toBeGreaterThan(0.01);
       expect([seen.width, seen.height]).toEqual([1000, 700]);
     },

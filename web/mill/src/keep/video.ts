@@ -5,6 +5,7 @@ import { download, element } from "@tribo/ui/dom";
 import { clock } from "../page.js";
 import type { Scene } from "../sight/scene.js";
 import type { Sound } from "../sound/sound.js";
+import { withLength } from "./webm.js";
 
 // A processor keeps up with VP8; VP9 is what other browsers offer.
 const TYPES = ["video/webm;codecs=vp8,opus", "video/webm"];
@@ -16,6 +17,8 @@ const BITS_PER_S = 6e6;
 const TOLD_EVERY_MS = 500;
 // The browser keeps the video in memory: a longer one is saved by itself, bytes.
 const LARGEST_VIDEO = 500e6;
+// The head of a video lies within, bytes.
+const HEAD = 4096;
 
 /** Hides its button where the browser cannot make videos. `wake` makes the sound ready, in a gesture. */
 export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<void>, name: () => string): void {
@@ -27,7 +30,9 @@ export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<vo
   const words = button.textContent;
   let recorder: MediaRecorder | undefined;
 
-  function begin(): void {
+  const nextPicture = () => new Promise((drawn) => requestAnimationFrame(drawn));
+
+  async function begin(): Promise<void> {
     const { width, height } = scene.canvas;
     const scale = Math.min(1, LARGEST_SIDE / Math.max(width, height));
     const copy = document.createElement("canvas");
@@ -35,11 +40,10 @@ export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<vo
     copy.width = 2 * Math.round((scale * width) / 2);
     copy.height = 2 * Math.round((scale * height) / 2);
     const c = copy.getContext("2d")!;
-    scene.drawn = () => scene.paint(c);
     const tracks = [...copy.captureStream(PICTURES_PER_S).getTracks(), ...sound.tracks()];
     const video = new MediaRecorder(new MediaStream(tracks), { mimeType, videoBitsPerSecond: BITS_PER_S });
     const parts: Blob[] = [];
-    const began = performance.now();
+    let began = 0;
     let bytes = 0;
     video.addEventListener("dataavailable", ({ data }) => {
       parts.push(data);
@@ -49,22 +53,34 @@ export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<vo
       scene.draw();
       if (bytes > LARGEST_VIDEO) video.stop();
     });
-    video.addEventListener("stop", () => {
+    video.addEventListener("stop", async () => {
+      const length = performance.now() - began;
       recorder = scene.drawn = undefined;
       for (const track of tracks) track.stop();
       button.textContent = words;
       button.setAttribute("aria-pressed", "false");
-      download(new Blob(parts, { type: "video/webm" }), name());
+      const whole = new Blob(parts);
+      const head = withLength(new Uint8Array(await whole.slice(0, HEAD).arrayBuffer()), length);
+      download(new Blob([head, whole.slice(HEAD)], { type: "video/webm" }), name());
     });
-    scene.render();
+    scene.drawn = () => scene.paint(c);
+    scene.draw();
+    // A stream begins with the canvas as it was made: empty. That picture is not recorded.
+    await nextPicture();
+    await nextPicture();
+    began = performance.now();
     video.start(TOLD_EVERY_MS);
+    scene.draw();
     recorder = video;
     button.textContent = "Stop and keep";
     button.setAttribute("aria-pressed", "true");
   }
 
-  button.addEventListener("click", () => {
-    if (recorder) recorder.stop();
-    else void wake().then(begin);
+  button.addEventListener("click", async () => {
+    if (recorder) return recorder.stop();
+    button.disabled = true;
+    await wake();
+    await begin();
+    button.disabled = false;
   });
 }
