@@ -505,7 +505,7 @@ toggles("show-plots", "plots", async () => {
 
 // ---- Keep
 listenToKeep(scene, history, say, momentNow);
-listenToVideo(scene, sound, hear, () => fileName(history, "webm"));
+listenToVideo(scene, sound, { wake: hear, name: () => fileName(history, "webm"), say });
 const record = element<HTMLButtonElement>("record");
 record.addEventListener("click", () => {
   if (!recorder) {

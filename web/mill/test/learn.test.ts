@@ -193,6 +193,8 @@ describe.runIf(hasMillPage)("the quiz", () => {
     async () => {
       const faults: string[] = [];
       let before: unknown;
+      const requests: string[] = [];
+      page.on("request", (request) => requests.push(request.url()));
       for (let n = 1; n <= 7; ++n) {
         await ready();
         expect(await mill.text("quiz-count")).toMatch(new RegExp(`^Cut ${n} of 7`));
@@ -211,6 +213,8 @@ describe.runIf(hasMillPage)("the quiz", () => {
         await page.click("#quiz-next");
       }
       expect(new Set(asked).size).toBe(7);
+      // Nor does what is fetched.
+      expect(requests).toEqual([]);
       expect(faults).toEqual([]);
     },
     2 * PATIENCE_MS,

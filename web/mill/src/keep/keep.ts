@@ -38,28 +38,31 @@ export function listenToKeep(
   element("keep-rows").addEventListener("click", () =>
     download(new Blob([rowsCsv(history.rows)], { type: "text/csv" }), name("csv")),
   );
-  element("keep-link").addEventListener("click", async () => {
+  element("keep-link").addEventListener("click", () => {
     const moment = momentNow();
-    if (!moment) return;
-    // The page of an engine is at an address of its own machine, with a token.
-    const fragment = hasEngine ? undefined : fragmentOf(await pack(moment, false));
-    const link = element<HTMLInputElement>("link");
-    element("link-box").hidden = false;
-    link.hidden = fragment === undefined;
-    if (fragment === undefined) {
-      const ending = ENDING.slice(1);
-      download(new Blob([(await pack(moment, true)) as BlobPart]), name(ending));
-      element("link-said").textContent = hasEngine
-        ? "Saved as a file: open it here or on a page without an engine."
-        : `Too long for a link (${LONGEST_FRAGMENT} characters at most). Saved as a file: open it here.`;
-      return;
-    }
-    link.value = location.origin + location.pathname + fragment;
-    link.select();
-    const copied = await navigator.clipboard?.writeText(link.value).then(
-      () => true,
-      () => false,
-    );
-    element("link-said").textContent = `${copied ? "Copied" : "To copy"}: ${link.value.length} characters.`;
+    if (moment) keepMoment(moment, name).catch((error: unknown) => say(`There is no link: ${wordsOf(error)}`));
   });
+}
+
+async function keepMoment(moment: Moment, name: (ending: string) => string): Promise<void> {
+  // The page of an engine is at an address of its own machine, with a token.
+  const fragment = hasEngine ? undefined : fragmentOf(await pack(moment, false));
+  const link = element<HTMLInputElement>("link");
+  const said = element("link-said");
+  if (fragment === undefined) {
+    download(new Blob([(await pack(moment, true)) as BlobPart]), name(ENDING.slice(1)));
+    said.textContent = hasEngine
+      ? "Saved as a file: open it here or on a page without an engine."
+      : `Too long for a link (${LONGEST_FRAGMENT} characters at most). Saved as a file: open it here.`;
+  }
+  link.hidden = fragment === undefined;
+  element("link-box").hidden = false;
+  if (fragment === undefined) return;
+  link.value = location.origin + location.pathname + fragment;
+  link.select();
+  const copied = await navigator.clipboard?.writeText(link.value).then(
+    () => true,
+    () => false,
+  );
+  said.textContent = `${copied ? "Copied" : "To copy"}: ${link.value.length} characters.`;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A video of what plays, with its sound, as the browser encodes it.
 
-import { download, element } from "@tribo/ui/dom";
+import { download, element, wordsOf } from "@tribo/ui/dom";
 import { clock } from "../page.js";
 import type { Scene } from "../sight/scene.js";
 import type { Sound } from "../sound/sound.js";
@@ -20,8 +20,16 @@ const LARGEST_VIDEO = 500e6;
 // The head of a video lies within, bytes.
 const HEAD = 4096;
 
-/** Hides its button where the browser cannot make videos. `wake` makes the sound ready, in a gesture. */
-export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<void>, name: () => string): void {
+export interface VideoActions {
+  /** Makes the sound ready, in a gesture. */
+  wake: () => Promise<void>;
+  /** Of the file. */
+  name: () => string;
+  say: (text: string) => void;
+}
+
+/** Its button is hidden where the browser cannot make videos. */
+export function listenToVideo(scene: Scene, sound: Sound, { wake, name, say }: VideoActions): void {
   const button = element<HTMLButtonElement>("keep-video");
   const mimeType =
     typeof MediaRecorder === "undefined" ? undefined : TYPES.find((type) => MediaRecorder.isTypeSupported(type));
@@ -79,8 +87,13 @@ export function listenToVideo(scene: Scene, sound: Sound, wake: () => Promise<vo
   button.addEventListener("click", async () => {
     if (recorder) return recorder.stop();
     button.disabled = true;
-    await wake();
-    await begin();
+    try {
+      await wake();
+      await begin();
+    } catch (error) {
+      scene.drawn = undefined;
+      say(`There is no video: ${wordsOf(error)}`);
+    }
     button.disabled = false;
   });
 }
