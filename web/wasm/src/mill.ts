@@ -9,7 +9,10 @@ export function putFile(x: MillExports, name: string, content: string | Uint8Arr
   lendText(x, name, (...called) => lend(x, bytes, (...at) => x.mill_put_file(...called, ...at)));
 }
 
-/** Opens a job or a program of the files. `cell` 0: the spacing of the job. mill_text() has the warnings or the reason of a refusal. */
+/**
+ * Opens a job or a program of the files. `cell` 0: the spacing of the job. mill_text() has the warnings, or the reason of
+ * a refusal.
+ */
 export function openMill(x: MillExports, job: string, part = "", cell = 0): boolean {
   return lendText(x, job, (...name) => lendText(x, part, (...model) => x.mill_open(...name, ...model, cell))) === 1;
 }

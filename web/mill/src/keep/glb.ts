@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part as a binary glTF 2.0 file, as `tribo render` writes it: positions in mm with z up, a node that converts them to
-// the metres of glTF with y up, and no normals, so that viewers shade each triangle flat and cusps stay sharp.
+// The part as a binary glTF 2.0 file, as `tribo render` writes it: positions in mm with z up, a node that converts them
+// to the metres of glTF with y up, and no normals, so that viewers shade each triangle flat and cusps stay sharp.
 
 import type { Triangles } from "./triangles.js";
 

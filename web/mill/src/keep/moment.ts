@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A moment of a cut, to be opened again elsewhere: the job with its files, its settings, the time and the view. In a link it is the
-// fragment of the address, which browsers do not send to the server; a larger one is a file.
+// A moment of a cut, to be opened again elsewhere: the job with its files, its settings, the time and the view. In a
+// link it is the fragment of the address, which browsers do not send to the server; a larger one is a file.
 //
 // Bytes, compressed by deflate: u32 length of a JSON text, little-endian; the text; the files one after the other.
 

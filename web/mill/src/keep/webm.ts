@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The length of a recorded WebM file. Browsers do not know it while they write the head of the file, and players then show no
-// time line. (Matroska and EBML: RFC 9559 and RFC 8794.)
+// The length of a recorded WebM file. Browsers do not know it while they write the head of the file, and players then
+// show no time line. (Matroska and EBML: RFC 9559 and RFC 8794.)
 
 const EBML = 0x1a45dfa3;
 const SEGMENT = 0x18538067;
@@ -13,7 +13,8 @@ interface Element {
   size: number; // of its content; Infinity: not known
 }
 
-// A number of 1 to 8 bytes; the zeros at its head say how many follow. `marked`: with the bit that ends these zeros, as in an id.
+// A number of 1 to 8 bytes; the zeros at its head say how many follow. `marked`: with the bit that ends these zeros, as
+// in an id.
 function numberAt(bytes: Uint8Array, at: number, marked: boolean): { value: number; length: number } | undefined {
   const head = bytes[at];
   if (!head) return undefined;
@@ -34,7 +35,7 @@ function elementAt(bytes: Uint8Array, at: number): Element | undefined {
   return size && { id: id.value, begin: at + id.length + size.length, size: size.value };
 }
 
-/** `head` is the beginning of a file. It comes back with the length, ms, or as it is where that cannot be told or is there. */
+/** `head` is the beginning of a file. Returns it with the length, ms, or as it is if that is there or has no place. */
 export function withLength(head: Uint8Array<ArrayBuffer>, ms: number): Uint8Array<ArrayBuffer> {
   let at = 0;
   for (let element = elementAt(head, at); element; element = elementAt(head, at)) {

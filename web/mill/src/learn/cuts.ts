@@ -15,8 +15,8 @@ const DEPTH_MM = 4;
 // al7075-t6, written out: the forces of the edge, apart from those of the chip, are what a dull edge changes.
 const EDGE = { kte_n_per_mm: 27.7, kre_n_per_mm: 26.6, kae_n_per_mm: 0.7 };
 
-// The front of a block, 1 mm wide: climb milling, to the left. Machine and spindle are turned down and the chips up, so that the
-// cut is heard well; the listener is in front of its middle.
+// The front of a block, 1 mm wide: climb milling, to the left. Machine and spindle are turned down and the chips up, so
+// that the cut is heard well; the listener is in front of its middle.
 const JOB = `# The cut of "Learn by ear"
 [stock]
 box_mm = [[0, 0, -20], [220, 20, 0]]

@@ -11,7 +11,7 @@ export interface Heard {
   hiss_db: number; // of all above HISS_HZ
 }
 
-export const HISS_HZ = 5000;
+const HISS_HZ = 5000;
 // Tones are sought up to here, and a tone beside others from here on; noise is below.
 const HIGHEST_TONE_HZ = 5000;
 const LOWEST_TONE_HZ = 400;
