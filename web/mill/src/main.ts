@@ -165,18 +165,16 @@ function advise(text: string): void {
 }
 
 // The clock stops at the first collision that it passes; after a step back again.
-function stopAtCollision(state: StateFrame): void {
-  if (!shown) return;
-  const before = shown.time;
-  if (state.time < before) stoppedAtHit = false;
-  const hit = hits.find(({ time }) => time > before && time <= state.time);
+function stopAtCollision(before: number, now: number): void {
+  if (now < before) stoppedAtHit = false;
+  const hit = hits.find(({ time }) => time > before && time <= now);
   if (!hit || stoppedAtHit || !transport.pause()) return;
   stoppedAtHit = true;
   say(`Line ${hit.line}: ${hit.what}. The clock stands; Play goes on.`);
 }
 
 function show(state: StateFrame): void {
-  stopAtCollision(state);
+  const before = shown;
   scene.show(state);
   sound.state(state);
   programmedRpm = (100 * state.rpm) / spindlePercent;
@@ -194,6 +192,8 @@ function show(state: StateFrame): void {
   numbers.show(state, history.rowAt(state.time));
   milled = state.milled;
   if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
+  // At last: a source may answer at once.
+  if (before) stopAtCollision(before.time, state.time);
 }
 
 function take(frame: Frame, bytes: ArrayBuffer): void {
