@@ -191,11 +191,17 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
     }
 }
 
-// Along a surface there is only room for small balls; a little above it the next ones are larger.
+// Along a surface there is only room for small balls; a little above it the next ones are larger. Near a wall
+// there is less room so high, and more a little lower.
 void FieldContact::lift(Anchor& a, Vec3 up, double height) {
-    const Vec3 at = a.at + height * up;
-    const Anchor above{at, clearance_mm(at, height)};
-    if (above.radius > a.radius && height <= a.radius + above.radius) a = above;
+    for (; height > 2 * a.radius && budget(kStepQueries); height *= kShorter) {
+        const Vec3 at = a.at + height * up;
+        const Anchor above{at, clearance_mm(at, height)};
+        if (above.radius > a.radius && height <= a.radius + above.radius) {
+            a = above;
+            return;
+        }
+    }
 }
 
 // At the surface that was seen next to a ball, or what is left of one, that reaches there.
