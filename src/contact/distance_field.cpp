@@ -4,12 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/half_spaces.hpp"
-
 namespace tribo::contact {
 namespace {
 
 constexpr int kMostRounds = 16;
+constexpr double kAnyStep = 1e30;  // mm
 // A point this near to the surface counts as on it, mm.
 constexpr double kOnSurface = 1e-6;
 // The search has ended at a point if the next step changes the distance by less than this, mm: half the
@@ -20,12 +19,6 @@ constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
 // sphere on.
 constexpr double kBendStep = 1e-3, kTooBent = 1.01;
-
-struct Foot {
-    SurfaceSample sample;  // not found: a lower bound
-    Vec3 at;
-    bool found = false, smooth = false;
-};
 
 // For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
 // distance falls.
@@ -42,7 +35,7 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
     };
     SurfaceSample s, seen;
     const auto first = land(start_mm, s);
-    if (!first) return {field.sample(point_mm), start_mm, false, false};
+    if (!first) return {field.sample(point_mm), start_mm, {}, false};
     Vec3 q = *first;
     double share = 1;
     for (int n = 0; n < kMostSteps && share > kShortest; ++n) {
@@ -58,40 +51,54 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
         }
     }
     const double way = distance(point_mm, q);
-    if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, false};
-    return {s, q, true, false};
+    if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, {}, true};
+    return {s, q, {}, true};
 }
 
-Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
-    HalfSpaces sides;
+// Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
+// others.
+Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
+               HalfSpaces sides) {
     Vec3 q = start_mm;
     bool there = false;  // q is the nearest point of all sides, not a point on the way to it
+    bool ask = sides.count == 0;
     for (int n = 0; n < kMostRounds; ++n) {
-        const SurfaceSample s = field.sample(q);
+        double above_mm = 0;
         for (int i = 0; i < sides.count; ++i) {
             HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
             const SurfaceSample t = field.sample_piece(side.piece, q);
             if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike)
                 side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
+            above_mm = std::max(above_mm, side.above(q));
         }
-        sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
-        const Vec3 next = sides.nearest(point_mm);
-        // On the surface, and no nearer point exists with the present sides.
-        if (there && std::abs(s.distance_mm) <= kOnSurface &&
-            squared_length(next - q) <= 2 * kStill * distance(point_mm, q) + kOnSurface * kOnSurface) {
-            const double way = length(point_mm - q);
-            int held_by = 0;
-            for (int i = 0; i < sides.count; ++i)
-                held_by += sides.side[static_cast<std::size_t>(i)].above(q) > -kOnSurface ? 1 : 0;
-            const bool smooth = held_by == 1;
-            if (way > kOnSurface) return {{way, (point_mm - q) / way, s.piece}, q, true, smooth};
-            return {{s.distance_mm, s.normal, s.piece}, q, true, false};
+        const auto is_still = [&](Vec3 next) {
+            return there &&
+                   squared_length(next - q) <= 2 * kStill * distance(point_mm, q) + kOnSurface * kOnSurface;
+        };
+        Vec3 next = sides.nearest(point_mm);
+        if (ask || (above_mm <= kOnSurface && is_still(next))) {
+            const SurfaceSample s = field.sample(q);
+            sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
+            next = sides.nearest(point_mm);
+            // On the surface, and no nearer point exists with the present sides.
+            if (std::abs(s.distance_mm) <= kOnSurface && is_still(next)) {
+                // The last step leaves the surface by its square over the radius of the bend only.
+                const double way = distance(point_mm, next);
+                if (way <= kOnSurface) return {s, q, {}, true};
+                HalfSpaces touching;
+                for (int i = 0; i < sides.count; ++i) {
+                    const HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
+                    if (side.above(q) > -kOnSurface) touching.put(side, kAlike);
+                }
+                return {{way, (point_mm - next) / way, s.piece}, next, touching, true};
+            }
+            ask = true;
         }
         const double step = distance(next, q);
         there = step <= longest_mm;
         q = there ? next : q + (longest_mm / step) * (next - q);
     }
-    return descend(field, point_mm, q);
+    return {{0, {0, 0, 1}, 0}, q, {}};
 }
 
 // If the surface at a foot point bends towards the point more than a sphere about the point does: returns the
@@ -100,9 +107,9 @@ Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
     const Vec3 n = foot.sample.normal;
     const double way = foot.sample.distance_mm, h = kBendStep * way;
     const Vec3 u = normalized(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), v = cross(n, u);
-    const SurfaceSample here = field.sample_piece(foot.sample.piece, foot.at),
-                        at_u = field.sample_piece(foot.sample.piece, foot.at + h * u),
-                        at_v = field.sample_piece(foot.sample.piece, foot.at + h * v);
+    const SurfaceSample here = field.sample_piece(foot.sample.piece, foot.at_mm),
+                        at_u = field.sample_piece(foot.sample.piece, foot.at_mm + h * u),
+                        at_v = field.sample_piece(foot.sample.piece, foot.at_mm + h * v);
     const Vec3 du = (at_u.normal - here.normal) / h, dv = (at_v.normal - here.normal) / h;
     // The least eigenvalue of the symmetric 2 x 2 matrix of bends.
     const double a = dot(du, u), b = 0.5 * (dot(du, v) + dot(dv, u)), c = dot(dv, v);
@@ -118,25 +125,36 @@ Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
 SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& hint) const {
     const SurfaceSample here = sample(point_mm);
     if (here.distance_mm <= 0 || here.distance_mm >= within_mm) return here;
-    const SurfaceSample below = nearest_from(*this, point_mm, point_mm - here.distance_mm * here.normal);
-    if (below.distance_mm <= here.distance_mm + kOnSurface) return below;
-    const SurfaceSample hinted = nearest_from(*this, point_mm, hint.at_mm);
-    return hinted.distance_mm < below.distance_mm ? hinted : below;
+    Foot foot = nearest_from(*this, point_mm, point_mm - here.distance_mm * here.normal);
+    if (foot.sample.distance_mm > here.distance_mm + kOnSurface) {
+        const Foot hinted = nearest_from(*this, point_mm, hint.at_mm);
+        if (hinted.sample.distance_mm < foot.sample.distance_mm) foot = hinted;
+    }
+    if (foot.found) hint.at_mm = foot.at_mm;
+    hint.sides = foot.sides;
+    return foot.sample;
 }
 
-SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
-    const Foot foot = foot_from(field, point_mm, start_mm, longest_mm);
-    if (!foot.found || !foot.smooth) return foot.sample;
+Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
+    const Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
+    if (!foot.found) return descend(field, point_mm, foot.at_mm);
+    if (foot.sides.count != 1) return foot;
     // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
     // farthest place there. The nearest places are up its sides.
     const Vec3 aside = steepest_bend(field, foot);
-    if (squared_length(aside) == 0) return foot.sample;
-    SurfaceSample best = foot.sample;
+    if (squared_length(aside) == 0) return foot;
+    Foot best = foot;
     for (const double side : {-1.0, 1.0}) {
-        const Foot other = foot_from(field, point_mm, foot.at + side * aside, longest_mm);
-        if (other.found && other.sample.distance_mm < best.distance_mm) best = other.sample;
+        const Vec3 start = foot.at_mm + side * aside;
+        Foot other = foot_from(field, point_mm, start, longest_mm, {});
+        if (!other.found) other = descend(field, point_mm, other.at_mm);
+        if (other.found && other.sample.distance_mm < best.sample.distance_mm) best = other;
     }
     return best;
+}
+
+Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const HalfSpaces& pieces) {
+    return foot_from(field, point_mm, start_mm, kAnyStep, pieces);
 }
 
 }  // namespace tribo::contact

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/vec3.hpp"
+#include "contact/half_spaces.hpp"
 
 namespace tribo::contact {
 
@@ -18,10 +19,13 @@ struct SurfaceSample {
 
 // Knowledge of the surface near a point that moves a little from query to query.
 struct NearHint {
-    Vec3 at_mm;  // a guess at the nearest surface point
+    Vec3 at_mm;    // a guess at the nearest surface point
+    Vec3 from_mm;  // the point that it was for
     // Seen from proved_at_mm, all of the surface except this place was farther than others_mm; 0: not known.
     Vec3 proved_at_mm;
     double others_mm = 0;
+    // Tangent planes of the pieces that met there.
+    HalfSpaces sides;
 };
 
 // Distances in mm, negative inside material. Implementations answer in bounded time without allocation or
@@ -56,11 +60,23 @@ class DistanceField {
     virtual SurfaceSample nearest(Vec3 point_mm, double within_mm, NearHint& hint) const;
 };
 
+// A surface point that is nearest to a point in its neighbourhood.
+struct Foot {
+    SurfaceSample sample;  // of the point; not found: a lower bound of the distance
+    Vec3 at_mm;
+    HalfSpaces sides;  // tangent planes of the pieces that meet there, as far as they are known
+    bool found = false;
+};
+
 // Finds the surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting
 // planes. The material near it is the intersection of half-spaces, one for each piece found; each is renewed
 // at the last result. Exact on edges and corners. Real-time safe, at most 16 rounds of one sample and the
 // pieces found; if these are not enough, returns a lower bound of the distance. The steps are at most
 // `longest_mm` long, because curved pieces must be found where they meet each other.
-SurfaceSample nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9);
+Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9);
+
+// The same for a place on pieces that are known, from a start near it: asks the field for others only where
+// these do not lead to the surface, and gives up where nearest_from goes on to search.
+Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const HalfSpaces& pieces);
 
 }  // namespace tribo::contact

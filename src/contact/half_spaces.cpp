@@ -76,4 +76,40 @@ Vec3 HalfSpaces::nearest(Vec3 y) const {
     return y - last.above(y) * last.normal;
 }
 
+HalfSpaces::Cone HalfSpaces::cone_to(Vec3 direction) const {
+    Cone best;
+    const auto normal = [&](int n) { return side[static_cast<std::size_t>(n)].normal; };
+    const auto offer = [&](const Cone& cone) {
+        Vec3 rest = direction;
+        for (std::size_t n = 0; n < static_cast<std::size_t>(cone.count); ++n) {
+            if (!(cone.weight[n] >= 0)) return;
+            rest -= cone.weight[n] * normal(cone.index[n]);
+        }
+        const double miss = length(rest);
+        if (miss >= best.miss) return;
+        best = cone;
+        best.miss = miss;
+    };
+    for (int i = 0; i < count; ++i) {
+        const double u = dot(direction, normal(i));
+        offer({{i}, {u}, 1});
+        for (int j = i + 1; j < count; ++j) {
+            const double v = dot(direction, normal(j)), c = dot(normal(i), normal(j)), sine2 = 1 - c * c;
+            if (sine2 < kParallel) continue;
+            offer({{i, j}, {(u - c * v) / sine2, (v - c * u) / sine2}, 2});
+            for (int k = j + 1; k < count; ++k) {
+                const Vec3 ij = cross(normal(i), normal(j)), jk = cross(normal(j), normal(k)),
+                           ki = cross(normal(k), normal(i));
+                const double volume = dot(normal(i), jk);
+                if (volume * volume < kParallel) continue;
+                offer(
+                    {{i, j, k},
+                     {dot(direction, jk) / volume, dot(direction, ki) / volume, dot(direction, ij) / volume},
+                     3});
+            }
+        }
+    }
+    return best;
+}
+
 }  // namespace tribo::contact

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nearest point in the intersection of up to four half-spaces.
+// Nearest point in the intersection of up to four half-spaces, and which of them hold it there.
 #pragma once
 
 #include <array>
@@ -28,6 +28,16 @@ struct HalfSpaces {
     void put(const HalfSpace& h, double alike);
     // Returns the nearest point to y in all half-spaces; if their intersection is empty, in the last one.
     Vec3 nearest(Vec3 y) const;
+
+    // A direction as a sum of one to three normals, each times a weight of 0 or more.
+    struct Cone {
+        std::array<int, 3> index{};  // of the sides
+        std::array<double, 3> weight{};
+        int count = 0;    // 0: no side
+        double miss = 1;  // length of direction - sum
+    };
+    // Returns the sum that misses the direction (unit) least.
+    Cone cone_to(Vec3 direction) const;
 };
 
 }  // namespace tribo::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The nearest surface point over scallops, cusps included, against their closed form: at places that wander,
-// with what is known from place to place.
+// The nearest surface point of milled stock, cusps and corners included, at places that wander, with what is
+// known from place to place: against a closed form over scallops, elsewhere against a search over directions
+// that knows only the sweeps.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
 #include "milling/sweep/sweep.hpp"
+#include "motion/path/moves.hpp"
 
 namespace tribo::milling {
 namespace {
@@ -69,6 +71,170 @@ TEST(NearestPoint, is_that_of_the_closed_form_wherever_the_point_wanders) {
                 p.z = -0.97 + radius + 0.2 * step * between(-1, 1);
             }
         }
+    }
+}
+
+// Stock with all that was carved from it.
+struct Carved {
+    Box3 box_mm;
+    field::BoxShape box;
+    field::CarvedField stock;
+    std::vector<std::unique_ptr<const field::Shape>> sweeps;
+
+    Carved(const Box3& of, double cell_mm)
+        : box_mm(of), box(of), stock(std::make_unique<field::BoxShape>(of), cell_mm) {}
+    void mill(const Cutter& cutter, const motion::Move& move) {
+        for (const motion::Move& piece : motion::to_elementary(move)) {
+            stock.carve(make_sweep(cutter, piece));
+            sweeps.push_back(make_sweep(cutter, piece));
+        }
+    }
+    // A ball of this radius is air around the point; 0 or less in material.
+    double air_mm(Vec3 p) const {
+        double air = box.distance_mm(p);
+        for (const auto& sweep : sweeps) air = std::max(air, -sweep->distance_below(p, -air));
+        return air;
+    }
+    // From a point in air to the first material in a direction (Hart 1996).
+    double ray_mm(Vec3 p, Vec3 way) const {
+        double at = 0;
+        for (int steps = 0; steps < 100; ++steps) {
+            const double air = air_mm(p + at * way);
+            if (air < 1e-7 || at > 10) break;
+            at += air;
+        }
+        return at;
+    }
+    // The shortest of all rays, by a search over directions from the best of many.
+    double nearest_mm(Vec3 p) const {
+        constexpr int kWays = 150, kStarts = 4;
+        std::vector<std::pair<double, Vec3>> rays;
+        for (int n = 0; n < kWays; ++n) {
+            // A spiral (Vogel 1979).
+            const double z = -1 + 2 * (n + 0.5) / kWays, turn = 2.39996322972865332 * n,
+                         flat = std::sqrt(1 - z * z);
+            const Vec3 way{flat * std::cos(turn), flat * std::sin(turn), z};
+            rays.emplace_back(ray_mm(p, way), way);
+        }
+        std::sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        double nearest = 1e9;
+        for (int n = 0; n < kStarts; ++n) {
+            auto [least, way] = rays[static_cast<std::size_t>(n)];
+            const Vec3 u = normalized(cross(way, std::abs(way.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
+            for (double step = 0.1; step > 1e-4;) {
+                // Along an edge only few ways lead on: others each time.
+                Vec3 best = way;
+                for (int k = 0; k < 16; ++k) {
+                    const double turn = 0.39269908169872414 * k + 1e3 * step;
+                    const Vec3 next =
+                        normalized(way + step * (std::cos(turn) * u + std::sin(turn) * cross(way, u)));
+                    const double mm = ray_mm(p, next);
+                    if (mm < least) {
+                        least = mm;
+                        best = next;
+                    }
+                }
+                if (best == way) step *= 0.5;
+                way = best;
+            }
+            nearest = std::min(nearest, least);
+        }
+        return nearest;
+    }
+};
+
+// Walks of a point through the air near the surface: its distance to it is `radius` or less. The hint is that
+// of the walk.
+void expect_nearest(const Carved& part, const Box3& inside, double most_radius_mm, int walks, int steps) {
+    const CounterNoise noise(17);
+    std::uint64_t drawn = 0;
+    const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
+    int measured = 0;
+    for (int walk = 0; walk < walks; ++walk) {
+        const double step = std::pow(10, between(-3, -0.5)), most = between(0.05, most_radius_mm);
+        Vec3 p;
+        do {
+            p = {between(inside.min.x, inside.max.x), between(inside.min.y, inside.max.y),
+                 between(inside.min.z, inside.max.z)};
+        } while (part.air_mm(p) <= 1e-3 || part.air_mm(p) > most);
+        contact::NearHint hint;
+        hint.at_mm = p;
+        for (int n = 0; n < steps; ++n) {
+            const contact::SurfaceSample s = part.stock.nearest(p, 2 * most_radius_mm, hint);
+            const double truth = part.nearest_mm(p);
+            if (truth < 2 * most_radius_mm) {
+                ++measured;
+                // On the surface, and nothing nearer; the search over directions ends a little too far.
+                ASSERT_NEAR(part.air_mm(p - s.distance_mm * s.normal), 0, kTruth) << walk << " " << n;
+                ASSERT_LE(s.distance_mm, truth + kTruth) << walk << " " << n;
+                ASSERT_GE(s.distance_mm, truth - 10 * kTruth) << walk << " " << n;
+            }
+            Vec3 next;
+            do {
+                next = p + step * Vec3{between(-1, 1), between(-1, 1), between(-1, 1)};
+            } while (part.air_mm(next) <= 1e-4 || part.air_mm(next) > most + step);
+            p = next;
+        }
+    }
+    EXPECT_GT(measured, walks * steps / 2);
+}
+
+Cutter cutter_of(CutterKind kind, double diameter_mm) {
+    Cutter cutter;
+    cutter.kind = kind;
+    cutter.diameter_mm = diameter_mm;
+    cutter.length_mm = 30;
+    return cutter;
+}
+
+// Four sweeps meet in each corner between the marks.
+TEST(NearestPoint, is_the_shortest_of_all_rays_over_a_grid_of_marks) {
+    Carved part({{0, 0, -6}, {8, 8, 0}}, 0.15);
+    const Cutter ball = cutter_of(CutterKind::ball, 8);
+    for (double x = 1; x <= 7; x += 1) {
+        for (double y = 1; y <= 7; y += 0.5) {
+            motion::Move mark;
+            mark.start.tip_mm = {x - 0.3, y, -0.6};
+            mark.end.tip_mm = {x + 0.3, y, -0.6};
+            part.mill(ball, mark);
+        }
+    }
+    expect_nearest(part, {{2, 2, -0.6}, {6, 6, 1.5}}, 2, 40, 12);
+}
+
+TEST(NearestPoint, is_the_shortest_of_all_rays_over_five_axis_passes) {
+    Carved part({{0, 0, -6}, {8, 8, 0}}, 0.15);
+    const Cutter ball = cutter_of(CutterKind::ball, 8);
+    const auto pose = [](double x, double y) {
+        const Vec3 axis =
+            normalized(Vec3{0.15 * std::cos(0.3 * x + 0.2 * y), 0.2 + 0.15 * std::sin(0.3 * y), 1});
+        return motion::ToolPose{Vec3{x, y, -0.8 + 0.2 * std::sin(0.5 * x) * std::cos(0.4 * y) + 4} - 4 * axis,
+                                axis};
+    };
+    for (double x = 0; x <= 8; x += 0.8) {
+        const motion::ToolPose a = pose(x, 0), mid = pose(x, 4), b = pose(x, 8);
+        motion::Move move;
+        move.start = a;
+        move.end = b;
+        move.quadratic = motion::Quadratic{2 * mid.tip_mm - 0.5 * (a.tip_mm + b.tip_mm),
+                                           2 * mid.axis - 0.5 * (a.axis + b.axis)};
+        part.mill(ball, move);
+    }
+    expect_nearest(part, {{2, 2, -1}, {6, 6, 1.5}}, 2, 8, 6);
+}
+
+// Ribs with sharp edges, and walls that lean.
+TEST(NearestPoint, is_the_shortest_of_all_rays_between_ribs) {
+    for (const double lean : {0.0, 0.15}) {
+        Carved part({{-6, -6, -6}, {6, 6, 0}}, 0.2);
+        const Cutter flat = cutter_of(CutterKind::flat, 2);
+        for (double y = -4.4; y <= 4.4; y += 2.2) {
+            motion::Move slot;
+            slot.start = {{-9, y, -3}, {0, -std::sin(lean), std::cos(lean)}};
+            slot.end = {{9, y, -3}, {0, std::sin(lean), std::cos(lean)}};
+            part.mill(flat, slot);
+        }
+        expect_nearest(part, {{-4, -4, -3}, {4, 4, 0.8}}, 0.8, lean > 0 ? 10 : 40, lean > 0 ? 6 : 12);
     }
 }
 

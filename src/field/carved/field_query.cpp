@@ -23,6 +23,9 @@ constexpr double kOneWay = 0.5, kOneSlope = 0.97;
 constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
 // The surface that a node represents: radius around it, and largest bulge, in cells.
 constexpr double kAround = 0.87, kBulge = 0.1;
+// A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
+// of this share.
+constexpr double kOfInnerBall = 2.0 / 3;
 // Longest step of a search along the surface, in cells.
 constexpr double kLongestCells = 2;
 
@@ -190,25 +193,50 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
     return false;
 }
 
+// Returns true if the ball around a point whose surface touches the foot point holds no material, by the
+// shapes that meet there and no others. Let the point be at r m from the foot point, m = sum of a_k n_k with
+// a_k >= 0 and n_k the normals of the shapes there. A place y (seen from the foot point) in the ball has
+// y^2 < 2 r m y. Each shape holds a ball of radius rho that touches it there: outside of all of them
+// y^2 >= 2 rho n_k y. Both at once needs rho < r sum of a_k. No bricks have to be searched then.
+bool FieldQuery::is_nearest(const contact::Foot& foot) const {
+    const double r = foot.sample.distance_mm;
+    const contact::HalfSpaces::Cone cone = foot.sides.cone_to(foot.sample.normal);
+    double sum = 0;
+    for (const double weight : cone.weight) sum += weight;
+    const double rho = r * sum / kOfInnerBall;
+    // How much nearer a surface may be, as the sum misses m, and as the balls do not quite touch.
+    double nearer = 0.5 * r * cone.miss * cone.miss / (1 - kOfInnerBall);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(cone.count) && nearer <= kOnSurface; ++n) {
+        const contact::HalfSpace& side = foot.sides.side[static_cast<std::size_t>(cone.index[n])];
+        const Vec3 centre = foot.at_mm + rho * side.normal;
+        const double least = rho - kOnSurface,
+                     inside = side.piece == 0 ? blank().distance_mm(centre)
+                                              : -shape(side.piece).distance_below(centre, -least);
+        if (inside <= least) return false;
+        nearer += cone.weight[n] * std::max(0.0, rho - inside);
+    }
+    return cone.count > 0 && nearer <= kOnSurface;
+}
+
 // The nearest surface point found so far, and the distance of the next one.
 class NearestPlace {
   public:
-    explicit NearestPlace(double within_mm) : best_{within_mm, {0, 0, 1}, 0}, others_mm_(within_mm) {}
+    explicit NearestPlace(double within_mm)
+        : best_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}}, others_mm_(within_mm) {}
 
-    const contact::SurfaceSample& best() const { return best_; }
+    const contact::Foot& best() const { return best_; }
+    double distance_mm() const { return best_.sample.distance_mm; }
     double others_mm() const { return others_mm_; }
-    void put(const contact::SurfaceSample& s, Vec3 at) {
-        const bool nearer = s.distance_mm < best_.distance_mm;
-        if (distance(at, at_mm_) > kSameFoot)
-            others_mm_ = std::min(others_mm_, nearer ? best_.distance_mm : s.distance_mm);
-        if (!nearer) return;
-        best_ = s;
-        at_mm_ = at;
+    void put(const contact::Foot& foot) {
+        const double mm = foot.sample.distance_mm;
+        const bool nearer = mm < distance_mm();
+        if (distance(foot.at_mm, best_.at_mm) > kSameFoot)
+            others_mm_ = std::min(others_mm_, nearer ? distance_mm() : mm);
+        if (nearer) best_ = foot;
     }
 
   private:
-    contact::SurfaceSample best_;
-    Vec3 at_mm_{1e300, 0, 0};
+    contact::Foot best_;
     double others_mm_;
 };
 
@@ -361,7 +389,39 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
     return any;
 }
 
+// The nearest place on the pieces that met at the last one, if it is proven to be the nearest of all.
+std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
+    const BrickCoord b = brick_at(hint.at_mm);
+    if (hint.sides.count == 0 || !bricks.contains(b) || bricks.get(b) < kFirstBrick) return std::nullopt;
+    const std::vector<ShapeId>& listed = (*pool)[bricks.get(b)].shapes;
+    for (int n = 0; n < hint.sides.count; ++n) {
+        const ShapeId piece = hint.sides.side[static_cast<std::size_t>(n)].piece;
+        if (std::find(listed.begin(), listed.end(), piece) == listed.end()) return std::nullopt;
+    }
+    Vec3 start = hint.at_mm;
+    if (hint.sides.count == 1) {
+        // Deep in one shape: the ball of this depth is air.
+        contact::Foot foot{sample_piece(hint.sides.side[0].piece, p), {}, hint.sides, true};
+        start = foot.at_mm = p - foot.sample.distance_mm * foot.sample.normal;
+        if (foot.sample.distance_mm > 0 && std::abs(distance_mm(start)) <= kOnSurface) return foot;
+    }
+    const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
+    if (foot.found && is_nearest(foot)) return foot;
+    return std::nullopt;
+}
+
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+    const std::optional<contact::Foot> near = follow(p, hint);
+    const contact::Foot foot = near ? *near : search_nearest(p, within_mm, hint);
+    if (foot.found) {
+        hint.at_mm = foot.at_mm;
+        hint.from_mm = p;
+    }
+    hint.sides = foot.sides;
+    return foot.sample;
+}
+
+contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
     // There is no material inside a shape that was carved. The depth of the point in it is therefore a lower
     // bound of the distance, which a surface point can reach; on a smooth piece one does.
     const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
@@ -370,34 +430,39 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
         const Exact e = exact(bricks.get(b), p);
         const contact::SurfaceSample s{e.distance_mm, outward(e.shape, p), e.shape};
-        if (s.distance_mm >= within_mm) return s;
+        if (s.distance_mm >= within_mm) return {s, p, {}};
         if (s.distance_mm <= 0) {
-            if (b == here) return s;
+            if (b == here) return {s, p, {}};
             continue;
         }
-        if (std::abs(distance_mm(p - s.distance_mm * s.normal)) <= kOnSurface) return s;
+        const Vec3 at = p - s.distance_mm * s.normal;
+        if (std::abs(distance_mm(at)) <= kOnSurface) {
+            contact::Foot foot{s, at, {}, true};
+            foot.sides.put({s.normal, dot(s.normal, at), s.piece}, 0);
+            return foot;
+        }
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
     // At a cusp: the nearest surface point of each brick that may contain one.
     NearestPlace found(within_mm);
-    const contact::SurfaceSample& best = found.best();
+    bool is_proven = false;     // the best one is the nearest
     Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
     const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
         for (int tries = 0; tries < 2; ++tries) {
             const NearBrick brick(*this, ref);
-            const contact::SurfaceSample s = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
-            const Vec3 foot = p - s.distance_mm * s.normal;
-            const contact::SurfaceSample at_foot = sample(foot);
-            if (std::abs(at_foot.distance_mm) <= kOnSurface) {
-                found.put(s, foot);
-                return foot;
+            const contact::Foot foot = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
+            const contact::SurfaceSample at_foot = sample(foot.at_mm);
+            if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
+                found.put(foot);
+                is_proven = is_proven || is_nearest(foot);
+                return foot.at_mm;
             }
             // The shapes of one brick may leave material where another brick has air. Continue from the true
             // surface.
-            if (squared_length(foot - refuted) < kOnSurface * kOnSurface) break;
-            refuted = foot;
-            from = foot - at_foot.distance_mm * at_foot.normal;
+            if (squared_length(foot.at_mm - refuted) < kOnSurface * kOnSurface) break;
+            refuted = foot.at_mm;
+            from = foot.at_mm - at_foot.distance_mm * at_foot.normal;
             const BrickCoord b = brick_at(from);
             if (!bricks.contains(b) || bricks.get(b) == kAir) break;
             ref = bricks.get(b);
@@ -408,19 +473,20 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         const BrickCoord b = brick_at(from);
         if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
     };
-    const auto shown_beyond = [&](double mm) { return best.distance_mm - mm <= kOnSurface; };
-    search_at(hint.at_mm);
-    if (shown_beyond(lower.distance_mm)) return best;
+    const auto shown_beyond = [&](double mm) { return is_proven || found.distance_mm() - mm <= kOnSurface; };
+    search_at(hint.at_mm + (p - hint.from_mm));
+    if (shown_beyond(lower.distance_mm)) return found.best();
     // Material only ever disappears: surface that was farther away a short time ago still is.
-    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm))) return best;
+    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
+        return found.best();
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
-    if (shown_beyond(lower.distance_mm)) return best;
+    if (shown_beyond(lower.distance_mm)) return found.best();
     hint.others_mm = 0;
     bool doubt = false;
     // Search the bricks from the nearest one on, which are the most likely. Up to `proven` no other brick can
     // be nearer.
-    const auto reach = [&] { return std::min(best.distance_mm + kMarginCells * cell_mm, within_mm); };
+    const auto reach = [&] { return std::min(found.distance_mm() + kMarginCells * cell_mm, within_mm); };
     Candidates bricks_near(*this, here, p, reach());
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
@@ -429,7 +495,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     bool all_looked = true;
     Seen seen[2 * kMostSearches + 2];  // start and end points of the searches
     std::size_t count = 0;
-    if (best.distance_mm < within_mm) seen[count++] = {p - best.distance_mm * best.normal, best.normal};
+    if (found.best().found) seen[count++] = {found.best().at_mm, found.best().sample.normal};
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
     for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
         const BrickRef ref = bricks.get(b);
@@ -449,6 +515,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
             }
             if (++searches > kMostSearches) break;
             const std::optional<Vec3> foot = search(ref, start.at);
+            if (is_proven) return found.best();
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
@@ -463,12 +530,12 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
     }
     // A search may have failed on surface that the shapes of other bricks removed. This is accepted if
     // another search succeeded.
-    if (!(doubt && best.distance_mm >= within_mm) && best.distance_mm <= proven + kOnSurface) {
-        if (all_looked && !doubt && best.distance_mm < within_mm) {
+    if (!(doubt && !found.best().found) && found.distance_mm() <= proven + kOnSurface) {
+        if (all_looked && !doubt && found.best().found) {
             hint.proved_at_mm = p;
             hint.others_mm = std::min({found.others_mm(), reach(), proven});
         }
-        return best;
+        return found.best();
     }
     // Not proven to be the nearest: return what is known of the distance.
     if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
@@ -476,7 +543,7 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         lower = {proven, lower.normal, lower.piece};
     const double outside = blank().distance_mm(p);
     if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
-    return lower;
+    return {lower, p, {}};
 }
 
 bool FieldQuery::is_material(Vec3 p, double skin_mm) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "contact/distance_field.hpp"
@@ -96,6 +97,9 @@ struct FieldQuery {
     double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
+    bool is_nearest(const contact::Foot& foot) const;
+    std::optional<contact::Foot> follow(Vec3 point_mm, const contact::NearHint& hint) const;
+    contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
     // A point on the surface, and its normal.
     struct Seen {
         Vec3 at, normal;

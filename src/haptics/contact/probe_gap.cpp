@@ -28,16 +28,15 @@ void ProbeGap::forget() {
     }
 }
 
-ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, Ball::Near& near,
+ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, contact::NearHint& near,
                                      Vec3 at) {
     ++queries_;
     contact::SurfaceSample s;
     if (radius_ > 0) {
         // Beyond this nothing is asked exactly: a lower bound serves.
         const double within = 2 * radius_;
-        near.hint.at_mm = at + near.foot;
-        s = field.nearest(at, within, near.hint);
-        near.foot = -s.distance_mm * s.normal;
+        if (near.sides.count == 0) near.at_mm = near.from_mm = at;
+        s = field.nearest(at, within, near);
     } else {
         s = field.sample(at);
     }

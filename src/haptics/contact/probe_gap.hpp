@@ -49,14 +49,11 @@ class ProbeGap {
         Vec3 offset;
         Vec3 seen_at;             // position of the last query
         double seen_gap = -1e30;  // a lower bound of its gap there
-        // The nearest surface for contact queries and for clearance queries; these points differ.
-        struct Near {
-            Vec3 foot;  // last nearest surface point, from the centre of the ball
-            contact::NearHint hint;
-        } touch, room;
+        // For contact queries and for clearance queries, which are at different places.
+        contact::NearHint touch, room;
         double bound(Vec3 at) const { return seen_gap - distance(at, seen_at); }
     };
-    Gap measure_ball(const contact::DistanceField& field, Ball& ball, Ball::Near& near, Vec3 at);
+    Gap measure_ball(const contact::DistanceField& field, Ball& ball, contact::NearHint& near, Vec3 at);
     template <class Ask>
     void nearest_first(Vec3 position_mm, double most, const Ask& ask);
 
