@@ -175,9 +175,9 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
             return Next::nothing;
         }
         if (a.radius < std::max(kSkin, std::min(kNear * way, near))) {
-            // A surface along which or away from which the probe goes does not hold it.
+            // A surface that the probe is not behind does not hold it.
             const ProbeGap::Gap g = measure(a.at);
-            if (a.radius < kSkin || dot(probe - a.at, g.normal) < 0) {
+            if (a.radius < kSkin || dot(probe - a.at, g.normal) < -g.gap_mm) {
                 touch_down(probe, a, g);
                 return Next::more;
             }
@@ -298,7 +298,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         to.proxy = trial;
         return Landing::over_edge;
     }
-    if (alone && (g.gap_mm >= -kSkin || alike > kOneSide)) {
+    if (alone && (g.gap_mm > kSkin || alike > kOneSide)) {
         to.proxy = trial;
         to.sides = {};
         to.normal = g.normal;
@@ -312,8 +312,8 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         }
         return Landing::on_surface;
     }
-    if (g.gap_mm < -kSkin) {
-        // Another side is in the way: the proxy stands where all of them meet.
+    if (g.gap_mm < -kSkin || alone) {
+        // Another side is in the way, or just reached: the proxy stands where all of them meet.
         contact::HalfSpaces corner = from.sides;
         for (int i = 0; i < corner.count; ++i) {
             contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
@@ -514,9 +514,10 @@ bool FieldContact::tie(const Place& to) {
             height_ = height;
             return chain(a);
         }
-        // A side that the step has just left is still near: there is room only away from it too.
-        if (tries == 0 && at_.sides.count > to.sides.count) {
-            up = normalized(up + up_from(at_), up);
+        // Another side is near, one that the step has left or comes to: there is room only away from it too.
+        const Vec3 tilted = tries == 0 ? normalized(up + measure(at).normal, up) : up;
+        if (dot(tilted, up) < kOneSide) {
+            up = tilted;
         } else {
             height = std::max(kLowest, 0.25 * height);
         }
