@@ -76,8 +76,9 @@ struct FieldQuery {
     double distance_mm(Vec3 point_mm) const;
     contact::SurfaceSample sample(Vec3 point_mm) const;
     contact::SurfaceSample sample_piece(ShapeId id, Vec3 point_mm) const {
-        return {id == 0 ? blank().distance_mm(point_mm) : -shape(id).distance_mm(point_mm),
-                outward(id, point_mm), id};
+        const Shape::Slope s = shape(id).slope(point_mm);
+        if (id == 0) return {s.distance_mm, s.gradient, id};
+        return {-s.distance_mm, -s.gradient, id};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;

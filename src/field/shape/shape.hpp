@@ -39,6 +39,12 @@ class Shape {
     virtual bool is_searched() const { return false; }
     // Unit direction in which distance_mm grows fastest.
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
+    // Both of them: cheaper if they share a search.
+    struct Slope {
+        double distance_mm;
+        Vec3 gradient;
+    };
+    virtual Slope slope(Vec3 point_mm) const { return {distance_mm(point_mm), gradient(point_mm)}; }
     // Computes distance_mm at all nodes in single precision, out[a + 8 b + 64 c]: the same bits on every
     // machine.
     virtual void sample(const Lattice& lattice, float* out) const = 0;

@@ -218,13 +218,16 @@ class CurvedSweep final : public field::Shape {
 
     bool is_searched() const override { return true; }
 
-    Vec3 gradient(Vec3 point) const override {
+    Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
+
+    Slope slope(Vec3 point) const override {
         const Vec3 d = point - start_;
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         const Least<double> least = nearest(floors, d, kNever);
-        if (static_cast<double>(floors.lowest) - tool_.length_mm <= least.distance)
-            return swept_normal(tool_, view(line_, d, least.t), least.t);
+        const double cap = static_cast<double>(floors.lowest) - tool_.length_mm;
+        if (cap <= least.distance)
+            return {least.distance, swept_normal(tool_, view(line_, d, least.t), least.t)};
         double lowest = kNever;
         Vec3 top = line_.axis0;
         for (int k = 0; k < CurvedInstants::kCount; ++k) {
@@ -233,7 +236,7 @@ class CurvedSweep final : public field::Shape {
             const double height = dot(d - tip_at(line_, t), axis);
             if (height < lowest) lowest = height, top = axis;
         }
-        return top;
+        return {cap, top};
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
