@@ -255,7 +255,7 @@ Vec3 FieldContact::step_for(const Split& way) {
         const Vec3 change = way.rest - last_step_.rest;
         const double up = -dot(last_step_.way, change), down = squared_length(change);
         // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
-        ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 1.2) : std::min(2 * ease_, 8.0);
+        ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 8.0) : std::min(2 * ease_, 8.0);
     }
     const double goal = std::max(0.0, 1 - options_.friction_kinetic * way.press_mm / way.rest_mm);
     return limited(ease_ * goal * way.rest, stride_mm_);

@@ -114,7 +114,9 @@ class StraightSweep final : public field::Shape {
         });
     }
 
-    Vec3 gradient(Vec3 point) const override {
+    Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
+
+    Slope slope(Vec3 point) const override {
         const Vec3 q = path_.frame.into(point - path_.start);
         const Profile<double> p(tool_);
         const Line<double> l(path_.line);
@@ -123,7 +125,8 @@ class StraightSweep final : public field::Shape {
             const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
             return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
         });
-        if (q.z - std::max(path_.line.rise, 0.0) - tool_.length_mm > nearest.distance) return path_.frame.z;
+        const double cap = q.z - std::max(path_.line.rise, 0.0) - tool_.length_mm;
+        if (cap > nearest.distance) return {cap, path_.frame.z};
         const Vec3 across{q.x - nearest.t * path_.line.across, q.y, 0};
         ToolView v;
         v.axis = {0, 0, 1};
@@ -132,7 +135,7 @@ class StraightSweep final : public field::Shape {
         v.z = q.z - nearest.t * path_.line.rise;
         v.drho = -v.radial.x * path_.line.across;
         v.dz = -path_.line.rise;
-        return path_.frame.out_of(swept_normal(tool_, v, nearest.t));
+        return {nearest.distance, path_.frame.out_of(swept_normal(tool_, v, nearest.t))};
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
