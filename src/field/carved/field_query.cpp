@@ -12,6 +12,9 @@ namespace {
 constexpr double kRounding = 1e-3;
 // A place counts as nearer only if it is nearer by more than this, mm.
 constexpr double kOnSurface = 2e-5;
+// Bricks leave out shapes whose surface others give within an error of searched sweeps: at the border of two
+// bricks the surface has steps of this, mm. Where one shape gives the depth of a point, its surface is meant.
+constexpr double kStep = 7e-5;
 // Largest number of bricks on each side in a search for clear air, and in a search for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
@@ -398,12 +401,12 @@ std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint&
         const ShapeId piece = hint.sides.side[static_cast<std::size_t>(n)].piece;
         if (std::find(listed.begin(), listed.end(), piece) == listed.end()) return std::nullopt;
     }
-    Vec3 start = hint.at_mm;
+    Vec3 start = hint.sides.nearest(p);
     if (hint.sides.count == 1) {
         // Deep in one shape: the ball of this depth is air.
         contact::Foot foot{sample_piece(hint.sides.side[0].piece, p), {}, hint.sides, true};
         start = foot.at_mm = p - foot.sample.distance_mm * foot.sample.normal;
-        if (foot.sample.distance_mm > 0 && std::abs(distance_mm(start)) <= kOnSurface) return foot;
+        if (foot.sample.distance_mm > 0 && std::abs(distance_mm(start)) <= kStep) return foot;
     }
     const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
     if (foot.found && is_nearest(foot)) return foot;
@@ -436,7 +439,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             continue;
         }
         const Vec3 at = p - s.distance_mm * s.normal;
-        if (std::abs(distance_mm(at)) <= kOnSurface) {
+        if (std::abs(distance_mm(at)) <= kStep) {
             contact::Foot foot{s, at, {}, true};
             foot.sides.put({s.normal, dot(s.normal, at), s.piece}, 0);
             return foot;

@@ -368,7 +368,11 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     at_.ball = g.ball;
     settled_ = std::abs(g.gap_mm) <= 2 * kSkin;
     if (settled_) return look_behind_a_side();
-    if (g.gap_mm > 0 && !moved_) return take_off();
+    if (g.gap_mm > 0 && !moved_) {
+        // From here on, or the flight would end here again.
+        (void)chain({at_.proxy, g.gap_mm});
+        return take_off();
+    }
     Place corrected = at_;
     (void)correct(corrected, g);
     moved_ = true;
