@@ -60,8 +60,8 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
                HalfSpaces sides) {
     Vec3 q = start_mm;
-    bool there = false;  // q is the nearest point of all sides, not a point on the way to it
     bool ask = sides.count == 0;
+    bool there = !ask;  // q is the nearest point of all sides, not a point on the way to it
     for (int n = 0; n < kMostRounds; ++n) {
         double above_mm = 0;
         for (int i = 0; i < sides.count; ++i) {

@@ -281,7 +281,8 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
     place.sides.put(side_of(seen.normal), kOneSide);
     place.normal = seen.normal;
     place.ball = seen.ball;
-    place.leap_mm = std::abs(seen.gap_mm);
+    // What is nearest to a ball in air is so too where it comes down on it.
+    place.leap_mm = bends && gap_.radius_mm() > 0 ? std::max(0.0, -seen.gap_mm) : std::abs(seen.gap_mm);
     return bends;
 }
 
