@@ -100,6 +100,7 @@ const transport = new Transport(
     if (!Sound.possible) element("sound").hidden = true;
     void hear();
   },
+  () => history.rows,
 );
 const seek = (t_s: number) => transport.seek(t_s);
 const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"));
@@ -570,6 +571,7 @@ listenToKeys(scene, finger, {
   mute: () => element("sound").click(),
   seek: (by) => transport.seekBy(by),
   nextProblem: goToProblem,
+  loop: () => element("loop").click(),
 });
 
 function eachPicture(): void {

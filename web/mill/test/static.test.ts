@@ -333,6 +333,40 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
   );
 
   it(
+    "plays a cut again and again",
+    async () => {
+      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await until("job.toml", "job");
+      await page.selectOption("#speed", "1");
+      await page.fill("#time", "1.2");
+      await removed(0.05);
+      await page.focus("#scene");
+      await page.keyboard.press("l");
+      expect(await page.getAttribute("#loop", "aria-pressed")).toBe("true");
+      await page.selectOption("#speed", "5");
+      await page.click("#play");
+      // The slot ends at 2 s, the second one begins later.
+      await page.waitForFunction(
+        () => {
+          const seen = window as unknown as { times?: number[] };
+          const times = (seen.times ??= []);
+          times.push(Number(document.querySelector<HTMLInputElement>("#time")!.value));
+          return times.filter((time, n) => time < times[n - 1]! - 0.5).length >= 3;
+        },
+        null,
+        { timeout: PATIENCE_MS },
+      );
+      const times = await page.evaluate(() => (window as unknown as { times: number[] }).times);
+      expect(Math.max(...times)).toBeLessThan(3.5);
+      await page.click("#loop");
+      await page.selectOption("#speed", "1");
+      await page.click("#play");
+      await until("Play", "play");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "runs through air faster and faster, and as chosen in the cut",
     async () => {
       // Half a minute of air, then a cut.

@@ -3,6 +3,7 @@
 import { describe, expect, it } from "vitest";
 
 import { nextProblem, type Happened } from "../src/lanes/problems.js";
+import { entryOf, LONGEST_S, Loop } from "../src/transport/loop.js";
 import { chosenSpeed, Hurry, TrueSpeed } from "../src/transport/speeds.js";
 
 describe("the speed", () => {
@@ -54,5 +55,40 @@ describe("the next problem", () => {
   it("is where teeth rub if nothing is worse, and nowhere in a good cut", () => {
     expect(nextProblem([{ time: 8, what: "rubbing" }], 0)?.time).toBe(8);
     expect(nextProblem([], 0)).toBeUndefined();
+  });
+});
+
+describe("the loop", () => {
+  // Two cuts, the second with a short gap.
+  const rows = [
+    { time: 1, duration: 0.5 },
+    { time: 1.5, duration: 0.5 },
+    { time: 4, duration: 1 },
+    { time: 5.02, duration: 1 },
+  ];
+  it("begins where the tool enters", () => {
+    expect([1, 1.7, 2, 4.5, 5.5, 6].map((time) => entryOf(rows, time))).toEqual([1, 1, 1, 4, 4, 4]);
+    expect(entryOf([], 3)).toBe(3);
+    // A cut of a minute is not played from its entry.
+    const long = Array.from({ length: 600 }, (_, n) => ({ time: n / 10, duration: 0.1 }));
+    expect(entryOf(long, 59)).toBeCloseTo(59 - LONGEST_S, 0);
+  });
+  it("goes back once the tool has left, and once only until the clock has obeyed", () => {
+    const loop = new Loop(() => rows);
+    const played = [0.5, 4.2, 5.01, 5.5, 6, 6.03, 6.1, 6.12, 4, 4.5, 6.2];
+    const went = played.map((time) => [time, loop.next(time, false)]).filter(([, to]) => to !== undefined);
+    expect(went).toEqual([
+      [6.1, 4],
+      [6.2, 4],
+    ]);
+    loop.forget();
+    expect(loop.next(3, false)).toBeUndefined();
+    expect(loop.next(1.2, false)).toBeUndefined();
+    expect(loop.next(1.9, true)).toBe(1);
+  });
+  it("goes back from within a cut that is too long", () => {
+    const loop = new Loop(() => [{ time: 10, duration: 1000 }]);
+    expect(loop.next(12, false)).toBeUndefined();
+    expect(loop.next(10.5 + LONGEST_S, false)).toBe(10);
   });
 });

@@ -13,6 +13,7 @@ export interface KeyActions {
   mute(): void;
   seek(seconds: number): void;
   nextProblem(): void;
+  loop(): void;
 }
 
 export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions): void {
@@ -30,6 +31,7 @@ export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions):
     else if (event.key === " ") actions.play();
     else if (event.key === "m" || event.key === "M") actions.mute();
     else if (event.key === "n" || event.key === "N") actions.nextProblem();
+    else if (event.key === "l" || event.key === "L") actions.loop();
     else if (event.key === "+" || event.key === "=") scene.orbit(0, 0, NEARER);
     else if (event.key === "-") scene.orbit(0, 0, 1 / NEARER);
     else if (event.key === "," || event.key === "PageUp") actions.seek(-1);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Play and pause, speed and clock.
 
-import type { StateFrame } from "@tribo/protocol/frames";
+import type { Row, StateFrame } from "@tribo/protocol/frames";
 import type { Command } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
 import { clock, recall, remember } from "../page.js";
+import { Loop } from "./loop.js";
 import { chosenSpeed, Hurry, TrueSpeed, WHOLE } from "./speeds.js";
 
 // A speed that is nearer to the wanted one is not sent again.
@@ -18,17 +19,27 @@ export class Transport {
   private readonly time = element<HTMLInputElement>("time");
   private readonly speed = element<HTMLSelectElement>("speed");
   private readonly skip = element<HTMLButtonElement>("skip-air");
+  private readonly loopButton = element<HTMLButtonElement>("loop");
+  private readonly loop: Loop;
+  private loops = false;
   private readonly hurry = new Hurry();
   private readonly trueSpeed = new TrueSpeed();
   private duration = 0;
   private scrubbing = false;
   private skips = recall("skip-air") === "true";
 
-  /** `starts` is called before the clock starts by a click. */
+  /** `starts` is called before the clock starts by a click. `rows`: those so far. */
   constructor(
     private readonly send: (command: Command) => void,
     starts: () => void,
+    rows: () => readonly Row[],
   ) {
+    this.loop = new Loop(rows);
+    this.loopButton.addEventListener("click", () => {
+      this.loops = !this.loops;
+      this.loop.forget();
+      this.loopButton.setAttribute("aria-pressed", String(this.loops));
+    });
     this.play.addEventListener("click", () => {
       if (!this.playing) starts();
       this.starts = !this.playing;
@@ -51,6 +62,7 @@ export class Transport {
 
   begin(duration: number): void {
     this.duration = duration;
+    this.loop.forget();
     this.time.max = String(duration);
     if (this.speed.value === WHOLE) this.tell();
   }
@@ -65,6 +77,7 @@ export class Transport {
     this.play.click();
   }
   seek(t_s: number): void {
+    this.loop.forget();
     this.send({ op: "seek", t_s: Math.min(Math.max(t_s, 0), this.duration) });
   }
   seekBy(seconds: number): void {
@@ -79,12 +92,21 @@ export class Transport {
   }
 
   show(state: StateFrame): void {
+    const ended = this.playing && !state.playing && state.time >= this.duration - 1e-6;
     this.showPlaying(state.playing);
     if (!this.scrubbing) this.time.value = String(state.time);
     element("clock").textContent = `${clock(state.time)} / ${clock(this.duration)}`;
     if (this.skips && state.playing) this.hurryOn(state);
     else this.showSpeed(state.speed);
     this.showTrueSpeed(state);
+    if (this.loops && (state.playing || ended)) this.goBack(state, ended);
+  }
+
+  private goBack({ time }: StateFrame, ended: boolean): void {
+    const to = this.loop.next(time, ended);
+    if (to === undefined) return;
+    this.send({ op: "seek", t_s: to });
+    if (ended) this.send({ op: "play" });
   }
 
   private tell(): void {
