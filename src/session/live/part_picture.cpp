@@ -18,6 +18,15 @@ using field::BrickCoord;
 constexpr std::uint64_t kUnseen = 0;
 // A vertex this near to the surface of the blank is on it: the rounding of positions in single precision.
 constexpr double kOnBlankMm = 1e-3;
+// A chunk that changes after fewer updates was under the tool, and is not kept.
+constexpr std::uint64_t kSettled = 30;
+
+std::size_t bytes_of(const PartPicture::Piece& piece) {
+    return piece.mesh.positions.size() * sizeof(piece.mesh.positions[0]) +
+           piece.mesh.triangles.size() * sizeof(piece.mesh.triangles[0]) +
+           piece.deviations_mm.size() * sizeof(float);
+}
+
 // Chunks between two checks of the time: a few milliseconds each where deviations are searched.
 constexpr std::size_t kChunksAtOnce = 8;
 
@@ -63,6 +72,7 @@ PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel,
     shown_.assign(static_cast<std::size_t>(size_.i) * static_cast<std::size_t>(size_.j) *
                       static_cast<std::size_t>(size_.k),
                   kUnseen);
+    shown_since_.assign(shown_.size(), 0);
     is_marked_.assign(shown_.size(), false);
 }
 
@@ -119,6 +129,7 @@ void PartPicture::mark(const Box3& box_mm) {
 }
 
 void PartPicture::update(const std::function<bool()>& has_time, const Show& show) {
+    ++updates_;
     do {
         while (!marked_.empty() && changes_.size() < kChunksAtOnce) {
             const ChunkCoord chunk = marked_.front();
@@ -127,7 +138,10 @@ void PartPicture::update(const std::function<bool()>& has_time, const Show& show
             const std::uint64_t now = state(chunk);
             std::uint64_t& shown = shown_[number(chunk)];
             if (now == shown) continue;
-            changes_.push_back({chunk, shown != kUnseen, {}});
+            std::uint64_t& since = shown_since_[number(chunk)];
+            if (updates_ - since < kSettled) kept_.drop({number(chunk), shown});
+            since = updates_;
+            changes_.push_back({chunk, shown != kUnseen, now, false, {}});
             shown = now;
         }
         show_changes(show);
@@ -135,8 +149,14 @@ void PartPicture::update(const std::function<bool()>& has_time, const Show& show
 }
 
 void PartPicture::show_changes(const Show& show) {
+    for (Change& change : changes_) {
+        const Piece* kept = kept_.find({number(change.chunk), change.state});
+        change.found = kept != nullptr;
+        if (kept != nullptr) change.piece = *kept;
+    }
     parallel_(changes_.size(), [&](std::size_t n) {
         Change& change = changes_[n];
+        if (change.found) return;
         const BrickCoord from = first_brick(change.chunk);
         Piece& piece = change.piece;
         piece.mesh = field::contour_part(
@@ -146,6 +166,10 @@ void PartPicture::show_changes(const Show& show) {
             piece.deviations_mm = surface::deviations_of(piece.mesh, *designed_, serial_for, kReachMm);
     });
     for (Change& c : changes_) {
+        if (!c.found) {
+            ++contours_;
+            kept_.put({number(c.chunk), c.state}, c.piece, bytes_of(c.piece));
+        }
         if (c.was_seen || !c.piece.mesh.triangles.empty()) show(c.chunk, std::move(c.piece));
     }
     changes_.clear();

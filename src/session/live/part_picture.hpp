@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part as a picture that follows the cut: chunks of the surface, sent again when they change.
+// The part as a picture that follows the cut: chunks of the surface, sent again when they change. Chunks that
+// looked the same for a while are kept, so that a clock that goes back and forth finds them again.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "base/mesh.hpp"
 #include "base/parallel.hpp"
 #include "field/carved/carved_field.hpp"
+#include "session/live/kept_pieces.hpp"
 #include "surface/designed_surface.hpp"
 
 namespace tribo::session {
@@ -52,6 +54,8 @@ class PartPicture {
     void update(const std::function<bool()>& has_time, const Show& show);
     // Chunks are marked that update() has not reached yet.
     bool is_behind() const { return !marked_.empty(); }
+    // Number of pieces that were made and not found again.
+    std::size_t contours() const { return contours_; }
 
   private:
     void show_changes(const Show& show);
@@ -64,11 +68,17 @@ class PartPicture {
     std::shared_ptr<const surface::DesignedSurface> designed_;
     ChunkCoord size_;
     std::vector<std::uint64_t> shown_;
+    std::vector<std::uint64_t> shown_since_;  // number of the update
+    std::uint64_t updates_ = 0;
+    std::size_t contours_ = 0;
+    KeptPieces<Piece> kept_;
     std::deque<ChunkCoord> marked_;
     std::vector<bool> is_marked_;
     struct Change {
         ChunkCoord chunk;
         bool was_seen = false;
+        std::uint64_t state = 0;
+        bool found = false;
         Piece piece;
     };
     std::vector<Change> changes_;
