@@ -2,7 +2,6 @@
 #include "session/audit/part_errors.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 namespace tribo::session {
@@ -43,7 +42,8 @@ PartErrors::PartErrors(const MillSession& session, const surface::DeviationRepor
     for (const auto& [line, mm] : of_line) {
         if (mm > 0) gouges_.push_back({line, mm});
     }
-    std::ranges::stable_sort(gouges_, std::greater<>(), &Gouge::mm);
+    std::ranges::sort(
+        gouges_, [](const Gouge& a, const Gouge& b) { return a.mm != b.mm ? a.mm > b.mm : a.line < b.line; });
     if (gouges_.size() > kWorstLines) gouges_.resize(kWorstLines);
 }
 
