@@ -44,6 +44,15 @@ void expect_same(const Shown& one, const Shown& other) {
     }
 }
 
+// As a picture that saw nothing before.
+void expect_as_fresh(const Shown& shown, const MillSession& session) {
+    PartPicture fresh(session.stock());
+    Shown other;
+    fresh.mark(fresh.all());
+    other.follow(fresh);
+    expect_same(shown, other);
+}
+
 TEST(PartPicture, finds_again_what_stood_for_a_while) {
     MillSession session(*slot(), serial_for);
     PartPicture picture(session.stock());
@@ -61,12 +70,7 @@ TEST(PartPicture, finds_again_what_stood_for_a_while) {
     EXPECT_GT(made, 8u);
     for (const std::size_t n : {1u, 0u, 2u, 0u, 1u, 2u}) {
         stand_at(times[n]);
-        // As a picture that saw nothing before.
-        PartPicture fresh(session.stock());
-        Shown other;
-        fresh.mark(fresh.all());
-        other.follow(fresh);
-        expect_same(shown, other);
+        expect_as_fresh(shown, session);
     }
     EXPECT_EQ(picture.contours(), made);
 }
@@ -86,11 +90,7 @@ TEST(PartPicture, keeps_nothing_that_was_under_the_tool) {
     ASSERT_TRUE(session.run_to(0.5 * session.duration_s(), {}));
     picture.mark(picture.all());
     shown.follow(picture);
-    PartPicture fresh(session.stock());
-    Shown other;
-    fresh.mark(fresh.all());
-    other.follow(fresh);
-    expect_same(shown, other);
+    expect_as_fresh(shown, session);
     // Of the changed chunks some are made again.
     EXPECT_GT(picture.contours(), made);
 }
