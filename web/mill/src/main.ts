@@ -12,7 +12,9 @@ import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
 import { fileName, listenToKeep } from "./keep/keep.js";
 import { changesOf, packedIn, unpack, type Moment } from "./keep/moment.js";
+import { listenToRecord } from "./keep/record.js";
 import { listenToVideo } from "./keep/video.js";
+import { listenToFiles } from "./sources/file_input.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
@@ -25,8 +27,8 @@ import { Verdict } from "./panels/verdict.js";
 import { Colours } from "./panels/colours.js";
 import type { Plots } from "./panels/plots.js";
 import { Assumed, LineList, showFileFault, showServo } from "./panels/readout.js";
-import { readRecording, Recorder } from "@tribo/protocol/recording";
-import { download, element, wordsOf } from "@tribo/ui/dom";
+import { readRecording } from "@tribo/protocol/recording";
+import { element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
 import { Scene } from "./sight/scene.js";
 import { Sound } from "./sound/sound.js";
@@ -91,6 +93,7 @@ let source: Source | undefined = engine;
 const scene = new Scene(canvas, context);
 const history = new History();
 const frameCache = new FrameCache();
+const record = listenToRecord(frameCache);
 const sound = new Sound();
 // True when the page plays the sound, false when the engine does.
 let soundsHere = true;
@@ -137,7 +140,6 @@ let settings: Settings | undefined;
 // Opened, and not shown yet.
 let arriving: Moment | undefined;
 let plots: Plots | undefined;
-let recorder: Recorder | undefined;
 let begun = false;
 let felt = false;
 let first = true;
@@ -199,7 +201,7 @@ function show(state: StateFrame): void {
 
 function take(frame: Frame, bytes: ArrayBuffer): void {
   frameCache.take(frame, bytes);
-  recorder?.take(bytes);
+  record(bytes);
   sound.frame(frame.kind, bytes);
   switch (frame.kind) {
     case "job":
@@ -507,19 +509,6 @@ toggles("show-plots", "plots", async () => {
 // ---- Keep
 listenToKeep(scene, history, say, momentNow);
 listenToVideo(scene, sound, { wake: hear, name: () => fileName(history, "webm"), say });
-const record = element<HTMLButtonElement>("record");
-record.addEventListener("click", () => {
-  if (!recorder) {
-    recorder = new Recorder();
-    for (const bytes of frameCache.replay()) recorder.take(bytes);
-    record.textContent = "Stop and keep";
-  } else {
-    download(recorder.file(), `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`);
-    recorder = undefined;
-    record.textContent = "Record";
-  }
-  record.setAttribute("aria-pressed", String(recorder !== undefined));
-});
 
 // ---- Learn by ear
 let learn: import("./learn/learn.js").Learn | undefined;
@@ -535,23 +524,7 @@ async function openQuiz(): Promise<void> {
 }
 for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
 
-// ---- Files
-const chooser = element<HTMLInputElement>("files");
-element("open").addEventListener("click", () => chooser.click());
-chooser.addEventListener("change", () => {
-  void open([...(chooser.files ?? [])].map((file) => ({ name: file.name, file })));
-  chooser.value = "";
-});
-let inside = 0;
-addEventListener("dragenter", () => (element("drop").hidden = ++inside <= 0));
-addEventListener("dragleave", () => (element("drop").hidden = --inside <= 0));
-addEventListener("dragover", (event) => event.preventDefault());
-addEventListener("drop", (event) => {
-  event.preventDefault();
-  inside = 0;
-  element("drop").hidden = true;
-  if (event.dataTransfer) void drop.dropped(event.dataTransfer).then(open);
-});
+listenToFiles(open);
 
 // ---- VR, where there is any
 let xr: import("./touch/xr.js").Headset | undefined;
