@@ -31,6 +31,7 @@ struct Brick {
 
     BrickCoord coord;
     Version version = 0;                           // of the field when the brick was made
+    std::uint64_t change = 0;                      // number of the last carve that changed it
     double volume_mm3 = 0;                         // of the material in it
     std::array<float, kLatticeNodes> distance_mm;  // at the nodes, negative in material, at least -near
     // Index into `shapes` of the shape that gives the distance, if the distance is within near of the

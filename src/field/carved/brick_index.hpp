@@ -49,6 +49,14 @@ struct BrickTable {
         const auto along = [](int n) { return static_cast<unsigned>(n) % kEdge; };
         return along(b.i) + kEdge * (along(b.j) + kEdge * along(b.k));
     }
+    // The brick at a place of a chunk; it may lie beyond the box.
+    BrickCoord coord(std::size_t chunk, std::size_t at) const {
+        const auto along = [](std::size_t chunks, std::size_t bricks) {
+            return static_cast<int>(kEdge * chunks + bricks);
+        };
+        return {along(chunk % chunks_i, at % kEdge), along(chunk / chunks_i % chunks_j, at / kEdge % kEdge),
+                along(chunk / chunks_i / chunks_j, at / kEdge / kEdge)};
+    }
     static constexpr unsigned kEdge = kChunkEdge;  // unsigned numbers are divided by a shift
 };
 

@@ -48,10 +48,6 @@ CarvedField::CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, Par
       parallel_(std::move(parallel)),
       tables_(std::make_unique<FieldTables>(grid_size(blank->bounds_mm(), cell_mm))) {
     assert(cell_mm > 0);
-    begin_with(std::move(blank));
-}
-
-void CarvedField::begin_with(std::unique_ptr<const Shape> blank) {
     const Vec3 corner = blank->bounds_mm().min;
     const double margin = kMarginCells * cell_;
     tables_->shapes.push_back(std::move(blank));
@@ -59,15 +55,7 @@ void CarvedField::begin_with(std::unique_ptr<const Shape> blank) {
     tables_->query.cell_mm = cell_;
     tables_->query.per_cell = 1 / cell_;
     tables_->query.near_mm = near_;
-}
-
-void CarvedField::restart() {
-    assert(!showing_);
-    std::unique_ptr<const Shape> blank = release_blank();
-    show_.reset();
-    tables_ = std::make_unique<FieldTables>(tables_->index.size());
-    removed_ = 0;
-    begin_with(std::move(blank));
+    chunk_changes_.assign(tables_->index.chunks().size(), 0);
 }
 
 Vec3 CarvedField::centre(BrickCoord b) const {
@@ -174,7 +162,7 @@ void CarvedField::plan_updates(std::size_t shapes) {
     }
 }
 
-void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>> shapes) {
+void CarvedField::update(Update& u) {
     if (u.air) return;
     if (u.shown != kUntouched) {
         const Version version = tables_->pool[u.ref].version;
@@ -193,9 +181,9 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
             return;
         }
         Brick& brick = tables_->pool[u.ref];
-        const std::size_t number = cuts_[n] >> 1 & (kMostAtOnce - 1);
-        shapes[number]->sample_near(lattice(u.coord), near_, carved.data());
-        const bool searched = shapes[number]->is_searched();
+        const auto id = static_cast<ShapeId>(carved_ + 1 + (cuts_[n] >> 1 & (kMostAtOnce - 1)));
+        shape(id).sample_near(lattice(u.coord), near_, carved.data());
+        const bool searched = shape(id).is_searched();
         const auto tie_mm =
             static_cast<float>(static_cast<double>(kTieCells) * cell_ + (searched ? kSearchedError : 0));
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
@@ -205,6 +193,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
                                   static_cast<float>(near_), static_cast<float>(cell_), tie_mm);
         if (!result.changed) continue;
         u.drop = false;
+        brick.change = change_;
         if (result.least_mm > FieldQuery::kClearCells * cell_) {
             removed_by_cut_[n] = brick.volume_mm3;
             u.air = true;
@@ -214,7 +203,7 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
         removed_by_cut_[n] = removed * cell_ * cell_ * cell_;
         brick.volume_mm3 -= removed_by_cut_[n];
         if (!result.won) continue;
-        brick.shapes.push_back(static_cast<ShapeId>(tables_->shapes.size() + number));
+        brick.shapes.push_back(id);
         const std::size_t every = searched ? kPruneEverySearched : kPruneEvery;
         if (result.tied || brick.shapes.size() % every == 0)
             prune_shapes(brick, carved.data(), static_cast<float>(near_), tie_mm);
@@ -222,31 +211,45 @@ void CarvedField::update(Update& u, std::span<const std::unique_ptr<const Shape>
 }
 
 void CarvedField::carve(std::span<std::unique_ptr<const Shape>> shapes, std::span<double> removed_mm3) {
-    assert(shapes.size() <= kMostAtOnce && removed_mm3.size() == shapes.size());
-    if (cuts_of_.size() < shapes.size()) cuts_of_.resize(shapes.size());
-    const auto over = [&](std::size_t count, std::size_t least, const auto& body) {
-        if (count >= least) return parallel_(count, body);
-        for (std::size_t n = 0; n < count; ++n) body(n);
+    assert(shapes_to_carve_again() == 0);
+    for (std::unique_ptr<const Shape>& shape : shapes) tables_->shapes.push_back(std::move(shape));
+    carve_stored(shapes.size(), removed_mm3);
+}
+
+void CarvedField::carve_again(std::size_t count) {
+    assert(count <= shapes_to_carve_again());
+    std::vector<double> removed_mm3(count);
+    carve_stored(count, removed_mm3);
+}
+
+void CarvedField::carve_stored(std::size_t count, std::span<double> removed_mm3) {
+    assert(count <= kMostAtOnce && removed_mm3.size() == count);
+    ++change_;
+    if (cuts_of_.size() < count) cuts_of_.resize(count);
+    const auto over = [&](std::size_t number, std::size_t least, const auto& body) {
+        if (number >= least) return parallel_(number, body);
+        for (std::size_t n = 0; n < number; ++n) body(n);
     };
-    over(shapes.size(), kParallelShapes, [&](std::size_t n) { gather(*shapes[n], n, cuts_of_[n]); });
-    plan_updates(shapes.size());
-    over(updates_.size(), kParallelBricks, [&](std::size_t n) { update(updates_[n], shapes); });
+    over(count, kParallelShapes,
+         [&](std::size_t n) { gather(shape(static_cast<ShapeId>(carved_ + 1 + n)), n, cuts_of_[n]); });
+    plan_updates(count);
+    over(updates_.size(), kParallelBricks, [&](std::size_t n) { update(updates_[n]); });
     for (const Update& u : updates_) {
         if (u.air || u.drop) release(u.ref);
         if (u.air || !u.drop) {
             release(u.shown);
             const BrickRef now = u.air ? kAir : u.ref;
             if (now != tables_->index.get(u.coord)) point_to(u.coord, now);
+            chunk_changes_[tables_->index.table().chunk_number(u.coord)] = change_;
         }
     }
+    brick_updates_ += updates_.size();
     std::fill(removed_mm3.begin(), removed_mm3.end(), 0.0);
     for (std::size_t n = 0; n < cuts_.size(); ++n) {
         removed_mm3[cuts_[n] >> 1 & (kMostAtOnce - 1)] += removed_by_cut_[n];
     }
-    for (std::size_t n = 0; n < shapes.size(); ++n) {
-        removed_ += removed_mm3[n];
-        tables_->shapes.push_back(std::move(shapes[n]));
-    }
+    for (const double mm3 : removed_mm3) removed_ += mm3;
+    carved_ += count;
     if (showing_) show_->show(tables_->query, tables_->index.chunks(), tables_->pool);
 }
 

@@ -4,6 +4,7 @@
 // few shapes measures the surface exactly.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "base/parallel.hpp"
 #include "contact/distance_field.hpp"
 #include "field/carved/field_show.hpp"
+#include "field/carved/field_state.hpp"
 
 namespace tribo::field {
 
@@ -38,8 +40,15 @@ class CarvedField final : public contact::DistanceField {
     // The same for one shape; returns the removed volume.
     double carve(std::unique_ptr<const Shape> shape);
 
-    // Puts the blank back, as if nothing had been carved. There must be no reader.
-    void restart();
+    // The field as it is now, to go back to. It shares with `like`, another state of this field or an empty
+    // one, what is the same in both. Cost: a copy of each brick that differs.
+    FieldState state(const FieldState& like = {}) const;
+    // Puts the field into one of its states, with the same bits. The shapes that were carved after it stay:
+    // carve_again() carves them in their order, and carve() goes on after the last of them.
+    void restore(const FieldState& state);
+    // Carves the next `count` of these shapes (at most kMostAtOnce).
+    void carve_again(std::size_t count);
+    std::size_t shapes_to_carve_again() const { return tables_->shapes.size() - 1 - carved_; }
 
     // Exact at the surface, clamped to about one cell away from it. Bounded time, no allocation.
     double distance_mm(Vec3 p) const override { return tables_->query.distance_mm(p); }
@@ -77,7 +86,9 @@ class CarvedField final : public contact::DistanceField {
     // Returns true if all bricks in the chunk of `b` are untouched, false if this is not known.
     bool is_untouched_chunk(BrickCoord b) const { return tables_->index.table().is_untouched_chunk(b); }
     std::size_t bricks_in_use() const { return tables_->pool.in_use(); }
-    std::size_t shapes_carved() const { return tables_->shapes.size() - 1; }
+    std::size_t shapes_carved() const { return carved_; }
+    // Changes of bricks so far, those of carve_again() too: a measure of the work of carving.
+    std::uint64_t brick_updates() const { return brick_updates_; }
     std::size_t bytes() const { return tables_->pool.bytes() + tables_->index.bytes(); }
 
     using Exact = FieldQuery::Exact;
@@ -103,11 +114,13 @@ class CarvedField final : public contact::DistanceField {
         BrickRef shown = kUntouched;  // the brick that ref is a copy of, if a reader may see it
         bool drop = false, air = false;
     };
-    void begin_with(std::unique_ptr<const Shape> blank);
+    // Carves `count` shapes of the store.
+    void carve_stored(std::size_t count, std::span<double> removed_mm3);
+    void restore(BrickCoord coord, bool is_touched, const Brick* kept);
     void gather(const Shape& shape, std::size_t number, std::vector<Cut>& cuts) const;
     void gather_brick(const Shape& shape, std::size_t number, BrickCoord b, std::vector<Cut>& cuts) const;
     void plan_updates(std::size_t shapes);
-    void update(Update& u, std::span<const std::unique_ptr<const Shape>> shapes);
+    void update(Update& u);
     void fill_from_blank(Brick& brick) const;
     double volume_mm3(const float* distance_mm) const;
     double blank_brick_volume(BrickCoord b) const;
@@ -130,6 +143,10 @@ class CarvedField final : public contact::DistanceField {
     std::unique_ptr<FieldShow> show_;
     bool showing_ = false;
     double removed_ = 0;
+    std::size_t carved_ = 0;                    // shapes
+    std::uint64_t change_ = 0;                  // number of the current carve
+    std::vector<std::uint64_t> chunk_changes_;  // of the last carve that changed each chunk; 0: none
+    std::uint64_t brick_updates_ = 0;
     // State of the current carve.
     std::vector<std::vector<Cut>> cuts_of_;  // by shape
     std::vector<Cut> cuts_;                  // by brick

@@ -8,7 +8,6 @@
 
 #include "base/math.hpp"
 #include "milling/engagement/joined_moves.hpp"
-#include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::session {
@@ -16,7 +15,7 @@ namespace {
 
 // Moves offered to the cut at once. The cut takes as many of them as it can process together.
 constexpr std::size_t kOfferedMoves = 64;
-// Moves carved again at once.
+// Shapes carved again at once.
 constexpr std::size_t kCarvedAtOnce = 64;
 // Number of force models, so that several threads have their own.
 constexpr std::size_t kShares = 8;
@@ -62,6 +61,7 @@ class MillSession::Run {
         if (!carve_again(sinks)) return false;
         while (next_move_ < setup_.moves.size() && now_s_ < limit_s_) {
             cut();
+            if (states_) states_->offer(stock_, carved_moves_);
             evaluate(static_cast<bool>(sinks.row));
             for (std::size_t n = 0; n < row_count_; ++n) finish_row(rows_[n], forces_[n], sinks);
             if (sinks.progress && !sinks.progress(end_s_ > 0 ? std::min(1.0, now_s_ / end_s_) : 1))
@@ -71,10 +71,14 @@ class MillSession::Run {
         return true;
     }
 
-    void set_back() {
-        stock_.restart();
-        (void)carve(stock_, setup_.earlier, {});
-        carved_moves_ = 0;
+    void keep_states(std::size_t most_bytes, std::uint64_t spacing) {
+        assert(next_move_ == 0);
+        states_.emplace(stock_, most_bytes, spacing);
+    }
+
+    void set_back(double t_s) {
+        assert(states_);
+        restore(moves_begun(t_s));
     }
 
     double milled_s() const {
@@ -90,26 +94,36 @@ class MillSession::Run {
     double end_s_ = 0, now_s_ = 0;
     double removed_earlier_mm3_ = 0;  // by jobs before this one
     bool stopped_ = false;            // during the carving of their cuts
+    std::optional<KeptStates> states_;
     std::uint32_t earlier_pieces_ = 0;
     std::vector<std::uint32_t> last_piece_of_move_;  // of the milled moves
 
   private:
+    // Number of the milled moves that begin before `t_s`.
+    std::size_t moves_begun(double t_s) const {
+        const auto& moves = schedule_->moves;
+        const auto end = moves.begin() + static_cast<std::ptrdiff_t>(next_move_);
+        return static_cast<std::size_t>(
+            std::ranges::lower_bound(moves.begin(), end, t_s, {}, &motion::MoveTiming::start_s) -
+            moves.begin());
+    }
+
+    void restore(std::size_t moves) {
+        carved_moves_ = states_->last(moves);
+        states_->restore(stock_, carved_moves_);
+    }
+
     // Carves moves that were milled before, up to the limit.
     bool carve_again(const MillSinks& sinks) {
-        std::array<double, kCarvedAtOnce> removed_mm3;
-        const auto is_due = [&] {
-            return carved_moves_ < next_move_ && schedule_->moves[carved_moves_].start_s < limit_s_;
-        };
-        while (is_due()) {
-            std::vector<std::unique_ptr<const field::Shape>> shapes;
-            for (; is_due() && shapes.size() < kCarvedAtOnce; ++carved_moves_) {
-                const motion::Move& move = setup_.moves[carved_moves_];
-                if (move.kind == motion::MoveKind::dwell) continue;
-                shapes.push_back(
-                    milling::make_sweep(setup_.cutters[setup_.cutter_of_move[carved_moves_]],
-                                        schedule_->moves[carved_moves_].end_s > end_s_ ? last_move_ : move));
-            }
-            stock_.carve(shapes, std::span(removed_mm3).first(shapes.size()));
+        if (carved_moves_ == next_move_) return true;
+        const std::size_t due = moves_begun(limit_s_);
+        if (states_->last(due) > carved_moves_) restore(due);
+        while (carved_moves_ < due) {
+            std::size_t shapes = 0;
+            for (; carved_moves_ < due && shapes < kCarvedAtOnce; ++carved_moves_)
+                shapes += setup_.moves[carved_moves_].kind == motion::MoveKind::dwell ? 0 : 1;
+            stock_.carve_again(shapes);
+            states_->offer(stock_, carved_moves_);
             if (sinks.progress && !sinks.progress(std::min(1.0, milled_s() / end_s_))) return false;
         }
         return true;
@@ -320,8 +334,14 @@ double MillSession::milled_s() const {
 double MillSession::known_s() const {
     return run_->now_s_;
 }
-void MillSession::set_back() {
-    run_->set_back();
+void MillSession::keep_states(std::size_t most_bytes, std::uint64_t spacing) {
+    run_->keep_states(most_bytes, spacing);
+}
+void MillSession::set_back(double t_s) {
+    run_->set_back(t_s);
+}
+const KeptStates* MillSession::kept_states() const {
+    return run_->states_ ? &*run_->states_ : nullptr;
 }
 double MillSession::duration_s() const {
     return run_->end_s_;

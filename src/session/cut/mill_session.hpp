@@ -22,6 +22,7 @@
 #include "motion/path/timing.hpp"
 #include "session/chatter/spindle_variation.hpp"
 #include "session/cut/earlier_cuts.hpp"
+#include "session/cut/kept_states.hpp"
 #include "session/cut/mill_totals.hpp"
 
 namespace tribo::session {
@@ -93,10 +94,15 @@ class MillSession {
     double milled_s() const;
     // The program time up to which rows and collisions are known: milled_s(), or later after set_back().
     double known_s() const;
-    // Puts the stock back to the start of the program, at the cost of the earlier cuts. run_to() then carves
-    // what was milled again, with no row and no collision, in a tenth of the time, and mills on from there.
-    // The totals of volume are those of the stock. There must be no reader of the stock.
-    void set_back();
+    // Keeps states of the stock from now on, in about `most_bytes`, so that the stock can be set back. Call
+    // it before anything is milled.
+    void keep_states(std::size_t most_bytes, std::uint64_t spacing = KeptStates::kSpacing);
+    // Puts the stock back to the last kept state with no move that begins at `t_s` or later. run_to() then
+    // carves what was milled again, with no row and no collision, from the last kept state before its goal,
+    // and mills on from there. The totals of volume are those of the stock.
+    void set_back(double t_s);
+    // The states; null without keep_states().
+    const KeptStates* kept_states() const;
 
     // Duration of the program, or until_s if that is earlier.
     double duration_s() const;

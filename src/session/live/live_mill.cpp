@@ -107,10 +107,10 @@ void LiveMill::begin_again() {
 
 void LiveMill::go_back() {
     if (session_observer_) session_observer_(nullptr);
-    session_->set_back();
+    session_->set_back(clock_s_);
     if (session_observer_) session_observer_(session_.get());
     picture_->mark(picture_->all());
-    marked_s_ = 0;
+    marked_s_ = session_->milled_s();
     last_state_.clear();
     set_back_ = false;
 }
@@ -129,6 +129,7 @@ Result<void> LiveMill::begin(Result<LiveInput> input) {
     MillSetup setup = input ? std::move(input->setup) : session_->release_setup();
     session_.reset();  // before the next one: two of them need twice the memory
     session_ = std::make_unique<MillSession>(std::move(setup), parallel_);
+    session_->keep_states(kMostStateBytes);
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
     const bool bends = !session_->setup().modes_of_cutter.empty();

@@ -161,33 +161,49 @@ TEST(LiveBack, reads_files_that_changed) {
     EXPECT_EQ(live->sessions(), 2);
 }
 
-// Whatever cutter, motion and stock: a stock that was set back is that of a session that milled only so far.
+double end_of_move_at(const MillSession& session, double t_s) {
+    return session.schedule().moves[session.schedule().move_at(t_s)].end_s;
+}
+
+// Whatever cutter, motion and stock, and however few states are kept: a stock that was set back is that of a
+// session that milled only so far.
 TEST(MillSession, carves_again_what_it_milled) {
     const CounterNoise noise(8);
-    std::size_t compared = 0;
+    std::size_t compared = 0, states = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         RandomCut cut = random_cut(seed), same = random_cut(seed);
         SCOPED_TRACE(cut.words);
         MillSession back(std::move(cut.setup), serial_for), once(std::move(same.setup), serial_for);
+        // None, some and many states.
+        back.keep_states(seed % 3 * 500'000, 60);
         back.run({});
         const double removed_mm3 = back.stock().removed_mm3();
         const std::size_t rows = back.totals().rows;
-        const double to_s = noise.uniform(seed) * back.duration_s();
-        back.set_back();
-        EXPECT_EQ(back.milled_s(), 0);
-        EXPECT_EQ(back.known_s(), back.duration_s());
-        ASSERT_TRUE(back.run_to(to_s, {}));
-        while (once.milled_s() < back.milled_s()) ASSERT_TRUE(once.run_to(back.milled_s(), {}));
-        // A session takes moves that share rows together.
-        if (once.milled_s() == back.milled_s()) {
-            EXPECT_NEAR(back.stock().removed_mm3(), once.stock().removed_mm3(), 1e-9 * removed_mm3 + 1e-9);
-            ++compared;
+        states += back.kept_states()->count();
+        // Farther and farther for the session that never goes back; back and forth for the other one.
+        for (std::uint64_t step = 1; step <= 3; ++step) {
+            const double to_s =
+                (static_cast<double>(step) - noise.uniform(4 * seed + step)) / 3 * back.duration_s();
+            back.set_back(to_s);
+            EXPECT_LE(back.milled_s(), end_of_move_at(back, to_s));
+            EXPECT_EQ(back.known_s(), back.duration_s());
+            ASSERT_TRUE(back.run_to(to_s, {}));
+            const double milled_s = back.milled_s();
+            while (once.milled_s() < milled_s) ASSERT_TRUE(once.run_to(milled_s, {}));
+            // A session takes moves that share rows together.
+            if (once.milled_s() == milled_s) {
+                EXPECT_NEAR(back.stock().removed_mm3(), once.stock().removed_mm3(),
+                            1e-9 * removed_mm3 + 1e-9);
+                ++compared;
+            }
+            ASSERT_TRUE(back.run_to(noise.uniform(4 * seed) * back.duration_s(), {}));
         }
         ASSERT_TRUE(back.run({}));
         EXPECT_NEAR(back.stock().removed_mm3(), removed_mm3, 1e-9 * removed_mm3);
         EXPECT_EQ(back.totals().rows, rows);
     }
-    EXPECT_GT(compared, 20u);
+    EXPECT_GT(compared, 50u);
+    EXPECT_GT(states, 50u);
 }
 
 }  // namespace

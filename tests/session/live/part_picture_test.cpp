@@ -55,10 +55,11 @@ void expect_as_fresh(const Shown& shown, const MillSession& session) {
 
 TEST(PartPicture, finds_again_what_stood_for_a_while) {
     MillSession session(*slot(), serial_for);
+    session.keep_states(0);
     PartPicture picture(session.stock());
     Shown shown;
     const auto stand_at = [&](double t_s) {
-        if (t_s < session.milled_s()) session.set_back();
+        if (t_s < session.milled_s()) session.set_back(0);
         ASSERT_TRUE(session.run_to(t_s, {}));
         picture.mark(picture.all());
         for (int n = 0; n < 60; ++n) shown.follow(picture);
@@ -77,6 +78,7 @@ TEST(PartPicture, finds_again_what_stood_for_a_while) {
 
 TEST(PartPicture, keeps_nothing_that_was_under_the_tool) {
     MillSession session(*slot(), serial_for);
+    session.keep_states(0);
     PartPicture picture(session.stock());
     Shown shown;
     for (double t_s = 0; t_s < session.duration_s(); t_s += 0.05) {
@@ -86,7 +88,7 @@ TEST(PartPicture, keeps_nothing_that_was_under_the_tool) {
     }
     EXPECT_GT(picture.contours(), 100u);
     const std::size_t made = picture.contours();
-    session.set_back();
+    session.set_back(0);
     ASSERT_TRUE(session.run_to(0.5 * session.duration_s(), {}));
     picture.mark(picture.all());
     shown.follow(picture);
