@@ -13,8 +13,8 @@ namespace tribo::session {
 
 class KeptStates {
   public:
-    // About 0.05 s of carving.
-    static constexpr std::uint64_t kSpacing = 10'000;
+    // Some hundredths of a second of carving.
+    static constexpr std::uint64_t kSpacing = 1'000;
 
     // Keeps the state of the stock before the first move. `spacing`: changes of bricks between two states.
     KeptStates(const field::CarvedField& stock, std::size_t most_bytes, std::uint64_t spacing = kSpacing);
