@@ -82,6 +82,7 @@ void fields(Wire& wire, FrameOf<Wire, LiveChunk> chunk) {
     wire.added();
     wire.numbers("deviations_mm", chunk.deviations_mm);
     wire.u32("on_blank", chunk.on_blank);
+    wire.flags(Flag{"rough", chunk.rough});
 }
 
 template <>

@@ -81,12 +81,14 @@ struct LiveChunk {
     double t_s = 0;
     LiveChunkPlace at;  // replaces the chunk of the same place
     TriangleMesh mesh;
-    // Of each vertex from the designed surface, + material left, - gouge; NaN far from it. Empty: there is
-    // none.
+    // Of each vertex from the designed surface, + material left, - gouge; NaN far from it and in a rough
+    // chunk. Empty: there is none.
     std::vector<float> deviations_mm;
     // The first vertices of the mesh lie on the surface of the blank, so many; a triangle of them alone is
     // untouched.
     std::uint32_t on_blank = 0;
+    // Drawn in a hurry: it comes again, exact, while the part stays as it is.
+    bool rough = false;
 };
 
 // A piece of the designed surface, as a chunk is written.

@@ -85,6 +85,28 @@ TEST(Contour, vertices_lie_on_the_exact_surface) {
     EXPECT_LT(static_cast<double>(off), 0.02 * static_cast<double>(mesh.positions.size()));
 }
 
+// In a hurry: closed, and within the sagitta of a cell of the surface but at the cusps.
+TEST(Contour, that_is_rough_is_closed_and_near_the_surface) {
+    constexpr double cell = 0.3;
+    auto field = block(cell);
+    for (double y = 5; y < 26; y += 2)
+        field.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
+    ContourOptions options;
+    options.rough = true;
+    const TriangleMesh rough = contour(field, serial_for, options), exact = contour(field);
+    EXPECT_TRUE(is_closed(rough));
+    EXPECT_NEAR(volume_mm3(rough) / volume_mm3(exact), 1, 2e-3);
+    EXPECT_LT(10 * rough.triangles.size(), 11 * exact.triangles.size());
+    constexpr double sagitta_mm = cell * cell / (8 * 4);
+    std::size_t off = 0;
+    for (std::uint32_t v = 0; v < rough.positions.size(); ++v) {
+        const double mm = std::abs(field.distance_mm(rough.position(v)));
+        ASSERT_LT(mm, 0.5 * cell);
+        off += mm > 2 * sagitta_mm ? 1 : 0;
+    }
+    EXPECT_LT(5 * off, rough.positions.size());
+}
+
 TEST(Contour, keeps_corners_sharp) {
     auto f = block(0.3);
     f.carve(std::make_unique<BoxShape>(Box3{{10.1, 8.2, -6.3}, {20.4, 17.7, 5}}));

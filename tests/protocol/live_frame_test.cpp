@@ -183,7 +183,7 @@ TEST(LiveFrames, AreTheStoredBytes) {
                      "job");
     expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {}, 2}, "chunk");
     const float none = std::numeric_limits<float>::quiet_NaN();
-    expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {0.25f, none, -0.5f}, 0}, "compared_chunk");
+    expect_as_stored(LiveChunk{3.5, {1, -2, 3}, mesh(), {0.25f, none, -0.5f}, 0, true}, "compared_chunk");
     expect_as_stored(LiveDesigned{mesh()}, "designed");
     LiveState state{1.25, {1, 2, 3}, {0, 0.5, 0.75}, {4, 5, 6}, 100, 2, 6000, 900, 0.5, 7, 1.5, 10,
                     42,   1,         true,           false,     true};
@@ -260,7 +260,7 @@ TEST(LiveFrames, KeepAMeshWithinAStepOfItsBox) {
     for (std::uint32_t n = 0; n < 3; ++n)
         EXPECT_LT(length(read.mesh.position(n) - chunk.mesh.position(n)), 3.0 / 65535);
     // A triangle of a vertex that is not there.
-    bytes[bytes.size() - 12] = 3;
+    bytes[bytes.size() - 16] = 3;
     EXPECT_FALSE(read_frame(bytes, read));
     LiveChunkPlace place;
     EXPECT_TRUE(read_frame(bytes, place));
@@ -308,7 +308,7 @@ TEST(LiveFrames, ThatSayTooMuchAreRefused) {
     LiveDesigned read;
     EXPECT_FALSE(read_frame(bytes, read));
     write_frame(LiveChunk{0, {}, mesh(), {1, 2, 3}, 3}, bytes);
-    std::fill_n(bytes.end() - 20, 4, std::uint8_t{0xff});
+    std::fill_n(bytes.end() - 24, 4, std::uint8_t{0xff});
     LiveChunk chunk;
     EXPECT_TRUE(read_frame(bytes, chunk));
     EXPECT_TRUE(chunk.deviations_mm.empty());

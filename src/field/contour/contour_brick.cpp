@@ -24,16 +24,20 @@ constexpr bool is_on_lower_face(int node) {
 
 class BrickContour {
   public:
-    BrickContour(const CarvedField& field, BrickCoord coord)
-        : field_(field), coord_(coord), margin_(contour_margin(field)), nodes_(field, coord) {}
+    BrickContour(const CarvedField& field, BrickCoord coord, const ContourOptions& options)
+        : field_(field),
+          coord_(coord),
+          options_(options),
+          margin_(contour_margin(field)),
+          nodes_(field, coord) {}
 
-    BrickSurface surface(const ContourOptions& options) {
+    BrickSurface surface() {
         BrickSurface s;
         s.coord = coord_;
         if (!nodes_.has_surface()) return s;
-        nodes_.find_crossings();
+        nodes_.find_crossings(options_.rough);
         if (nodes_.list().empty()) return s;
-        s.flat = is_plane(options);
+        s.flat = is_plane();
         keep_edges(s);
         if (s.flat) {
             Vec3 mean;
@@ -104,11 +108,13 @@ class BrickContour {
         return {beside - distance(x.shape, beside) * n, n};
     }
 
-    bool is_plane(const ContourOptions& options) const {
+    bool is_plane() const {
+        constexpr double kRoughAngle = 1e-3;  // of differences in single precision
+        const double most_rad = options_.rough ? kRoughAngle : options_.flat_angle_rad;
         const Crossing& first = nodes_.list().front();
         for (const Crossing& c : nodes_.list()) {
-            if (squared_length(c.normal - first.normal) >= options.flat_angle_rad * options.flat_angle_rad ||
-                std::abs(dot(c.point - first.point, first.normal)) >= options.flat_cells * field_.cell_mm())
+            if (squared_length(c.normal - first.normal) >= most_rad * most_rad ||
+                std::abs(dot(c.point - first.point, first.normal)) >= options_.flat_cells * field_.cell_mm())
                 return false;
         }
         return true;
@@ -243,6 +249,7 @@ class BrickContour {
         // Planes through the crossings miss a curved surface by their sagitta. Newton steps remove this
         // error: onto the surface where it is smooth, onto the intersection of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
+        if (options_.rough) return into_cell(quadric.is_flat(kSmooth) ? quadric.mean() : quadric.solve());
         Vec3 p;
         if (quadric.is_flat(kSmooth)) {
             p = into_cell(quadric.mean());
@@ -264,6 +271,7 @@ class BrickContour {
 
     const CarvedField& field_;
     BrickCoord coord_;
+    const ContourOptions& options_;
     double margin_;
     BrickNodes nodes_;
 };
@@ -305,7 +313,7 @@ Vec3 BrickSurface::on_face(const Lattice& lattice, int node, int axis, FaceSegme
 }
 
 BrickSurface find_surface(const CarvedField& field, BrickCoord coord, const ContourOptions& options) {
-    return BrickContour(field, coord).surface(options);
+    return BrickContour(field, coord, options).surface();
 }
 
 }  // namespace tribo::field

@@ -180,7 +180,7 @@ BrickRef BrickNodes::ref_between(int from, int to) const {
     return kUntouched;
 }
 
-void BrickNodes::find_crossings() {
+void BrickNodes::find_crossings(bool rough) {
     constexpr unsigned kLower = (1U << kBrickCells) - 1;
     for (int axis = 0; axis < 3; ++axis) {
         edges_[static_cast<std::size_t>(axis)].fill({});
@@ -194,22 +194,48 @@ void BrickNodes::find_crossings() {
             };
             unsigned left = (inside_[row] ^ upper(inside_)) | (near_[row] & upper(near_));
             if (axis == 0) left &= kLower;
-            for (; left != 0; left &= left - 1) look_at_edge(axis, first + std::countr_zero(left));
+            for (; left != 0; left &= left - 1) look_at_edge(axis, first + std::countr_zero(left), rough);
         }
     }
 }
 
-void BrickNodes::look_at_edge(int axis, int node) {
+void BrickNodes::look_at_edge(int axis, int node, bool rough) {
     const float d0 = value_[static_cast<std::size_t>(node)];
     const float d1 = value_[static_cast<std::size_t>(node + kStep[axis])];
     if ((d0 < 0) == (d1 < 0)) {
-        if (std::abs(d0) + std::abs(d1) < static_cast<float>(field_.cell_mm())) find_thin(axis, node);
+        if (!rough && std::abs(d0) + std::abs(d1) < static_cast<float>(field_.cell_mm()))
+            find_thin(axis, node);
         return;
     }
     edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)] = {
         static_cast<std::uint16_t>(list_.size()), 1};
-    list_.push_back(find_crossing(ref_between(node, node + kStep[axis]), axis, node, 0, 1,
-                                  static_cast<double>(d0), static_cast<double>(d1)));
+    const auto from = static_cast<double>(d0), to = static_cast<double>(d1);
+    list_.push_back(rough ? rough_crossing(axis, node, from, to)
+                          : find_crossing(ref_between(node, node + kStep[axis]), axis, node, 0, 1, from, to));
+}
+
+Crossing BrickNodes::rough_crossing(int axis, int node, double d0, double d1) const {
+    Crossing x;
+    x.along = d0 / (d0 - d1);
+    x.point = node_mm(node);
+    x.point[axis] += x.along * field_.cell_mm();
+    x.edge = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
+    x.normal = rough_normal(x.along < 0.5 ? node : node + kStep[axis]);
+    return x;
+}
+
+// By differences to the neighbours nearer to the surface: values far from it are clamped.
+Vec3 BrickNodes::rough_normal(int node) const {
+    const auto value = [&](int n) { return static_cast<double>(value_[static_cast<std::size_t>(n)]); };
+    Vec3 rise;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int at = coordinate(node, axis);
+        const bool has_low = at > 0, has_high = at < kBrickCells;
+        const bool up = has_high && (!has_low || std::abs(value(node + kStep[axis])) <
+                                                     std::abs(value(node - kStep[axis])));
+        rise[axis] = up ? value(node + kStep[axis]) - value(node) : value(node) - value(node - kStep[axis]);
+    }
+    return normalized(rise, {0, 0, 1});
 }
 
 // Regula falsi (Illinois) along an edge whose ends lie on different sides. It starts from the values there,

@@ -67,7 +67,8 @@ class BrickNodes {
 
     // Finds all crossings of the edges of this brick, its border included, sorted by edge. A pure function of
     // the field: bricks that share an edge find the same crossings. Call it once, before the functions below.
-    void find_crossings();
+    // `rough`: as in ContourOptions.
+    void find_crossings(bool rough);
     EdgeCrossings crossings(int axis, int node) const {
         return edges_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(node)];
     }
@@ -91,10 +92,12 @@ class BrickNodes {
     void find_around();
     void agree_on_border();
     void look_at_rows();
-    void look_at_edge(int axis, int node);
+    void look_at_edge(int axis, int node, bool rough);
     BrickRef ref_between(int from, int to) const;
     Crossing find_crossing(BrickRef ref, int axis, int node, double t0, double t1, double d0,
                            double d1) const;
+    Crossing rough_crossing(int axis, int node, double d0, double d1) const;
+    Vec3 rough_normal(int node) const;
     ShapeId shape_at(BrickRef ref, int node) const;
     void find_thin(int axis, int node);
     bool is_parted(BrickRef ref, Vec3 p, Vec3 q, bool by_material) const;

@@ -115,6 +115,10 @@ void LiveMill::go_back() {
     set_back_ = false;
 }
 
+bool LiveMill::is_shown() const {
+    return session_->milled_s() >= clock_s_ && !picture_->is_behind();
+}
+
 bool LiveMill::catches_up() const {
     return session_->milled_s() < std::min(clock_s_, session_->known_s());
 }
@@ -185,6 +189,7 @@ void LiveMill::set_clock(double t_s) {
     clock_s_ = std::max(set_back_ ? t_s : std::min(t_s, duration_s()), 0.0);
     // Removed material does not come back: milling starts again.
     set_back_ = set_back_ || clock_s_ < session_->milled_s();
+    jumped_ = true;
     cut_.hear_from(clock_s_);
 }
 
@@ -316,15 +321,18 @@ void LiveMill::show_sound(const protocol::FrameSink& frames) {
 }
 
 void LiveMill::show_part(const std::function<bool()>& has_time, const protocol::FrameSink& frames) {
-    picture_->update(has_time, [&](ChunkCoord c, PartPicture::Piece piece) {
+    const auto show = [&](ChunkCoord c, PartPicture::Piece piece) {
         protocol::write_frame(protocol::LiveChunk{session_->milled_s(),
                                                   {c.i, c.j, c.k},
                                                   std::move(piece.mesh),
                                                   std::move(piece.deviations_mm),
-                                                  piece.on_blank},
+                                                  piece.on_blank,
+                                                  piece.rough},
                               frame_);
         frames(frame_);
-    });
+    };
+    picture_->update(has_time, show, jumped_);
+    jumped_ = jumped_ && !is_shown();
 }
 
 void LiveMill::show_collisions(const protocol::FrameSink& frames) {

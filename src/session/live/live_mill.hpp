@@ -99,6 +99,8 @@ class LiveMill {
     Result<void> begin(Result<LiveInput> input);
     void begin_again();
     void go_back();
+    // The part is milled to the clock and its picture shows it.
+    bool is_shown() const;
     // The part is carved again and has not reached the clock.
     bool catches_up() const;
     void take(LiveExtras extras);
@@ -131,7 +133,7 @@ class LiveMill {
     double clock_s_ = 0, speed_ = 1;
     double marked_s_ = 0;  // the picture knows of the cut up to this time
     bool reads_ = false;   // the files, before a new session
-    bool playing_ = false, set_back_ = false, begun_anew_ = false, designed_waits_ = false;
+    bool playing_ = false, set_back_ = false, jumped_ = false, begun_anew_ = false, designed_waits_ = false;
     std::vector<std::uint8_t> frame_, last_state_, last_bending_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
@@ -74,6 +75,7 @@ PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel,
                   kUnseen);
     shown_since_.assign(shown_.size(), 0);
     is_marked_.assign(shown_.size(), false);
+    is_rough_.assign(shown_.size(), false);
 }
 
 Box3 PartPicture::all() const {
@@ -128,24 +130,43 @@ void PartPicture::mark(const Box3& box_mm) {
     }
 }
 
-void PartPicture::update(const std::function<bool()>& has_time, const Show& show) {
+void PartPicture::update(const std::function<bool()>& has_time, const Show& show, bool jumped) {
     ++updates_;
-    do {
-        while (!marked_.empty() && changes_.size() < kChunksAtOnce) {
-            const ChunkCoord chunk = marked_.front();
-            marked_.pop_front();
-            is_marked_[number(chunk)] = false;
-            const std::uint64_t now = state(chunk);
-            std::uint64_t& shown = shown_[number(chunk)];
-            if (now == shown) continue;
-            std::uint64_t& since = shown_since_[number(chunk)];
-            if (updates_ - since < kSettled) kept_.drop({number(chunk), shown});
-            since = updates_;
-            changes_.push_back({chunk, shown != kUnseen, now, false, {}});
-            shown = now;
-        }
+    const bool stands = marked_.empty();
+    while (!marked_.empty()) {
+        find_changes(jumped);
         show_changes(show);
-    } while (!marked_.empty() && has_time());
+        if (!has_time()) return;
+    }
+    if (jumped && !stands) return;
+    // A few, so that the next jump need not wait.
+    find_rough();
+    show_changes(show);
+}
+
+void PartPicture::find_changes(bool rough) {
+    while (!marked_.empty() && changes_.size() < kChunksAtOnce) {
+        const ChunkCoord chunk = marked_.front();
+        marked_.pop_front();
+        is_marked_[number(chunk)] = false;
+        const std::uint64_t now = state(chunk);
+        std::uint64_t& shown = shown_[number(chunk)];
+        if (now == shown) continue;
+        std::uint64_t& since = shown_since_[number(chunk)];
+        if (updates_ - since < kSettled) kept_.drop({number(chunk), shown});
+        since = updates_;
+        changes_.push_back({chunk, shown != kUnseen, now, false, {}});
+        changes_.back().piece.rough = rough;
+        shown = now;
+    }
+}
+
+void PartPicture::find_rough() {
+    while (!drawn_roughly_.empty() && changes_.size() < kChunksAtOnce) {
+        const ChunkCoord chunk = drawn_roughly_.front();
+        drawn_roughly_.pop_front();
+        if (is_rough_[number(chunk)]) changes_.push_back({chunk, true, shown_[number(chunk)], false, {}});
+    }
 }
 
 void PartPicture::show_changes(const Show& show) {
@@ -159,14 +180,21 @@ void PartPicture::show_changes(const Show& show) {
         if (change.found) return;
         const BrickCoord from = first_brick(change.chunk);
         Piece& piece = change.piece;
+        field::ContourOptions options;
+        options.rough = piece.rough;
         piece.mesh = field::contour_part(
-            field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks});
+            field_, from, {from.i + kChunkBricks, from.j + kChunkBricks, from.k + kChunkBricks}, options);
         piece.on_blank = put_first(piece.mesh, field_.blank());
-        if (designed_)
+        if (designed_ && piece.rough)
+            piece.deviations_mm.assign(piece.mesh.positions.size(), std::numeric_limits<float>::quiet_NaN());
+        if (designed_ && !piece.rough)
             piece.deviations_mm = surface::deviations_of(piece.mesh, *designed_, serial_for, kReachMm);
     });
     for (Change& c : changes_) {
-        if (!c.found) {
+        const std::size_t at = number(c.chunk);
+        if (c.piece.rough && !is_rough_[at]) drawn_roughly_.push_back(c.chunk);
+        is_rough_[at] = c.piece.rough;
+        if (!c.found && !c.piece.rough) {
             ++contours_;
             kept_.put({number(c.chunk), c.state}, c.piece, bytes_of(c.piece));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part as a picture that follows the cut: chunks of the surface, sent again when they change. Chunks that
-// looked the same for a while are kept, so that a clock that goes back and forth finds them again.
+// looked the same for a while are kept, so that a clock that goes back and forth finds them again. After a
+// jump of the clock chunks are drawn roughly first, and exactly as soon as there is time.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +38,7 @@ class PartPicture {
         // Of each vertex from the designed surface (surface::deviations_of), if there is one.
         std::vector<float> deviations_mm;
         std::uint32_t on_blank = 0;
+        bool rough = false;  // its deviations are not known
     };
     using Show = std::function<void(ChunkCoord, Piece)>;
 
@@ -51,13 +53,17 @@ class PartPicture {
     // Calls show for each marked chunk whose surface has changed since it was last shown, in the order of the
     // marks, while `has_time` is true (checked after every few chunks). An empty mesh means that the surface
     // is gone. Cost: a check of each marked chunk, and a contour of the changed ones.
-    void update(const std::function<bool()>& has_time, const Show& show);
+    // `jumped`: the marked chunks are to be seen soon (ContourOptions::rough); later updates show them again,
+    // a few each.
+    void update(const std::function<bool()>& has_time, const Show& show, bool jumped = false);
     // Chunks are marked that update() has not reached yet.
     bool is_behind() const { return !marked_.empty(); }
     // Number of pieces that were made and not found again.
     std::size_t contours() const { return contours_; }
 
   private:
+    void find_changes(bool rough);
+    void find_rough();
     void show_changes(const Show& show);
     // Returns a hash of the bricks that the chunk is drawn from.
     std::uint64_t state(ChunkCoord chunk) const;
@@ -72,8 +78,8 @@ class PartPicture {
     std::uint64_t updates_ = 0;
     std::size_t contours_ = 0;
     KeptPieces<Piece> kept_;
-    std::deque<ChunkCoord> marked_;
-    std::vector<bool> is_marked_;
+    std::deque<ChunkCoord> marked_, drawn_roughly_;  // of the latter some are not rough any more
+    std::vector<bool> is_marked_, is_rough_;
     struct Change {
         ChunkCoord chunk;
         bool was_seen = false;

@@ -178,7 +178,7 @@ TEST(LiveChanges, MillsTheOldSetupAgainWhileTheNewOneIsWrong) {
         live->set_clock(0);
         live->tick(0, always, viewer.sink());
         live->set_clock(live->duration_s());
-        live->tick(0, always, viewer.sink());
+        settle(*live, viewer);
         return viewer.row_times;
     };
     const std::vector<double> times = mill_all();
@@ -207,7 +207,7 @@ TEST(LiveChanges, WaitsForFilesThatAreReadElsewhere) {
     auto live = *LiveMill::create(from_files, serial_for);
     Viewer viewer;
     live->set_clock(live->duration_s());
-    live->tick(0, always, viewer.sink());
+    settle(*live, viewer);
     const double volume_mm3 = viewer.part_volume_mm3();
 
     ticks_to_read = 3;
@@ -233,6 +233,7 @@ TEST(LiveChanges, WaitsForFilesThatAreReadElsewhere) {
     live->tick(0, always, viewer.sink());
     live->set_clock(2 * live->duration_s());
     for (int n = 0; n < 5; ++n) live->tick(0, always, viewer.sink());
+    settle(*live, viewer);
     EXPECT_EQ(calls, 3);
     EXPECT_EQ(live->sessions(), 3);
     EXPECT_EQ(live->clock_s(), live->duration_s());

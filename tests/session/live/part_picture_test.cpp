@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <map>
+#include <set>
 #include <string>
 
 #include "base/noise_hash.hpp"
@@ -18,11 +19,18 @@ using Chunk = std::tuple<int, int, int>;
 // What a viewer has of the part.
 class Shown {
   public:
-    void follow(PartPicture& picture) {
-        picture.update(always, [&](ChunkCoord c, PartPicture::Piece piece) {
-            chunks_[{c.i, c.j, c.k}] = std::move(piece.mesh);
-        });
+    void follow(PartPicture& picture, bool jumped = false) {
+        picture.update(
+            always,
+            [&](ChunkCoord c, PartPicture::Piece piece) {
+                const Chunk at{c.i, c.j, c.k};
+                rough_.erase(at);
+                if (piece.rough) rough_.insert(at);
+                chunks_[at] = std::move(piece.mesh);
+            },
+            jumped);
     }
+    std::size_t rough() const { return rough_.size(); }
     // Empty chunks are as good as none.
     std::map<Chunk, TriangleMesh> seen() const {
         std::map<Chunk, TriangleMesh> all = chunks_;
@@ -32,6 +40,7 @@ class Shown {
 
   private:
     std::map<Chunk, TriangleMesh> chunks_;
+    std::set<Chunk> rough_;
 };
 
 void expect_same(const Shown& one, const Shown& other) {
@@ -95,6 +104,34 @@ TEST(PartPicture, keeps_nothing_that_was_under_the_tool) {
     expect_as_fresh(shown, session);
     // Of the changed chunks some are made again.
     EXPECT_GT(picture.contours(), made);
+}
+
+// After a jump all is seen at once, and in the end as without a jump.
+TEST(PartPicture, is_rough_after_a_jump_and_exact_soon_after) {
+    MillSession session(*slot(), serial_for);
+    session.keep_states(std::size_t{1} << 20);
+    PartPicture picture(session.stock());
+    const CounterNoise noise(9);
+    Shown shown;
+    std::size_t rough = 0;
+    for (std::uint64_t n = 0; n < 10; ++n) {
+        const double t_s = noise.uniform(n) * session.duration_s();
+        if (t_s < session.milled_s()) session.set_back(t_s);
+        ASSERT_TRUE(session.run_to(t_s, {}));
+        picture.mark(picture.all());
+        shown.follow(picture, true);
+        ASSERT_FALSE(picture.is_behind());
+        rough += shown.rough();
+        // Without a mark they are drawn again. The next jump may come before all are.
+        for (std::uint64_t k = 0; k < n % 4; ++k) {
+            const std::size_t before = shown.rough();
+            shown.follow(picture);
+            EXPECT_TRUE(shown.rough() < before || before == 0);
+        }
+    }
+    EXPECT_GT(rough, 20u);
+    while (shown.rough() > 0) shown.follow(picture);
+    expect_as_fresh(shown, session);
 }
 
 // Against a list of all that was put, the newest use last.

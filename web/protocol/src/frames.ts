@@ -53,6 +53,8 @@ export interface ChunkFrame {
   // The first vertices lie on the surface of the blank, so many; a triangle of them alone is untouched. Undefined:
   // earlier engines do not send it.
   onBlank: number | undefined;
+  // Drawn in a hurry, without deviations: it comes again, exact, while the part stays as it is.
+  rough: boolean;
 }
 
 export interface StateFrame {
@@ -409,7 +411,8 @@ function decodeChunk(r: Reader, buffer: ArrayBuffer): ChunkFrame {
   const compared = r.left() > 0 ? r.u32() : 0;
   const deviations = new Float32Array(buffer, r.at, compared);
   r.at += 4 * compared;
-  return { kind: "chunk", chunk, ...mesh, deviations, onBlank: r.left() > 0 ? r.u32() : undefined };
+  const onBlank = r.left() > 0 ? r.u32() : undefined;
+  return { kind: "chunk", chunk, ...mesh, deviations, onBlank, rough: r.left() > 0 && r.u32() !== 0 };
 }
 
 function decodeMesh(r: Reader, buffer: ArrayBuffer): { positions: Float32Array; indices: Uint16Array } {

@@ -98,7 +98,8 @@ describe("decodeFrame", () => {
     expect([...compared.indices]).toEqual([0, 1, 2]);
     expect([...compared.deviations]).toEqual([0.25, Number.NaN, -0.5]);
     expect(compared.onBlank).toBeUndefined();
-    expect(decodeFrame(bytes.u32(2).done())).toMatchObject({ onBlank: 2 });
+    expect(decodeFrame(bytes.u32(2).done())).toMatchObject({ onBlank: 2, rough: false });
+    expect(decodeFrame(bytes.u32(1).done())).toMatchObject({ onBlank: 2, rough: true });
   });
 
   it("reads a program in UTF-8 and in Latin-1, and refuses one that is cut off", () => {

@@ -67,6 +67,7 @@ const MEANING: Record<string, (told: Told) => Frame> = {
     ...mesh(told),
     deviations: floats(told.deviations_mm),
     onBlank: told.on_blank as number,
+    rough: told.rough as boolean,
   }),
   designed: (told) => ({ kind: "designed", ...mesh(told) }),
   state: (told) => ({

@@ -75,11 +75,19 @@ test("the plate comes out of the module as it does natively", async () => {
   expect(mill.take("plate.toml", 0.25), mill.said()).toBe(true);
   mill.command({ op: "seek", t_s: 1e9 });
   const chunks = new Map<string, bigint>();
+  const rough = new Set<string>();
   const sounds: Uint8Array[] = [];
-  for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
-    if (frame[0] === 2) chunks.set(new Int32Array(frame.buffer, 16, 3).join(), fnv(frame.subarray(28)));
-    if (frame[0] === 6) sounds.push(frame);
-  }
+  do {
+    for (const frame of mill.tick(0, AS_MANY_AS_NEEDED)) {
+      if (frame[0] === 6) sounds.push(frame);
+      if (frame[0] !== 2) continue;
+      const key = new Int32Array(frame.buffer, 16, 3).join();
+      chunks.set(key, fnv(frame.subarray(28)));
+      const isRough = new DataView(frame.buffer).getUint32(frame.byteLength - 4, true) !== 0;
+      if (isRough) rough.add(key);
+      else rough.delete(key);
+    }
+  } while (rough.size > 0);
   let sum = 0n;
   for (const hash of chunks.values()) sum += hash;
   const golden = readFileSync(join(ROOT, "tests/golden/plate.txt"), "utf8").trim();

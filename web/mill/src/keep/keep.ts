@@ -10,6 +10,7 @@ import { glb } from "./glb.js";
 import { ENDING, fragmentOf, LONGEST_FRAGMENT, pack, type Moment } from "./moment.js";
 import { rowsCsv } from "./rows_csv.js";
 import { stl } from "./stl.js";
+import type { Triangles } from "./triangles.js";
 
 /** The moment of the program is in the name of a file: the part changes. */
 export function fileName(history: History, ending: string): string {
@@ -31,10 +32,13 @@ export function listenToKeep(
       (error: unknown) => say(wordsOf(error)),
     );
   });
-  element("keep-part").addEventListener("click", () =>
-    download(new Blob([stl(scene.triangles())], { type: "model/stl" }), name("stl")),
+  const keepPart = async (ending: string, made: (part: Triangles[]) => Blob) =>
+    download(made(await scene.triangles()), name(ending));
+  element("keep-part").addEventListener(
+    "click",
+    () => void keepPart("stl", (part) => new Blob([stl(part)], { type: "model/stl" })),
   );
-  element("keep-glb").addEventListener("click", () => download(glb(scene.triangles(), scene.colours), name("glb")));
+  element("keep-glb").addEventListener("click", () => void keepPart("glb", (part) => glb(part, scene.colours)));
   element("keep-rows").addEventListener("click", () =>
     download(new Blob([rowsCsv(history.rows)], { type: "text/csv" }), name("csv")),
   );

@@ -58,6 +58,8 @@ export class Part {
   private readonly stock = new Group();
   private readonly chunks = new Map<string, Chunk>();
   private readonly uncoloured = new Set<string>();
+  private readonly rough = new Set<string>();
+  private whenExact: (() => void)[] = [];
   private colouring: Colouring = "plain";
   private colouringOn = false;
   private shown = 0;
@@ -81,6 +83,8 @@ export class Part {
     this.chunks.clear();
     this.stock.clear();
     this.uncoloured.clear();
+    this.rough.clear();
+    this.tellIfExact();
     const { min, max } = job.blank;
     this.box.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
     this.box.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
@@ -89,6 +93,7 @@ export class Part {
 
   take(frame: ChunkFrame): void {
     const key = frame.chunk.join();
+    this.note(key, frame.rough);
     const old = this.chunks.get(key);
     if (old) {
       old.mesh.geometry.dispose();
@@ -135,6 +140,22 @@ export class Part {
         if (isBlank[n] === 0 && !Number.isNaN(off)) yield off;
       }
     }
+  }
+
+  private note(key: string, isRough: boolean): void {
+    if (isRough) this.rough.add(key);
+    else this.rough.delete(key);
+    this.tellIfExact();
+  }
+
+  private tellIfExact(): void {
+    if (this.rough.size > 0) return;
+    for (const tell of this.whenExact.splice(0)) tell();
+  }
+
+  /** Waits while chunks are drawn roughly. */
+  async exact(): Promise<void> {
+    if (this.rough.size > 0) await new Promise<void>((tell) => this.whenExact.push(tell));
   }
 
   triangles(): Triangles[] {

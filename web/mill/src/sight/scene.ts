@@ -416,8 +416,9 @@ export class Scene {
     const [wide, high] = [scale * this.canvas.width, scale * this.canvas.height];
     c.drawImage(this.canvas, (width - wide) / 2, (height - high) / 2, wide, high);
   }
-  /** The surface of the part as it is shown, mm. */
-  triangles(): Triangles[] {
+  /** The surface of the part at this moment, mm: after a jump of the clock as soon as it is exact. */
+  async triangles(): Promise<Triangles[]> {
+    await this.part.exact();
     return this.part.triangles();
   }
 
