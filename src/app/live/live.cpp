@@ -38,7 +38,7 @@ FileResult<PreparedJob> read_job(const LiveCall& call, std::optional<int> sound_
     auto read = prepare_job(call.job, call.program, options, sound_rate_hz, files::Pipes::refuse);
     if (!read) return read;
     // The part is milled for the picture, and ahead of it for the hand.
-    const RunOutputs made{.mesh = true, .sound = sound_rate_hz.has_value(), .sessions = 2};
+    const RunOutputs made{.mesh = true, .sound = sound_rate_hz.has_value(), .sessions = 2, .states = true};
     if (auto fits = check_memory(call.job, read->setup, read->part, made, call.memory_mb); !fits)
         return std::unexpected(FileFailure(fits.error()));
     return read;

@@ -43,7 +43,9 @@ double bytes_at(RunOutputs outputs, const std::optional<readers::Model>& part,
     }
     if (outputs.report) after += kReportBytes + kReportVertexBytes * estimate.vertices(cell);
     const double sound = outputs.sound ? kSoundBytes : 0;
-    return kProgramBytes + sound + outputs.chatter_bytes + outputs.sessions * estimate.session_bytes(cell) +
+    const double states = outputs.states ? estimate.states_bytes(cell) : 0;
+    return kProgramBytes + sound + states + outputs.chatter_bytes +
+           outputs.sessions * estimate.session_bytes(cell) +
            std::max({mesh, kept + comparison, kept + after});
 }
 

@@ -47,6 +47,7 @@ struct RunOutputs {
     bool mesh = false, report = false, sound = false;
     double chatter_bytes = 0;  // of what a vibration leaves on the part, or adds to the force
     int sessions = 1;          // how many times the part is milled at the same time
+    bool states = false;       // that one of them keeps
 };
 
 // Refuses a run that does not fit into memory. The error names the finest grid spacing that fits. Absent

@@ -13,6 +13,8 @@ namespace tribo::session {
 
 class KeptStates {
   public:
+    // Memory of the states of a session that is shown.
+    static constexpr std::size_t kMostBytes = std::size_t{192} << 20;
     // Some hundredths of a second of carving.
     static constexpr std::uint64_t kSpacing = 1'000;
 

@@ -10,6 +10,7 @@
 #include "field/carved/carved_field.hpp"
 #include "milling/tool/convex_zones.hpp"
 #include "motion/path/path.hpp"
+#include "session/cut/kept_states.hpp"
 
 namespace tribo::session {
 namespace {
@@ -274,6 +275,11 @@ double MemoryEstimate::session_bytes(double cell_mm) const {
     return solid_bytes_ + moves_ * (kMoveBytes + kSweepBytes) +
            curved_moves_ * (kCurvedSweepBytes - kSweepBytes) +
            field::CarvedField::estimated_bytes(blank_, cell_mm, cut_bricks(cell_mm), touched_bricks(cell_mm));
+}
+
+double MemoryEstimate::states_bytes(double cell_mm) const {
+    constexpr double kOfField = 7;  // a part in many layers, measured
+    return std::min(static_cast<double>(KeptStates::kMostBytes), kOfField * session_bytes(cell_mm));
 }
 
 double MemoryEstimate::vertices(double cell_mm) const {

@@ -22,6 +22,8 @@ class MemoryEstimate {
 
     // Bytes of the session after the run: blank and fixtures, moves, sweeps and field.
     double session_bytes(double cell_mm) const;
+    // Additional bytes of the states that a session keeps to go back to (KeptStates), at most.
+    double states_bytes(double cell_mm) const;
     // Additional bytes of field::contour, with its mesh.
     double mesh_bytes(double cell_mm) const;
     // Vertices of that mesh.

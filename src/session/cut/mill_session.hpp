@@ -96,7 +96,8 @@ class MillSession {
     double known_s() const;
     // Keeps states of the stock from now on, in about `most_bytes`, so that the stock can be set back. Call
     // it before anything is milled.
-    void keep_states(std::size_t most_bytes, std::uint64_t spacing = KeptStates::kSpacing);
+    void keep_states(std::size_t most_bytes = KeptStates::kMostBytes,
+                     std::uint64_t spacing = KeptStates::kSpacing);
     // Puts the stock back to the last kept state with no move that begins at `t_s` or later. run_to() then
     // carves what was milled again, with no row and no collision, from the last kept state before its goal,
     // and mills on from there. The totals of volume are those of the stock.

@@ -133,7 +133,7 @@ Result<void> LiveMill::begin(Result<LiveInput> input) {
     MillSetup setup = input ? std::move(input->setup) : session_->release_setup();
     session_.reset();  // before the next one: two of them need twice the memory
     session_ = std::make_unique<MillSession>(std::move(setup), parallel_);
-    session_->keep_states(kMostStateBytes);
+    session_->keep_states();
     picture_ = std::make_unique<PartPicture>(session_->stock(), parallel_, compared_);
     path_ = path_of(*session_);
     const bool bends = !session_->setup().modes_of_cutter.empty();

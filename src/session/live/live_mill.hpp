@@ -47,8 +47,6 @@ class LiveMill {
     // (MillOptions::longest_piece_mm): the part is shown only between moves.
     using MakeInput = std::function<std::optional<Result<LiveInput>>()>;
     static constexpr double kPieceMm = 2;
-    // Memory of the states of the part that a clock goes back to.
-    static constexpr std::size_t kMostStateBytes = std::size_t{192} << 20;
     static constexpr double kFastest = kLimits.play_speed.range.max;  // program seconds per second
 
     // `files_changed`: whether MakeInput would read other files than the last time; empty: always. As long as

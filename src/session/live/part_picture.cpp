@@ -30,6 +30,8 @@ std::size_t bytes_of(const PartPicture::Piece& piece) {
 
 // Chunks between two checks of the time: a few milliseconds each where deviations are searched.
 constexpr std::size_t kChunksAtOnce = 8;
+// Rough chunks that one update makes exact: tens of milliseconds at most, in which no jump is heard.
+constexpr std::size_t kExactAtOnce = 2;
 
 ChunkCoord chunk_of(BrickCoord b) {
     return {b.i / kChunkBricks, b.j / kChunkBricks, b.k / kChunkBricks};
@@ -139,7 +141,6 @@ void PartPicture::update(const std::function<bool()>& has_time, const Show& show
         if (!has_time()) return;
     }
     if (jumped && !stands) return;
-    // A few, so that the next jump need not wait.
     find_rough();
     show_changes(show);
 }
@@ -162,7 +163,7 @@ void PartPicture::find_changes(bool rough) {
 }
 
 void PartPicture::find_rough() {
-    while (!drawn_roughly_.empty() && changes_.size() < kChunksAtOnce) {
+    while (!drawn_roughly_.empty() && changes_.size() < kExactAtOnce) {
         const ChunkCoord chunk = drawn_roughly_.front();
         drawn_roughly_.pop_front();
         if (is_rough_[number(chunk)]) changes_.push_back({chunk, true, shown_[number(chunk)], false, {}});
