@@ -76,6 +76,7 @@ void measure_carving(Report& report, int repeats);
 void measure_many_moves(Report& report, int repeats);
 void measure_milling(Report& report, int repeats);
 void measure_sessions(Report& report, int repeats);
+void measure_scrub(Report& report);
 void measure_noise(Report& report, int repeats);
 void measure_sound(Report& report);
 void measure_elastic(Report& report);

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
         {"moves", [&] { measure_many_moves(report, repeats); }},
         {"milling", [&] { measure_milling(report, repeats); }},
         {"sessions", [&] { measure_sessions(report, repeats); }},
+        {"scrub", [&] { measure_scrub(report); }},
         {"noise", [&] { measure_noise(report, repeats); }},
         {"sound", [&] { measure_sound(report); }},
         {"elastic", [&] { measure_elastic(report); }},
