@@ -232,7 +232,7 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_between_ribs) {
             motion::Move slot;
             slot.start = {{-9, y, -3}, {0, -std::sin(lean), std::cos(lean)}};
             slot.end = {{9, y, -3}, {0, std::sin(lean), std::cos(lean)}};
-            part.mill(flat, slot);
+            for (const motion::Move& piece : motion::to_elementary(slot)) part.mill(flat, piece);
         }
         expect_nearest(part, {{-4, -4, -3}, {4, 4, 0.8}}, 0.8, lean > 0 ? 10 : 40, lean > 0 ? 6 : 12);
     }

@@ -479,8 +479,10 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     const auto shown_beyond = [&](double mm) { return is_proven || found.distance_mm() - mm <= kOnSurface; };
     search_at(hint.at_mm + (p - hint.from_mm));
     if (shown_beyond(lower.distance_mm)) return found.best();
-    // Material only ever disappears: surface that was farther away a short time ago still is.
-    if (hint.others_mm > 0 && shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
+    // Material only ever disappears: surface that was farther away a short time ago still is. What was found
+    // must be the place of the hint: not beyond the point that was nearest there.
+    if (hint.others_mm > 0 && found.distance_mm() <= distance(p, hint.at_mm) + kOnSurface &&
+        shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
         return found.best();
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
