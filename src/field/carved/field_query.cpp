@@ -15,6 +15,8 @@ constexpr double kOnSurface = 2e-5;
 // Bricks leave out shapes whose surface others give within an error of searched sweeps: at the border of two
 // bricks the surface has steps of this, mm. Where one shape gives the depth of a point, its surface is meant.
 constexpr double kStep = 7e-5;
+// A step that nothing notices, mm.
+constexpr double kNoStep = 1e-6;
 // Largest number of bricks on each side in a search for clear air, and in a search for the nearest surface.
 constexpr int kMostRings = 3, kMostReach = 6;
 constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
@@ -392,6 +394,24 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
     return any;
 }
 
+// The place below a point that is so deep in the piece: found if it is on the surface. The ball of this depth
+// is air. Far from its surface a searched sweep may miss the depth by some 1e-5 mm: then once more from
+// there.
+contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
+    contact::Foot foot{depth, p - depth.distance_mm * depth.normal, {}, false};
+    double off_mm = std::abs(distance_mm(foot.at_mm));
+    if (off_mm > kNoStep && off_mm <= kStep) {
+        const contact::SurfaceSample left = sample_piece(depth.piece, foot.at_mm);
+        foot.at_mm -= left.distance_mm * left.normal;
+        foot.sample.distance_mm = distance(p, foot.at_mm);
+        foot.sample.normal = normalized(p - foot.at_mm, depth.normal);
+        off_mm = std::abs(distance_mm(foot.at_mm));
+    }
+    foot.found = depth.distance_mm > 0 && off_mm <= kStep;
+    if (foot.found) foot.sides.put({foot.sample.normal, dot(foot.sample.normal, foot.at_mm), depth.piece}, 0);
+    return foot;
+}
+
 // The nearest place on the pieces that met at the last one, if it is proven to be the nearest of all.
 std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
     const BrickCoord b = brick_at(hint.at_mm);
@@ -403,10 +423,9 @@ std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint&
     }
     Vec3 start = hint.sides.nearest(p);
     if (hint.sides.count == 1) {
-        // Deep in one shape: the ball of this depth is air.
-        contact::Foot foot{sample_piece(hint.sides.side[0].piece, p), {}, hint.sides, true};
-        start = foot.at_mm = p - foot.sample.distance_mm * foot.sample.normal;
-        if (foot.sample.distance_mm > 0 && std::abs(distance_mm(start)) <= kStep) return foot;
+        const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
+        if (foot.found) return foot;
+        start = foot.at_mm;
     }
     const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
     if (foot.found && is_nearest(foot)) return foot;
@@ -438,12 +457,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             if (b == here) return {s, p, {}};
             continue;
         }
-        const Vec3 at = p - s.distance_mm * s.normal;
-        if (std::abs(distance_mm(at)) <= kStep) {
-            contact::Foot foot{s, at, {}, true};
-            foot.sides.put({s.normal, dot(s.normal, at), s.piece}, 0);
-            return foot;
-        }
+        if (const contact::Foot foot = below(s, p); foot.found) return foot;
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
