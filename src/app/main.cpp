@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
     add_stability(program, exit_code);
     add_audit(program, exit_code);
     add_feed(program, exit_code);
+    add_compare(program, exit_code);
     add_sweep(program, exit_code);
     add_sweep_worker(program, exit_code);
     add_devices(program, exit_code);

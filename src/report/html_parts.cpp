@@ -54,6 +54,52 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
+std::string filled(std::string_view page, const std::function<std::string(std::string_view)>& value) {
+    std::string out;
+    while (true) {
+        const std::size_t open = page.find("{{");
+        const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);
+        if (close == page.npos) return out.append(page);
+        out.append(page.substr(0, open));
+        out += value(page.substr(open + 2, close - open - 2));
+        page.remove_prefix(close + 2);
+    }
+}
+
+std::string json_for_script(std::string_view json) {
+    std::string safe;
+    for (const char c : json) {
+        if (c == '<') {
+            safe += "\\u003c";
+        } else {
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+std::string html_of(const HtmlTable& table) {
+    std::string html = "<section><h2>" + escaped(table.title) + "</h2>\n";
+    if (!table.hint.empty()) html += "<p class=\"hint\">" + escaped(table.hint) + "</p>\n";
+    html += "<div class=\"wide\"><table><tr>";
+    for (const std::string& name : table.header) html += "<th scope=\"col\">" + escaped(name) + "</th>";
+    html += "</tr>\n";
+    for (const std::vector<std::string>& row : table.rows) {
+        html += "<tr>";
+        for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
+        html += "</tr>\n";
+    }
+    return html + "</table></div></section>\n";
+}
+
+std::string notice_list(const std::vector<std::string>& items, const std::string& title,
+                        std::string_view style) {
+    if (items.empty()) return "";
+    std::string html = "<div class=\"notice " + std::string(style) + "\"><b>" + title + "</b>\n<ul>\n";
+    for (const std::string& item : items) html += "<li>" + escaped(item) + "</li>\n";
+    return html + "</ul></div>\n";
+}
+
 std::string wav_bytes_16(std::span<const float> interleaved, int channels, double rate_hz) {
     const auto rate = static_cast<std::uint32_t>(std::lround(rate_hz));
     const auto frame = static_cast<std::uint32_t>(2 * channels);

@@ -83,16 +83,13 @@ std::string cards(const Summary& s) {
     return html;
 }
 
-std::string list(const std::vector<std::string>& items, const std::string& title, const char* style) {
-    if (items.empty()) return "";
-    std::string html = std::string("<div class=\"notice ") + style + "\"><b>" + title + "</b>\n<ul>\n";
-    for (std::size_t i = 0; i < std::min(items.size(), kMostNotices); ++i) {
-        html += "<li>" + escaped(items[i]) + "</li>\n";
-    }
+std::string list(std::vector<std::string> items, const std::string& title, std::string_view style) {
     if (items.size() > kMostNotices) {
-        html += "<li>and " + std::to_string(items.size() - kMostNotices) + " more in summary.json</li>\n";
+        const std::size_t more = items.size() - kMostNotices;
+        items.resize(kMostNotices);
+        items.push_back("and " + std::to_string(more) + " more in summary.json");
     }
-    return html + "</ul></div>\n";
+    return notice_list(items, title, style);
 }
 
 std::string notices(const Summary& s) {
@@ -271,29 +268,7 @@ std::string data_json(const ReportData& data) {
     if (data.sound && data.sound->seconds > 0) json += "," + sound_json(*data.sound);
     if (data.part) json += ",\"part\":" + report_part_json(*data.part);
     json += "}";
-    // In a script element only "</" could end it; '<' occurs only in strings.
-    std::string safe;
-    for (const char c : json) {
-        if (c == '<') {
-            safe += "\\u003c";
-        } else {
-            safe += c;
-        }
-    }
-    return safe;
-}
-
-// Replaces every {{mark}} of the page in one pass, so that inserted text is never replaced again.
-std::string filled(std::string_view page, const std::function<std::string(std::string_view)>& value) {
-    std::string out;
-    while (true) {
-        const std::size_t open = page.find("{{");
-        const std::size_t close = open == page.npos ? page.npos : page.find("}}", open);
-        if (close == page.npos) return out.append(page);
-        out.append(page.substr(0, open));
-        out += value(page.substr(open + 2, close - open - 2));
-        page.remove_prefix(close + 2);
-    }
+    return json_for_script(json);
 }
 
 ReportRow joined(const ReportRow& a, const ReportRow& b) {

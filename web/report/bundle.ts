@@ -5,7 +5,7 @@ import { bundle } from "../tools/bundle.js";
 import { ROOT } from "../tools/places.js";
 
 export const KEPT = join(ROOT, "src/report/page");
-export const SCRIPTS = ["script.js", "view.js"];
+export const SCRIPTS = ["script.js", "view.js", "compare.js"];
 
 const GLOBAL = "report";
 const banner = "// Made of web/report by npm run write. Tribo, MIT licence.";
@@ -17,7 +17,8 @@ export async function bundleReport(folder: string): Promise<void> {
     entry: source("part_view.ts"),
     file: join(folder, "view.js"),
     banner,
-    external: ["./shared.js"],
+    external: ["./shared.js", "./state.js"],
     externalGlobal: GLOBAL,
   });
+  await bundle({ entry: source("compare.ts"), file: join(folder, "compare.js"), banner, global: "comparison" });
 }

@@ -177,11 +177,11 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
     page.curves.push_back(
         {"Load over the limit that is nearest", answer.ratio.duration_s(), answer.ratio.values(), 1});
 
-    report::AuditTable tools{"Tools",
-                             "Ratios are loads over their limits, with the band of forces and limits.",
-                             {"Tool", "Cutter", "Cutting, s", "Feed, mm"},
-                             {}};
-    report::AuditTable limits{"Limits", "Where each limit is from.", {"Tool", "Load", "Limit", "From"}, {}};
+    report::HtmlTable tools{"Tools",
+                            "Ratios are loads over their limits, with the band of forces and limits.",
+                            {"Tool", "Cutter", "Cutting, s", "Feed, mm"},
+                            {}};
+    report::HtmlTable limits{"Limits", "Where each limit is from.", {"Tool", "Load", "Limit", "From"}, {}};
     for (const session::LoadWords& words : session::kLoadWords) tools.header.emplace_back(words.name);
     const std::array<std::string, 2> of_part{"Gouge, mm", "Scallop, mm"};
     const auto add_errors = [](const session::LoadTally& tally, std::vector<std::string>& row) {
@@ -212,7 +212,7 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
         const session::CutLimit& least = model.limits().of_cutter[tool.cutter].least_chip;
         limits.rows.push_back({tool_name(cutter), "least chip", digits(least.value) + " mm", least.source});
     }
-    report::AuditTable worst{
+    report::HtmlTable worst{
         "Worst lines",
         "Those whose load is nearest to, or farthest over, its limit.",
         {"Line", "Text", "Tool", "Load", "Value", "Of its limit", "Plunge, deg", "Jump, N"},
@@ -230,7 +230,7 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
     }
     page.tables = {std::move(tools), std::move(worst)};
     if (answer.errors && !answer.errors->gouges().empty()) {
-        report::AuditTable gouges{
+        report::HtmlTable gouges{
             "Gouges", "The lines that cut deepest into the design.", {"Line", "Text", "Gouge, mm"}, {}};
         for (const session::PartErrors::Gouge& gouge : answer.errors->gouges()) {
             if (gouges.rows.size() == kShownLines) break;
@@ -240,10 +240,10 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
     }
     page.tables.push_back(std::move(limits));
     if (call.stable) {
-        report::AuditTable speeds{"Spindle speeds",
-                                  "Speeds without chatter; feeds follow them, so that the chips stay.",
-                                  {"Speed"},
-                                  {}};
+        report::HtmlTable speeds{"Spindle speeds",
+                                 "Speeds without chatter; feeds follow them, so that the chips stay.",
+                                 {"Speed"},
+                                 {}};
         for (std::string& text : in_words(answer.speeds)) speeds.rows.push_back({std::move(text)});
         page.tables.push_back(std::move(speeds));
     }

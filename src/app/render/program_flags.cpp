@@ -62,11 +62,12 @@ Result<void> read_tools(const ProgramFlags& flags, job::ProgramInputs& inputs) {
 
 }  // namespace
 
-CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags) {
-    const std::function<std::string(std::string)> standard_input = [](std::string name) {
-        return name == "-" ? kStandardInput : name;
+CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags,
+                     const char* name) {
+    const std::function<std::string(std::string)> standard_input = [](std::string file) {
+        return file == "-" ? kStandardInput : file;
     };
-    CLI::Option* option = verb.add_option("JOB", job, description)->transform(standard_input);
+    CLI::Option* option = verb.add_option(name, job, description)->transform(standard_input);
     const CLI::Validator says_something(
         [](const std::string& text) {
             return std::string(text.empty() ? "is empty; leave it out, or write a value" : "");

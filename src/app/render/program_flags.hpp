@@ -22,8 +22,10 @@ struct ProgramFlags {
     std::optional<double> spindle_rpm, feed_mm_per_min;
 };
 
-// Adds the flags and JOB, where `-` is standard input. Both references must live as long as the verb.
-CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags);
+// Adds the flags and JOB (or another name of it), where `-` is standard input. The references to job and
+// flags must live as long as the verb.
+CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags,
+                     const char* name = "JOB");
 
 // Refuses what is not understood, with the flag.
 Result<job::ProgramInputs> program_inputs(const ProgramFlags& flags);

@@ -21,6 +21,7 @@ void add_site(CLI::App& program, int& exit_code);
 void add_feed(CLI::App& program, int& exit_code);
 void add_stability(CLI::App& program, int& exit_code);
 void add_audit(CLI::App& program, int& exit_code);
+void add_compare(CLI::App& program, int& exit_code);
 void add_sweep(CLI::App& program, int& exit_code);
 void add_sweep_worker(CLI::App& program, int& exit_code);
 void add_devices(CLI::App& program, int& exit_code);

@@ -62,27 +62,6 @@ std::string chart(const AuditCurve& curve) {
     return svg + "</svg>\n";
 }
 
-std::string table(const AuditTable& t) {
-    std::string html = "<section><h2>" + escaped(t.title) + "</h2>\n";
-    if (!t.hint.empty()) html += "<p class=\"hint\">" + escaped(t.hint) + "</p>\n";
-    html += "<div class=\"wide\"><table><tr>";
-    for (const std::string& name : t.header) html += "<th scope=\"col\">" + escaped(name) + "</th>";
-    html += "</tr>\n";
-    for (const std::vector<std::string>& row : t.rows) {
-        html += "<tr>";
-        for (const std::string& cell : row) html += "<td>" + escaped(cell) + "</td>";
-        html += "</tr>\n";
-    }
-    return html + "</table></div></section>\n";
-}
-
-std::string list(const std::vector<std::string>& items, const char* title, const char* style) {
-    if (items.empty()) return "";
-    std::string html = std::string("<div class=\"notice ") + style + "\"><b>" + title + "</b>\n<ul>\n";
-    for (const std::string& item : items) html += "<li>" + escaped(item) + "</li>\n";
-    return html + "</ul></div>\n";
-}
-
 }  // namespace
 
 std::string audit_page(const AuditPage& page) {
@@ -95,20 +74,20 @@ std::string audit_page(const AuditPage& page) {
         "svg{width:100%;height:auto;background:var(--card);border:1px solid var(--line);border-radius:8px}"
         "svg .grid{stroke:var(--grid)}svg .limit{stroke:var(--bad);stroke-width:1.5;stroke-dasharray:6 4}"
         "svg text{fill:var(--soft);font-size:12px}svg polyline{fill:none;stroke:var(--mean);stroke-width:1.2}"
-        ".verdict{font-size:19px;margin:18px 0}.wide{overflow-x:auto}"
+        ".verdict{font-size:19px;margin:18px 0}"
         "</style></head><body>\n<header><p class=\"mark\">Tribo</p><h1>" +
         escaped(page.title) + "</h1><p class=\"subtitle\">" + escaped(page.subtitle) + "</p></header>\n";
     html += "<main>\n<p class=\"verdict notice" + std::string(page.is_bad ? " bad" : "") + "\">" +
             escaped(page.verdict) + "</p>\n";
-    html += list(page.findings, "Findings", page.is_bad ? "bad" : "");
+    html += notice_list(page.findings, "Findings", page.is_bad ? "bad" : "");
     for (const AuditCurve& curve : page.curves)
         html += "<section><h2>" + escaped(curve.title) + "</h2><figure>" + chart(curve) +
                 "<figcaption>Over the time of the program, s.</figcaption></figure></section>\n";
-    for (const AuditTable& t : page.tables) html += table(t);
+    for (const HtmlTable& t : page.tables) html += html_of(t);
     html += "<section><h2>Set-up</h2><table>\n";
     for (const auto& [name, text] : page.facts)
         html += "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(text) + "</td></tr>\n";
-    html += "</table></section>\n" + list(page.warnings, "Warnings", "");
+    html += "</table></section>\n" + notice_list(page.warnings, "Warnings");
     return html + "</main>\n<footer>Tribo " + escaped(page.version) +
            ". Units: mm, N, s.</footer>\n</body></html>\n";
 }

@@ -7,13 +7,9 @@
 #include <utility>
 #include <vector>
 
-namespace tribo::report {
+#include "report/html_parts.hpp"
 
-struct AuditTable {
-    std::string title, hint;
-    std::vector<std::string> header;
-    std::vector<std::vector<std::string>> rows;  // as long as the header
-};
+namespace tribo::report {
 
 // A value over the time of the program: in equal steps, the largest of each.
 struct AuditCurve {
@@ -28,7 +24,7 @@ struct AuditPage {
     bool is_bad = false;  // something is over a limit
     std::vector<std::string> findings, warnings;
     std::vector<std::pair<std::string, std::string>> facts;  // the set-up: name, text
-    std::vector<AuditTable> tables;
+    std::vector<HtmlTable> tables;
     std::vector<AuditCurve> curves;
 };
 

@@ -13,6 +13,7 @@ import { envelopePlot, wavePlots } from "./sound_plots.js";
 import { turnPlots } from "./turn_plots.js";
 
 export * from "./shared.js";
+export * from "./state.js";
 
 const remove = (id: string) => element(id).remove();
 

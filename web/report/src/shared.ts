@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Functions of the page script that the script of the part view uses, so that they exist only once.
+// Functions that the scripts of the pages share, so that they exist only once in a page.
 export { vec3 } from "@tribo/protocol/vec3";
 export { fitToScreen } from "@tribo/ui/canvas";
 export { element } from "@tribo/ui/dom";
-export { data, rows } from "./data.js";
 export { clamp, short } from "./numbers.js";
-export { follow, selected } from "./selection.js";
