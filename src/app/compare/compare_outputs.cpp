@@ -85,13 +85,15 @@ files::Json place_json(const surface::DifferencePlace& place, const Comparison& 
 }
 
 std::string place_in_words(const surface::DifferencePlace& place, const Comparison& c, bool leaves_more) {
-    const auto by = [](int line, const char* name) {
-        return line > 0 ? std::string(", made by line ") + std::to_string(line) + " of " + name
-                        : std::string();
+    std::string by;
+    const auto add_line = [&](int line, const char* name) {
+        if (line > 0)
+            by += (by.empty() ? ", made by line " : " and line ") + std::to_string(line) + " of " + name;
     };
+    add_line(c.a.line_at(place.on_a_mm), "A");
+    add_line(c.b.line_at(place.on_b_mm), "B");
     return std::string("B ") + (leaves_more ? "leaves " : "cuts ") + digits(std::abs(place.mm)) + " mm " +
-           (leaves_more ? "more" : "deeper") + " at most, at " + place_text(place.on_b_mm) +
-           by(c.a.line_at(place.on_a_mm), "A") + by(c.b.line_at(place.on_b_mm), "B") + ".";
+           (leaves_more ? "more" : "deeper") + " at most, at " + place_text(place.on_b_mm) + by + ".";
 }
 
 std::vector<std::string> part_facts(const Comparison& c) {

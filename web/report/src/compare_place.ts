@@ -2,7 +2,7 @@
 // The place in the cut that views, plots and readouts share, and the clock that moves it.
 
 import { element } from "@tribo/ui/dom";
-import { count, data, SIDES } from "./compare_data.js";
+import { count, data, type SideName } from "./compare_data.js";
 import { clamp, short } from "./numbers.js";
 
 /** The whole cut plays in this time, s. */
@@ -38,7 +38,7 @@ export function stepAt(at: number): number {
 }
 
 /** What a run does there, in words. */
-export function wordsAt(side: (typeof SIDES)[number], step: number): string {
+export function wordsAt(side: SideName, step: number): string {
   const run = data[side];
   if (run.t[step] === null) return "cuts nothing here";
   const known = data.lanes

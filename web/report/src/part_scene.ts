@@ -64,19 +64,19 @@ export interface SceneOptions {
   part: Part;
   bytes: Uint8Array;
   /** The tip of the tool; undefined: not shown. */
-  tip(): Vec3 | undefined;
+  tip: () => Vec3 | undefined;
   /** Called when the graphics come or are lost. */
-  show(on: boolean): void;
+  show: (on: boolean) => void;
   /** Called in place of redraw() when the camera moves: a camera may belong to several scenes. */
-  moved?(): void;
+  moved?: () => void;
   /** Of another scene, to share it. */
   camera?: Camera;
 }
 
 export interface Scene {
   camera: Camera;
-  redraw(): void;
-  colourBy(deviation: boolean): void;
+  redraw: () => void;
+  colourBy: (deviation: boolean) => void;
 }
 
 /** Undefined: there is no WebGL 2. */
