@@ -32,7 +32,10 @@ class CompareVerb : public testing::Test {
         return run_tribo(arguments, scratch.path());
     }
     nlohmann::json compare(const std::string& a, const std::string& b) const {
-        const Outcome done = run({a, b, "--out", "out", "--resolution", "0.25"});
+        std::vector<std::string> arguments{a, b, "--out", "out"};
+        if (a.ends_with(".toml") || b.ends_with(".toml"))
+            arguments.insert(arguments.end(), {"--resolution", "0.25"});
+        const Outcome done = run(arguments);
         EXPECT_EQ(done.code, 0) << done.err;
         return nlohmann::json::parse(scratch.get("out/compare.json"), nullptr, false);
     }
@@ -140,7 +143,10 @@ TEST_F(CompareVerb, takes_a_job_and_its_render_as_the_same) {
     const auto json = compare("a.toml", "a");
     EXPECT_NEAR(json["difference"]["peak_force_n"].get<double>(), 0, 1e-9);
     EXPECT_NEAR(json["difference"]["removed_mm3"].get<double>(), 0, 1e-9);
-    EXPECT_LT(json["part"]["only_a_mm3"].get<double>(), 0.1);
+    // Along edges the mesh fills other shares of the cells than the exact part.
+    const double least = 1e-4 * json["a"]["remaining_mm3"].get<double>();
+    EXPECT_LT(json["part"]["only_a_mm3"].get<double>(), least);
+    EXPECT_LT(json["part"]["only_b_mm3"].get<double>(), least);
     // The folder holds a mesh of single precision, and forces with five decimals.
     for (const char* side : {"b_cuts_deeper", "b_leaves_more"}) {
         const double mm = json["part"].contains(side) ? json["part"][side]["mm"].get<double>() : 0;
