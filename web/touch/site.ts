@@ -9,6 +9,7 @@ import { COMPONENT, MODULES, ROOT, SITE } from "../tools/places.js";
 import { withPolicy } from "../tools/policy.js";
 import { shortStyle } from "../tools/shorten.js";
 import { version } from "./package.json";
+import SAYS from "./site/sentences.json";
 import { kSchema } from "./src/material_schema.js";
 
 interface MaterialFile {
@@ -50,7 +51,7 @@ await bundle({
 for (const name of ["make", "learner"])
   await bundle({ entry: join(here, `${name}.ts`), file: join(SITE, `${name}.js`) });
 
-const listed: { file: string; name: string; note: string; image: string }[] = [];
+const listed: { file: string; name: string; note: string; says?: string; image: string }[] = [];
 for (const path of await materialFiles(join(ROOT, "examples/materials"))) {
   const material = JSON.parse(await readFile(path, "utf8")) as MaterialFile;
   if (material.schema !== kSchema || !material.image) continue;
@@ -65,6 +66,7 @@ for (const path of await materialFiles(join(ROOT, "examples/materials"))) {
     file: `materials/${name}.json`,
     name: material.name || name,
     note: material.note ?? "",
+    says: (SAYS as Record<string, string | undefined>)[name],
     image: `materials/${image}`,
   });
 }

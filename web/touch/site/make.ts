@@ -174,7 +174,7 @@ async function make(show: Show, present: () => { stiffness: number; damping: num
     show({ file: URL.createObjectURL(fileOf(here)), name });
     say(
       `learned ${count} voice${count === 1 ? "" : "s"} of order ${learned.voices[0]!.reflection.length} in ${((performance.now() - begin) / 1000).toFixed(1)} s; ` +
-        `rub the picture above, set K and ν, then download. Keep the file beside ${image.name}.\n${warnings}`,
+        `rub the picture below, set K and ν above, then download. Keep the file beside ${image.name}.\n${warnings}`,
     );
     const button = element<HTMLButtonElement>("make-download");
     button.hidden = false;

@@ -7,10 +7,15 @@ interface Listed {
   file: string;
   name: string;
   note: string;
+  /** One plain sentence. */
+  says?: string;
   image?: string;
 }
 
-const pictures = [element<TriboTouch>("ours"), element<TriboTouch>("published")];
+// The one at the top, its twin beside the published model, and that model.
+const pictures = ["ours", "model", "published"].map((id) => element<TriboTouch>(id));
+/** What was made here, beside its form. */
+const made = element<TriboTouch>("made");
 const stiffness = element<HTMLInputElement>("stiffness");
 const damping = element<HTMLInputElement>("damping");
 
@@ -27,7 +32,7 @@ function show(): void {
 }
 
 function turn(): void {
-  for (const picture of pictures) {
+  for (const picture of [...pictures, made]) {
     picture.stiffness = 10 ** Number(stiffness.value);
     picture.damping = 10 ** Number(damping.value);
   }
@@ -56,7 +61,8 @@ function choose(material: Listed): void {
     picture.alt = `${material.name}, ${picture.asPublished ? "as published" : "by Tribo"}`;
   }
   element("wrong").textContent = "";
-  element("note").textContent = material.note;
+  if (material.says) element("says").textContent = material.says;
+  element("note").textContent = material.note && `${material.name}: ${material.note}.`;
 }
 
 /** Adds a choice to the materials. */
@@ -75,7 +81,15 @@ function offer(material: Listed, chosen: boolean): void {
 async function learnHere(): Promise<void> {
   const { start: begin } = await import("./make.js");
   begin(
-    ({ file, name }) => offer({ file, name, note: "made on this page" }, true),
+    ({ file, name }) => {
+      offer(
+        { file, name, note: "made on this page", says: `${name}: what you made of a picture and its sound.` },
+        true,
+      );
+      made.src = file;
+      made.alt = name;
+      made.hidden = false;
+    },
     () => pictures[0]!,
   );
 }

@@ -106,7 +106,8 @@ test("the packed package installs from its tarball, imports on a server and know
 
 test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passes axe-core", async () => {
   servePage(site);
-  const page = await browser.newPage({ viewport: { width: 900, height: 900 } });
+  // So tall that all pictures are in view.
+  const page = await browser.newPage({ viewport: { width: 900, height: 2600 } });
   const errors: string[] = [];
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (said) => {
@@ -115,7 +116,7 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   await page.goto(`${site.root}/site/index.html`);
   const ready = () =>
     page.waitForFunction(() =>
-      [...document.querySelectorAll<TriboTouch>("tribo-touch")].every((e) => e.state === "ready"),
+      [...document.querySelectorAll<TriboTouch>("tribo-touch[src]")].every((e) => e.state === "ready"),
     );
   await ready();
   await page.waitForFunction(() => document.getElementById("stiffness-value")?.textContent === "1.40 N/mm");
@@ -124,8 +125,10 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   await ready();
   await page.locator("#stiffness").fill("0");
   expect(
-    await page.evaluate(() => ["#ours", "#published"].map((id) => document.querySelector<TriboTouch>(id)?.stiffness)),
-  ).toEqual([1, 1]);
+    await page.evaluate(() =>
+      ["#ours", "#model", "#published"].map((id) => document.querySelector<TriboTouch>(id)?.stiffness),
+    ),
+  ).toEqual([1, 1, 1]);
   expect(await page.locator("#meaning").textContent()).toContain("2 mm deep; 63 % of the way takes 300 ms");
   await page.locator("#own summary").click();
   await page.waitForFunction(() => document.querySelector<HTMLFormElement>("#make")?.noValidate);
@@ -134,6 +137,49 @@ test.skipIf(!hasBrowser)("the touch page turns K and nu of both models and passe
   expect(errors).toEqual([]);
   await page.close();
 });
+
+test.skipIf(!hasBrowser)(
+  "the touch page shows a material from edge to edge, and the science one scroll below",
+  async () => {
+    servePage(site);
+    for (const [width, height] of [
+      [1440, 900],
+      [1280, 720],
+      [820, 1180],
+      [390, 844],
+    ] as const) {
+      const page = await browser.newPage({ viewport: { width, height } });
+      await page.goto(`${site.root}/site/index.html`);
+      await page.waitForFunction(() => document.querySelector<TriboTouch>("#ours")?.state === "ready");
+      const seen = await page.evaluate(() => {
+        const place = (selector: string) => document.querySelector(selector)!.getBoundingClientRect();
+        return {
+          wide: document.documentElement.scrollWidth,
+          stage: [place(".stage").left, place(".stage").right],
+          sentence: place("#says").bottom,
+          science: place("#science").top,
+        };
+      });
+      expect(seen.wide).toBe(width);
+      expect(seen.stage).toEqual([0, width]);
+      expect(seen.sentence).toBeLessThan(height);
+      expect(seen.science).toBeLessThan(1.1 * height);
+      // A press in the middle of the stage meets the picture, whose top is above the stage.
+      await page.evaluate(() =>
+        document.addEventListener("contact-start", (event) =>
+          Object.assign(window, { at: (event as CustomEvent<{ u: number; v: number }>).detail }),
+        ),
+      );
+      const stage = (await page.locator(".stage").boundingBox())!;
+      await page.mouse.move(stage.x + 0.5 * stage.width, stage.y + 0.5 * stage.height);
+      await page.mouse.down();
+      const at = await page.evaluate(() => (window as unknown as { at: { u: number; v: number } }).at);
+      expect(at.u).toBeCloseTo(0.5, 1);
+      expect(at.v).toBeCloseTo(0.5, 1);
+      await page.close();
+    }
+  },
+);
 
 test.skipIf(!hasBrowser)("the touch page says what keeps a material silent", async () => {
   servePage(site);

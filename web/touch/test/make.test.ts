@@ -131,6 +131,12 @@ describe.skipIf(!hasBrowser)("make your own", () => {
       const ours = document.querySelector<TriboTouch>("#ours");
       return ours?.state === "ready" && ours.material?.name === "felt" && ours.material.voices.length === 2;
     });
+    // Its result stands beside the form.
+    await page.locator("#made").scrollIntoViewIfNeeded();
+    await page.waitForFunction(() => {
+      const made = document.querySelector<TriboTouch>("#made");
+      return made?.state === "ready" && made.material?.name === "felt" && made.checkVisibility();
+    });
     await page.locator("#stiffness").fill(String(Math.log10(2.5)));
     const { name, json } = await downloaded(page);
     expect(name).toBe("felt.json");
