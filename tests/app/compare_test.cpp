@@ -193,6 +193,8 @@ TEST_F(CompareVerb, refuses_what_it_cannot_compare_with_a_remedy) {
     refuses({"a.nc", "b.nc", "--out", "out", "--job-out", "j.toml"}, "--job-out does not say");
     render("a");
     refuses({"a", "a", "--out", "out", "--resolution", "0.2"}, "--resolution is for a run that is milled");
+    refuses({"a", "b.toml", "--out", "a"}, "a: error: a run is read from this folder");
+    EXPECT_TRUE(std::filesystem::exists(scratch.path() + "/a/summary.json"));
     scratch.put("a/forces.csv", "t_s,line\n0,1\n");
     refuses({"a", "b.toml", "--out", "out"}, "a/forces.csv:1");
     scratch.put("a/summary.json", "{");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 
 #include "app/compare/compare_outputs.hpp"
 #include "app/compare/compared_run.hpp"
@@ -67,6 +68,19 @@ FileResult<std::optional<ComparedRun>> run_of(Inputs& inputs, std::size_t n, con
     return std::optional<ComparedRun>(*std::move(run));
 }
 
+// Refuses to replace a folder that a run is read from, or begins with.
+Result<void> check_sources(const Inputs& inputs, const files::OutputFolder& folder) {
+    for (const ComparedInput& input : inputs) {
+        std::error_code error;
+        std::vector<std::string> sources{std::filesystem::weakly_canonical(input.name, error).string()};
+        if (input.prepared) sources = input.prepared->stock_folders;
+        if (std::ranges::find(sources, folder.path()) != sources.end())
+            return fail_at(folder.name(), 0, 0, "a run is read from this folder, which would be replaced",
+                           "name another folder");
+    }
+    return {};
+}
+
 FileResult<void> write(const files::OutputFolder& folder, Comparison& comparison, const std::string& json) {
     if (auto done = files::write_file(folder.file("compare.json"), json); !done) return done;
     if (auto done = files::write_file(folder.file("compare.csv"), compare_csv(comparison)); !done)
@@ -82,6 +96,7 @@ int compare(const CompareCall& call) {
     share_resolution(*inputs);
     auto folder = files::OutputFolder::open(call.out, is_compare_file);
     if (!folder) return report(folder.error());
+    if (auto good = check_sources(*inputs, *folder); !good) return report(good.error());
     if (auto good = check_output_folder(*folder); !good) return report(good.error());
 
     const ParallelFor parallel = parallel_for_over(available_threads());
@@ -105,14 +120,14 @@ int compare(const CompareCall& call) {
     comparison.set_up = compare_set_up(comparison.a, comparison.b);
     if (interrupted()) return interrupted_exit_code();
     const std::string json = compare_json(comparison);
+    if (auto done = write(*folder, comparison, json); !done) return report(done.error());
+    if (auto done = folder->commit(); !done) return report(done.error());
     if (call.json) {
         std::fputs(json.c_str(), stdout);
     } else {
         print(comparison);
+        std::printf("%-16s %s\n", "files", printable(folder->path()).c_str());
     }
-    if (auto done = write(*folder, comparison, json); !done) return report(done.error());
-    if (auto done = folder->commit(); !done) return report(done.error());
-    if (!call.json) std::printf("%-16s %s\n", "files", printable(folder->path()).c_str());
     if (std::fflush(stdout) != 0)
         return report(files::system_failure("standard output", "write", errno).error());
     return kDone;

@@ -47,7 +47,8 @@ std::vector<const session::CutPair*> largest_pairs(const session::JoinedCuts& cu
     const auto size = [q](const session::CutPair* pair) { return std::abs(session::difference(*pair, q)); };
     for (const session::CutPair& pair : cuts.pairs)
         if (size(&pair) > 0) pairs.push_back(&pair);
-    std::ranges::stable_sort(pairs, std::greater<>(), size);
+    // Equal ones stay in their order, which is that of their addresses.
+    std::ranges::sort(pairs, {}, [&](const session::CutPair* pair) { return std::pair(-size(pair), pair); });
     pairs.resize(std::min(pairs.size(), most));
     return pairs;
 }
