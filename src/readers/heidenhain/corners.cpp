@@ -36,6 +36,7 @@ Result<void> Interpreter::close_contour() {
 
 // True if the next block that moves is RND or CHF.
 bool Interpreter::corner_follows() const {
+    if (corner_next_) return *corner_next_;
     for (std::size_t i = at_ + 1; i < lines_.size(); ++i) {
         const Line line = line_of(lines_[i], static_cast<int>(i) + 1);
         if (line.text.empty() || line.text[0] == '*') continue;
@@ -124,16 +125,24 @@ Result<void> Interpreter::corner(LineReader& in, bool is_chamfer) {
                          is_chamfer ? "write CHF 2" : "write RND R5");
     }
     if (auto good = in.in_range(kLimits.coordinate, *size, words->first_column); !good) return good;
+    if (!free_) return add_corner(*words, is_chamfer);
+    free_->blocks.push_back(
+        {line_, *words, is_chamfer ? FreeBlock::Kind::chamfer : FreeBlock::Kind::rounding});
+    return {};
+}
+
+Result<void> Interpreter::add_corner(const Words& words, bool is_chamfer) {
     if (!contour_.is_open()) {
-        return in.refuse(words->first_column,
-                         std::string(is_chamfer ? "CHF" : "RND") + " without a path function before it",
-                         "write it between two elements of a contour");
+        return path_.refuse(place(words.first_column),
+                            std::string(is_chamfer ? "CHF" : "RND") + " without a path function before it",
+                            "write it between two elements of a contour");
     }
     const auto modal = path_.feed_mm_per_min;
-    if (auto done = apply_feed(*words); !done) return done;
-    if (*size > 0) contour_.corner(*size, is_chamfer, contour_words(false));
+    if (auto done = apply_feed(words); !done) return done;
+    const double size = *(is_chamfer ? words.length : words.radius);
+    if (size > 0) contour_.corner(size, is_chamfer, contour_words(false));
     path_.feed_mm_per_min = modal;  // the feed of a corner is its own
-    return miscellaneous(*words);
+    return miscellaneous(words);
 }
 
 // APPR LT X+10 Y+20 LEN15 RL F100, and with P the point in polar coordinates.

@@ -80,6 +80,7 @@ bool Interpreter::goes_on_after(const Error& error) {
         line_ = line_of(lines_[at_], static_cast<int>(at_) + 1);
     }
     contour_ = {};
+    free_.reset();
     path_.lose(error.line);
     return true;
 }
@@ -136,6 +137,9 @@ Result<void> Interpreter::skip_continuation() {
 }
 
 Result<void> Interpreter::execute(LineReader& in) {
+    if (free_ && !keeps_free_contour()) {
+        if (auto done = close_free_contour(); !done) return done;
+    }
     const char first = line_.text[0];
     if (first == '*' || first == '%' || first == '?') return {};
     if (to_upper(first) == 'Q') return assign(in);
@@ -202,7 +206,12 @@ Result<void> Interpreter::execute_path(LineReader& in) {
     if (in.take("CHF")) return corner(in, true);
     if (in.take("APPR")) return approach(in);
     if (in.take("DEP")) return depart(in);
-    for (const std::string_view word : {"FL", "FC", "FLT", "FCT", "FPOL", "FSELECT", "SPL", "POLY"}) {
+    for (const std::string_view word : {"FL", "FLT", "FC", "FCT"}) {
+        if (in.take(word)) return free_block(in, std::string(word));
+    }
+    if (in.take("FPOL")) return free_pole(in);
+    if (in.take("FSELECT")) return select_free_contour(in);
+    for (const std::string_view word : {"SPL", "POLY"}) {
         if (!in.take(word)) continue;
         return in.refuse(line_.column, std::string(word) + " is not read",
                          "let the control or the CAM system write the path with L, C and CC");
@@ -240,6 +249,7 @@ Result<motion::Program> Interpreter::finish() {
     if (!begun_) {
         return path_.refuse({}, "no conversational program in this file", "check that it is the right one");
     }
+    if (auto done = close_free_contour(); !done) return std::unexpected(done.error());
     if (auto done = close_contour(); !done) return std::unexpected(done.error());
     if (path_.machine) {
         for (Warning& found : path_.machine->findings(program.source)) {

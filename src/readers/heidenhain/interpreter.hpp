@@ -2,6 +2,7 @@
 // Runs the blocks of a conversational program one by one.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 #include "readers/control/pocket.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/state.hpp"
+#include "readers/heidenhain/free_contour.hpp"
 #include "readers/heidenhain/line.hpp"
 
 namespace tribo::readers::heidenhain {
@@ -49,6 +51,8 @@ enum Note {
     kCirclePlane,
     kPoleOfBefore,
     kPocketWay,
+    kFreeChoice,
+    kFreeCircle,
 };
 
 // Keys of Cycle::q beside the Q numbers: the feed of a line .n of the cycles 4 and 5, and their direction.
@@ -109,8 +113,9 @@ class Interpreter {
     void read_notes(std::string_view line);
 
     // Words of a block (words.cpp)
-    struct Words;  // the sorted words of a path function
-    Result<Words> read_words(LineReader& in, std::string_view own);
+    struct Words;      // the sorted words of a path function
+    struct FreeWords;  // those that only the blocks of free contours have
+    Result<Words> read_words(LineReader& in, std::string_view own, FreeWords* free = nullptr);
     Result<void> sort_word(LineReader& in, const Item& item, std::string_view own, Words& words);
     Result<void> apply_feed(const Words& words);
     Result<void> miscellaneous(const Words& words);
@@ -128,6 +133,7 @@ class Interpreter {
     Result<void> tangent_circle(LineReader& in, bool polar);
     Result<void> polar_circle(LineReader& in);
     Result<void> corner(LineReader& in, bool is_chamfer);
+    Result<void> add_corner(const Words& words, bool is_chamfer);
     Result<void> approach(LineReader& in);
     Result<void> depart(LineReader& in);
     Result<void> contour_end(LineReader& in, ContourEnd& shape, bool& polar);
@@ -153,6 +159,22 @@ class Interpreter {
     // The programmed position in the frame: with radius compensation that of the contour.
     Vec3 here() const { return contour_.programmed().value_or(path_.tip()); }
     ContourWords contour_words(bool rapid) const;
+
+    // Free contours (free_blocks.cpp)
+    struct FreeBlock;
+    bool keeps_free_contour() const;
+    Result<void> free_pole(LineReader& in);
+    Result<void> free_block(LineReader& in, const std::string& name);
+    Result<bool> free_word(LineReader& in, const std::vector<Item>& items, std::size_t i, FreeWords& free);
+    Result<std::size_t> free_reference(const LineReader& in, const Item& item) const;
+    Result<void> free_point(const LineReader& in, const FreeWords& free, bool of_centre,
+                            FreeElement& element) const;
+    Result<void> free_direction(const LineReader& in, const FreeWords& free, FreeElement& element) const;
+    Result<FreeElement> free_element(const LineReader& in, const Words& words, const FreeWords& free,
+                                     bool is_arc, bool is_tangent) const;
+    Result<void> select_free_contour(LineReader& in);
+    Result<void> close_free_contour();
+    Result<void> run_free_blocks(const std::vector<FreeBlock>& blocks, const std::vector<FreePiece>& pieces);
 
     // Frames (frames.cpp, planes.cpp)
     Result<void> set_datum(LineReader& in);
@@ -252,6 +274,19 @@ class Interpreter {
     std::string called_program_;            // CYCL DEF 12
     std::vector<Vec3> pattern_;             // PATTERN DEF, in the frame; z adds to the surface
     bool cycle_at_every_position_ = false;  // M89
+
+    // The free contour whose blocks wait until it is known.
+    struct FreeRun {
+        FreeContour contour;
+        Vec3 start;
+        bool has_direction = false;              // the tool came along one
+        std::optional<std::size_t> closed_from;  // the element with CLSD+
+        std::vector<FreeBlock> blocks;
+    };
+    std::optional<FreeRun> free_;
+    std::map<long, std::size_t> free_numbers_;  // its elements, by the numbers of their blocks
+    std::optional<Vec3> free_pole_;             // FPOL
+    std::optional<bool> corner_next_;           // a corner follows the block of a free contour that runs
 };
 
 // The words of a path function.
@@ -272,6 +307,28 @@ struct Interpreter::Words {
     std::optional<double> retract;  // MB, mm; infinite for MB MAX
     std::vector<int> m;
     int first_column = 1;
+};
+
+struct FreeWord {
+    double value = 0;  // mm or rad
+    bool is_increment = false;
+    int column = 1;
+};
+
+struct Interpreter::FreeWords {
+    std::map<std::string, FreeWord> values;         // by name without I
+    std::map<std::string, std::size_t> references;  // RX, RAN ..: by name without R; PAR
+    std::array<Vec3, 4> points;                     // PD, P1, P2, P3
+    std::array<bool, 4> has_point{};
+    int closing = 0;  // CLSD+ or CLSD-
+};
+
+// An element or a corner of a free contour.
+struct Interpreter::FreeBlock {
+    enum class Kind { element, rounding, chamfer };
+    Line line;
+    Words words;
+    Kind kind = Kind::element;
 };
 
 }  // namespace tribo::readers::heidenhain

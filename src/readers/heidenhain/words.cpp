@@ -31,13 +31,19 @@ bool belongs_to_function(std::string_view name) {
 
 }  // namespace
 
-// Sorts the items of a path function; `own` is its name, for messages.
-Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_view own) {
+// Sorts the items of a path function; `own` is its name, for messages. Words of free contours go to `free`.
+Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_view own, FreeWords* free) {
     Words words;
     words.first_column = in.column();
     if (auto done = all_items(in, words.items); !done) return std::unexpected(done.error());
-    for (const Item& item : words.items) {
-        if (auto done = sort_word(in, item, own, words); !done) return std::unexpected(done.error());
+    for (std::size_t i = 0; i < words.items.size(); ++i) {
+        if (free != nullptr) {
+            const auto taken = free_word(in, words.items, i, *free);
+            if (!taken) return std::unexpected(taken.error());
+            if (*taken) continue;
+        }
+        if (auto done = sort_word(in, words.items[i], own, words); !done)
+            return std::unexpected(done.error());
     }
     for (std::size_t i = 0; i + 1 < words.items.size(); ++i) {
         const Item &item = words.items[i], &next = words.items[i + 1];

@@ -244,7 +244,7 @@ TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
     const Refusal refusals[] = {
         {after_start("L X+Q150 F100\nTCH PROBE 0.0 X\nL X+Q150\n"), 6, 4, "Q150 holds a value that only"},
         {after_start("TOOL CALL QS7 Z\n"), 4, 11, "the text QS7 is not known"},
-        {after_start("FL X+5 F100\n"), 4, 1, "FL is not read"},
+        {after_start("SPL X+5 F100\n"), 4, 1, "SPL is not read"},
         {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=1 Q203=0 Q335=9\nCYCL CALL\n"), 4, 1,
          "cycle 208 needs the radius of tool 1"},
         {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=0 Q203=0 Q335=9\n"), 4, 1,
